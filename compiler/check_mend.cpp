@@ -1,0 +1,93 @@
+// What to write instead, when a dimension is wrong.
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "compiler/check_expression.hpp"
+
+namespace wale {
+
+namespace {
+
+/// One name in a product, and whether it divides.
+struct ProductName {
+  std::string name;
+  Span span;
+  bool divides;
+};
+
+/// The names that a chain of products and quotients is made of; other factors are passed over.
+void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vector<ProductName>& names) {
+  const Expr& node = tree.expr(expr);
+  if (const auto* use = std::get_if<NameUse>(&node)) names.push_back({use->name, tree.span(expr), divides});
+  if (const auto* unary = std::get_if<Unary>(&node)) collect_names(tree, unary->operand, divides, names);
+  if (const auto* binary = std::get_if<Binary>(&node)) {
+    if (binary->op == BinaryOperator::multiply || binary->op == BinaryOperator::divide) {
+      collect_names(tree, binary->left, divides, names);
+      collect_names(tree, binary->right, divides != (binary->op == BinaryOperator::divide), names);
+    }
+  }
+}
+
+/// "one length too many", "a length and a mass too few"; empty when the ratio is no such product.
+std::string surplus(const DimensionNames& names, const Dimension& ratio) {
+  if (const auto name = names.name(ratio)) return fmt::format("one {} too many", *name);
+  if (const auto name = names.name(Dimension{} / ratio)) return fmt::format("one {} too few", *name);
+  return {};
+}
+
+}  // namespace
+
+std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
+                                              const Dimension& found) {
+  const std::string unit = customary_unit(surroundings_.declarations, expected);
+  const auto text = [&](Span span) { return std::string(surroundings_.sources.text(span)); };
+  if (found.plain()) {
+    if (std::holds_alternative<NumberLiteral>(tree.expr(expr)))
+      return fmt::format("a plain number needs its unit: write `{} {}`", text(tree.span(expr)), unit);
+    return fmt::format("give it a unit, as in `({}) * 1 {}`", text(tree.span(expr)), unit);
+  }
+  if (expected.plain()) return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`", customary_unit(surroundings_.declarations, found));
+
+  const Dimension ratio = found / expected;
+  const std::string count = surplus(names(), ratio);
+  std::vector<ProductName> factors;
+  collect_names(tree, expr, false, factors);
+
+  // A name that would fit if it were declared in another unit is the likeliest slip; the next is a factor too many.
+  for (const auto& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (!binding) continue;
+    const Dimension needed = factor.divides ? binding->value.dimension * ratio : binding->value.dimension / ratio;
+    if (const auto name = names().name(needed); name && !needed.plain()) {
+      const unsigned line = surroundings_.sources.place(binding->declared).line;
+      return fmt::format("{}{}if `{}` (line {}) is meant as a {}, give it in {}", count, count.empty() ? "" : ": ", factor.name, line, *name,
+                         names().unit(needed));
+    }
+  }
+  for (const auto& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (!binding || factor.divides || factors.size() < 2 || binding->value.dimension != ratio) continue;
+    const unsigned line = surroundings_.sources.place(binding->declared).line;
+    return fmt::format("{}{}divide by a {}, or drop `* {}` (a {}, line {})", count, count.empty() ? "" : "; ", names().words(ratio), factor.name,
+                       names().words(ratio), line);
+  }
+  if (const auto name = names().name(ratio)) return fmt::format("{}; divide by a {}", count, *name);
+  if (const auto name = names().name(Dimension{} / ratio)) return fmt::format("{}; multiply by a {}", count, *name);
+  return fmt::format("a {} is due here, in {}", names().words(expected), unit);
+}
+
+void ExpressionChecker::report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value, const Dimension& expected) {
+  const auto sides = names().side_by_side(expected, value.dimension);
+  surroundings_.diagnostics.report(
+      {.code = Code::wrong_dimension,
+       .span = blame(tree.span(expr)),
+       .message = fmt::format("{} expected, found {}{}", names().words(expected), names().words(value.dimension), inside()),
+       .label = names().unit(value.dimension),
+       .expected = sides[0],
+       .found = sides[1],
+       .help = dimension_mend(tree, expr, scope, expected, value.dimension)});
+}
+
+}  // namespace wale

@@ -1,0 +1,66 @@
+#include "compiler/compile.hpp"
+
+#include <fmt/format.h>
+
+#include "compiler/emit.hpp"
+#include "compiler/lower.hpp"
+#include "compiler/measure.hpp"
+#include "compiler/parse.hpp"
+#include "compiler/solve.hpp"
+#include "compiler/spelling.hpp"
+
+namespace wale {
+
+CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
+  SyntaxTree tree = parse(sources, source, diagnostics);
+  ModuleSet modules = load_modules(std::move(tree), sources, resolver, diagnostics);
+  return check(std::move(modules), sources, resolver, diagnostics);
+}
+
+std::optional<Program> compile_material(const CheckedModule& module, const std::string& name, const std::string& device,
+                                        const SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
+  const CheckedMaterial* material = module.material(name);
+  if (!material) {
+    std::vector<std::string> candidates;
+    for (const auto& other : module.materials) candidates.push_back(other.name);
+    const auto near = nearest_spelling(name, candidates);
+    diagnostics.report({.code = Code::unknown_material,
+                        .span = {source, 0, 0},
+                        .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
+                        .help = near                 ? fmt::format("did you mean `{}`?", *near)
+                                : candidates.empty() ? "add one, as in `material corduroy { … }`"
+                                                     : fmt::format("it has `{}`", candidates.front())});
+    return std::nullopt;
+  }
+  SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+
+  auto program = emit(lower(solved), solved, diagnostics);
+  if (!program) return std::nullopt;
+
+  auto loaded = Program::load(std::move(*program));
+  if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
+    diagnostics.report({.code = Code::program_too_large,
+                        .span = solved.span,
+                        .message = fmt::format("the machine refuses `{}`: {}", solved.name, refusal->reason),
+                        .help = "make the material's expressions smaller"});
+    return std::nullopt;
+  }
+  if (measure(Bank(std::get<Program>(loaded))).flat) {
+    diagnostics.report({.code = Code::flat_height,
+                        .span = solved.force_span,
+                        .message = "this height is flat, and a flat height pushes nothing",
+                        .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
+    return std::nullopt;
+  }
+  return std::get<Program>(std::move(loaded));
+}
+
+std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material, const std::string& device, Resolver& resolver,
+                               Diagnostics& diagnostics) {
+  const CheckedModule module = check_source(sources, source, resolver, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return compile_material(module, material, device, sources, source, resolver, diagnostics);
+}
+
+}  // namespace wale

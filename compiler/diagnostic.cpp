@@ -1,0 +1,39 @@
+#include "compiler/diagnostic.hpp"
+
+#include <fmt/format.h>
+
+namespace wale {
+namespace {
+
+struct CodeEntry {
+  Code code;
+  Severity severity;
+  const char* title;
+};
+
+constexpr CodeEntry entries[] = {
+#define CODE(number, name, severity, title) {Code::name, Severity::severity, title},
+#include "compiler/diagnostic_codes.def"
+};
+
+const CodeEntry& entry(Code code) {
+  for (const CodeEntry& each : entries) {
+    if (each.code == code) return each;
+  }
+  return entries[0];  // every enumerator is in the table, so this is never reached
+}
+
+}  // namespace
+
+std::string code_name(Code code) { return fmt::format("W{:04}", static_cast<unsigned>(code)); }
+
+std::string code_title(Code code) { return entry(code).title; }
+
+Severity severity_of(Code code) { return entry(code).severity; }
+
+void Diagnostics::report(Diagnostic diagnostic) {
+  if (severity_of(diagnostic.code) == Severity::error) ++errors_;
+  all_.push_back(std::move(diagnostic));
+}
+
+}  // namespace wale

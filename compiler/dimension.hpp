@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wale {
+
+/// The exponents of a quantity's base dimensions, in the order in which they are declared; in twelfths, so that square,
+/// cube and fourth roots of whole exponents are exact. All zero: a plain number.
+struct Dimension {
+  static constexpr std::size_t capacity = 8;
+  static constexpr int unit_exponent = 12;
+  std::array<std::int16_t, capacity> twelfths{};
+
+  bool plain() const { return *this == Dimension{}; }
+  friend bool operator==(const Dimension&, const Dimension&) = default;
+};
+
+Dimension operator*(Dimension a, const Dimension& b);
+Dimension operator/(Dimension a, const Dimension& b);
+/// `a` to the power numerator / denominator, or nothing when an exponent is no whole number of twelfths.
+std::optional<Dimension> power(Dimension a, int numerator, int denominator = 1);
+
+/// What the declarations call dimensions and their coherent units, to speak of a dimension in words.
+struct DimensionNames {
+  struct Named {
+    std::string name;
+    Dimension dimension;
+  };
+  std::vector<std::string> base_units;  ///< "m", "kg", "s": one for each base dimension, in order
+  std::vector<Named> dimensions;        ///< in the order of declaration; the first that fits names it
+  std::vector<Named> units;             ///< units of factor 1, likewise
+
+  /// "force", or the unit when it has no name; "a plain number" for none.
+  std::string words(const Dimension& dimension) const;
+  /// The name of the dimension, if one was declared.
+  std::optional<std::string> name(const Dimension& dimension) const;
+  /// "N", "N/m", "kg m s^-2"; empty for a plain number.
+  std::string unit(const Dimension& dimension) const;
+  /// "kg m^2 s^-2"; "1" for a plain number.
+  std::string factors(const Dimension& dimension) const;
+
+  /// "N    = kg m   s^-2" and "N m  = kg m^2 s^-2": two dimensions, factor under factor.
+  std::array<std::string, 2> side_by_side(const Dimension& expected, const Dimension& found) const;
+};
+
+}  // namespace wale

@@ -1,0 +1,477 @@
+#include "compiler/lex.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "compiler/utf8.hpp"
+
+namespace wale {
+namespace {
+
+struct Spelling {
+  std::string_view text;
+  TokenKind kind;
+};
+
+constexpr Spelling reserved_words[] = {
+    {"if", TokenKind::word_if},     {"then", TokenKind::word_then}, {"else", TokenKind::word_else},
+    {"in", TokenKind::word_in},     {"on", TokenKind::word_on},     {"from", TokenKind::word_from},
+    {"and", TokenKind::word_and},   {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
+};
+
+/// Longer spellings first, so that `<=` is not read as `<` and `=`.
+constexpr Spelling punctuation[] = {
+    {"..", TokenKind::range},           {"<=", TokenKind::less_equal},       {">=", TokenKind::greater_equal},
+    {"+-", TokenKind::plus_minus},      {"(", TokenKind::left_parenthesis},  {")", TokenKind::right_parenthesis},
+    {"[", TokenKind::left_bracket},     {"]", TokenKind::right_bracket},     {"{", TokenKind::left_brace},
+    {"}", TokenKind::right_brace},      {",", TokenKind::comma},             {";", TokenKind::semicolon},
+    {":", TokenKind::colon},            {"=", TokenKind::equals},            {"+", TokenKind::plus},
+    {"-", TokenKind::minus},            {"*", TokenKind::star},              {"/", TokenKind::slash},
+    {"^", TokenKind::caret},            {"<", TokenKind::less},              {">", TokenKind::greater},
+    {"±", TokenKind::plus_minus},       {"'", TokenKind::prime},             {"%", TokenKind::percent},
+};
+
+/// What people type, or their word processor makes, instead of a token of Wale.
+struct Lookalike {
+  std::string_view text;
+  std::string_view called;
+  std::string_view meant;
+  TokenKind kind;  ///< what it is read as; `unreadable` when it may mean several things
+};
+
+constexpr Lookalike lookalikes[] = {
+    {"...", "three dots", "`..`", TokenKind::range},
+    {"…", "an ellipsis", "`..`", TokenKind::range},
+    {"==", "a doubled equals sign", "`=` to define; values are compared with `<`, `<=`, `>` and `>=`",
+     TokenKind::unreadable},
+    {"!=", "an unequal sign", "`<` or `>`: values are compared with `<`, `<=`, `>` and `>=`", TokenKind::unreadable},
+    {"**", "a doubled asterisk", "`^` for a power", TokenKind::caret},
+    {"&&", "a doubled ampersand", "one `if` inside the other", TokenKind::unreadable},
+    {"||", "a doubled bar", "one `if` inside the other", TokenKind::unreadable},
+    {"×", "a multiplication sign", "`*`", TokenKind::star},
+    {"·", "a middle dot", "`*` between values, a space between units", TokenKind::unreadable},
+    {"⋅", "a dot operator", "`*` between values, a space between units", TokenKind::unreadable},
+    {"÷", "a division sign", "`/`", TokenKind::slash},
+    {"∕", "a division slash", "`/`", TokenKind::slash},
+    {"⁄", "a fraction slash", "`/`", TokenKind::slash},
+    {"−", "a typographic minus", "`-`", TokenKind::minus},
+    {"–", "a dash", "`-`", TokenKind::minus},
+    {"—", "a long dash", "`-`", TokenKind::minus},
+    {"‐", "a typographic hyphen", "`-`", TokenKind::minus},
+    {"≤", "a less-or-equal sign", "`<=`", TokenKind::less_equal},
+    {"≥", "a greater-or-equal sign", "`>=`", TokenKind::greater_equal},
+    {"’", "a typographic apostrophe", "`'`", TokenKind::prime},
+    {"‘", "a typographic quote", "`'`", TokenKind::prime},
+    {"′", "a prime", "`'`", TokenKind::prime},
+};
+
+/// Characters that stand for an ASCII spelling of two tokens or of a name.
+struct Abbreviation {
+  std::string_view text;
+  std::string_view called;
+  std::string_view meant;
+};
+
+constexpr Abbreviation abbreviations[] = {
+    {"²", "a raised 2", "^2"}, {"³", "a raised 3", "^3"}, {"°", "a degree sign", "deg"}};
+
+constexpr std::string_view typographic_quotes[] = {"“", "”", "„", "«", "»", "‟"};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool continues_name(char c) { return begins_name(c) || is_digit(c); }
+
+bool is_micro(char32_t code) { return code == 0xB5 || code == 0x3BC; }
+
+/// Letters of other alphabets, roughly: everything beyond Latin-1's signs but for the blocks of punctuation and symbols.
+bool is_foreign_letter(char32_t code) {
+  const bool sign = code == 0xD7 || code == 0xF7 || (code >= 0x2000 && code <= 0x2BFF) ||
+                    (code >= 0x3000 && code <= 0x303F) || (code >= 0xFE00 && code <= 0xFEFF) || code >= 0xFFF0;
+  return is_micro(code) || (code >= 0xC0 && !sign);
+}
+
+bool is_blank(char32_t code) {
+  return code == ' ' || code == '\t' || code == '\r' || code == '\f' || code == '\v' || code == 0xA0 ||
+         (code >= 0x2000 && code <= 0x200A) || code == 0x202F || code == 0x205F || code == 0x3000;
+}
+
+class Lexer {
+ public:
+  Lexer(std::string_view text, SourceId source, Diagnostics& diagnostics)
+      : text_(text), source_(source), diagnostics_(diagnostics) {}
+
+  Tokens run() {
+    if (is_readable()) {
+      if (decode(text_, 0).code == 0xFEFF) at_ = 3;  // the byte order mark that some editors write
+      while (at_ < text_.size() && diagnostics_.all().size() < error_limit) next();
+    } else {
+      at_ = text_.size();
+    }
+    add(TokenKind::end, at_);
+    return std::move(result_);
+  }
+
+ private:
+  bool is_readable() {
+    if (text_.size() > largest_source) {
+      report(Code::too_long, 0, 0, fmt::format("this file has {:.1f} MB; Wale reads up to {} MB", text_.size() / 1048576.0,
+                                               largest_source >> 20),
+             "keep measurements in an image or a table of their own, or split the file and `import` its parts");
+      return false;
+    }
+    for (std::size_t at = 0; at < text_.size();) {
+      const Character character = decode(text_, at);
+      if (!character.valid || character.code == 0) {
+        report(Code::invalid_encoding, at, at + 1,
+               character.code == 0 ? "a NUL byte: this is not a text file"
+                                   : fmt::format("the byte {:#04x} is not UTF-8", static_cast<unsigned char>(text_[at])),
+               character.code == 0 ? "Wale files are plain text" : "save the file as UTF-8");
+        return false;
+      }
+      at += character.bytes;
+    }
+    return true;
+  }
+
+  void next() {
+    const Character character = decode(text_, at_);
+    const char c = text_[at_];
+    if (c == '\n') {
+      starts_line_ = true;
+      ++at_;
+    } else if (is_blank(character.code)) {
+      at_ += character.bytes;
+    } else if (starts("//")) {
+      line_comment();
+    } else if (starts("/*")) {
+      block_comment();
+    } else if (is_digit(c) || (c == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))) {
+      number();
+    } else if (begins_name(c) || is_foreign_letter(character.code)) {
+      name();
+    } else if (c == '"') {
+      text(1);
+    } else if (!quote() && !lookalike() && !symbol()) {
+      unknown(character);
+    }
+  }
+
+  bool starts(std::string_view spelling) const { return text_.substr(at_).starts_with(spelling); }
+
+  void line_comment() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view comment = text_.substr(at_, end - at_);
+    if (comment.starts_with("///") && !comment.starts_with("////")) {
+      std::string_view line = comment.substr(3);
+      if (line.starts_with(' ')) line.remove_prefix(1);
+      while (!line.empty() && is_blank(static_cast<unsigned char>(line.back()))) line.remove_suffix(1);
+      std::string& documentation = result_.documentation[result_.tokens.size()];
+      if (!documentation.empty()) documentation += '\n';
+      documentation += line;
+    }
+    at_ = end;
+  }
+
+  void block_comment() {
+    const std::size_t end = text_.find("*/", at_ + 2);
+    if (end == std::string_view::npos) {
+      report(Code::unterminated_text, at_, at_ + 2, "this comment does not end", "close it with `*/`");
+      at_ = text_.size();
+      return;
+    }
+    if (text_.substr(at_, end - at_).find('\n') != std::string_view::npos) starts_line_ = true;
+    at_ = end + 2;
+  }
+
+  void number() {
+    const std::size_t begin = at_;
+    if (starts("0x") && at_ + 2 < text_.size() && std::isxdigit(static_cast<unsigned char>(text_[at_ + 2]))) {
+      return hexadecimal();
+    }
+    digits();
+    if (at_ + 1 < text_.size() && text_[at_] == '.' && is_digit(text_[at_ + 1])) {
+      ++at_;
+      digits();
+    } else if (at_ < text_.size() && text_[at_] == '.' && !starts("..")) {
+      ++at_;
+      report(Code::unexpected_character, begin, at_, "a number does not end in a point",
+             fmt::format("write `{0}` or `{0}.0`", text_.substr(begin, at_ - 1 - begin)));
+    }
+    if (text_[begin] == '.') {
+      report(Code::unexpected_character, begin, at_, "a number begins with a digit",
+             fmt::format("write `0{}`", text_.substr(begin, at_ - begin)));
+    }
+    exponent();
+    const std::string_view digits = text_.substr(begin, at_ - begin);
+    double value = 0;
+    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (status == std::errc::result_out_of_range) return out_of_range(begin, digits);
+    add(TokenKind::number, begin, add_number(value));
+  }
+
+  void digits() {
+    while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
+  }
+
+  /// `e-3`; an `e` that no digits follow is the beginning of a unit's name.
+  void exponent() {
+    std::size_t at = at_;
+    if (at == text_.size() || (text_[at] != 'e' && text_[at] != 'E')) return;
+    ++at;
+    if (at < text_.size() && (text_[at] == '+' || text_[at] == '-')) ++at;
+    if (at == text_.size() || !is_digit(text_[at])) return;
+    at_ = at;
+    digits();
+  }
+
+  void out_of_range(std::size_t begin, std::string_view digits) {
+    // from_chars leaves the value alone; strtod says in which direction it went out of range.
+    const double size = std::strtod(std::string(digits).c_str(), nullptr);
+    report(Code::number_out_of_range, begin, at_,
+           std::isinf(size) ? "this number is too large to hold" : "this number is too close to zero to hold",
+           "numbers reach from 1e-300 to 1e300; use a unit of another size");
+    add(TokenKind::unreadable, begin);
+  }
+
+  void hexadecimal() {
+    const std::size_t begin = at_;
+    at_ += 2;
+    while (at_ < text_.size() && std::isxdigit(static_cast<unsigned char>(text_[at_]))) ++at_;
+    const double value = std::strtod(std::string(text_.substr(begin, at_ - begin)).c_str(), nullptr);
+    report(Code::unexpected_character, begin, at_, "numbers are written in decimal", fmt::format("write `{}`", value));
+    add(TokenKind::number, begin, add_number(value));
+  }
+
+  void name() {
+    const std::size_t begin = at_;
+    std::string ascii;
+    bool micro = false, foreign = false;
+    while (at_ < text_.size()) {
+      const Character character = decode(text_, at_);
+      if (continues_name(text_[at_]) || is_dot_in_name()) {
+        ascii += text_[at_];
+      } else if (is_micro(character.code)) {
+        micro = true;
+        ascii += 'u';
+      } else if (is_foreign_letter(character.code)) {
+        foreign = true;
+      } else {
+        break;
+      }
+      at_ += character.bytes;
+    }
+    const std::string_view word = text_.substr(begin, at_ - begin);
+    if (foreign) {
+      // A name may be used many times; once is enough to say what is wrong with it.
+      if (reported_names_.emplace(word).second) {
+        report(Code::unexpected_character, begin, at_, fmt::format("names are written in the letters a to z; `{}` is not", word),
+               "rename it with a-z, A-Z, 0-9 and `_`; texts in quotes may hold any letter");
+      }
+    } else if (micro) {
+      report(Code::unexpected_character, begin, at_, fmt::format("`{}` is written without the Greek letter", word),
+             fmt::format("write `{}`", ascii));
+      result_.texts.push_back(ascii);
+      return add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
+    }
+    for (const Spelling& reserved : reserved_words) {
+      if (word == reserved.text) return add(reserved.kind, begin);
+    }
+    add(TokenKind::name, begin);
+  }
+
+  /// `fabric.denim` is one name; the dots of `low..high` are none of it.
+  bool is_dot_in_name() const { return text_[at_] == '.' && at_ + 1 < text_.size() && begins_name(text_[at_ + 1]); }
+
+  bool quote() {
+    for (const std::string_view mark : typographic_quotes) {
+      if (starts(mark)) {
+        report(Code::unexpected_character, at_, at_ + mark.size(), "a typographic quotation mark",
+               "texts stand between straight quotes: write `\"`");
+        text(mark.size());
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// A text whose opening quote is `quote_bytes` long; one that opens typographically may close so.
+  void text(std::size_t quote_bytes) {
+    const std::size_t begin = at_;
+    const bool typographic = quote_bytes > 1;
+    std::string value;
+    at_ += quote_bytes;
+    while (at_ < text_.size() && text_[at_] != '\n') {
+      if (text_[at_] == '"') {
+        ++at_;
+        return add_text(begin, std::move(value));
+      }
+      if (text_[at_] == '\\') {
+        value += escape();
+        continue;
+      }
+      if (typographic) {
+        for (const std::string_view mark : typographic_quotes) {
+          if (!starts(mark)) continue;
+          at_ += mark.size();
+          return add_text(begin, std::move(value));
+        }
+      }
+      value += text_[at_++];
+    }
+    if (at_ > begin && text_[at_ - 1] == '\r') --at_;
+    if (!typographic) {
+      report(Code::unterminated_text, begin, at_, "this text does not end", "close it with `\"` on the same line");
+    }
+    add_text(begin, std::move(value));
+  }
+
+  char escape() {
+    const std::size_t begin = at_;
+    const char c = at_ + 1 < text_.size() ? text_[at_ + 1] : '\n';
+    if (c == '\n') {
+      ++at_;
+      return '\\';
+    }
+    const Character character = decode(text_, at_ + 1);
+    at_ += 1 + character.bytes;
+    if (c == 'n') return '\n';
+    if (c != '"' && c != '\\') {
+      report(Code::unexpected_character, begin, at_, fmt::format("`{}` means nothing in a text", text_.substr(begin, at_ - begin)),
+             "write `\\\\` for a backslash, `\\\"` for a quote, `\\n` for a new line; paths are written with `/`");
+    }
+    return c;
+  }
+
+  bool lookalike() {
+    for (const Lookalike& each : lookalikes) {
+      if (!starts(each.text)) continue;
+      const std::size_t begin = at_;
+      at_ += each.text.size();
+      while (each.kind == TokenKind::range && at_ < text_.size() && text_[at_] == '.') ++at_;
+      report(Code::unexpected_character, begin, at_, fmt::format("`{}` is {}", text_.substr(begin, at_ - begin), each.called),
+             fmt::format("write {}", each.meant));
+      add(each.kind, begin);
+      return true;
+    }
+    for (const Abbreviation& each : abbreviations) {
+      if (!starts(each.text)) continue;
+      const std::size_t begin = at_;
+      at_ += each.text.size();
+      report(Code::unexpected_character, begin, at_, fmt::format("`{}` is {}", each.text, each.called),
+             fmt::format("write `{}`", each.meant));
+      if (each.meant.starts_with('^')) {
+        add(TokenKind::caret, begin);
+        add(TokenKind::number, begin, add_number(each.meant[1] - '0'));
+      } else {
+        result_.texts.emplace_back(each.meant);
+        add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
+      }
+      return true;
+    }
+    return false;
+  }
+
+  bool symbol() {
+    for (const Spelling& each : punctuation) {
+      if (!starts(each.text)) continue;
+      const std::size_t begin = at_;
+      at_ += each.text.size();
+      const auto index = static_cast<std::uint32_t>(result_.tokens.size());
+      add(each.kind, begin);
+      match_brackets(each.kind, index);
+      return true;
+    }
+    return false;
+  }
+
+  /// Finds which bracket closes which, for the parser's recovery. A brace ends the parentheses that are open inside it:
+  /// one forgotten `)` must not swallow the rest of the file.
+  void match_brackets(TokenKind kind, std::uint32_t index) {
+    const auto close = [&](TokenKind opening) {
+      while (!open_.empty()) {
+        const std::uint32_t candidate = open_.back();
+        const TokenKind found = result_.tokens[candidate].kind;
+        if (found != opening && (opening != TokenKind::left_brace || found == TokenKind::left_brace)) return;
+        open_.pop_back();
+        if (found != opening) continue;
+        result_.tokens[candidate].value = index;
+        return;
+      }
+    };
+    switch (kind) {
+      case TokenKind::left_parenthesis:
+      case TokenKind::left_bracket:
+      case TokenKind::left_brace: open_.push_back(index); break;
+      case TokenKind::right_parenthesis: close(TokenKind::left_parenthesis); break;
+      case TokenKind::right_bracket: close(TokenKind::left_bracket); break;
+      case TokenKind::right_brace: close(TokenKind::left_brace); break;
+      default: break;
+    }
+  }
+
+  /// A run of the same character is one mistake.
+  void unknown(const Character& character) {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && decode(text_, at_).code == character.code) at_ += character.bytes;
+    const bool visible = character.code > ' ' && !(character.code >= 0x7F && character.code < 0xA0) &&
+                         !(character.code >= 0x200B && character.code <= 0x206F) && character.code != 0xFEFF;
+    report(Code::unexpected_character, begin, at_,
+           visible ? fmt::format("Wale does not use the character `{}`", text_.substr(begin, character.bytes))
+                   : fmt::format("the invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
+           help_for(text_[begin], visible));
+    add(TokenKind::unreadable, begin);
+  }
+
+  static std::string help_for(char c, bool visible) {
+    switch (c) {
+      case '#': return "comments begin with `//`";
+      case '!': return "values are compared with `<`, `<=`, `>` and `>=`; `if … then … else …` chooses";
+      case '?': return "write `if … then … else …`";
+      case '\\': return "a line goes on by itself after an operator, a comma, `=` or `..`, and inside parentheses";
+      case '`': return "texts stand between straight quotes: write `\"`";
+      default: return visible ? "remove it, or put it into a text or a comment" : "delete it";
+    }
+  }
+
+  void add_text(std::size_t begin, std::string value) {
+    result_.texts.push_back(std::move(value));
+    add(TokenKind::text, begin, static_cast<std::uint32_t>(result_.texts.size() - 1));
+  }
+
+  std::uint32_t add_number(double value) {
+    result_.numbers.push_back(value);
+    return static_cast<std::uint32_t>(result_.numbers.size() - 1);
+  }
+
+  void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
+    result_.tokens.push_back({kind, starts_line_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_), value});
+    starts_line_ = false;
+  }
+
+  void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help) {
+    diagnostics_.report({code, {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)},
+                         std::move(message), {}, {}, {}, std::move(help)});
+  }
+
+  std::string_view text_;
+  SourceId source_;
+  Diagnostics& diagnostics_;
+  Tokens result_;
+  std::size_t at_ = 0;
+  bool starts_line_ = true;
+  std::vector<std::uint32_t> open_;  ///< brackets not yet closed
+  std::set<std::string, std::less<>> reported_names_;
+};
+
+}  // namespace
+
+Tokens lex(const SourceSet& sources, SourceId source, Diagnostics& diagnostics) {
+  return Lexer(sources[source].text, source, diagnostics).run();
+}
+
+}  // namespace wale

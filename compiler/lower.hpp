@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "compiler/graph.hpp"
+#include "compiler/solve.hpp"
+
+namespace wale {
+
+/// A solved material as values of its program: what `emit` makes sections of.
+struct LoweredMaterial {
+  struct Percept {
+    NodeId amplitude, magnitude, level;
+  };
+  Graph graph;
+  std::array<NodeId, 2> force{};          ///< each a final limit at the device's force
+  NodeId ceiling = 0;                     ///< of both
+  std::optional<NodeId> relief;
+  std::vector<Percept> percepts;          ///< beside `SolvedMaterial::percepts`
+};
+
+/// Turns terms into single-assignment values: constants folded, equal values shared, gradients written out.
+LoweredMaterial lower(const SolvedMaterial& material);
+
+}  // namespace wale

@@ -1,0 +1,236 @@
+#include "compiler/preview/canvas.hpp"
+
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "compiler/utf8.hpp"
+
+namespace wale {
+namespace {
+
+namespace algorithm = OIIO::ImageBufAlgo;
+
+/// The first of these fonts that is installed, empty when none is.
+std::string installed_font(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    const bool found = algorithm::text_size("0", 20, name).defined();
+    OIIO::geterror();
+    if (found) return name;
+  }
+  return {};
+}
+
+/// What a font can set: control characters become spaces, and bytes that are not UTF-8 question marks.
+std::string printable(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const Character letter = decode(text, at);
+    if (!letter.valid) {
+      result += '?';
+    } else if (letter.code < 0x20 || (letter.code >= 0x7f && letter.code < 0xa0)) {
+      result += ' ';
+    } else {
+      result += text.substr(at, letter.bytes);
+    }
+    at += letter.bytes;
+  }
+  return result;
+}
+
+/// From `text`, its last letter removed.
+void drop_letter(std::string& text) {
+  while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.pop_back();
+  if (!text.empty()) text.pop_back();
+}
+
+double distance_to_segment(PagePoint p, PagePoint a, PagePoint b) {
+  const PagePoint along = b - a, to = p - a;
+  const double length2 = along.x * along.x + along.y * along.y;
+  const double t = length2 > 0 ? std::clamp((to.x * along.x + to.y * along.y) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(to.x - t * along.x, to.y - t * along.y);
+}
+
+/// The pieces that the dashes of a pen leave of a line.
+std::vector<std::vector<PagePoint>> dashed(std::span<const PagePoint> points, double dash) {
+  std::vector<std::vector<PagePoint>> pieces;
+  if (dash <= 0) return {std::vector<PagePoint>(points.begin(), points.end())};
+  double gone = 0;
+  bool pen_down = true;
+  std::vector<PagePoint> piece = {points.front()};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    PagePoint from = points[i - 1];
+    double left = std::hypot(points[i].x - from.x, points[i].y - from.y);
+    while (gone + left >= dash) {
+      const double part = (dash - gone) / left;
+      from += (points[i] - from) * part;
+      left -= dash - gone;
+      gone = 0;
+      piece.push_back(from);
+      if (pen_down) pieces.push_back(piece);
+      pen_down = !pen_down;
+      piece = {from};
+    }
+    gone += left;
+    piece.push_back(points[i]);
+  }
+  if (pen_down) pieces.push_back(piece);
+  return pieces;
+}
+
+}  // namespace
+
+Colour mixed(Colour first, Colour second, float part) {
+  const auto between = [part](float a, float b) { return a + (b - a) * part; };
+  return {between(first.red, second.red), between(first.green, second.green), between(first.blue, second.blue)};
+}
+
+Canvas::Canvas(int width, int height, Colour paper)
+    : pixels_(OIIO::ImageSpec(width * fineness, height * fineness, 3, OIIO::TypeFloat)) {
+  algorithm::fill(pixels_, {paper.red, paper.green, paper.blue}, {}, 1);
+  sans_ = installed_font({"DejaVuSans", "LiberationSans-Regular", "NotoSans-Regular", "FreeSans", "Arial"});
+  serif_ = installed_font({"DejaVuSerif", "LiberationSerif-Regular", "NotoSerif-Regular", "FreeSerif"});
+  if (serif_.empty()) serif_ = sans_;
+}
+
+void Canvas::blend(int x, int y, Colour colour, float opacity) {
+  if (opacity <= 0 || x < 0 || y < 0 || x >= pixels_.spec().width || y >= pixels_.spec().height) return;
+  auto* pixel = static_cast<float*>(pixels_.pixeladdr(x, y));
+  pixel[0] += (colour.red - pixel[0]) * opacity;
+  pixel[1] += (colour.green - pixel[1]) * opacity;
+  pixel[2] += (colour.blue - pixel[2]) * opacity;
+}
+
+void Canvas::fill(const PageBox& box, Colour colour) {
+  const auto fine = [](double x) { return static_cast<int>(std::lround(x * fineness)); };
+  const OIIO::ROI roi(fine(box.left), fine(box.right), fine(box.top), fine(box.bottom));
+  algorithm::fill(pixels_, {colour.red, colour.green, colour.blue}, roi, 1);
+}
+
+void Canvas::outline(const PageBox& box, const Pen& pen) {
+  const std::array corners = {PagePoint(box.left, box.top), PagePoint(box.right, box.top),
+                              PagePoint(box.right, box.bottom), PagePoint(box.left, box.bottom),
+                              PagePoint(box.left, box.top)};
+  stroke(corners, pen);
+}
+
+// ImageBufAlgo::render_line has neither width nor smooth edges, so lines are covered here by their distance.
+void Canvas::stroke(std::span<const PagePoint> points, const Pen& pen) {
+  if (points.size() < 2) return;
+  const double radius = pen.width * fineness / 2;
+  for (std::vector<PagePoint> piece : dashed(points, pen.dash)) {
+    for (PagePoint& point : piece) point *= fineness;
+    double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
+    for (const PagePoint& point : piece) {
+      left = std::min(left, point.x), right = std::max(right, point.x);
+      top = std::min(top, point.y), bottom = std::max(bottom, point.y);
+    }
+    const auto inside = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, double(size))); };
+    const int x0 = inside(left - radius - 2, pixels_.spec().width),
+              x1 = inside(right + radius + 2, pixels_.spec().width);
+    const int y0 = inside(top - radius - 2, pixels_.spec().height),
+              y1 = inside(bottom + radius + 2, pixels_.spec().height);
+    if (x0 >= x1 || y0 >= y1) continue;
+    const auto stride = static_cast<std::size_t>(x1 - x0);
+    std::vector<float> coverage(stride * static_cast<std::size_t>(y1 - y0), 0.0f);
+    for (std::size_t i = 1; i < piece.size(); ++i) {
+      const PagePoint a = piece[i - 1], b = piece[i];
+      const auto from = [&](double u, double v, int low) {
+        return std::max(low, static_cast<int>(std::floor(std::min(u, v) - radius - 1)));
+      };
+      const auto to = [&](double u, double v, int high) {
+        return std::min(high, static_cast<int>(std::ceil(std::max(u, v) + radius + 1)));
+      };
+      for (int y = from(a.y, b.y, y0); y < to(a.y, b.y, y1); ++y) {
+        for (int x = from(a.x, b.x, x0); x < to(a.x, b.x, x1); ++x) {
+          const double distance = distance_to_segment({x + 0.5, y + 0.5}, a, b);
+          float& covered = coverage[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
+          covered = std::max(covered, static_cast<float>(std::clamp(radius + 0.5 - distance, 0.0, 1.0)));
+        }
+      }
+    }
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const float covered = coverage[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
+        blend(x, y, pen.colour, covered * pen.opacity);
+      }
+    }
+  }
+}
+
+void Canvas::line(PagePoint from, PagePoint to, const Pen& pen) {
+  const std::array points = {from, to};
+  stroke(points, pen);
+}
+
+void Canvas::shade(std::span<const PagePoint> points, double base, Colour colour, float opacity) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const PagePoint a = points[i - 1], b = points[i];
+    const int first = static_cast<int>(std::lround(a.x * fineness)),
+              last = static_cast<int>(std::lround(b.x * fineness));
+    for (int x = first; x < last; ++x) {
+      const double part = ((x + 0.5) / fineness - a.x) / (b.x - a.x);
+      const double edge = a.y + (b.y - a.y) * std::clamp(part, 0.0, 1.0);
+      const double top = std::min(edge, base) * fineness, bottom = std::max(edge, base) * fineness;
+      for (int y = static_cast<int>(std::floor(top)); y < static_cast<int>(std::ceil(bottom)); ++y) {
+        const double covered = std::min(bottom, y + 1.0) - std::max(top, double(y));
+        blend(x, y, colour, opacity * static_cast<float>(std::clamp(covered, 0.0, 1.0)));
+      }
+    }
+  }
+}
+
+void Canvas::write(PagePoint at, std::string_view text, const Type& type, Align align) {
+  const std::string& font = type.face == Face::serif ? serif_ : sans_;
+  const std::string letters = printable(text);
+  if (font.empty() || letters.empty()) return;
+  const double width = width_of(text, type);
+  const double left = align == Align::left ? at.x : align == Align::centre ? at.x - width / 2 : at.x - width;
+  const std::array ink = {type.colour.red, type.colour.green, type.colour.blue};
+  algorithm::render_text(pixels_, static_cast<int>(std::lround(left * fineness)),
+                         static_cast<int>(std::lround(at.y * fineness)), letters,
+                         static_cast<int>(std::lround(type.size * fineness)), font, ink, algorithm::TextAlignX::Left,
+                         algorithm::TextAlignY::Baseline, 0, {}, 1);
+}
+
+void Canvas::write_within(PagePoint at, double width, std::string_view text, const Type& type, Align align) {
+  std::string shown = printable(text);
+  // Whoever writes a novel into a title gets its beginning; measuring all of it would take as long as reading it.
+  if (shown.size() > 500) shown.resize(500), shown = printable(shown);
+  if (width_of(shown, type) <= width) return write(at, shown, type, align);
+  while (!shown.empty() && width_of(shown + "…", type) > width) drop_letter(shown);
+  while (!shown.empty() && shown.back() == ' ') shown.pop_back();
+  write(at, shown + "…", type, align);
+}
+
+double Canvas::width_of(std::string_view text, const Type& type) const {
+  const std::string& font = type.face == Face::serif ? serif_ : sans_;
+  if (font.empty() || text.empty()) return 0;
+  const OIIO::ROI box =
+      algorithm::text_size(printable(text), static_cast<int>(std::lround(type.size * fineness)), font);
+  return box.defined() ? static_cast<double>(box.xend) / fineness : 0;
+}
+
+void Canvas::place(const PageBox& box, std::span<const Colour> pixels) {
+  const int left = static_cast<int>(std::lround(box.left * fineness)),
+            top = static_cast<int>(std::lround(box.top * fineness));
+  const int columns = static_cast<int>(std::lround(box.width() * fineness));
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const int x = static_cast<int>(i) % columns, y = static_cast<int>(i) / columns;
+    blend(left + x, top + y, pixels[i], 1);
+  }
+}
+
+Drawing Canvas::finish() const {
+  const int width = pixels_.spec().width / fineness, height = pixels_.spec().height / fineness;
+  const OIIO::ROI size(0, width, 0, height, 0, 1, 0, 3);
+  const OIIO::ImageBuf page = algorithm::resize(pixels_, "box", 1.0f, size, 1);
+  Drawing drawing{width, height, {}, !sans_.empty()};
+  drawing.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+  page.get_pixels(size, OIIO::TypeUInt8, drawing.rgb.data());
+  return drawing;
+}
+
+}  // namespace wale

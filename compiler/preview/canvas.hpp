@@ -1,0 +1,80 @@
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <glm/vec2.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "compiler/drawing.hpp"
+
+namespace wale {
+
+/// sRGB, 0 .. 1.
+struct Colour {
+  float red = 0, green = 0, blue = 0;
+};
+
+/// Between two colours: `part` 0 is the first, 1 the second.
+Colour mixed(Colour first, Colour second, float part);
+
+/// A point of the page, in pixels from its upper left corner, y downwards.
+using PagePoint = glm::dvec2;
+
+struct PageBox {
+  double left = 0, top = 0, right = 0, bottom = 0;
+  double width() const { return right - left; }
+  double height() const { return bottom - top; }
+};
+
+enum class Face { serif, sans };
+enum class Align { left, centre, right };
+
+/// How a piece of text is set: letters of `size` pixels.
+struct Type {
+  Face face = Face::sans;
+  double size = 18;
+  Colour colour;
+};
+
+/// How a line is drawn. With a dash, `dash` pixels of line follow `dash` pixels of gap.
+struct Pen {
+  double width = 1.5;
+  Colour colour;
+  float opacity = 1;
+  double dash = 0;
+};
+
+/// A page to draw on: twice as fine as the drawing it ends as, which makes letters and lines smooth.
+class Canvas {
+ public:
+  static constexpr int fineness = 2;  ///< canvas pixels per page pixel
+
+  Canvas(int width, int height, Colour paper);
+
+  void fill(const PageBox& box, Colour colour);
+  void outline(const PageBox& box, const Pen& pen);
+  /// A line through the points, with round joints; opacity counts once where it crosses itself.
+  void stroke(std::span<const PagePoint> points, const Pen& pen);
+  void line(PagePoint from, PagePoint to, const Pen& pen);
+  /// The area between the points, from left to right, and the height `base`; opacity as given.
+  void shade(std::span<const PagePoint> points, double base, Colour colour, float opacity);
+  /// A line of text with its baseline at `at.y`; nothing when no font is installed.
+  void write(PagePoint at, std::string_view text, const Type& type, Align align = Align::left);
+  /// The same, shortened with an ellipsis where it would be wider than `width`.
+  void write_within(PagePoint at, double width, std::string_view text, const Type& type, Align align = Align::left);
+  double width_of(std::string_view text, const Type& type) const;
+  /// The pixels of `box`, rows from the top, `fineness` to a page pixel each way.
+  void place(const PageBox& box, std::span<const Colour> pixels);
+
+  Drawing finish() const;
+
+ private:
+  void blend(int x, int y, Colour colour, float opacity);
+
+  OIIO::ImageBuf pixels_;
+  std::string serif_, sans_;  // names of installed fonts, empty when there is none
+};
+
+}  // namespace wale

@@ -1,0 +1,194 @@
+#include "compiler/preview/exhibit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wale {
+namespace {
+
+/// N; smaller forces are taken for none: a hundredth of what the finest joystick commands.
+constexpr float no_force = 1e-4f;
+/// m/s; a brisk stroke of the hand over a surface.
+constexpr double brisk = 0.5;
+constexpr int periods_shown = 8;
+
+std::vector<float> reliefs(const Bank& bank, const std::vector<glm::vec2>& positions) {
+  std::vector<float> heights(positions.size());
+  relief_all(bank, positions, heights);
+  for (float& height : heights) {
+    if (!std::isfinite(height)) height = 0;
+  }
+  return heights;
+}
+
+std::vector<Force> forces_on(const Bank& bank, const std::vector<Hand>& hands) {
+  std::vector<Force> forces(hands.size());
+  tick_all(bank, hands, forces);
+  return forces;
+}
+
+double spread(const std::vector<float>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return static_cast<double>(*most) - *least;
+}
+
+/// The period of a regularly sampled signal in samples: where its autocorrelation first comes back above 0.7 after
+/// having fallen below 0.3. Nothing for what does not repeat three times.
+std::optional<double> period_of(std::vector<float> signal) {
+  const std::size_t count = signal.size();
+  double mean = 0;
+  for (float value : signal) mean += value;
+  mean /= static_cast<double>(count);
+  for (float& value : signal) value -= static_cast<float>(mean);
+
+  const auto correlation = [&](std::size_t lag) {
+    double product = 0, early = 0, late = 0;
+    for (std::size_t i = 0; i + lag < count; ++i) {
+      product += double{signal[i]} * signal[i + lag];
+      early += double{signal[i]} * signal[i];
+      late += double{signal[i + lag]} * signal[i + lag];
+    }
+    return early > 0 && late > 0 ? product / std::sqrt(early * late) : 0.0;
+  };
+  bool fell = false;
+  double before = 1, here = correlation(1);
+  for (std::size_t lag = 1; lag < count / 3; ++lag) {
+    const double after = correlation(lag + 1);
+    fell = fell || here < 0.3;
+    if (fell && here > 0.7 && here >= before && here >= after) {
+      // The vertex of the parabola through three lags lies between samples.
+      const double bend = before - 2 * here + after;
+      return static_cast<double>(lag) + (bend < 0 ? 0.5 * (before - after) / bend : 0.0);
+    }
+    before = here;
+    here = after;
+  }
+  return std::nullopt;
+}
+
+/// The texture's period along an axis, in m, on the line that lies `aside` from the centre.
+std::optional<double> relief_period(const Bank& bank, int axis, double length, float aside) {
+  constexpr int count = 3072;
+  std::vector<glm::vec2> line(count, glm::vec2(aside));
+  for (int i = 0; i < count; ++i)
+    line[static_cast<std::size_t>(i)][axis] = static_cast<float>(((i + 0.5) / count - 0.5) * length);
+  std::vector<float> heights = reliefs(bank, line);
+  if (!(spread(heights) > 0)) return std::nullopt;
+  const auto samples = period_of(std::move(heights));
+  if (!samples) return std::nullopt;
+  return *samples * length / count;
+}
+
+struct Look {
+  double relief = 0, force = 0;  // how much they vary
+};
+
+/// How much relief and force at rest vary over a set of positions.
+Look look_at(const Bank& bank, const std::vector<glm::vec2>& positions, std::vector<Force>* at_rest = nullptr) {
+  std::vector<Hand> hands;
+  for (glm::vec2 position : positions) hands.push_back({position, {}});
+  const auto forces = forces_on(bank, hands);
+  Look look{spread(reliefs(bank, positions)), 0};
+  for (Force force : forces) look.force = std::max(look.force, std::hypot(double{force.x}, double{force.y}));
+  if (at_rest) *at_rest = forces;
+  return look;
+}
+
+}  // namespace
+
+Exhibit exhibit_of(const Bank& bank) {
+  const PatchSize size = bank.size();
+  Exhibit exhibit;
+  exhibit.side = std::min(size.width, size.height);
+  const double limit = bank.program().description().device.speed_limit;
+  exhibit.speed = limit > 0 ? std::min(limit, brisk) : brisk;
+
+  // An odd lattice over the whole patch that no regular texture is in step with.
+  constexpr int lattice = 61;
+  std::vector<glm::vec2> positions;
+  for (int row = 0; row < lattice; ++row) {
+    for (int column = 0; column < lattice; ++column) {
+      const double wander = 0.37 * row + 0.61 * column;
+      const double u = (column + wander - std::floor(wander)) / lattice, v = (row + 0.5) / lattice;
+      positions.emplace_back((u - 0.5) * size.width, (v - 0.5) * size.height);
+    }
+  }
+  std::vector<Force> at_rest;
+  const Look whole = look_at(bank, positions, &at_rest);
+  exhibit.has_relief = whole.relief > 0;
+  exhibit.pushes_at_rest = whole.force > no_force;
+  for (glm::vec2 way : {glm::vec2(1, 0), glm::vec2(0, -1)}) {
+    std::vector<Hand> moving;
+    for (glm::vec2 position : positions) moving.push_back({position, way * static_cast<float>(exhibit.speed)});
+    const auto forces = forces_on(bank, moving);
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const Force change = forces[i] - at_rest[i];
+      exhibit.resists_motion = exhibit.resists_motion || std::hypot(change.x, change.y) > no_force;
+    }
+  }
+
+  if (exhibit.has_relief) {
+    for (int axis : {0, 1}) {
+      // The rim's fade is no part of the texture.
+      const double length = (axis == 0 ? size.width : size.height) - 2.0 * size.rim;
+      for (double aside : {0.0, 0.137}) {
+        const auto period = relief_period(bank, axis, length, static_cast<float>(aside * length));
+        if (period) exhibit.period = std::max(exhibit.period.value_or(0.0), *period);
+      }
+    }
+    if (exhibit.period) exhibit.side = std::min(exhibit.side, periods_shown * *exhibit.period);
+  }
+
+  std::vector<glm::vec2> along_x, along_y;
+  for (int i = 0; i < 997; ++i) {
+    const auto at = static_cast<float>(((i + 0.5) / 997 - 0.5) * exhibit.side);
+    along_x.emplace_back(at, 0);
+    along_y.emplace_back(0, at);
+  }
+  const Look x = look_at(bank, along_x), y = look_at(bank, along_y);
+  const bool flat_along_x = exhibit.has_relief ? x.relief < 0.02 * y.relief : x.force < 0.02 * y.force;
+  exhibit.axis = flat_along_x ? 1 : 0;
+  return exhibit;
+}
+
+Profile height_along(const Bank& bank, const Exhibit& exhibit, int count) {
+  std::vector<glm::vec2> line(static_cast<std::size_t>(count), glm::vec2(0.0f));
+  Profile profile;
+  for (int i = 0; i < count; ++i) {
+    profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
+    line[static_cast<std::size_t>(i)][exhibit.axis] = static_cast<float>(profile.at.back());
+  }
+  const auto heights = reliefs(bank, line);
+  profile.values.assign(heights.begin(), heights.end());
+  return profile;
+}
+
+Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count) {
+  std::vector<Hand> hands(static_cast<std::size_t>(count));
+  Profile profile;
+  for (int i = 0; i < count; ++i) {
+    profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
+    hands[static_cast<std::size_t>(i)].position[exhibit.axis] = static_cast<float>(profile.at.back());
+    hands[static_cast<std::size_t>(i)].velocity[exhibit.axis] = static_cast<float>(speed);
+  }
+  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[exhibit.axis]);
+  return profile;
+}
+
+Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count) {
+  std::vector<Hand> hands(static_cast<std::size_t>(count));
+  Profile profile;
+  for (int i = 0; i < count; ++i) {
+    profile.at.push_back((i / (count - 1.0) - 0.5) * 2 * exhibit.speed);
+    hands[static_cast<std::size_t>(i)].velocity[exhibit.axis] = static_cast<float>(profile.at.back());
+  }
+  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[exhibit.axis]);
+  return profile;
+}
+
+glm::vec2 pixel_position(const Exhibit& exhibit, int column, int row, int count) {
+  const auto place = [&](int i) { return ((i + 0.5) / count - 0.5) * exhibit.side; };
+  return {static_cast<float>(place(column)), static_cast<float>(-place(row))};
+}
+
+}  // namespace wale

@@ -1,0 +1,102 @@
+#include "compiler/preview/relief.hpp"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace wale {
+namespace {
+
+constexpr Colour plaster = {0.905f, 0.872f, 0.812f};
+constexpr Colour shadow = {0.235f, 0.205f, 0.200f};
+constexpr Colour glint = {1.0f, 0.992f, 0.965f};
+
+/// Rows from the top, one more pixel on every side than is shown, so that slopes at the edge have both neighbours.
+struct Heights {
+  int side = 0;
+  std::vector<float> values;
+  float at(int column, int row) const { return values[static_cast<std::size_t>(row * side + column)]; }
+};
+
+Heights heights_of(const Bank& bank, const Exhibit& exhibit, int shown) {
+  Heights heights{shown + 2, {}};
+  std::vector<glm::vec2> positions;
+  for (int row = -1; row <= shown; ++row) {
+    for (int column = -1; column <= shown; ++column) positions.push_back(pixel_position(exhibit, column, row, shown));
+  }
+  heights.values.resize(positions.size());
+  relief_all(bank, positions, heights.values);
+  for (float& value : heights.values) {
+    if (!std::isfinite(value)) value = 0;
+  }
+  const auto [least, most] = std::minmax_element(heights.values.begin(), heights.values.end());
+  const float low = *least, range = std::max(*most - *least, 1e-30f);
+  for (float& value : heights.values) value = (value - low) / range;
+  return heights;
+}
+
+/// How far each point lies below its surroundings, 0 .. 1: the light that a hollow does not get.
+std::vector<float> hollowness(const Heights& heights, double radius) {
+  OIIO::ImageBuf source(OIIO::ImageSpec(heights.side, heights.side, 1, OIIO::TypeFloat));
+  source.set_pixels(source.roi(), OIIO::TypeFloat, heights.values.data());
+  const auto width = static_cast<float>(std::max(3.0, radius));
+  const auto row = OIIO::ImageBufAlgo::make_kernel("gaussian", width, 1.0f);
+  const auto column = OIIO::ImageBufAlgo::make_kernel("gaussian", 1.0f, width);
+  const auto across = OIIO::ImageBufAlgo::convolve(source, row, true, {}, 1);
+  const auto around = OIIO::ImageBufAlgo::convolve(across, column, true, {}, 1);
+  std::vector<float> blurred(heights.values.size());
+  around.get_pixels(around.roi(), OIIO::TypeFloat, blurred.data());
+  for (std::size_t i = 0; i < blurred.size(); ++i) blurred[i] = std::clamp(blurred[i] - heights.values[i], 0.0f, 1.0f);
+  return blurred;
+}
+
+}  // namespace
+
+void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Exhibit& exhibit) {
+  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness));
+  const Heights heights = heights_of(bank, exhibit, shown);
+
+  std::vector<float> slopes;
+  const auto slope = [&](int column, int row) {  // to the right and upwards, per pixel
+    return glm::vec2((heights.at(column + 2, row + 1) - heights.at(column, row + 1)) / 2,
+                     (heights.at(column + 1, row) - heights.at(column + 1, row + 2)) / 2);
+  };
+  for (int row = 0; row < shown; row += 3) {
+    for (int column = 0; column < shown; column += 3) {
+      const glm::vec2 s = slope(column, row);
+      slopes.push_back(std::hypot(s.x, s.y));
+    }
+  }
+  const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() * 98 / 100);
+  std::nth_element(slopes.begin(), steep, slopes.end());
+  // A flank at the 98th percentile stands at 50 degrees.
+  const float exaggeration = 1.2f / std::max(*steep, 1e-9f);
+
+  const double texture = exhibit.period.value_or(exhibit.side / 8) / exhibit.side * shown;
+  const std::vector<float> hollow = hollowness(heights, texture);
+
+  const float light[3] = {-0.52f, 0.52f, 0.68f};
+  std::vector<Colour> pixels;
+  pixels.reserve(static_cast<std::size_t>(shown) * static_cast<std::size_t>(shown));
+  for (int row = 0; row < shown; ++row) {
+    for (int column = 0; column < shown; ++column) {
+      const glm::vec2 s = slope(column, row) * exaggeration;
+      const float normal = 1 / std::sqrt(s.x * s.x + s.y * s.y + 1);
+      const float lit = (-s.x * light[0] - s.y * light[1] + light[2]) * normal;
+      const float height = heights.at(column + 1, row + 1);
+      const float in_hollow = hollow[static_cast<std::size_t>((row + 1) * heights.side + column + 1)];
+      // Level ground keeps the plaster's own colour; flanks go to the glint or the shadow.
+      const float tone = lit - light[2];
+      const float shade =
+          std::clamp(0.42f * in_hollow + 0.10f * (1 - height) + (tone < 0 ? -0.95f * tone : 0.0f), 0.0f, 0.92f);
+      const float shine = std::clamp(tone * 2.2f, 0.0f, 0.95f);
+      pixels.push_back(mixed(mixed(plaster, glint, shine), shadow, shade));
+    }
+  }
+  canvas.place(box, pixels);
+}
+
+}  // namespace wale

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace wale {
+
+/// A file that an import or an image names: the name that people see, and its bytes.
+struct ResolvedFile {
+  std::string name;
+  std::string bytes;
+};
+
+/// Why a file could not be had, in words.
+struct ResolveProblem {
+  std::string reason;
+};
+
+/// Supplies the bytes of imports and images. The compiler opens no files itself; whoever calls it decides where they
+/// come from. `from` is the name of the file that asks.
+class Resolver {
+ public:
+  virtual ~Resolver() = default;
+  /// A module by its dotted path, "fabric.denim".
+  virtual std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) = 0;
+  /// Any other file by its name as written, "slate.tif".
+  virtual std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) = 0;
+};
+
+/// Looks beside the file that asks, then in each of the roots; files over 512 MiB are refused.
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots);
+
+/// Reads a whole file, or says why not (missing, a folder, unreadable, too large).
+std::variant<ResolvedFile, ResolveProblem> read_file(const std::string& path);
+
+}  // namespace wale

@@ -1,0 +1,400 @@
+#include "compiler/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "compiler/check_expression.hpp"
+#include "compiler/spelling.hpp"
+
+namespace wale {
+
+namespace {
+
+/// Copies an expression from one set of terms to another, some of its terms replaced.
+class TermCopier {
+ public:
+  TermCopier(const Terms& from, Terms& to) : from_(from), to_(to), copies_(from.size()) {}
+
+  void replace(TermId from, TermId to) { copies_[from] = to; }
+
+  TermId operator()(TermId root) {
+    // Operands stand before their users, so one pass over what the root needs copies everything in order.
+    std::vector<bool> needed(root + 1, false);
+    needed[root] = true;
+    for (TermId id = root + 1; id-- > 0;) {
+      if (!needed[id] || copies_[id]) continue;
+      for (const TermId operand : operands(from_[id])) needed[operand] = true;
+    }
+    for (TermId id = 0; id <= root; ++id) {
+      if (!needed[id] || copies_[id]) continue;
+      Term term = from_[id];
+      const auto count = operands(term).size();
+      if (count > 0) term.a = *copies_[term.a];
+      if (count > 1) term.b = *copies_[term.b];
+      if (count > 2) term.c = *copies_[term.c];
+      copies_[id] = to_.add(term);
+    }
+    return *copies_[root];
+  }
+
+ private:
+  static std::vector<TermId> operands(const Term& term) {
+    switch (term.kind) {
+      case TermKind::operation: {
+        std::vector<TermId> all{term.a, term.b, term.c};
+        all.resize(static_cast<std::size_t>(operand_count(term.operation)));
+        return all;
+      }
+      case TermKind::component:
+      case TermKind::gradient:
+      case TermKind::peak: return {term.a};
+      default: return {};
+    }
+  }
+
+  const Terms& from_;
+  Terms& to_;
+  std::vector<std::optional<TermId>> copies_;
+};
+
+/// A map's law as expressions: the magnitude of a carrier, the level of a carrier, the carrier of a level.
+class Law {
+ public:
+  Law(const Map& map, const Percept& percept) : map_(map), percept_(percept) {}
+
+  std::optional<TermId> magnitude(Terms& terms, TermId carrier) const {
+    const TermId unknown = terms.add({.kind = TermKind::magnitude});
+    const auto [left, right] = copy(terms, unknown, carrier);
+    return isolate(terms, left, right, unknown);
+  }
+
+  std::optional<TermId> level(Terms& terms, TermId carrier) const {
+    const auto asked = magnitude(terms, carrier), one = magnitude(terms, terms.literal(percept_.one));
+    if (!asked || !one) return std::nullopt;
+    return terms.apply(Operation::divide, *asked, *one);
+  }
+
+  std::optional<TermId> carrier(Terms& terms, TermId level) const {
+    const auto one = magnitude(terms, terms.literal(percept_.one));
+    if (!one) return std::nullopt;
+    const TermId unknown = terms.add({.kind = TermKind::carrier});
+    const auto [left, right] = copy(terms, terms.apply(Operation::multiply, level, *one), unknown);
+    return isolate(terms, left, right, unknown);
+  }
+
+  /// The same as numbers.
+  double level_of(double carrier) const { return number([&](Terms& terms) { return level(terms, terms.literal(carrier)); }); }
+  double magnitude_of(double carrier) const { return number([&](Terms& terms) { return magnitude(terms, terms.literal(carrier)); }); }
+  double carrier_of(double level) const { return number([&](Terms& terms) { return this->carrier(terms, terms.literal(level)); }); }
+
+ private:
+  std::pair<TermId, TermId> copy(Terms& terms, TermId magnitude, TermId carrier) const {
+    TermCopier copier(map_.terms, terms);
+    for (TermId id = 0; id < map_.terms.size(); ++id) {
+      if (map_.terms[id].kind == TermKind::magnitude) copier.replace(id, magnitude);
+      if (map_.terms[id].kind == TermKind::carrier) copier.replace(id, carrier);
+    }
+    const TermId left = copier(map_.left);
+    return {left, copier(map_.right)};
+  }
+
+  template <typename Build>
+  static double number(Build build) {
+    Terms terms;
+    const auto term = build(terms);
+    return term ? constant_value(terms, *term).value_or(std::nan("")) : std::nan("");
+  }
+
+  const Map& map_;
+  const Percept& percept_;
+};
+
+class Solver {
+ public:
+  Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
+         Diagnostics& diagnostics)
+      : material_(material), declarations_(module.declarations), sources_(sources), resolver_(resolver), diagnostics_(diagnostics) {}
+
+  SolvedMaterial solve(const std::string& device_name) {
+    solved_.name = material_.name;
+    solved_.span = material_.span;
+    const auto device = declarations_.devices.find(device_name);
+    if (device == declarations_.devices.end()) {
+      std::vector<std::string> candidates;
+      for (const auto& [name, declared] : declarations_.devices) candidates.push_back(name);
+      const auto near = nearest_spelling(device_name, candidates);
+      std::string known;
+      for (const auto& candidate : candidates) known += (known.empty() ? "" : ", ") + candidate;
+      report(Code::unknown_device, material_.span, fmt::format("nothing declares a device `{}`", device_name),
+             near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", known));
+      return std::move(solved_);
+    }
+    device_ = &device->second;
+    solved_.device = device_->profile;
+    solved_.parameters = material_.parameters;
+    solved_.layers = material_.layers;
+    solved_.patch_width = material_.patch ? (*material_.patch)[0] : device_->profile.patch_width;
+    solved_.patch_height = material_.patch ? (*material_.patch)[1] : device_->profile.patch_height;
+    solved_.patch_rim = std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
+
+    open_terms_ = material_.terms;
+    carriers_ = material_.carriers;
+    open_spans_ = material_.open_spans;
+    tables_ = material_.tables;
+    force_ = material_.force;
+    relief_ = material_.relief;
+    force_span_ = material_.force_span;
+    if (!force_ && !realise_percepts()) return std::move(solved_);
+
+    for (const auto& asked : material_.percepts) solve_percept(asked);
+    for (std::size_t i = 0; i < open_spans_.size(); ++i)
+      if (!solutions_.contains(static_cast<std::uint32_t>(i)) && !complained_.contains(static_cast<std::uint32_t>(i)))
+        report(Code::open_amplitude, open_spans_[i], "nothing says how hard this pushes",
+               fmt::format("say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give the amplitude: `amplitude: 1.2 N`", percept_of(i)));
+    if (diagnostics_.has_errors()) return std::move(solved_);
+    substitute();
+    describe_unasked_percepts();
+    return std::move(solved_);
+  }
+
+ private:
+  /// A material without a force takes the device's own realisation of its percept.
+  bool realise_percepts() {
+    if (material_.percepts.empty()) {
+      report(Code::no_force, material_.span, fmt::format("`{}` says neither how it pushes nor how it feels", material_.name),
+             "add `physical { force = … }` or `perceptual { roughness … }`");
+      return false;
+    }
+    const auto& asked = material_.percepts.front();
+    const auto realisation = device_->realise.find(asked.name);
+    if (realisation == device_->realise.end()) {
+      report(Code::percept_unrealised, asked.span, fmt::format("`{}` has no realisation of {} of its own", device_->profile.name, asked.name),
+             "write the physics: `physical { force = … }`");
+      return false;
+    }
+    const auto& [tree, expr] = realisation->second;
+    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_}, open_terms_, tables_);
+    Scope scope;
+    scope.hand = true;
+    const Value value = checker.check_as(*tree, expr, scope, Value::Type::vector, declarations_.dimension("force"));
+    if (value.failed()) return false;
+    force_ = {value.x, value.y};
+    force_span_ = asked.span;
+    carriers_ = checker.carriers();
+    open_spans_ = checker.open_spans();
+    for (auto& span : open_spans_) span = asked.span;
+    for (const auto& carrier : carriers_)
+      if (carrier.relief) relief_ = carrier.relief;
+    return true;
+  }
+
+  /// The map for a percept on this device, or the one of the percept's own device, with its handle transferred.
+  const Map* map_for(const Percept& percept, Span span) {
+    for (const auto& device : {device_->profile.name, percept.reference_device}) {
+      const Map* found = nullptr;
+      for (const auto& map : declarations_.maps) {
+        if (map.percept != percept.name || map.device != device) continue;
+        if (found) {
+          report(Code::no_map, span, fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map.source),
+                 "keep one of them");
+          return nullptr;
+        }
+        found = &map;
+      }
+      if (found) return found;
+    }
+    report(Code::no_map, span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_->profile.name),
+           "declare one, as in calibration/minsky1995.wale");
+    return nullptr;
+  }
+
+  void solve_percept(const AskedPercept& asked) {
+    const Percept& percept = declarations_.percepts.at(asked.name);
+    std::vector<const Carrier*> mine, open;
+    for (const auto& carrier : carriers_) {
+      if (carrier.name != percept.carrier) continue;
+      mine.push_back(&carrier);
+      if (carrier.open) open.push_back(&carrier);
+    }
+    if (mine.empty()) {
+      report(Code::percept_unrealised, asked.span, fmt::format("nothing in the force carries {}", asked.name),
+             fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
+      return;
+    }
+    if (open.size() > 1) {
+      for (const auto* carrier : open) complained_.insert(open_terms_[carrier->size].index);
+      report(Code::several_open, open[1]->span, fmt::format("{} sizes are left open for one {}", open.size(), asked.name),
+             "add the heights up in one `lateral(a + b)`, or give all but one an amplitude");
+      return;
+    }
+    const Map* map = map_for(percept, asked.span);
+    if (!map) {
+      if (!open.empty()) complained_.insert(open_terms_[open[0]->size].index);
+      return;
+    }
+    const Law law(*map, percept);
+    if (open.empty()) return check_conflict(asked, *mine.front(), law, *map);
+
+    const double size = law.carrier_of(asked.level);
+    if (std::isnan(size)) {
+      complained_.insert(open_terms_[open[0]->size].index);
+      report(Code::unsolvable_law, map->span, fmt::format("the law of {} from {} cannot be solved for `{}`", map->percept, map->from, map->from),
+             "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can");
+      return;
+    }
+    warn_of_range(asked, *map, percept, law, size);
+    for (const auto& parameter : solved_.parameters)
+      if (parameter.name == asked.name)
+        report(Code::declared_twice, material_.span, fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
+               "give the parameter another name");
+    solutions_[open_terms_[open[0]->size].index] = {&percept, map, static_cast<std::uint32_t>(solved_.parameters.size())};
+    solved_.parameters.push_back({.name = asked.name,
+                                  .unit = "",
+                                  .unit_in_si = 1,
+                                  .value = static_cast<float>(asked.level),
+                                  .low = 0,
+                                  .high = 1,
+                                  .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", asked.name)});
+  }
+
+  void warn_of_range(const AskedPercept& asked, const Map& map, const Percept& percept, const Law& law, double size) {
+    const auto& names = declarations_.names;
+    const std::string unit = names.unit(percept.carrier_dimension);
+    constexpr double rounding = 1e-6;  // a reference stimulus at the very end of the range is inside it
+    if (size > device_->profile.force_newton)
+      report(Code::saturates, asked.span,
+             fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` pushes {:.3g} {} at most", asked.name, asked.level, size, unit, device_->profile.name,
+                         device_->profile.force_newton, unit),
+             fmt::format("the most it can render is {:.2g}", law.level_of(device_->profile.force_newton)));
+    if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) || size > map.valid_high * (1 + rounding))
+      report(Code::beyond_validity, asked.span,
+             asked.level < percept.near_threshold
+                 ? fmt::format("{} {:.3g} is near or below threshold", asked.name, asked.level)
+                 : fmt::format("{} {:.3g} lies outside what was measured ({})", asked.name, asked.level, map.source),
+             fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low), law.level_of(map.valid_high),
+                         map.valid_low, map.valid_high, unit));
+  }
+
+  /// Percept and physics both given: they must agree within the scatter of the map.
+  void check_conflict(const AskedPercept& asked, const Carrier& carrier, const Law& law, const Map& map) {
+    const auto size = constant_value(open_terms_, carrier.size);
+    if (!size) return;
+    const double level = law.level_of(*size);
+    const double difference = std::abs(std::log10(level) - std::log10(asked.level));
+    if (difference <= map.scatter) return;
+    diagnostics_.report({.code = Code::percept_conflict,
+                         .span = asked.span,
+                         .message = fmt::format("{} {:.3g} is asked for, and the amplitude given makes it {:.2g}", asked.name, asked.level, level),
+                         .expected = fmt::format("an amplitude of {:.3g} {}", law.carrier_of(asked.level), declarations_.names.unit(carrier.dimension)),
+                         .found = fmt::format("{:.3g} {}", *size, declarations_.names.unit(carrier.dimension)),
+                         .help = "leave out the amplitude, and it is solved from the percept; or leave out the percept"});
+  }
+
+  /// Copies everything, the solved expressions in place of what was open.
+  void substitute() {
+    TermCopier copier(open_terms_, solved_.terms);
+    std::map<std::uint32_t, TermId> sizes;
+    for (const auto& [index, solution] : solutions_) {
+      const TermId level = solved_.terms.parameter(solution.parameter);
+      sizes[index] = *Law(*solution.map, *solution.percept).carrier(solved_.terms, level);
+    }
+    for (TermId id = 0; id < open_terms_.size(); ++id)
+      if (open_terms_[id].kind == TermKind::open) copier.replace(id, sizes.at(open_terms_[id].index));
+    solved_.force = {copier((*force_)[0]), copier((*force_)[1])};
+    if (relief_) solved_.relief = copier(*relief_);
+    solved_.force_span = force_span_;
+    solved_.tables = tables_;
+    for (const auto& carrier : carriers_) solved_sizes_.push_back(copier(carrier.size));
+  }
+
+  /// Every percept that a single carrier of the force reads, asked for or not, can be told from the program.
+  void describe_unasked_percepts() {
+    for (const auto& [name, percept] : declarations_.percepts) {
+      std::optional<std::size_t> only;
+      int count = 0;
+      for (std::size_t i = 0; i < carriers_.size(); ++i)
+        if (carriers_[i].name == percept.carrier) only = i, ++count;
+      if (count != 1) continue;
+      const Map* map = map_for(percept, material_.span);
+      if (!map) continue;
+      const Carrier& carrier = carriers_[*only];
+      SolvedPercept solved;
+      solved.amplitude = solved_sizes_[*only];
+      const Law law(*map, percept);
+      const TermId probe = solved_.terms.input(Input::probe);
+      const auto magnitude = law.magnitude(solved_.terms, probe), level = law.level(solved_.terms, probe);
+      if (!magnitude || !level) {
+        report(Code::unsolvable_law, map->span, fmt::format("the law of {} cannot be solved for its magnitude", name), "");
+        continue;
+      }
+      solved.magnitude = *magnitude;
+      solved.level = *level;
+      for (const auto& asked : material_.percepts)
+        if (asked.name == name) solved.asked = asked.level;
+      PerceptRecord& record = solved.record;
+      record.name = name;
+      record.carrier = percept.carrier;
+      if (carrier.open) record.parameter = static_cast<std::uint16_t>(solutions_.at(open_terms_[carrier.size].index).parameter);
+      record.alone = force_ && (*force_)[0] == carrier.force_x && (*force_)[1] == carrier.force_y;
+      record.valid_low = static_cast<float>(map->valid_low);
+      record.valid_high = static_cast<float>(map->valid_high);
+      record.scatter = static_cast<float>(map->scatter);
+      record.slope = map->slope;
+      record.anchor = map->anchor;
+      record.handle = map->device == device_->profile.name ? map->handle : Evidence::transferred;
+      record.map = fmt::format("{} from {}", map->percept, map->from);
+      record.device = map->device;
+      record.source = map->source;
+      solved_.percepts.push_back(std::move(solved));
+    }
+  }
+
+  std::string percept_of(std::size_t open) const {
+    for (const auto& carrier : carriers_)
+      if (carrier.open && open_terms_[carrier.size].index == open)
+        for (const auto& [name, percept] : declarations_.percepts)
+          if (percept.carrier == carrier.name) return name;
+    return "roughness";
+  }
+
+  void report(Code code, Span span, std::string message, std::string help) {
+    diagnostics_.report({.code = code, .span = span, .message = std::move(message), .help = std::move(help)});
+  }
+
+  struct Solution {
+    const Percept* percept;
+    const Map* map;
+    std::uint32_t parameter;
+  };
+
+  const CheckedMaterial& material_;
+  const Declarations& declarations_;
+  const SourceSet& sources_;
+  Resolver& resolver_;
+  Diagnostics& diagnostics_;
+  const DeviceDeclaration* device_ = nullptr;
+  SolvedMaterial solved_;
+  Terms open_terms_;
+  std::vector<Carrier> carriers_;
+  std::vector<Span> open_spans_;
+  std::vector<HeightTable> tables_;
+  std::optional<std::array<TermId, 2>> force_;
+  std::optional<TermId> relief_;
+  Span force_span_;
+  std::map<std::uint32_t, Solution> solutions_;
+  std::set<std::uint32_t> complained_;
+  std::vector<TermId> solved_sizes_;
+};
+
+}  // namespace
+
+SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device, const SourceSet& sources,
+                     Resolver& resolver, Diagnostics& diagnostics) {
+  return Solver(material, module, sources, resolver, diagnostics).solve(device);
+}
+
+}  // namespace wale

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wale {
+
+using SourceId = std::uint32_t;
+
+/// A stretch of source text: bytes `begin` .. `end` of one file.
+struct Span {
+  SourceId source = 0;
+  std::uint32_t begin = 0, end = 0;
+
+  friend bool operator==(const Span&, const Span&) = default;
+};
+
+/// A place as people count it: line and column from 1, columns in characters (UTF-8 code points).
+struct Place {
+  unsigned line = 1, column = 1;
+};
+
+/// One file's text under the name that diagnostics show.
+struct Source {
+  std::string name;
+  std::string text;
+};
+
+/// All texts that a compilation has read; a `Span` names a part of one of them.
+class SourceSet {
+ public:
+  SourceId add(std::string name, std::string text);
+  const Source& operator[](SourceId id) const { return sources_[id]; }
+  std::size_t size() const { return sources_.size(); }
+
+  std::string_view text(Span span) const;
+  Place place(Span span) const;              ///< of the span's first character
+  std::string_view line(Span span) const;    ///< the whole first line of the span, without its newline
+
+ private:
+  std::size_t line_index(Span span) const;  ///< which line the span begins in, from 0
+
+  std::vector<Source> sources_;
+  std::vector<std::vector<std::uint32_t>> line_starts_;  ///< for each source the byte at which each line begins
+};
+
+}  // namespace wale

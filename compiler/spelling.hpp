@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wale {
+
+/// The candidate that a reader would take `word` for: the fewest letters changed, and at most a third of them.
+std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace wale

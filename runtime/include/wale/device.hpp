@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <limits>
+
+#include "schema/device_profile.hpp"
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// What a device tells once a tick.
+struct Reading {
+  glm::ivec2 counts{0};  ///< encoder counts from the workspace's centre; metres are counts * position_step()
+  /// N, what the hand exerts on the handle, averaged over the period that just ended: it contains inertia and friction.
+  /// Not-a-number where the device has no way to know.
+  Force interaction{std::numeric_limits<float>::quiet_NaN()};
+};
+
+/// A force-feedback joystick: position in, force out. One thread at a time uses it.
+///
+/// The real-time loop calls `elapse`, `sample` and `command` once a tick, in this order; they allocate nothing, take no
+/// lock, do not throw, and make no system call besides those that reach the hardware.
+class Device {
+ public:
+  virtual ~Device() = default;
+
+  virtual const DeviceProfile& profile() const noexcept = 0;
+
+  /// `periods` control periods have passed since the last call. Real hardware moves by itself and ignores it.
+  virtual void elapse(long periods) noexcept = 0;
+
+  virtual Reading sample() noexcept = 0;
+
+  /// Pushes with `force` (N at the handle) until the next command. Returns what the actuator exerts from now on, after
+  /// calibration, clamping and quantisation; a device that cannot tell returns what it sent.
+  virtual Force command(Force force) noexcept = 0;
+};
+
+}  // namespace wale

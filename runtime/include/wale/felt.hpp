@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wale/program.hpp"
+#include "wale/record.hpp"
+
+namespace wale {
+
+/// The size of a force over some ticks, N: of its magnitude, when it has two axes. 99 % of the ticks are at most at
+/// `p99`.
+struct ForceSize {
+  float p99 = 0, maximum = 0, rms = 0;
+};
+
+/// How a record is read.
+struct MeasureOptions {
+  double position_step = 0;       ///< m per encoder count
+  float predicted_amplitude = 0;  ///< N; crossings swing through half of it. 0: half the force's own P99
+  double settling = 0;            ///< s at the beginning that do not count: the slew-in and the hand's own start
+  double stuck_seconds = 0.05;    ///< the hand is stuck where it moves at most
+  double stuck_counts = 2;        ///< this many encoder counts, on either axis, within that time
+};
+
+/// What a run felt like, in figures.
+struct Felt {
+  long ticks = 0;                                ///< measured: after settling
+  long ticks_rubbing = 0;                        ///< of them, those within the patch with the hand not stuck
+  ForceSize force;                               ///< the actuator's, over all measured ticks
+  ForceSize force_rubbing;                       ///< the actuator's, while rubbing
+  std::optional<ForceSize> interaction;          ///< between hand and handle; nothing where the device cannot tell
+  std::optional<ForceSize> interaction_rubbing;  ///< the same while rubbing
+  /// Swings of the force from beyond half the amplitude on one side to beyond it on the other, along the axis that has
+  /// more force: all of them.
+  long alternations = 0;
+  /// Those made while moving on in one direction, so that a limit cycle on the spot, a spring or oil count nothing:
+  /// flanks of a texture.
+  long crossings = 0;
+  double stuck = 0;           ///< fraction of the measured ticks within the patch; 0 when there are none
+  double position_rms = 0;    ///< m about the mean position
+  double position_range = 0;  ///< m, the larger of the two axes'
+};
+
+Felt measure(const Record& record, const MeasureOptions& options);
+
+/// What the measured force says about a percept of the program, or why it says nothing.
+struct LevelBack {
+  std::size_t percept = 0;        ///< index into the program's percepts
+  std::string name;               ///< "roughness"
+  float predicted_amplitude = 0;  ///< N, what the program aims at
+  std::variant<Prediction, Refusal> back;
+};
+
+/// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries. Refused
+/// for less than `least_crossings` crossings, and for a percept whose carrier does not push alone.
+std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
+
+/// The carrier's size that the program aims at, for `MeasureOptions`: its first percept's, 0 when it has none.
+float predicted_amplitude(const Bank& bank);
+
+}  // namespace wale

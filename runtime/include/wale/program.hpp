@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+/// The hand as a patch program sees it: m from the patch's centre, and m/s.
+struct Hand {
+  glm::vec2 position{0.0f};
+  glm::vec2 velocity{0.0f};
+};
+
+/// Newtons along x and y, as commanded.
+using Force = glm::vec2;
+
+/// Full width and height of a placed patch and the rim over which it fades, in m.
+struct PatchSize {
+  float width = 0, height = 0, rim = 0;
+};
+
+struct DecodedProgram;
+
+/// A verified patch program, ready to run. Immutable; copies share it; any number of threads may use it at once.
+class Program {
+ public:
+  /// Reads, verifies and decodes a `.wpp` file's bytes, or says why not.
+  static std::variant<Program, Refusal> load(std::span<const std::byte> bytes);
+  /// Verifies and decodes.
+  static std::variant<Program, Refusal> load(PatchProgram program);
+
+  const PatchProgram& description() const;
+  PatchSize default_size() const;
+  /// The parameters' default values in SI units, in the order of `description().parameters`.
+  std::vector<float> default_parameters() const;
+  /// The index of the parameter of that name.
+  std::optional<std::size_t> parameter(std::string_view name) const;
+
+  const DecodedProgram& decoded() const { return *decoded_; }
+
+ private:
+  explicit Program(std::shared_ptr<const DecodedProgram> decoded) : decoded_(std::move(decoded)) {}
+  std::shared_ptr<const DecodedProgram> decoded_;
+};
+
+/// All registers of one program at given parameter values: what a tick reads, and its temporaries.
+///
+/// Made on a control thread and handed whole to the real-time thread; one thread at a time may use it.
+class Bank {
+ public:
+  /// Runs setup and its peaks. `parameters` in SI units, clamped to their ranges, not-a-number to the default; sizes
+  /// that are not positive are replaced by the default. Allocates; takes as long as the peaks need.
+  Bank(const Program& program, std::span<const float> parameters, PatchSize size);
+  /// At the defaults.
+  explicit Bank(const Program& program);
+
+  const Program& program() const { return program_; }
+  PatchSize size() const { return size_; }
+  std::span<float> registers() { return registers_; }
+  std::span<const float> registers() const { return registers_; }
+
+ private:
+  Program program_;
+  PatchSize size_;
+  std::vector<float> registers_;
+};
+
+/// The program's force on a hand, in N. Outside the patch's rectangle the caller decides; position is clamped to the
+/// device's workspace and velocity to its envelope, not-a-number to zero.
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+Force tick(Bank& bank, const Hand& hand) noexcept;
+
+/// The same for many hands, in blocks of lanes; bit-identical to `tick`. `forces` is as long as `hands`.
+void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces);
+
+/// The height of the surface (the picture section) at many positions, in m or as a plain number.
+void relief_all(const Bank& bank, std::span<const glm::vec2> positions, std::span<float> heights);
+
+/// What a carrier of a given size feels like, by the map that the program carries.
+struct Prediction {
+  float magnitude = 0;  ///< in the map's free-modulus units
+  float level = 0;      ///< 1 is the percept's reference stimulus
+};
+
+/// Asks percept number `index` of the program about a carrier of size `amplitude` (N).
+Prediction predict(const Bank& bank, std::size_t index, float amplitude);
+
+/// The carrier's size that the program aims at with this bank's parameters, N.
+float amplitude(const Bank& bank, std::size_t index);
+
+}  // namespace wale

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// One tick of a run.
+struct TickRecord {
+  double time = 0;            ///< s since the run began
+  glm::vec2 position{0};      ///< m from the workspace's centre, as the encoder has it
+  glm::vec2 velocity{0};      ///< m/s, filtered
+  Force force{0};             ///< N, what the actuator exerts from this tick on: clamped, quantised, held
+  Force interaction{0};       ///< N from hand to handle over the period before; not-a-number where unknown
+  float lateness = 0;         ///< s that the tick began after its deadline
+  std::uint32_t skipped = 0;  ///< periods that passed unserved just before
+  bool inside = false;        ///< the hand was within the patch
+};
+
+/// A run, tick by tick.
+struct Record {
+  double seconds_per_tick = 0;
+  std::vector<TickRecord> ticks;
+};
+
+/// One line per tick under a header with units, in the shortest digits that read back as the same numbers. Unknown
+/// values are empty.
+void write_csv(std::ostream& out, const Record& record);
+
+}  // namespace wale

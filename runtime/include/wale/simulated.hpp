@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <variant>
+
+#include "wale/device.hpp"
+#include "wale/trace.hpp"
+
+namespace wale {
+
+/// A person's hand and arm: a mass on a spring and a damper whose far end is where the person wants to be.
+struct HandModel {
+  double mass = 0;       ///< kg
+  double damping = 0;    ///< N s/m
+  double stiffness = 0;  ///< N/m
+};
+
+/// Where the simulated person wants to be, in m from the workspace's centre.
+struct Rest {
+  glm::dvec2 position{0};
+};
+
+/// To and fro along x, beginning at the centre towards +x.
+struct Lateral {
+  double amplitude = 0;  ///< m to each side
+  double frequency = 0;  ///< Hz
+  glm::dvec2 centre{0};
+};
+
+/// Counter-clockwise, beginning at the circle's rightmost point.
+struct Circular {
+  double radius = 0;     ///< m
+  double frequency = 0;  ///< turns per second
+  glm::dvec2 centre{0};
+};
+
+using Motion = std::variant<Rest, Lateral, Circular, Trace>;
+
+/// Where a motion is at `time` (s) and how fast it goes. The same bits on every machine.
+TracePoint at(const Motion& motion, double time) noexcept;
+
+/// A joystick of the profile's mass, damping, friction, encoders and actuators in the hand of a simulated person who
+/// holds its handle rigidly. Its time is the number of periods elapsed; everything is the same bit for bit each time.
+///
+/// The person starts at rest where the motion starts. Both axes are independent but for the edge of the round
+/// workspace, where the handle stops dead.
+class SimulatedJoystick final : public Device {
+ public:
+  /// The profile's rate, workspace, counts and force are positive; `profile.mass + hand.mass` is positive.
+  SimulatedJoystick(DeviceProfile profile, HandModel hand, Motion motion);
+
+  const DeviceProfile& profile() const noexcept override { return profile_; }
+  void elapse(long periods) noexcept override;
+  Reading sample() noexcept override;
+  Force command(Force force) noexcept override;
+
+  /// The handle's true position and velocity, m and m/s, which no device knows.
+  glm::dvec2 position() const { return position_; }
+  glm::dvec2 velocity() const { return velocity_; }
+
+ private:
+  void step(const TracePoint& target, double seconds) noexcept;
+
+  DeviceProfile profile_;
+  HandModel hand_;
+  Motion motion_;
+  long long periods_ = 0;
+  glm::dvec2 position_{0}, velocity_{0};
+  glm::dvec2 actuator_{0};     // N, held until the next command
+  glm::dvec2 interaction_{0};  // N, mean over the last period
+  glm::dvec2 impulse_{0};      // N s, from hand to handle since the period began
+};
+
+}  // namespace wale

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "wale/device.hpp"
+#include "wale/program.hpp"
+#include "wale/record.hpp"
+
+namespace wale {
+
+/// The latest of a run under way, for a live line.
+struct Progress {
+  double time = 0;  ///< s since the run began
+  long ticks_run = 0, ticks_missed = 0;
+  glm::vec2 position{0}, velocity{0};  ///< m, m/s
+  Force force{0};                      ///< N, the actuator's
+  bool inside = false;                 ///< the hand is within the patch
+};
+
+struct RunOptions {
+  double seconds = 0;         ///< how long; positive, may be fractional
+  bool virtual_time = false;  ///< as fast as possible on the calling thread, the same bit for bit each time
+  /// About ten times a second, never on the real-time thread. In virtual time ten times per second of the run, between
+  /// two ticks; what it does to the stage holds from the next tick on.
+  std::function<void(const Progress&)> progress = {};
+  /// Ends the run when it becomes true; a signal handler may set it.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// How late ticks began, in s after their deadlines. The percentiles come from a fixed histogram and are right within 3
+/// %.
+struct Lateness {
+  double p50 = 0, p99 = 0, maximum = 0;
+};
+
+/// On how many ticks each guard changed the force.
+struct GuardCounts {
+  long not_a_number = 0;  ///< the program's force was none, so zero
+  long device_limit = 0;  ///< beyond the device's peak force on an axis
+  long slew = 0;          ///< held back after a start, an entry, a leaving or a change of bank
+};
+
+struct RunResult {
+  long ticks_run = 0;
+  long ticks_missed = 0;  ///< periods that nobody served; they are skipped, never caught up
+  Lateness lateness;
+  GuardCounts guards;
+  std::string scheduling;  ///< one line: what priority and memory locking the loop got
+  Record record;
+};
+
+/// One patch on a device's workspace, and the loop that makes it felt.
+///
+/// `place` and `set` may be called from any thread, also during a run: setup and peaks are computed on the thread that
+/// called `run`, and the result reaches the real-time thread whole.
+class Stage {
+ public:
+  /// The device outlives the stage.
+  explicit Stage(Device& device);
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// Puts a patch with its centre at `position` (m from the workspace's centre), in place of the one before, its
+  /// parameters at their defaults. Its own size unless one is given.
+  void place(const Program& program, glm::vec2 position = glm::vec2(0.0f));
+  void place(const Program& program, glm::vec2 position, PatchSize size);
+
+  /// Sets a parameter of the patch, in SI units. Refused when there is no patch or no such parameter, or when the value
+  /// is not a number in its range.
+  std::optional<Refusal> set(std::string_view parameter, float value);
+
+  /// The patch at its present parameters: what `measure` and `predict` ask. Runs setup and peaks. Nothing is placed:
+  /// nothing.
+  std::optional<Bank> bank() const;
+
+  /// Runs for `options.seconds` and leaves the device without force, whatever ends the run. Refused when the time is
+  /// not positive or longer than a record holds (2^24 ticks), when nothing is placed, when the device's profile lacks
+  /// what a loop needs, or while another run is under way.
+  std::variant<RunResult, Refusal> run(const RunOptions& options);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace wale

@@ -1,0 +1,158 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+/// The functions that `schema/instruction.def` names in its column of meanings, on 32-bit floats.
+///
+/// The same bits on every machine that rounds to nearest, in one lane and in a block: no call of the mathematical
+/// library, no fused multiply-add, no branch that lanes would have to share. Not-a-number propagates, but for
+/// `limited`. Stated errors hold in the mode that `FloatingPointMode` sets and are held by
+/// tests/machine/arithmetic.cpp.
+namespace wale {
+
+namespace arithmetic {
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float least_normal = std::numeric_limits<float>::min();
+
+inline std::uint32_t bits_of(float a) { return std::bit_cast<std::uint32_t>(a); }
+inline float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+/// Added to a float below 2^22 in size, leaves the nearest whole number in the low bits of the sum.
+inline constexpr float rounder = 12582912.0f;  // 1.5 * 2^23
+inline constexpr std::uint32_t rounder_bits = 0x4b400000u;
+
+}  // namespace arithmetic
+
+inline float absolute(float a) { return arithmetic::float_of(arithmetic::bits_of(a) & 0x7fffffffu); }
+
+/// The largest whole number not above `a`. Exact.
+inline float floor_of(float a) {
+  using namespace arithmetic;
+  const float size = absolute(a);
+  const float nearest_size = (size + 0x1p23f) - 0x1p23f;
+  const float nearest = float_of(bits_of(nearest_size) | (bits_of(a) & 0x80000000u));
+  const float below = nearest - (nearest > a ? 1.0f : 0.0f);
+  return size < 0x1p23f ? below : a;  // from 2^23 on every float is whole
+}
+
+/// Correctly rounded; not-a-number below zero.
+inline float square_root_of(float a) {
+#if defined(__SSE__)
+  return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(a)));  // __builtin_sqrtf would call sqrtf for errno
+#else
+  return __builtin_sqrtf(a);
+#endif
+}
+
+namespace arithmetic {
+
+/// Sine (quadrant_shift 0) or cosine (1) of `a` radians.
+///
+/// Takes off the nearest multiple of a quarter turn, in three parts of which the first two have 11 bits, so that their
+/// multiples are exact for |a| <= 1e4; then one of two polynomials (Cephes, S. Moshier) on +-45 degrees.
+inline float sine_or_cosine(float a, std::uint32_t quadrant_shift) {
+  const float rounded = a * 0.636619772f + rounder;
+  const std::uint32_t quadrant = bits_of(rounded) + quadrant_shift;
+  const float turns = rounded - rounder;
+  const float rest = ((a - turns * 1.5703125f) - turns * 4.837512969970703125e-4f) - turns * 7.54978995489188e-8f;
+  // Far beyond the stated range the rest is noise; it must not leave the polynomials' range.
+  const float least = rest < -0.8f ? -0.8f : rest;
+  const float r = least > 0.8f ? 0.8f : least;
+  const float z = r * r;
+  const float sine = ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * r + r;
+  const float cosine =
+      ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z - 0.5f * z + 1.0f;
+  const std::uint32_t odd = 0u - (quadrant & 1u);
+  const std::uint32_t chosen = (bits_of(cosine) & odd) | (bits_of(sine) & ~odd);
+  return float_of(chosen ^ (quadrant & 2u) << 30);
+}
+
+}  // namespace arithmetic
+
+/// Absolute error below 1.5e-7 for |a| <= 1e4 rad; beyond, within [-1, 1]; of an infinity, not-a-number.
+inline float sine_of(float a) { return arithmetic::sine_or_cosine(a, 0); }
+inline float cosine_of(float a) { return arithmetic::sine_or_cosine(a, 1); }
+
+/// Relative error below 2e-7; from 128 on infinity; below -126, where floats become subnormal, 0.
+inline float exp2_of(float a) {
+  using namespace arithmetic;
+  const float rounded = a + rounder;
+  const float f = a - (rounded - rounder);  // exact, within +-0.5
+  const float p = (((((1.535336188319500e-4f * f + 1.339887440266574e-3f) * f + 9.618437357674640e-3f) * f +
+                     5.550332471162809e-2f) *
+                        f +
+                    2.402264791363012e-1f) *
+                       f +
+                   6.931472028550421e-1f) *
+                      f +
+                  1.0f;
+  const float scaled = float_of(bits_of(p) + ((bits_of(rounded) - rounder_bits) << 23));
+  const float above_least = a < -126.0f ? 0.0f : scaled;
+  const float below_most = a >= 128.0f ? infinity : above_least;
+  return a == a ? below_most : a;
+}
+
+/// Error below 2e-7 of the result or, near 1, of a - 1. Of zero and of subnormals minus infinity, of less
+/// not-a-number, of infinity infinity.
+inline float log2_of(float a) {
+  using namespace arithmetic;
+  const std::uint32_t bits = bits_of(a);
+  const auto exponent =
+      static_cast<std::int32_t>(bits - 0x3f3504f3u) >> 23;  // the fraction lies in sqrt(1/2) .. sqrt(2)
+  const float x = float_of(bits - (static_cast<std::uint32_t>(exponent) << 23)) - 1.0f;
+  const float z = x * x;
+  const float p = ((((((((7.0376836292e-2f * x - 1.1514610310e-1f) * x + 1.1676998740e-1f) * x - 1.2420140846e-1f) * x +
+                       1.4249322787e-1f) *
+                          x -
+                      1.6668057665e-1f) *
+                         x +
+                     2.0000714765e-1f) *
+                        x -
+                    2.4999993993e-1f) *
+                       x +
+                   3.3333331174e-1f);
+  const float y = p * x * z - 0.5f * z;  // ln(1 + x) = x + y
+  constexpr float log2_e_less_1 = 0.44269504088896340736f;
+  const float finite = (((y * log2_e_less_1 + x * log2_e_less_1) + y) + x) + static_cast<float>(exponent);
+  const float positive = a < infinity ? finite : a;  // infinity and not-a-number
+  const float not_negative = a < 0.0f ? not_a_number : positive;
+  return absolute(a) < least_normal ? -infinity : not_negative;
+}
+
+/// The cumulative normal distribution, absolute error below 2e-7; 0.5 at 0, 0 and 1 far out, and
+/// normal(-a) = 1 - normal(a) as far as floats go.
+///
+/// The tail is exp(-a^2 / 2) times a polynomial in u = 1 / (1 + 0.27 |a|): the form of Abramowitz and Stegun 26.2.17
+/// with one term more, fitted to 1.3e-8 and written in v = 1 - u, which loses nothing near 0.
+inline float normal_of(float a) {
+  const float all = absolute(a);
+  const float size = all > 40.0f ? 40.0f : all;  // where the tail has long been 0
+  const float s = 0.27f * size;
+  const float v = s / (1.0f + s);
+  const float r = (((((-0.1218434115331f * v + 0.22001913471f) * v + 0.3029416714478f) * v - 1.375390699187f) * v +
+                    1.951838746172f) *
+                       v -
+                   1.47756544161f) *
+                      v +
+                  0.5f;
+  const float tail = exp2_of(size * size * -0.72134752044f) * r;
+  return a > 0.0f ? 1.0f - tail : tail;
+}
+
+/// `a` held within +-`ceiling`. Not-a-number gives 0, and so does a ceiling that is negative or not a number.
+inline float limited(float a, float ceiling) {
+  const float below = ceiling < a ? ceiling : a;
+  const float within = below < -ceiling ? -ceiling : below;
+  const float usable = ceiling >= 0.0f ? within : 0.0f;
+  return a == a ? usable : 0.0f;
+}
+
+}  // namespace wale

@@ -1,0 +1,141 @@
+// Floating-point exceptions are masked wherever this runs, and only knowing so does GCC turn comparisons into lanes:
+// three times as fast, the same bits. Clang knows without being told.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-trapping-math")
+#endif
+
+#include "runtime/machine/block_code.hpp"
+
+#include <array>
+
+#include "runtime/machine/meaning.hpp"
+
+// Operands share a row with the destination exactly or not at all, so lanes never depend on one another.
+#if defined(__clang__)
+#define WALE_LANES_ARE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define WALE_LANES_ARE_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+namespace wale {
+namespace {
+
+template <bool uniform>
+float lane_of(const float* operand, std::size_t lane, float shared) {
+  if constexpr (uniform) {
+    return shared;
+  } else {
+    return operand[lane];
+  }
+}
+
+/// One operation over a block, for one choice of uniform operands.
+template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
+void kernel(float* destination, const float* as, const float* bs, const float* cs, const Spline*) {
+  const float shared_a = *as, shared_b = *bs, shared_c = *cs;
+  WALE_LANES_ARE_INDEPENDENT
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    destination[lane] =
+        Meaning<operation>::of(lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b),
+                               lane_of<uniform_c>(cs, lane, shared_c));
+  }
+}
+
+template <bool uniform_a, bool uniform_b>
+void sample_kernel(float* destination, const float* as, const float* bs, const float*, const Spline* spline) {
+  const float shared_a = *as, shared_b = *bs;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const SplineSample sample =
+        sample_of(*spline, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
+    destination[lane] = sample.value;
+    destination[row_stride + lane] = sample.along_a;
+    destination[2 * row_stride + lane] = sample.along_b;
+  }
+}
+
+/// Kernels of one operation, by which operands are uniform: a counts 1, b 2, c 4.
+using Variants = std::array<Kernel, 8>;
+
+/// An operand that an operation does not read is uniform in all its variants, which are then made once.
+template <Operation operation>
+Variants variants() {
+  constexpr bool a = facts(operation).fields[0] != 'r';
+  constexpr bool b = facts(operation).fields[1] != 'r';
+  constexpr bool c = facts(operation).fields[2] != 'r';
+  if constexpr (operation == Operation::peak) {
+    return {};  // only setup runs peaks, and it has one lane
+  } else if constexpr (operation == Operation::sample) {
+    return {sample_kernel<false, false>, sample_kernel<true, false>,  sample_kernel<false, true>,
+            sample_kernel<true, true>,   sample_kernel<false, false>, sample_kernel<true, false>,
+            sample_kernel<false, true>,  sample_kernel<true, true>};
+  } else {
+    return {kernel<operation, a, b, c>,       kernel<operation, true, b, c>,      kernel<operation, a, true, c>,
+            kernel<operation, true, true, c>, kernel<operation, a, b, true>,      kernel<operation, true, b, true>,
+            kernel<operation, a, true, true>, kernel<operation, true, true, true>};
+  }
+}
+
+// clang-format off
+Variants variants_of(Operation operation) {
+  switch (operation) {
+#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+    case Operation::name: return variants<Operation::name>();
+#define SPECIAL(number, name, fields, results, cost) \
+    case Operation::name: return variants<Operation::name>();
+#include "schema/instruction.def"
+  }
+  return {};
+}
+// clang-format on
+
+}  // namespace
+
+BlockOperand block_operand(const PatchProgram& program, RegisterNumber number) {
+  if (number <= static_cast<RegisterNumber>(Input::velocity_y)) return {number, false};
+  if (number < program.first_temporary()) return {number, true};
+  return {static_cast<std::uint16_t>(first_temporary_row + number - program.first_temporary()), false};
+}
+
+BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines,
+                       std::span<const Instruction> code) {
+  BlockCode decoded;
+  decoded.reserve(code.size());
+  for (const Instruction& instruction : code) {
+    const auto operation = static_cast<Operation>(instruction.operation);
+    const std::string_view fields = facts(operation).fields;
+    const std::array<RegisterNumber, 3> numbers = {instruction.a, instruction.b, instruction.c};
+    std::array<BlockOperand, 3> operands;
+    BlockInstruction block;
+    unsigned variant = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (fields[i] == 'r') operands[i] = block_operand(program, numbers[i]);
+      if (fields[i] == 't') block.spline = &splines[numbers[i]];
+      if (operands[i].uniform) variant |= 1u << i;
+    }
+    block.kernel = variants_of(operation)[variant];
+    block.destination = block_operand(program, instruction.destination).index;
+    block.a = operands[0];
+    block.b = operands[1];
+    block.c = operands[2];
+    decoded.push_back(block);
+  }
+  return decoded;
+}
+
+Block::Block(const PatchProgram& program)
+    : rows_((first_temporary_row + std::size_t{program.temporaries}) * row_stride) {}
+
+#if defined(__GNUC__)
+__attribute__((noinline))  // see FloatingPointMode
+#endif
+void Block::run(const BlockCode& code, const float* registers) {
+  float* rows = rows_.data();
+  const auto place = [rows, registers](BlockOperand operand) {
+    return operand.uniform ? registers + operand.index : rows + operand.index * row_stride;
+  };
+  for (const BlockInstruction& i : code) {
+    i.kernel(rows + i.destination * row_stride, place(i.a), place(i.b), place(i.c), i.spline);
+  }
+}
+
+}  // namespace wale

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "runtime/machine/spline.hpp"
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+/// Lanes that one block runs side by side.
+inline constexpr std::size_t lanes = 128;
+/// Floats from one row of lanes to the next: a cache line more than the lanes, so that rows do not collide in cache.
+inline constexpr std::size_t row_stride = lanes + 16;
+
+/// Applies an operation to a block. An operand is a row of lanes or, for the variants made so, one uniform float.
+using Kernel = void (*)(float* destination, const float* a, const float* b, const float* c, const Spline* spline);
+
+/// Where a block finds an operand: a row of lanes, or a register of the bank that is the same for all.
+struct BlockOperand {
+  std::uint16_t index = 0;
+  bool uniform = true;
+};
+
+struct BlockInstruction {
+  Kernel kernel = nullptr;
+  std::uint16_t destination = 0;  ///< row
+  BlockOperand a, b, c;
+  const Spline* spline = nullptr;
+};
+
+using BlockCode = std::vector<BlockInstruction>;
+
+/// Rows of lanes stand for position, velocity and the temporaries, in this order; all else is uniform.
+inline constexpr std::uint16_t first_temporary_row = 4;
+
+/// Where a register of the program is found by a block.
+BlockOperand block_operand(const PatchProgram& program, RegisterNumber number);
+
+/// Code of a tick, picture or peak section for blocks. It points into `splines`.
+BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const Instruction> code);
+
+/// The rows of one block at work.
+class Block {
+ public:
+  /// Room for the program's rows, all zero. Allocates.
+  explicit Block(const PatchProgram& program);
+
+  /// `lanes` floats: the row of a position or velocity input.
+  float* row(Input input) { return rows_.data() + static_cast<std::size_t>(input) * row_stride; }
+  /// Runs code over all lanes, with uniform operands out of `registers`. The caller holds a `FloatingPointMode`.
+  void run(const BlockCode& code, const float* registers);
+  /// The value of an operand in a lane.
+  float value(BlockOperand operand, std::size_t lane, const float* registers) const {
+    return operand.uniform ? registers[operand.index] : rows_[operand.index * row_stride + lane];
+  }
+
+ private:
+  std::vector<float> rows_;
+};
+
+}  // namespace wale

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace wale {
+
+/// While it lives, the thread rounds to nearest, traps nothing and takes denormals for zero (a denormal costs about
+/// 80 ns, reference/execution.md); then the host's mode comes back, its sticky flags included.
+///
+/// On processors other than x86 and 64-bit ARM it does nothing. Code that computes under it belongs in a function
+/// of its own that is not inlined: the compiler does not know that arithmetic depends on the mode.
+class FloatingPointMode {
+ public:
+#if defined(__SSE__)
+  FloatingPointMode() noexcept : host_(_mm_getcsr()) { _mm_setcsr(all_masked | flush_to_zero | denormals_are_zero); }
+  ~FloatingPointMode() { _mm_setcsr(host_); }
+
+ private:
+  static constexpr unsigned all_masked = 0x1f80, flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  unsigned host_;
+#elif defined(__aarch64__)
+  FloatingPointMode() noexcept {
+    asm volatile("mrs %0, fpcr" : "=r"(host_));
+    asm volatile("msr fpcr, %0" ::"r"(flush_to_zero));
+  }
+  ~FloatingPointMode() { asm volatile("msr fpcr, %0" ::"r"(host_)); }
+
+ private:
+  static constexpr std::uint64_t flush_to_zero = std::uint64_t{1} << 24;
+  std::uint64_t host_;
+#else
+  FloatingPointMode() noexcept {}
+  ~FloatingPointMode() {}
+#endif
+
+ public:
+  FloatingPointMode(const FloatingPointMode&) = delete;
+  FloatingPointMode& operator=(const FloatingPointMode&) = delete;
+};
+
+}  // namespace wale

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "runtime/machine/decoded_program.hpp"
+
+namespace wale {
+
+/// Runs verified code once over the program's registers. Only setup holds `peak` instructions, and only they
+/// allocate; any other code is real-time: no allocation, lock or system call.
+/// The caller holds a `FloatingPointMode`.
+void run_lane(const DecodedProgram& program, std::span<const Instruction> code, float* registers);
+
+}  // namespace wale

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "runtime/machine/arithmetic.hpp"
+#include "schema/instruction.hpp"
+
+namespace wale {
+
+/// What an operation makes of its operands: the column `meaning` of `schema/instruction.def`, once for all
+/// interpreters. Special operations have none.
+template <Operation>
+struct Meaning;
+
+// clang-format off
+#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative)                                 \
+  template <>                                                                                                 \
+  struct Meaning<Operation::name> {                                                                           \
+    static float of([[maybe_unused]] float a, [[maybe_unused]] float b, [[maybe_unused]] float c) {           \
+      return meaning;                                                                                         \
+    }                                                                                                         \
+  };
+#include "schema/instruction.def"
+// clang-format on
+
+}  // namespace wale

@@ -1,0 +1,50 @@
+#include "runtime/machine/peak.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace wale {
+namespace {
+
+/// Coordinate number `i` of a Kronecker lattice of the given step: 2 u - 1, rounded once, for u = i step / 2^32.
+float lattice_coordinate(std::uint32_t i, std::uint32_t step) {
+  const auto centred = static_cast<std::int32_t>(i * step ^ 0x80000000u);  // 2^32 u - 2^31
+  return static_cast<float>(centred) * 0x1p-31f;
+}
+
+#if defined(__GNUC__)
+__attribute__((noinline))  // see FloatingPointMode
+#endif
+void place_lanes(Block& block, std::uint32_t first, float half_width, float half_height) {
+  float* x = block.row(Input::x);
+  float* y = block.row(Input::y);
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+    x[lane] = lattice_coordinate(first + lane, 3242174889u) * half_width;
+    y[lane] = lattice_coordinate(first + lane, 2447445414u) * half_height;
+  }
+}
+
+}  // namespace
+
+float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
+  const Peak& peak = program.description.peaks[index];
+  const BlockOperand value = block_operand(program.description, peak.value);
+  Block block(program.description);
+  std::vector<float> values(peak.points);
+  for (std::uint32_t first = 0; first < peak.points; first += lanes) {
+    place_lanes(block, first, registers[peak.half_width], registers[peak.half_height]);
+    block.run(program.peaks[index], registers.data());
+    const std::size_t count = std::min<std::size_t>(lanes, peak.points - first);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const float v = block.value(value, lane, registers.data());
+      values[first + lane] = std::isfinite(v) ? v : 0.0f;
+    }
+  }
+  const auto rank = static_cast<std::uint32_t>(std::ceil(peak.percentile * static_cast<float>(peak.points)));
+  const auto nth = values.begin() + (std::clamp(rank, 1u, peak.points) - 1);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+}  // namespace wale

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/machine/arithmetic.hpp"
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+/// A height table as the coefficients of the cubic B-spline that passes through its samples (code 65535 is 1),
+/// continued beyond its edges by mirroring about the first and last samples.
+///
+/// Coefficients are computed in double and kept as float: at a sample the spline is within 3e-7 of it.
+struct Spline {
+  explicit Spline(const HeightTable& table);
+
+  std::uint32_t width, height;      ///< samples, 2 or more
+  std::uint32_t stride;             ///< coefficients in a row, width + 3: the mirrored one before and two after
+  std::vector<float> coefficients;  ///< height + 3 rows likewise
+};
+
+/// A spline's value, in [0, 1] but for overshoot, and its derivatives per sample of each coordinate.
+struct SplineSample {
+  float value, along_a, along_b;
+};
+
+/// A coordinate brought into the table by mirroring.
+struct MirroredCoordinate {
+  std::uint32_t cell;  ///< 0 .. samples - 1
+  float fraction;      ///< within the cell
+  float sign;          ///< of the derivative: -1 where the mirror image runs backwards
+};
+
+/// Any float is safe: not-a-number and infinities are taken for 0, and far beyond the table the position within the
+/// image is as good as the float's own resolution.
+inline MirroredCoordinate mirrored(float coordinate, std::uint32_t samples) {
+  const float last = static_cast<float>(samples - 1);
+  const float period = last + last;
+  const float image = coordinate - floor_of(coordinate / period) * period;  // [0, period], rounding aside
+  const float folded = image > last ? period - image : image;
+  const float inside = absolute(folded);
+  const float least = inside > 0.0f ? inside : 0.0f;  // not-a-number gives 0
+  const float u = least < last ? least : last;
+  const auto cell = static_cast<std::uint32_t>(static_cast<std::int32_t>(u));
+  const bool backwards = (image > last) != (folded < 0.0f);
+  return {cell, u - static_cast<float>(cell), backwards ? -1.0f : 1.0f};
+}
+
+/// The four weights of a uniform cubic B-spline at `f` in [0, 1], and their derivatives.
+struct CubicWeights {
+  explicit CubicWeights(float f) {
+    const float g = 1.0f - f;
+    value[0] = g * g * g * (1.0f / 6.0f);
+    value[1] = f * f * (0.5f * f - 1.0f) + 2.0f / 3.0f;
+    value[2] = g * g * (0.5f * g - 1.0f) + 2.0f / 3.0f;
+    value[3] = f * f * f * (1.0f / 6.0f);
+    slope[0] = -0.5f * g * g;
+    slope[1] = f * (1.5f * f - 2.0f);
+    slope[2] = g * (2.0f - 1.5f * g);
+    slope[3] = 0.5f * f * f;
+  }
+  float value[4], slope[4];
+};
+
+/// The spline at (a, b) samples from the centre of its first sample, a along rows.
+inline SplineSample sample_of(const Spline& spline, float a, float b) {
+  const MirroredCoordinate column = mirrored(a, spline.width);
+  const MirroredCoordinate row = mirrored(b, spline.height);
+  const CubicWeights across(column.fraction), down(row.fraction);
+  const float* corner = spline.coefficients.data() + static_cast<std::size_t>(row.cell) * spline.stride + column.cell;
+  float value = 0.0f, along_a = 0.0f, along_b = 0.0f;
+  for (int j = 0; j < 4; ++j) {
+    const float* c = corner + static_cast<std::size_t>(j) * spline.stride;
+    const float row_value =
+        (across.value[0] * c[0] + across.value[1] * c[1]) + (across.value[2] * c[2] + across.value[3] * c[3]);
+    const float row_slope =
+        (across.slope[0] * c[0] + across.slope[1] * c[1]) + (across.slope[2] * c[2] + across.slope[3] * c[3]);
+    value += down.value[j] * row_value;
+    along_a += down.value[j] * row_slope;
+    along_b += down.slope[j] * row_value;
+  }
+  return {value, column.sign * along_a, row.sign * along_b};
+}
+
+}  // namespace wale

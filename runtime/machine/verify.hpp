@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+/// Most that one tick may cost, as a fraction of the device's period, at one nanosecond a unit: room for a cold
+/// cache, a machine several times slower and the runtime's own work.
+inline constexpr double tick_share_of_period = 0.25;
+/// Most that setup and its peaks may cost together, in units: about a second on the control thread.
+inline constexpr double setup_cost_limit = 1e9;
+/// Most points a peak may look at.
+inline constexpr std::uint32_t peak_points_limit = 1u << 20;
+/// Samples a side of a table.
+inline constexpr std::uint32_t table_side_least = 2, table_side_most = 16384;
+
+/// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md.
+///
+/// A program that passes stops in time, reads nothing that is not defined, and commands no force beyond its
+/// ceilings, whatever its registers hold.
+std::optional<Refusal> verify(const PatchProgram& program);
+
+}  // namespace wale

@@ -1,0 +1,146 @@
+#include "wale/felt.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <span>
+
+namespace wale {
+namespace {
+
+ForceSize size_of(std::vector<float> magnitudes) {
+  if (magnitudes.empty()) return {};
+  double squares = 0;
+  for (const float magnitude : magnitudes) squares += static_cast<double>(magnitude) * magnitude;
+  const auto n = static_cast<double>(magnitudes.size());
+  const auto rank = magnitudes.begin() + static_cast<std::ptrdiff_t>(std::ceil(0.99 * n)) - 1;
+  std::nth_element(magnitudes.begin(), rank, magnitudes.end());
+  return {*rank, *std::max_element(rank, magnitudes.end()), static_cast<float>(std::sqrt(squares / n))};
+}
+
+/// Per tick: whether the hand moved at most `distance` on either axis within `ticks` ticks around it.
+std::vector<bool> find_stuck(std::span<const TickRecord> record, std::ptrdiff_t ticks, double distance) {
+  const auto n = static_cast<std::ptrdiff_t>(record.size());
+  std::vector<bool> stuck(record.size());
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const std::ptrdiff_t from = std::max(std::ptrdiff_t{0}, i - ticks / 2), to = std::min(n - 1, i + ticks / 2);
+    glm::vec2 low = record[i].position, high = low;
+    for (std::ptrdiff_t k = from; k <= to; ++k) {
+      low = glm::min(low, record[k].position);
+      high = glm::max(high, record[k].position);
+    }
+    stuck[i] = std::max(high.x - low.x, high.y - low.y) <= distance;
+  }
+  return stuck;
+}
+
+/// The axis along which there is more force.
+int main_axis(std::span<const TickRecord> record) {
+  glm::dvec2 squares(0);
+  for (const TickRecord& tick : record) squares += glm::dvec2(tick.force) * glm::dvec2(tick.force);
+  return squares.y > squares.x ? 1 : 0;
+}
+
+int sign_of(float value) { return (value > 0) - (value < 0); }
+
+/// Counts swings of the force through +-threshold with hysteresis, and those made while moving on in one direction.
+void count_swings(std::span<const TickRecord> record, float threshold, Felt& felt) {
+  const int axis = main_axis(record);
+  int side = 0, direction = 0;  // of the last swing
+  for (const TickRecord& tick : record) {
+    const float force = tick.force[axis];
+    if (std::abs(force) <= threshold || sign_of(force) == side) continue;
+    const int moving = sign_of(tick.velocity[axis]);
+    if (side != 0) {
+      ++felt.alternations;
+      if (moving != 0 && moving == direction) ++felt.crossings;
+    }
+    side = sign_of(force);
+    direction = moving;
+  }
+}
+
+void measure_movement(std::span<const TickRecord> record, Felt& felt) {
+  if (record.empty()) return;
+  const auto n = static_cast<double>(record.size());
+  glm::dvec2 mean(0);
+  for (const TickRecord& tick : record) mean += glm::dvec2(tick.position) / n;
+  glm::vec2 low = record.front().position, high = low;
+  double squares = 0;
+  for (const TickRecord& tick : record) {
+    const glm::dvec2 off = glm::dvec2(tick.position) - mean;
+    squares += glm::dot(off, off);
+    low = glm::min(low, tick.position);
+    high = glm::max(high, tick.position);
+  }
+  felt.position_rms = std::sqrt(squares / n);
+  felt.position_range = std::max(high.x - low.x, high.y - low.y);
+}
+
+}  // namespace
+
+Felt measure(const Record& record, const MeasureOptions& options) {
+  const auto first = std::find_if(record.ticks.begin(), record.ticks.end(),
+                                  [&](const TickRecord& tick) { return tick.time >= options.settling; });
+  const std::span<const TickRecord> ticks(first, record.ticks.end());
+  const auto window = static_cast<std::ptrdiff_t>(std::round(options.stuck_seconds / record.seconds_per_tick));
+  // Half a count more, since positions are rounded to float.
+  const double distance = (options.stuck_counts + 0.5) * options.position_step;
+  const std::vector<bool> stuck = find_stuck(ticks, window, distance);
+
+  Felt felt;
+  felt.ticks = static_cast<long>(ticks.size());
+  std::vector<float> force, force_rubbing, interaction, interaction_rubbing;
+  long inside = 0, inside_stuck = 0;
+  bool interaction_known = !ticks.empty();
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const float between = glm::length(ticks[i].interaction);
+    interaction_known = interaction_known && !std::isnan(between);
+    force.push_back(glm::length(ticks[i].force));
+    interaction.push_back(between);
+    inside += ticks[i].inside;
+    inside_stuck += ticks[i].inside && stuck[i];
+    if (!ticks[i].inside || stuck[i]) continue;
+    force_rubbing.push_back(force.back());
+    interaction_rubbing.push_back(between);
+  }
+  felt.ticks_rubbing = static_cast<long>(force_rubbing.size());
+  felt.force = size_of(std::move(force));
+  felt.force_rubbing = size_of(std::move(force_rubbing));
+  if (interaction_known) {
+    felt.interaction = size_of(std::move(interaction));
+    felt.interaction_rubbing = size_of(std::move(interaction_rubbing));
+  }
+  if (inside > 0) felt.stuck = static_cast<double>(inside_stuck) / static_cast<double>(inside);
+
+  const float amplitude = options.predicted_amplitude > 0 ? options.predicted_amplitude : felt.force.p99;
+  count_swings(ticks, amplitude / 2, felt);
+  measure_movement(ticks, felt);
+  return felt;
+}
+
+std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings) {
+  std::vector<LevelBack> levels;
+  const auto& percepts = bank.program().description().percepts;
+  for (std::size_t i = 0; i < percepts.size(); ++i) {
+    LevelBack level{i, percepts[i].name, amplitude(bank, i), Prediction{}};
+    if (!percepts[i].alone) {
+      level.back = Refusal{"other forces push besides the " + percepts[i].carrier +
+                           ", so the force at the handle does not read " + percepts[i].name};
+    } else if (felt.crossings < least_crossings) {
+      level.back = Refusal{"only " + std::to_string(felt.crossings) + " crossings of the texture, " +
+                           std::to_string(least_crossings) + " are needed"};
+    } else {
+      level.back = predict(bank, i, felt.force_rubbing.p99);
+    }
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+float predicted_amplitude(const Bank& bank) {
+  return bank.program().description().percepts.empty() ? 0.0f : amplitude(bank, 0);
+}
+
+}  // namespace wale

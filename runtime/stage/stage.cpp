@@ -1,0 +1,249 @@
+#include "wale/stage.hpp"
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "runtime/stage/player.hpp"
+#include "runtime/stage/scheduling.hpp"
+
+namespace wale {
+namespace {
+
+constexpr long most_ticks = 1L << 24;
+constexpr double progress_seconds = 0.1;
+
+/// Six digits are enough to tell a person a value.
+std::string digits(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
+}
+
+std::string shown(const Parameter& parameter, float value) {
+  const std::string number = digits(value / parameter.unit_in_si);
+  return parameter.unit.empty() ? number : number + " " + parameter.unit;
+}
+
+std::optional<Refusal> lacks(const DeviceProfile& profile) {
+  const std::array<std::pair<const char*, double>, 5> needed{{{"rate", profile.rate},
+                                                              {"workspace", profile.workspace_diameter},
+                                                              {"position counts", profile.position_counts},
+                                                              {"force", profile.force_newton},
+                                                              {"force counts", profile.force_counts}}};
+  for (const auto& [name, value] : needed) {
+    if (!(value > 0) || !std::isfinite(value)) {
+      return Refusal{"the device " + profile.name + " declares no positive " + name};
+    }
+  }
+  return std::nullopt;
+}
+
+/// How many ticks the run is to have, at least one.
+std::variant<long, Refusal> ticks_of(double seconds, double rate) {
+  if (!(seconds > 0)) return Refusal{"a run lasts longer than no time at all; asked for " + digits(seconds) + " s"};
+  if (seconds * rate > static_cast<double>(most_ticks)) {
+    return Refusal{"a run lasts at most " + digits(static_cast<double>(most_ticks) / rate) + " s at " + digits(rate) +
+                   " Hz; asked for " + digits(seconds) + " s"};
+  }
+  return std::max(1L, std::lround(seconds * rate));
+}
+
+bool is_set(const std::atomic<bool>* flag) noexcept { return flag != nullptr && flag->load(std::memory_order_relaxed); }
+
+/// What the control side was asked for.
+struct Placement {
+  Program program;
+  glm::vec2 position;
+  PatchSize size;
+  std::vector<float> parameters;
+
+  PlacedPatch build() const { return {Bank(program, parameters, size), position}; }
+};
+
+}  // namespace
+
+struct Stage::Parts {
+  Device& device;
+  std::mutex mutex;  // never taken by the real-time thread while it ticks
+  std::condition_variable news;
+  std::optional<Placement> placement;
+  bool changed = false;   // the placement, since it was last published
+  bool finished = false;  // the real-time thread's last tick is done
+  bool running = false;
+
+  explicit Parts(Device& stages) : device(stages) {}
+
+  std::optional<Placement> copy_placement() {
+    const std::lock_guard lock(mutex);
+    return placement;
+  }
+
+  /// Builds and hands over the patch if it changed.
+  void publish_change(Exchange<PlacedPatch>& patches) {
+    std::unique_lock lock(mutex);
+    if (!std::exchange(changed, false)) return;
+    const Placement copy = *placement;
+    lock.unlock();  // building may take long, and whoever turns the next knob should not wait for it
+    patches.publish(copy.build());
+  }
+
+  void play_in_virtual_time(Player& player, Exchange<PlacedPatch>& patches, long ticks, const RunOptions& options,
+                            RunResult& result);
+  std::optional<Refusal> play_in_real_time(Player& player, Exchange<PlacedPatch>& patches, long ticks,
+                                           const RunOptions& options, RunResult& result);
+  void attend(const Player& player, Exchange<PlacedPatch>& patches, const RunOptions& options);
+};
+
+void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatch>& patches, long ticks,
+                                        const RunOptions& options, RunResult& result) {
+  const double rate = device.profile().rate;
+  const long every = std::max(1L, std::lround(rate * progress_seconds));
+  VirtualClock clock;
+  result.scheduling = "virtual time";
+  result.ticks_missed = run_loop(
+      clock, rate, ticks, [&]() noexcept { return is_set(options.stop); },
+      [&](const Beat& beat) {
+        publish_change(patches);
+        player.serve(beat);
+        if (options.progress && (beat.period + 1) % every == 0) options.progress(player.progress());
+      });
+}
+
+std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<PlacedPatch>& patches, long ticks,
+                                                       const RunOptions& options, RunResult& result) {
+  std::atomic<bool> abandoned = false;
+  finished = false;
+  const auto loop = [&] {
+    {
+      const RealTimeClaim claim;
+      result.scheduling = claim.status();
+      MonotonicClock clock;
+      result.ticks_missed = run_loop(
+          clock, device.profile().rate, ticks, [&]() noexcept { return is_set(options.stop) || is_set(&abandoned); },
+          [&](const Beat& beat) noexcept { player.serve(beat); });
+      device.command(Force(0));  // now, not when the other thread gets round to it
+    }
+    const std::lock_guard lock(mutex);
+    finished = true;
+    news.notify_all();
+  };
+  std::thread thread;
+  try {
+    thread = std::thread(loop);
+  } catch (const std::system_error& error) {
+    return Refusal{std::string("no thread for the loop: ") + error.what()};
+  }
+  struct Joiner {
+    std::thread& thread;
+    std::atomic<bool>& abandoned;
+    ~Joiner() {
+      abandoned = true;  // matters only when `progress` threw
+      thread.join();
+    }
+  } joiner{thread, abandoned};
+  attend(player, patches, options);
+  return std::nullopt;
+}
+
+/// The control thread's part while the real-time thread ticks.
+void Stage::Parts::attend(const Player& player, Exchange<PlacedPatch>& patches, const RunOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(progress_seconds));
+  for (auto next_progress = Clock::now() + interval;;) {
+    {
+      std::unique_lock lock(mutex);
+      news.wait_until(lock, next_progress, [&] { return finished || changed; });
+      if (finished) return;
+    }
+    publish_change(patches);
+    if (Clock::now() < next_progress) continue;
+    patches.collect();
+    if (options.progress) options.progress(player.progress());
+    next_progress = Clock::now() + interval;
+  }
+}
+
+Stage::Stage(Device& device) : parts_(std::make_unique<Parts>(device)) {}
+
+Stage::~Stage() = default;
+
+void Stage::place(const Program& program, glm::vec2 position) { place(program, position, program.default_size()); }
+
+void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
+  const std::lock_guard lock(parts_->mutex);
+  parts_->placement = Placement{program, position, size, program.default_parameters()};
+  parts_->changed = true;
+  parts_->news.notify_all();
+}
+
+std::optional<Refusal> Stage::set(std::string_view parameter, float value) {
+  const std::lock_guard lock(parts_->mutex);
+  if (!parts_->placement) return Refusal{"nothing is placed on the stage"};
+  auto& [program, position, size, values] = *parts_->placement;
+  const std::vector<Parameter>& known = program.description().parameters;
+  const std::optional<std::size_t> index = program.parameter(parameter);
+  if (!index) {
+    std::string names;
+    for (const Parameter& one : known) names += (names.empty() ? "" : ", ") + one.name;
+    return Refusal{program.description().material + " has no parameter " + std::string(parameter) +
+                   (names.empty() ? "; it has none at all" : "; it has " + names)};
+  }
+  const Parameter& range = known[*index];
+  if (!(value >= range.low && value <= range.high)) {
+    return Refusal{range.name + " = " + shown(range, value) + " is not in its range " + shown(range, range.low) +
+                   " .. " + shown(range, range.high)};
+  }
+  values[*index] = value;
+  parts_->changed = true;
+  parts_->news.notify_all();
+  return std::nullopt;
+}
+
+std::optional<Bank> Stage::bank() const {
+  const std::optional<Placement> placement = parts_->copy_placement();
+  if (!placement) return std::nullopt;
+  return placement->build().bank;
+}
+
+std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
+  const DeviceProfile& profile = parts_->device.profile();
+  if (auto lack = lacks(profile)) return *lack;
+  const auto ticks = ticks_of(options.seconds, profile.rate);
+  if (auto* refusal = std::get_if<Refusal>(&ticks)) return *refusal;
+  {
+    const std::lock_guard lock(parts_->mutex);
+    if (!parts_->placement) return Refusal{"nothing is placed on the stage"};
+    if (std::exchange(parts_->running, true)) return Refusal{"another run is under way on this stage"};
+    parts_->changed = true;  // every run begins with a bank of its own
+  }
+  struct Ending {
+    Parts& parts;
+    ~Ending() {
+      const std::lock_guard lock(parts.mutex);
+      parts.running = false;
+    }
+  } ending{*parts_};
+
+  RunResult result;
+  Exchange<PlacedPatch> patches;
+  parts_->publish_change(patches);
+  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)));
+  if (options.virtual_time) {
+    parts_->play_in_virtual_time(player, patches, std::get<long>(ticks), options, result);
+  } else if (auto refusal = parts_->play_in_real_time(player, patches, std::get<long>(ticks), options, result)) {
+    return *refusal;
+  }
+  player.finish();
+  result.ticks_run = static_cast<long>(result.record.ticks.size());
+  result.lateness = player.lateness();
+  result.guards = player.guards();
+  return result;
+}
+
+}  // namespace wale

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "schema/device_profile.hpp"
+
+namespace wale {
+
+/// Velocity from encoder counts, for one axis: the slope over the longest window for which the straight line between
+/// the newest sample and the oldest passes within the noise of all samples between (Janabi-Sharifi, Hayward, Chen 2000,
+/// "first-order adaptive windowing", end-fit). A steady hand is measured over a long window, a turning one over a
+/// short.
+class VelocityFilter {
+ public:
+  /// The profile's `velocity_window` in ticks (at least one is used) and `velocity_noise_counts`. Allocates.
+  explicit VelocityFilter(const DeviceProfile& profile);
+
+  /// Takes the sample `counts`, `periods` ticks after the one before (at least 1; more when some were skipped), and
+  /// gives counts per tick. The first sample gives zero.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  double operator()(int counts, long periods) noexcept;
+
+ private:
+  struct Sample {
+    long long tick = 0;
+    double counts = 0;
+  };
+
+  /// The sample `age` samples before the newest.
+  const Sample& earlier(std::size_t age) const noexcept;
+  bool line_fits(std::size_t age) const noexcept;
+
+  std::vector<Sample> samples_;  // a ring
+  std::size_t newest_ = 0, held_ = 0;
+  long long window_;  // ticks
+  double noise_;      // counts
+};
+
+}  // namespace wale

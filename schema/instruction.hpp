@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace wale {
+
+/// The operations of a patch program; numbers are those of the file format.
+enum class Operation : std::uint8_t {
+#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) name = number,
+#define SPECIAL(number, name, fields, results, cost) name = number,
+#include "schema/instruction.def"
+};
+
+/// What one row of `instruction.def` says of an operation.
+struct OperationFacts {
+  std::string_view name;
+  std::string_view fields;  ///< of a, b, c: r register, t table, p peak, - must be zero
+  int results;              ///< consecutive registers written
+  int cost;                 ///< in units of one addition
+};
+
+/// The facts of an operation number, or nothing when no instruction has that number.
+constexpr std::optional<OperationFacts> operation_facts(unsigned number) {
+  switch (number) {
+#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+  case number: return OperationFacts{#name, fields, results, cost};
+#define SPECIAL(number, name, fields, results, cost) \
+  case number: return OperationFacts{#name, fields, results, cost};
+#include "schema/instruction.def"
+    default: return std::nullopt;
+  }
+}
+
+constexpr OperationFacts facts(Operation operation) { return *operation_facts(static_cast<unsigned>(operation)); }
+
+/// Registers, tables and peaks are named by 14-bit numbers.
+using RegisterNumber = std::uint16_t;
+inline constexpr unsigned register_limit = 1u << 14;
+
+/// One instruction: an operation, the first register it writes and three operands.
+///
+/// `operation` is the number as it stands in the file: only a verified program is known to hold legal ones.
+struct Instruction {
+  std::uint8_t operation = 0;
+  RegisterNumber destination = 0, a = 0, b = 0, c = 0;
+
+  friend bool operator==(const Instruction&, const Instruction&) = default;
+};
+
+/// The canonical eight bytes: operation in bits 0-7, then destination, a, b, c in 14 bits each, low to high.
+constexpr std::uint64_t encode(const Instruction& i) {
+  return std::uint64_t{i.operation} | std::uint64_t{i.destination} << 8 | std::uint64_t{i.a} << 22 |
+         std::uint64_t{i.b} << 36 | std::uint64_t{i.c} << 50;
+}
+
+constexpr Instruction decode(std::uint64_t word) {
+  constexpr std::uint64_t mask = register_limit - 1;
+  return {static_cast<std::uint8_t>(word & 0xff), static_cast<RegisterNumber>(word >> 8 & mask),
+          static_cast<RegisterNumber>(word >> 22 & mask), static_cast<RegisterNumber>(word >> 36 & mask),
+          static_cast<RegisterNumber>(word >> 50 & mask)};
+}
+
+/// The registers that the runtime fills before a section runs; numbers never change.
+///
+/// Position and velocity are the hand's, from the patch's centre, in m and m/s. `probe` is what a percept's
+/// prediction is asked about (for roughness, a lateral amplitude in N).
+enum class Input : RegisterNumber {
+  x = 0, y = 1, velocity_x = 2, velocity_y = 3,
+  patch_half_width = 4, patch_half_height = 5, patch_rim = 6,
+  probe = 7,
+};
+
+/// Registers 0 .. 15 are inputs, named or reserved; constants begin at 16.
+inline constexpr RegisterNumber first_constant = 16;
+
+}  // namespace wale

@@ -1,0 +1,54 @@
+#include "schema/patch_program.hpp"
+
+#include "schema/patch_program_format.hpp"
+
+namespace wale {
+
+long cost_of(std::span<const Instruction> code) {
+  long cost = 0;
+  for (const Instruction& instruction : code) {
+    if (const auto known = operation_facts(instruction.operation)) cost += known->cost;
+  }
+  return cost;
+}
+
+namespace patch_program_format {
+namespace {
+
+constexpr std::array<std::uint32_t, 256> make_crc_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t remainder = byte;
+    for (int bit = 0; bit < 8; ++bit) remainder = remainder >> 1 ^ (remainder & 1 ? 0xedb88320u : 0);
+    table[byte] = remainder;
+  }
+  return table;
+}
+
+constexpr auto crc_table = make_crc_table();
+
+}  // namespace
+
+std::uint32_t checksum(std::span<const std::byte> file) {
+  std::uint32_t crc = 0xffffffffu;
+  for (std::size_t i = 0; i < file.size(); ++i) {
+    const bool in_field = i >= checksum_offset && i < checksum_offset + 4;
+    const auto byte = in_field ? 0u : std::to_integer<std::uint32_t>(file[i]);
+    crc = crc >> 8 ^ crc_table[(crc ^ byte) & 0xff];
+  }
+  return ~crc;
+}
+
+std::uint64_t content_hash(const HeightTable& table) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto take = [&hash](std::uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) hash = (hash ^ (value >> 8 * i & 0xff)) * 0x100000001b3u;
+  };
+  take(table.width, 4);
+  take(table.height, 4);
+  for (const std::uint16_t code : table.heights) take(code, 2);
+  return hash;
+}
+
+}  // namespace patch_program_format
+}  // namespace wale

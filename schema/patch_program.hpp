@@ -1,0 +1,150 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "schema/device_profile.hpp"
+#include "schema/instruction.hpp"
+
+namespace wale {
+
+/// A quantity that stays adjustable while the program runs. Values are in SI units; `unit` and `unit_in_si` are for
+/// showing and typing them: shown = value / unit_in_si.
+struct Parameter {
+  std::string name;
+  std::string unit;         ///< as the author wrote it, "mm"; empty for a plain number
+  double unit_in_si = 1;
+  float value = 0;          ///< the default
+  float low = 0, high = 0;  ///< hard range, low <= value <= high
+  std::string description;
+
+  friend bool operator==(const Parameter&, const Parameter&) = default;
+};
+
+/// A pure subprogram whose value's percentile over the patch is a setup register (the `peak` instruction).
+///
+/// It is run at `points` positions x = (2 u - 1) X, y = (2 v - 1) Y, where X and Y are the values of the two extent
+/// registers (constants, inputs or setup) and (u, v) the i-th point of the Kronecker lattice of the plastic number:
+/// u = i * 3242174889 mod 2^32, v = i * 2447445414 mod 2^32, both over 2^32. Velocities read as zero.
+struct Peak {
+  std::vector<Instruction> code;
+  RegisterNumber value = 0;
+  RegisterNumber half_width = 0, half_height = 0;
+  std::uint32_t points = 0;
+  float percentile = 0;  ///< in (0, 1]; 0.99 takes the value that 1 % of the points exceed
+
+  friend bool operator==(const Peak&, const Peak&) = default;
+};
+
+/// A sampled height map, row-major from the top left; code 0 is the lowest and 65535 the highest.
+struct HeightTable {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint16_t> heights;
+
+  friend bool operator==(const HeightTable&, const HeightTable&) = default;
+};
+
+enum class OutputQuantity : std::uint8_t { force = 1 };  ///< N along `axis`
+
+/// Where a tick leaves a result. `value` is written by the section's `limit` whose ceiling is the register `ceiling`.
+struct Output {
+  OutputQuantity quantity = OutputQuantity::force;
+  std::uint8_t axis = 0;  ///< 0 x, 1 y
+  RegisterNumber value = 0;
+  RegisterNumber ceiling = 0;
+
+  friend bool operator==(const Output&, const Output&) = default;
+};
+
+/// What the picture section leaves: the height of the surface at (x, y), in m or as a plain number.
+struct Picture {
+  std::vector<Instruction> code;
+  RegisterNumber relief = 0;
+
+  friend bool operator==(const Picture&, const Picture&) = default;
+};
+
+/// How a figure came to be known, best first.
+enum class Evidence : std::uint8_t { measured = 1, published = 2, estimated = 3, recalled = 4, transferred = 5 };
+
+/// One percept of the program: what was asked, through which map it is realised, and how to read it back.
+///
+/// `prediction` is pure code that turns the carrier's size in the `probe` input into magnitude and level.
+struct PerceptRecord {
+  std::string name;                        ///< "roughness"
+  std::string carrier;                     ///< "lateral amplitude"
+  std::optional<std::uint16_t> parameter;  ///< the live level, when the percept was asked for
+  RegisterNumber amplitude = 0;            ///< constant or setup register: the carrier's size, N
+  bool alone = false;                      ///< nothing but this carrier pushes, so total force reads it
+  std::vector<Instruction> prediction;
+  RegisterNumber magnitude = 0, level = 0;
+  float valid_low = 0, valid_high = 0;     ///< of the carrier's size
+  float scatter = 0;                       ///< standard deviation of log10 magnitude
+  Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
+  std::string map, device, source;         ///< the map's name, the device it was measured on, the citation
+
+  friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
+};
+
+/// The layers as their author wrote them: kept for people and catalogues, never executed.
+struct Layers {
+  std::vector<std::pair<std::string, std::vector<std::string>>> representative;  ///< ("called", {"corduroy", ...})
+  std::string perceptual;  ///< source text
+  std::string physical;    ///< source text
+
+  friend bool operator==(const Layers&, const Layers&) = default;
+};
+
+/// A compiled material: everything a `.wpp` file holds. Plain data; `verify` says whether it may be run.
+///
+/// Registers lie in this order: 16 inputs, constants, parameters, `setup_registers` results of setup, then
+/// `temporaries` that each run of a section may use from scratch.
+struct PatchProgram {
+  std::string material;
+  std::vector<float> constants;
+  std::vector<Parameter> parameters;
+  std::uint16_t setup_registers = 0;
+  std::uint16_t temporaries = 0;
+  std::vector<Instruction> setup;
+  std::vector<Peak> peaks;
+  std::vector<Instruction> tick;
+  std::vector<Output> outputs;
+  Picture picture;
+  std::vector<HeightTable> tables;
+  float patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m; default size of the patch
+  DeviceProfile device;
+  std::vector<PerceptRecord> percepts;
+  Layers layers;
+
+  RegisterNumber first_parameter() const { return static_cast<RegisterNumber>(first_constant + constants.size()); }
+  RegisterNumber first_setup() const { return static_cast<RegisterNumber>(first_parameter() + parameters.size()); }
+  RegisterNumber first_temporary() const { return static_cast<RegisterNumber>(first_setup() + setup_registers); }
+  std::size_t register_count() const {
+    return first_constant + constants.size() + parameters.size() + setup_registers + temporaries;
+  }
+
+  friend bool operator==(const PatchProgram&, const PatchProgram&) = default;
+};
+
+/// Why bytes are not a patch program, or a patch program may not run.
+struct Refusal {
+  std::string reason;
+};
+
+/// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md): the same program gives the same bytes everywhere.
+std::vector<std::byte> write_patch_program(const PatchProgram& program);
+
+/// Reads a `.wpp` file's bytes. Checks structure, sizes and checksum, not what the code does: that is `verify`'s.
+/// Never reads outside `bytes`, never allocates more than a small multiple of their size, whatever they hold.
+std::variant<PatchProgram, Refusal> read_patch_program(std::span<const std::byte> bytes);
+
+/// The code of a section or subprogram costs the sum over its instructions, in units of one addition.
+long cost_of(std::span<const Instruction> code);
+
+}  // namespace wale

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "schema/patch_program.hpp"
+
+/// What the reader and the writer of `.wpp` files agree on; the prose is schema/PATCH_PROGRAM.md.
+namespace wale::patch_program_format {
+
+/// As in PNG: a byte no text has, the name, and the line ends and end-of-file marks that a text-mode transfer mangles.
+inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'P', 'P', '\r', '\n', 0x1a, '\n'};
+inline constexpr std::uint16_t major_version = 1;
+inline constexpr std::uint16_t minor_version = 0;
+
+inline constexpr std::size_t header_size = 32;
+inline constexpr std::size_t checksum_offset = 24;
+inline constexpr std::size_t section_entry_size = 24;
+inline constexpr std::size_t alignment = 8;
+
+inline constexpr std::uint32_t required_flag = 1;
+
+/// More sections than any program has, few enough that the table costs nothing to walk.
+inline constexpr std::uint32_t most_sections = 256;
+/// Bytes; the longest text of a file, a layer's source included.
+inline constexpr std::uint32_t longest_text = 1u << 20;
+
+struct SectionKind {
+  std::string_view name;  ///< four characters
+  bool required;          ///< always there; the others are left out when they would be empty
+};
+
+/// Known sections in the order in which they stand in a file.
+inline constexpr std::array<SectionKind, 14> section_kinds = {{{"NAME", true},
+                                                               {"REGS", true},
+                                                               {"CONS", true},
+                                                               {"PARM", true},
+                                                               {"SETU", true},
+                                                               {"PEAK", true},
+                                                               {"TICK", true},
+                                                               {"OUTP", true},
+                                                               {"PICT", true},
+                                                               {"TABL", true},
+                                                               {"PTCH", true},
+                                                               {"DEVI", true},
+                                                               {"PERC", false},
+                                                               {"LAYR", false}}};
+
+constexpr std::size_t align(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
+
+/// CRC-32 (IEEE 802.3, as in PNG and zlib) of a whole file, its checksum field taken as zero.
+/// `file` holds at least a header.
+std::uint32_t checksum(std::span<const std::byte> file);
+
+/// FNV-1a, 64 bits, over width, height and the codes as they stand in the file.
+std::uint64_t content_hash(const HeightTable& table);
+
+}  // namespace wale::patch_program_format

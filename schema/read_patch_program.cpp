@@ -1,0 +1,377 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "schema/patch_program_format.hpp"
+#include "schema/refuse.hpp"
+
+namespace wale {
+namespace {
+
+using namespace patch_program_format;
+
+/// Little-endian values out of one part of a file. Never reads past its end: it refuses, naming the part.
+class ByteReader {
+ public:
+  ByteReader(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)), bytes_(bytes) {}
+
+  std::uint8_t u8() { return number<std::uint8_t>(); }
+  std::uint16_t u16() { return number<std::uint16_t>(); }
+  std::uint32_t u32() { return number<std::uint32_t>(); }
+  std::uint64_t u64() { return number<std::uint64_t>(); }
+  float f32() { return std::bit_cast<float>(u32()); }
+  double f64() { return std::bit_cast<double>(u64()); }
+
+  /// A figure that must be finite; `what` names it in the refusal.
+  float finite_f32(std::string_view what) { return finite(f32(), what); }
+  double finite_f64(std::string_view what) { return finite(f64(), what); }
+
+  bool boolean(std::string_view what) {
+    const std::uint8_t value = u8();
+    if (value > 1) refuse(name_, " holds ", int{value}, " for ", what, ", which is 0 or 1");
+    return value == 1;
+  }
+
+  std::string text(std::string_view what) {
+    const std::uint32_t length = u32();
+    if (length > longest_text) {
+      refuse(name_, " claims ", length, " bytes for ", what, "; texts have at most ", longest_text);
+    }
+    need(length);
+    const auto* first = reinterpret_cast<const char*>(bytes_.data() + position_);
+    position_ += length;
+    std::string text(first, length);
+    if (text.find('\0') != std::string::npos) refuse(name_, " has a NUL inside ", what);
+    return text;
+  }
+
+  /// A number of things that take at least `least_bytes` each, so that no count outgrows the file.
+  std::uint32_t count(std::size_t least_bytes, std::string_view what) {
+    const std::uint32_t count = u32();
+    if (count > remaining() / least_bytes) {
+      refuse(name_, " claims ", count, " ", what, " and has ", remaining(), " bytes left for them");
+    }
+    return count;
+  }
+
+  std::vector<Instruction> code() {
+    std::vector<Instruction> code(count(8, "instructions"));
+    for (Instruction& instruction : code) instruction = decode(u64());
+    return code;
+  }
+
+  std::size_t remaining() const { return bytes_.size() - position_; }
+  const std::string& name() const { return name_; }
+
+  void finish() const {
+    if (remaining() != 0) refuse(name_, " has ", remaining(), " bytes after its end");
+  }
+
+ private:
+  void need(std::size_t size) const {
+    if (size > remaining()) refuse(name_, " ends early: ", size, " bytes are due and ", remaining(), " are left");
+  }
+
+  template <typename Unsigned>
+  Unsigned number() {
+    need(sizeof(Unsigned));
+    Unsigned value = 0;
+    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+      value = static_cast<Unsigned>(value | std::to_integer<Unsigned>(bytes_[position_ + i]) << 8 * i);
+    }
+    position_ += sizeof(Unsigned);
+    return value;
+  }
+
+  template <typename Float>
+  Float finite(Float value, std::string_view what) const {
+    if (!std::isfinite(value)) refuse(name_, " holds ", value, " for ", what, ", which is no figure");
+    return value;
+  }
+
+  std::string name_;
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+};
+
+std::vector<float> read_constants(ByteReader& in) {
+  std::vector<float> constants(in.count(4, "constants"));
+  for (float& constant : constants) constant = in.f32();
+  return constants;
+}
+
+std::vector<Parameter> read_parameters(ByteReader& in) {
+  std::vector<Parameter> parameters(in.count(32, "parameters"));
+  for (Parameter& parameter : parameters) {
+    parameter.name = in.text("a parameter's name");
+    parameter.unit = in.text("a parameter's unit");
+    parameter.unit_in_si = in.finite_f64("a parameter's unit");
+    parameter.value = in.finite_f32("a parameter's default");
+    parameter.low = in.finite_f32("a parameter's range");
+    parameter.high = in.finite_f32("a parameter's range");
+    parameter.description = in.text("a parameter's description");
+  }
+  return parameters;
+}
+
+std::vector<Peak> read_peaks(ByteReader& in) {
+  std::vector<Peak> peaks(in.count(18, "peaks"));
+  for (Peak& peak : peaks) {
+    peak.value = in.u16();
+    peak.half_width = in.u16();
+    peak.half_height = in.u16();
+    peak.points = in.u32();
+    peak.percentile = in.finite_f32("a peak's percentile");
+    peak.code = in.code();
+  }
+  return peaks;
+}
+
+std::vector<Output> read_outputs(ByteReader& in) {
+  std::vector<Output> outputs(in.count(6, "outputs"));
+  for (Output& output : outputs) {
+    const std::uint8_t quantity = in.u8();
+    if (quantity != static_cast<std::uint8_t>(OutputQuantity::force)) {
+      refuse(in.name(), " names quantity ", int{quantity}, ", which this Wale does not know");
+    }
+    output.quantity = OutputQuantity::force;
+    output.axis = in.u8();
+    output.value = in.u16();
+    output.ceiling = in.u16();
+  }
+  return outputs;
+}
+
+std::vector<HeightTable> read_tables(ByteReader& in) {
+  std::vector<HeightTable> tables(in.count(16, "tables"));
+  for (std::size_t number = 0; number < tables.size(); ++number) {
+    HeightTable& table = tables[number];
+    table.width = in.u32();
+    table.height = in.u32();
+    const std::uint64_t hash = in.u64();
+    const std::uint64_t samples = std::uint64_t{table.width} * table.height;
+    if (samples > in.remaining() / 2) {
+      refuse(in.name(), " claims ", table.width, " x ", table.height, " heights for table ", number, " and has ",
+             in.remaining(), " bytes left for them");
+    }
+    table.heights.resize(samples);
+    for (std::uint16_t& code : table.heights) code = in.u16();
+    if (content_hash(table) != hash) refuse(in.name(), " holds table ", number, " with heights that its hash denies");
+  }
+  return tables;
+}
+
+DeviceProfile read_device(ByteReader& in) {
+  DeviceProfile device;
+  device.name = in.text("the device's name");
+  const auto figure = [&in](double& value, std::string_view what) { value = in.finite_f64(what); };
+  figure(device.workspace_diameter, "the workspace's diameter");
+  figure(device.position_counts, "the position's counts");
+  figure(device.force_newton, "the force");
+  figure(device.force_counts, "the force's counts");
+  figure(device.rate, "the rate");
+  figure(device.speed_limit, "the speed limit");
+  figure(device.slew, "the slew");
+  figure(device.velocity_window, "the velocity window");
+  figure(device.velocity_noise_counts, "the velocity's noise");
+  figure(device.patch_width, "the patch's width");
+  figure(device.patch_height, "the patch's height");
+  figure(device.patch_rim, "the patch's rim");
+  figure(device.mass, "the mass");
+  figure(device.damping, "the damping");
+  figure(device.friction, "the friction");
+  return device;
+}
+
+Evidence read_evidence(ByteReader& in, std::string_view what) {
+  const std::uint8_t value = in.u8();
+  if (value < static_cast<std::uint8_t>(Evidence::measured) ||
+      value > static_cast<std::uint8_t>(Evidence::transferred)) {
+    refuse(in.name(), " grades the evidence of ", what, " ", int{value}, ", which this Wale does not know");
+  }
+  return static_cast<Evidence>(value);
+}
+
+std::vector<PerceptRecord> read_percepts(ByteReader& in) {
+  std::vector<PerceptRecord> percepts(in.count(49, "percepts"));
+  for (PerceptRecord& percept : percepts) {
+    percept.name = in.text("a percept's name");
+    percept.carrier = in.text("a percept's carrier");
+    const bool live = in.boolean("a percept's being live");
+    const std::uint16_t parameter = in.u16();
+    if (live) percept.parameter = parameter;
+    if (!live && parameter != 0) refuse(in.name(), " names parameter ", parameter, " for a percept that has none");
+    percept.amplitude = in.u16();
+    percept.alone = in.boolean("a percept's being alone");
+    percept.prediction = in.code();
+    percept.magnitude = in.u16();
+    percept.level = in.u16();
+    percept.valid_low = in.finite_f32("a percept's valid range");
+    percept.valid_high = in.finite_f32("a percept's valid range");
+    percept.scatter = in.finite_f32("a percept's scatter");
+    percept.slope = read_evidence(in, "a slope");
+    percept.anchor = read_evidence(in, "an anchor");
+    percept.handle = read_evidence(in, "a handle");
+    percept.map = in.text("a map's name");
+    percept.device = in.text("a map's device");
+    percept.source = in.text("a map's source");
+  }
+  if (percepts.empty()) refuse(in.name(), " is there and empty; a file without percepts leaves it out");
+  return percepts;
+}
+
+Layers read_layers(ByteReader& in) {
+  Layers layers;
+  layers.representative.resize(in.count(8, "entries"));
+  for (auto& [key, values] : layers.representative) {
+    key = in.text("an entry's name");
+    values.resize(in.count(4, "values"));
+    for (std::string& value : values) value = in.text("an entry's value");
+  }
+  layers.perceptual = in.text("the perceptual layer");
+  layers.physical = in.text("the physical layer");
+  if (layers == Layers{}) refuse(in.name(), " is there and empty; a file without layers leaves it out");
+  return layers;
+}
+
+void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) {
+  if (kind == "NAME") program.material = in.text("the material's name");
+  if (kind == "REGS") {
+    program.setup_registers = in.u16();
+    program.temporaries = in.u16();
+  }
+  if (kind == "CONS") program.constants = read_constants(in);
+  if (kind == "PARM") program.parameters = read_parameters(in);
+  if (kind == "SETU") program.setup = in.code();
+  if (kind == "PEAK") program.peaks = read_peaks(in);
+  if (kind == "TICK") program.tick = in.code();
+  if (kind == "OUTP") program.outputs = read_outputs(in);
+  if (kind == "PICT") {
+    program.picture.relief = in.u16();
+    program.picture.code = in.code();
+  }
+  if (kind == "TABL") program.tables = read_tables(in);
+  if (kind == "PTCH") {
+    program.patch_width = in.finite_f32("the patch's width");
+    program.patch_height = in.finite_f32("the patch's height");
+    program.patch_rim = in.finite_f32("the patch's rim");
+  }
+  if (kind == "DEVI") program.device = read_device(in);
+  if (kind == "PERC") program.percepts = read_percepts(in);
+  if (kind == "LAYR") program.layers = read_layers(in);
+  in.finish();
+}
+
+/// Checks everything before the section table and leaves `in` there. Returns the number of sections.
+std::uint32_t read_header(ByteReader& in, std::span<const std::byte> bytes) {
+  for (std::size_t i = 0; i < magic.size(); ++i) {
+    if (i >= bytes.size() || in.u8() != magic[i]) {
+      const bool named = bytes.size() >= 4 && std::to_integer<int>(bytes[1]) == 'W' &&
+                         std::to_integer<int>(bytes[2]) == 'P' && std::to_integer<int>(bytes[3]) == 'P';
+      refuse(named ? "this was a patch program, but a transfer as text has damaged it: copy it as binary"
+                   : "this is not a patch program: it does not begin as a .wpp file does");
+    }
+  }
+  if (bytes.size() < header_size) {
+    refuse("the file ends inside its header, after ", bytes.size(), " of ", header_size, " bytes");
+  }
+  const std::uint16_t major = in.u16();
+  const std::uint16_t minor = in.u16();
+  if (major > major_version) {
+    refuse("this patch program has format version ", major, ".", minor, " and this Wale reads up to ", major_version,
+           ": update Wale, or build the material again with this one");
+  }
+  if (major == 0) refuse("this patch program claims format version 0, which never was");
+  const std::uint32_t sections = in.u32();
+  const std::uint64_t total = in.u64();
+  if (total > bytes.size()) {
+    refuse("the file is cut short: it should have ", total, " bytes and has ", bytes.size());
+  }
+  if (total < bytes.size()) {
+    refuse("the file has ", bytes.size() - total, " bytes after its end at ", total);
+  }
+  const std::uint32_t stored = in.u32();
+  if (stored != checksum(bytes)) refuse("the file is damaged: its checksum does not match its bytes");
+  if (in.u32() != 0) refuse("the reserved part of the header is not zero");
+  if (sections > most_sections || sections > in.remaining() / section_entry_size) {
+    refuse("the header claims ", sections, " sections, more than the file has room for");
+  }
+  return sections;
+}
+
+/// A kind as it can be shown: bytes that do not print become question marks.
+std::string shown_kind(std::uint32_t fourcc) {
+  std::string kind;
+  for (int i = 0; i < 4; ++i) {
+    const auto c = static_cast<char>(fourcc >> 8 * i & 0xff);
+    kind += c > ' ' && c <= '~' ? c : '?';
+  }
+  return kind;
+}
+
+PatchProgram read(std::span<const std::byte> bytes) {
+  ByteReader table("the section table", bytes);
+  const std::uint32_t sections = read_header(table, bytes);
+
+  PatchProgram program;
+  std::array<bool, section_kinds.size()> seen{};
+  std::size_t next_known = 0;
+  std::size_t expected_offset = header_size + sections * section_entry_size;
+  for (std::uint32_t number = 0; number < sections; ++number) {
+    const std::string kind = shown_kind(table.u32());
+    const std::uint32_t flags = table.u32();
+    const std::uint64_t offset = table.u64();
+    const std::uint64_t size = table.u64();
+    if (offset > bytes.size() || size > bytes.size() - offset) {
+      refuse("section ", kind, " claims ", size, " bytes at ", offset, ", the file has ", bytes.size());
+    }
+    if (offset < expected_offset) refuse("section ", kind, " at ", offset, " overlaps what is before it");
+    if (offset > expected_offset) {
+      refuse("section ", kind, " at ", offset, " leaves ", offset - expected_offset, " bytes unaccounted for");
+    }
+    expected_offset = align(offset + size);
+    if (expected_offset > bytes.size()) refuse("section ", kind, " lacks the zeros that fill its last 8 bytes");
+    for (std::size_t i = offset + size; i < expected_offset; ++i) {
+      if (bytes[i] != std::byte{0}) refuse("section ", kind, " is followed by bytes that are not zero");
+    }
+    if ((flags & ~required_flag) != 0) refuse("section ", kind, " has flags that this Wale does not know");
+
+    const bool required = (flags & required_flag) != 0;
+    const auto known =
+        std::find_if(section_kinds.begin(), section_kinds.end(), [&](const SectionKind& k) { return k.name == kind; });
+    if (known == section_kinds.end()) {
+      if (required)
+        refuse("section ", kind, " is required to run this program and this Wale does not know it: update Wale");
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(known - section_kinds.begin());
+    if (seen[index]) refuse("section ", kind, " is there twice");
+    if (index < next_known) refuse("section ", kind, " stands after ", section_kinds[next_known - 1].name);
+    if (required != known->required) {
+      refuse("section ", kind, " is marked ", required ? "required" : "skippable", " and is not");
+    }
+    seen[index] = true;
+    next_known = index + 1;
+    ByteReader section("section " + kind, bytes.subspan(offset, size));
+    read_section(kind, section, program);
+  }
+  if (expected_offset != bytes.size()) {
+    refuse("the file has ", bytes.size() - expected_offset, " bytes after its last section");
+  }
+  for (std::size_t i = 0; i < section_kinds.size(); ++i) {
+    if (section_kinds[i].required && !seen[i]) refuse("section ", section_kinds[i].name, " is missing");
+  }
+  return program;
+}
+
+}  // namespace
+
+std::variant<PatchProgram, Refusal> read_patch_program(std::span<const std::byte> bytes) {
+  try {
+    return read(bytes);
+  } catch (const Refusal& refusal) {
+    return refusal;
+  }
+}
+
+}  // namespace wale

@@ -1,0 +1,210 @@
+#include <bit>
+
+#include "schema/patch_program_format.hpp"
+
+namespace wale {
+namespace {
+
+using namespace patch_program_format;
+
+/// Appends little-endian values, whatever the machine's own order.
+class ByteWriter {
+ public:
+  template <typename Unsigned>
+  void number(Unsigned value) {
+    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) bytes_.push_back(static_cast<std::byte>(value >> 8 * i & 0xff));
+  }
+  void u8(std::uint8_t value) { number(value); }
+  void u16(std::uint16_t value) { number(value); }
+  void u32(std::size_t value) { number(static_cast<std::uint32_t>(value)); }
+  void u64(std::uint64_t value) { number(value); }
+  void f32(float value) { number(std::bit_cast<std::uint32_t>(value)); }
+  void f64(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+
+  void text(std::string_view text) {
+    u32(text.size());
+    for (const char c : text) bytes_.push_back(static_cast<std::byte>(c));
+  }
+
+  void code(std::span<const Instruction> code) {
+    u32(code.size());
+    for (const Instruction& instruction : code) u64(encode(instruction));
+  }
+
+  void bytes(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void pad() { bytes_.resize(align(bytes_.size())); }
+
+  std::vector<std::byte>& result() { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+void write_parameters(ByteWriter& out, std::span<const Parameter> parameters) {
+  out.u32(parameters.size());
+  for (const Parameter& parameter : parameters) {
+    out.text(parameter.name);
+    out.text(parameter.unit);
+    out.f64(parameter.unit_in_si);
+    out.f32(parameter.value);
+    out.f32(parameter.low);
+    out.f32(parameter.high);
+    out.text(parameter.description);
+  }
+}
+
+void write_peaks(ByteWriter& out, std::span<const Peak> peaks) {
+  out.u32(peaks.size());
+  for (const Peak& peak : peaks) {
+    out.u16(peak.value);
+    out.u16(peak.half_width);
+    out.u16(peak.half_height);
+    out.u32(peak.points);
+    out.f32(peak.percentile);
+    out.code(peak.code);
+  }
+}
+
+void write_outputs(ByteWriter& out, std::span<const Output> outputs) {
+  out.u32(outputs.size());
+  for (const Output& output : outputs) {
+    out.u8(static_cast<std::uint8_t>(output.quantity));
+    out.u8(output.axis);
+    out.u16(output.value);
+    out.u16(output.ceiling);
+  }
+}
+
+void write_tables(ByteWriter& out, std::span<const HeightTable> tables) {
+  out.u32(tables.size());
+  for (const HeightTable& table : tables) {
+    out.u32(table.width);
+    out.u32(table.height);
+    out.u64(content_hash(table));
+    for (const std::uint16_t code : table.heights) out.u16(code);
+  }
+}
+
+void write_device(ByteWriter& out, const DeviceProfile& device) {
+  out.text(device.name);
+  for (const double figure :
+       {device.workspace_diameter, device.position_counts, device.force_newton, device.force_counts, device.rate,
+        device.speed_limit, device.slew, device.velocity_window, device.velocity_noise_counts, device.patch_width,
+        device.patch_height, device.patch_rim, device.mass, device.damping, device.friction}) {
+    out.f64(figure);
+  }
+}
+
+void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
+  out.u32(percepts.size());
+  for (const PerceptRecord& percept : percepts) {
+    out.text(percept.name);
+    out.text(percept.carrier);
+    out.u8(percept.parameter.has_value());
+    out.u16(percept.parameter.value_or(0));
+    out.u16(percept.amplitude);
+    out.u8(percept.alone);
+    out.code(percept.prediction);
+    out.u16(percept.magnitude);
+    out.u16(percept.level);
+    out.f32(percept.valid_low);
+    out.f32(percept.valid_high);
+    out.f32(percept.scatter);
+    out.u8(static_cast<std::uint8_t>(percept.slope));
+    out.u8(static_cast<std::uint8_t>(percept.anchor));
+    out.u8(static_cast<std::uint8_t>(percept.handle));
+    out.text(percept.map);
+    out.text(percept.device);
+    out.text(percept.source);
+  }
+}
+
+void write_layers(ByteWriter& out, const Layers& layers) {
+  out.u32(layers.representative.size());
+  for (const auto& [key, values] : layers.representative) {
+    out.text(key);
+    out.u32(values.size());
+    for (const std::string& value : values) out.text(value);
+  }
+  out.text(layers.perceptual);
+  out.text(layers.physical);
+}
+
+/// The bytes of one section; nothing for a skippable section that would be empty.
+std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& program) {
+  ByteWriter out;
+  if (kind == "NAME") out.text(program.material);
+  if (kind == "REGS") {
+    out.u16(program.setup_registers);
+    out.u16(program.temporaries);
+  }
+  if (kind == "CONS") {
+    out.u32(program.constants.size());
+    for (const float constant : program.constants) out.f32(constant);
+  }
+  if (kind == "PARM") write_parameters(out, program.parameters);
+  if (kind == "SETU") out.code(program.setup);
+  if (kind == "PEAK") write_peaks(out, program.peaks);
+  if (kind == "TICK") out.code(program.tick);
+  if (kind == "OUTP") write_outputs(out, program.outputs);
+  if (kind == "PICT") {
+    out.u16(program.picture.relief);
+    out.code(program.picture.code);
+  }
+  if (kind == "TABL") write_tables(out, program.tables);
+  if (kind == "PTCH") {
+    out.f32(program.patch_width);
+    out.f32(program.patch_height);
+    out.f32(program.patch_rim);
+  }
+  if (kind == "DEVI") write_device(out, program.device);
+  if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
+  if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
+  return std::move(out.result());
+}
+
+}  // namespace
+
+std::vector<std::byte> write_patch_program(const PatchProgram& program) {
+  struct Section {
+    SectionKind kind;
+    std::vector<std::byte> bytes;
+  };
+  std::vector<Section> sections;
+  for (const SectionKind& kind : section_kinds) {
+    std::vector<std::byte> bytes = write_section(kind.name, program);
+    if (kind.required || !bytes.empty()) sections.push_back({kind, std::move(bytes)});
+  }
+  std::size_t total = header_size + sections.size() * section_entry_size;
+  for (const Section& section : sections) total += align(section.bytes.size());
+
+  ByteWriter out;
+  out.result().reserve(total);
+  for (const std::uint8_t byte : magic) out.u8(byte);
+  out.u16(major_version);
+  out.u16(minor_version);
+  out.u32(sections.size());
+  out.u64(total);
+  out.u32(0);  // the checksum, below
+  out.u32(0);  // reserved
+
+  std::size_t offset = header_size + sections.size() * section_entry_size;
+  for (const Section& section : sections) {
+    for (const char c : section.kind.name) out.u8(static_cast<std::uint8_t>(c));
+    out.u32(section.kind.required ? required_flag : 0);
+    out.u64(offset);
+    out.u64(section.bytes.size());
+    offset += align(section.bytes.size());
+  }
+  for (const Section& section : sections) {
+    out.bytes(section.bytes);
+    out.pad();
+  }
+
+  std::vector<std::byte>& file = out.result();
+  const std::uint32_t crc = checksum(file);
+  for (std::size_t i = 0; i < 4; ++i) file[checksum_offset + i] = static_cast<std::byte>(crc >> 8 * i & 0xff);
+  return std::move(file);
+}
+
+}  // namespace wale

@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "compiler/lex.hpp"
+#include "compiler/render.hpp"
+#include "tests/language/reading.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Every Wale file that the project ships.
+std::vector<std::string> shipped() {
+  std::vector<std::string> texts;
+  for (const char* folder : {"schema", "calibration", "library"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(WALE_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() == ".wale") texts.push_back(contents(entry.path()));
+    }
+  }
+  return texts;
+}
+
+/// Reads, prints and renders, as any front end would; what matters is that it comes back.
+void survive(const std::string& text) {
+  const Reading reading(text);
+  reading.printed();
+  for (const auto& each : reading.diagnostics.all()) render_text(each, reading.sources, false);
+  EXPECT_LE(reading.diagnostics.all().size(), wale::error_limit + 1);
+  for (std::size_t i = 1; i < reading.diagnostics.all().size(); ++i) {
+    EXPECT_LE(reading.diagnostics.all()[i - 1].span.begin, reading.diagnostics.all()[i].span.begin);
+  }
+}
+
+TEST(Robustness, AllShippedFilesParse) {
+  const auto texts = shipped();
+  ASSERT_GE(texts.size(), 5u);
+  for (const auto& text : texts) EXPECT_EQ(Reading(text).errors(), std::vector<std::string>{}) << text;
+}
+
+TEST(Robustness, RandomBytes) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 500; ++round) {
+    std::string text = round % 2 == 0 ? "wale 1\n" : "";
+    for (unsigned length = random() % 300; length > 0; --length) text += static_cast<char>(random() % (round % 3 == 0 ? 256 : 128));
+    survive(text);
+  }
+}
+
+TEST(Robustness, RandomTokens) {
+  const char* tokens[] = {"material", "physical", "perceptual", "param", "let", "force", "map", "from", "if", "then", "else", "in",
+                          "on", "{", "}", "(", ")", "[", "]", ",", ";", ":", "=", "..", "+", "-", "*", "/", "^", "<", "±", "'",
+                          "%", "\n", "\n", "x", "k", "2.5", "mm", "\"text\"", "\"", "/*", "*/", "// c\n", "/// d\n", "@", "µm"};
+  std::mt19937 random(2);
+  for (int round = 0; round < 2000; ++round) {
+    std::string text = "wale 1\nmaterial m { physical {\n";
+    for (unsigned length = random() % 60; length > 0; --length) text += std::string(tokens[random() % std::size(tokens)]) + " ";
+    survive(text);
+  }
+}
+
+TEST(Robustness, MutatedFiles) {
+  std::mt19937 random(3);
+  const auto texts = shipped();
+  for (int round = 0; round < 1000; ++round) {
+    std::string text = texts[random() % texts.size()];
+    for (unsigned changes = 1 + random() % 5; changes > 0; --changes) {
+      const std::size_t at = random() % text.size();
+      switch (random() % 4) {
+        case 0: text[at] = static_cast<char>(random() % 128); break;
+        case 1: text.erase(at, 1 + random() % 10); break;
+        case 2: text.insert(at, 1, "(){}=,;\n\"'"[random() % 10]); break;
+        default: text.insert(at, text.substr(random() % text.size(), random() % 40)); break;
+      }
+      if (text.empty()) text = "x";
+    }
+    survive(text);
+  }
+}
+
+TEST(Robustness, EveryPrefixOfAFile) {
+  for (const auto& text : shipped()) {
+    for (std::size_t length = 0; length < std::min<std::size_t>(text.size(), 1500); ++length) survive(text.substr(0, length));
+  }
+}
+
+TEST(Robustness, NestingThousandsDeepIsRefused) {
+  const auto repeated = [](const std::string& part, int times) {
+    std::string result;
+    for (int i = 0; i < times; ++i) result += part;
+    return result;
+  };
+  for (const char* opening : {"(", "-", "f(", "2^", "if ", "if a then ", "f(a, b: ", "(-", "[", "{"}) {
+    const Reading reading("wale 1\nlet a = " + repeated(opening, 100000));
+    ASSERT_EQ(reading.diagnostics.all().size(), 1u) << opening;
+    const bool nests = opening[0] != '[' && opening[0] != '{';
+    EXPECT_EQ(reading.diagnostics.all()[0].code, nests ? wale::Code::nested_too_deep : wale::Code::unexpected_token) << opening;
+  }
+  EXPECT_FALSE(Reading("wale 1\nlet a = " + repeated("(", 150) + "1" + repeated(")", 150)).diagnostics.has_errors());
+  // A long sum nests to the left although nothing in the text is nested; later stages walk it all the same.
+  EXPECT_FALSE(Reading("wale 1\nlet a = 1" + repeated(" + 1", 900)).diagnostics.has_errors());
+  const Reading sum("wale 1\nlet a = 1" + repeated(" + 1", 100000));
+  ASSERT_EQ(sum.diagnostics.all().size(), 1u);
+  EXPECT_EQ(sum.diagnostics.all()[0].code, wale::Code::nested_too_deep);
+}
+
+TEST(Robustness, AHundredMegabytesAreRefusedAtOnce) {
+  const Reading reading(std::string(100u << 20, 'x'));
+  ASSERT_EQ(reading.diagnostics.all().size(), 1u);
+  EXPECT_EQ(reading.diagnostics.all()[0].code, wale::Code::too_long);
+  EXPECT_EQ(reading.diagnostics.all()[0].message, "this file has 100.0 MB; Wale reads up to 4 MB");
+}
+
+TEST(Robustness, TheLargestFilesAreReadInBoundedTime) {
+  for (const char* part : {"(", ")", "{", "}", "x ", "1 ", "let a = 1\n", "let a b\n", "\n", "\"", "@ ", "(\n", "{ x\n", "/// d\n",
+                           "f(1,", "1,", "material m {\n", "µm ", "x = (\n"}) {
+    std::string text = "wale 1\n";
+    while (text.size() + std::strlen(part) < wale::largest_source) text += part;
+    const auto start = std::chrono::steady_clock::now();
+    const Reading reading(text);
+    for (const auto& each : reading.diagnostics.all()) render_text(each, reading.sources, false);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(seconds.count(), 20) << part;  // a second is usual; a quadratic step would take hours
+    EXPECT_LE(reading.diagnostics.all().size(), wale::error_limit + 1) << part;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,78 @@
+// One lane and blocks of lanes give the same bits, whatever the program and the hand.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "tests/machine/random_program.hpp"
+#include "tests/machine/running.hpp"
+
+namespace wale {
+namespace {
+
+using example::loaded;
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+std::vector<Hand> hands(std::mt19937& random, std::size_t count) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  constexpr float extremes[] = {0.0f,  -0.0f, 1e-40f, -1e-45f, 1.2e-38f, 1e-20f,
+                                0.05f, 3e38f, -3e38f, inf,     -inf,     std::numeric_limits<float>::quiet_NaN()};
+  std::uniform_real_distribution<float> place(-0.1f, 0.1f), speed(-1, 1);
+  std::vector<Hand> all(count);
+  for (Hand& hand : all) {
+    hand = {{place(random), place(random)}, {speed(random), speed(random)}};
+    for (float* value : {&hand.position.x, &hand.position.y, &hand.velocity.x, &hand.velocity.y}) {
+      if (random() % 8 == 0) *value = extremes[random() % std::size(extremes)];
+    }
+  }
+  return all;
+}
+
+TEST(Agreement, TickAndBlocksGiveTheSameBits) {
+  std::size_t pushes = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    example::RandomProgram generator(seed);
+    const PatchProgram description = generator.make();
+    ASSERT_EQ(example::refusal_of(description), "") << seed;
+    Bank bank(loaded(description));
+    const std::vector<Hand> all = hands(generator.random(), 1 + seed % 300);
+    std::vector<Force> forces(all.size());
+    tick_all(bank, all, forces);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Force one = tick(bank, all[i]);
+      ASSERT_EQ(bits(one.x), bits(forces[i].x)) << "seed " << seed << ", hand " << i;
+      ASSERT_EQ(bits(one.y), bits(forces[i].y)) << "seed " << seed << ", hand " << i;
+      ASSERT_LE(std::abs(one.x), 5.0f);
+      ASSERT_LE(std::abs(one.y), 1.0f);
+      pushes += one.x != 0 && std::abs(one.x) != 5.0f;
+    }
+  }
+  EXPECT_GT(pushes, 1000u) << "programs that only saturate would prove little";
+}
+
+TEST(Agreement, BanksAreTheSameEachTime) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const Program program = loaded(example::RandomProgram(seed).make());
+    const Bank one(program), two(program);
+    for (std::size_t i = 0; i < one.registers().size(); ++i) {
+      ASSERT_EQ(bits(one.registers()[i]), bits(two.registers()[i])) << seed << " " << i;
+    }
+  }
+}
+
+TEST(Agreement, TicksDoNotDependOnTheTicksBefore) {
+  const Program program = loaded(example::RandomProgram(11).make());
+  std::mt19937 random(1);
+  const std::vector<Hand> all = hands(random, 500);
+  Bank one(program);
+  std::vector<Force> forwards, backwards(all.size());
+  for (const Hand& hand : all) forwards.push_back(tick(one, hand));
+  for (std::size_t i = all.size(); i-- > 0;) backwards[i] = tick(one, all[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(bits(forwards[i].x), bits(backwards[i].x));
+}
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,86 @@
+// Files mangled at random, checksum and all: whatever the loader lets through runs and stays within its limits.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "tests/machine/random_program.hpp"
+#include "tests/machine/running.hpp"
+#include "tests/schema/wpp_bytes.hpp"
+
+namespace wale {
+namespace {
+
+PatchProgram small_example() {
+  PatchProgram p = example::program();
+  p.peaks[0].points = 64;
+  return p;
+}
+
+/// Some change that a damaged or malicious file might hold.
+void mangle(wpp::Bytes& bytes, std::mt19937& random) {
+  const std::size_t at = 32 + random() % (bytes.size() - 32);
+  switch (random() % 5) {
+    case 0: bytes[at] = static_cast<std::byte>(random()); break;
+    case 1: bytes[at] ^= std::byte{1} << random() % 8; break;
+    case 2: bytes[at] = static_cast<std::byte>(std::to_integer<int>(bytes[at]) + 1); break;
+    case 3:
+      for (std::size_t i = at; i < std::min(at + 4, bytes.size()); ++i)
+        bytes[i] = static_cast<std::byte>(random() % 2 * 255);
+      break;
+    default: std::copy_n(bytes.begin() + 400 + random() % 100, 8, bytes.begin() + at - at % 8); break;
+  }
+}
+
+/// Peaks of many points are legal, and slow.
+bool is_quick(const PatchProgram& program) {
+  return std::all_of(program.peaks.begin(), program.peaks.end(), [](const Peak& p) { return p.points <= 10000; });
+}
+
+/// Runs every section.
+void exercise(const Program& program) {
+  Bank bank(program);
+  const double most = program.description().device.force_newton;
+  for (const Hand& hand : {Hand{}, Hand{{0.01f, -0.02f}, {0.1f, 0}}, Hand{{1e30f, -0.1f}, {0, -1e30f}}}) {
+    const Force force = tick(bank, hand);
+    ASSERT_LE(std::abs(force.x), most);
+    ASSERT_LE(std::abs(force.y), most);
+    Force same;
+    tick_all(bank, {&hand, 1}, {&same, 1});
+    ASSERT_EQ(force, same);
+  }
+  float relief = 0;
+  const glm::vec2 position(0.01f, 0.02f);
+  relief_all(bank, {&position, 1}, {&relief, 1});
+  for (std::size_t i = 0; i < program.description().percepts.size(); ++i) predict(bank, i, 1.0f);
+}
+
+TEST(MangledPrograms, NeverCrashAndNeverPushTooHard) {
+  std::mt19937 random(20);
+  std::vector<wpp::Bytes> originals = {write_patch_program(small_example()), write_patch_program(example::least())};
+  for (unsigned seed = 0; seed < 6; ++seed)
+    originals.push_back(write_patch_program(example::RandomProgram(seed).make()));
+  const auto start = std::chrono::steady_clock::now();
+  int loaded = 0, refused = 0;
+  for (int round = 0; round < 60000; ++round) {
+    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4)) break;
+    wpp::Bytes bytes = originals[random() % originals.size()];
+    for (unsigned changes = 1 + random() % 3; changes > 0; --changes) mangle(bytes, random);
+    auto result = Program::load(wpp::sealed(bytes));
+    if (const auto* refusal = std::get_if<Refusal>(&result)) {
+      ++refused;
+      ASSERT_FALSE(refusal->reason.empty());
+      continue;
+    }
+    ++loaded;
+    const auto& program = std::get<Program>(result);
+    if (is_quick(program.description())) exercise(program);
+  }
+  EXPECT_GT(loaded, 100);
+  EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace wale

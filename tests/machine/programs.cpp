@@ -1,0 +1,226 @@
+// Programs written by hand, against closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/machine/running.hpp"
+
+namespace wale {
+namespace {
+
+using enum Operation;
+using example::instruction;
+using example::loaded;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// Two inputs' worth of one operation: force x = operation(x, y, velocity x), limited at 10 N.
+Program one_operation(Operation operation) {
+  PatchProgram p = example::least();
+  p.constants = {0.0f, 10.0f};
+  p.temporaries = 2;
+  const auto fields = facts(operation).fields;
+  p.tick = {instruction(operation, 18, 0, fields[1] == 'r' ? 1 : 0, fields[2] == 'r' ? 2 : 0),
+            instruction(limit, 19, 18, 17), instruction(limit, 18, 16, 17)};
+  p.outputs = {{OutputQuantity::force, 0, 19, 17}, {OutputQuantity::force, 1, 18, 17}};
+  return loaded(p);
+}
+
+float result(Operation operation, float a, float b = 0, float c = 0) {
+  Bank bank(one_operation(operation));
+  return tick(bank, {{a, b}, {c, 0}}).x;
+}
+
+TEST(Machine, OperationsMeanWhatTheySay) {
+  EXPECT_EQ(result(add, 0.125f, 0.0625f), 0.1875f);
+  EXPECT_EQ(result(subtract, 0.125f, 0.0625f), 0.0625f);
+  EXPECT_EQ(result(multiply, 0.125f, 0.0625f), 0.0078125f);
+  EXPECT_EQ(result(divide, 0.125f, 0.0625f), 2.0f);
+  EXPECT_EQ(result(divide, 0.125f, 0.0f), 10.0f) << "infinity, limited";
+  EXPECT_EQ(result(divide, 0.0f, 0.0f), 0.0f) << "not a number, limited";
+  EXPECT_EQ(result(negate, 0.125f), -0.125f);
+  EXPECT_EQ(result(absolute, -0.125f), 0.125f);
+  EXPECT_EQ(result(minimum, 0.125f, 0.0625f), 0.0625f);
+  EXPECT_EQ(result(minimum, 0.0625f, 0.125f), 0.0625f);
+  EXPECT_EQ(result(maximum, 0.125f, 0.0625f), 0.125f);
+  EXPECT_EQ(result(maximum, 0.0625f, 0.125f), 0.125f);
+  EXPECT_EQ(result(Operation::floor, -0.125f), -1.0f);
+  EXPECT_EQ(result(square_root, 0.0625f), 0.25f);
+  EXPECT_EQ(result(square_root, -0.0625f), 0.0f) << "not a number, limited";
+  EXPECT_EQ(result(less, 0.0625f, 0.125f), 1.0f);
+  EXPECT_EQ(result(less, 0.125f, 0.125f), 0.0f);
+  EXPECT_EQ(result(Operation::select, 0.125f, 0.0625f, 0.5f), 0.0625f);
+  EXPECT_EQ(result(Operation::select, 0.0f, 0.0625f, 0.5f), 0.5f);
+  EXPECT_NEAR(result(sine, 0.125f), std::sin(0.125), 1e-7);
+  EXPECT_NEAR(result(cosine, 0.125f), std::cos(0.125), 1e-7);
+  EXPECT_NEAR(result(Operation::exp2, 0.125f), std::exp2(0.125), 2e-7);
+  EXPECT_EQ(result(Operation::log2, 0.125f), -3.0f);
+  EXPECT_NEAR(result(normal, 0.125f), 0.5 * std::erfc(-0.125 / std::numbers::sqrt2), 2e-7);
+  EXPECT_EQ(result(limit, 0.125f, 0.0625f), 0.0625f);
+}
+
+// example::program(): amplitude 2 N, period 2 mm. |cos| exceeds cos(k) on 2 k / pi of its points, so its 99th
+// percentile is cos(pi / 200) of the maximum and the force -2 N cos(2 pi x / 2 mm) / 0.99988, limited at 2 N.
+TEST(Machine, GratingPushesWithItsAmplitude) {
+  Bank bank(loaded(example::program()));
+  const double wave = 2 * std::numbers::pi / 0.002;
+  const double percentile = std::cos(std::numbers::pi / 200);
+  for (float x = -0.02f; x < 0.02f; x += 0.00007f) {
+    const Force force = tick(bank, {{x, 0.01f}, {}});
+    const double expected = std::clamp(-2 * std::cos(wave * x) / percentile, -2.0, 2.0);
+    EXPECT_NEAR(force.x, expected, 2e-4) << x;
+    EXPECT_EQ(force.y, 0.0f);
+  }
+}
+
+TEST(Machine, PeakKeepsTheAmplitudeWhenTheParameterMoves) {
+  const Program program = loaded(example::program());
+  for (const float period : {0.001f, 0.003f, 0.01f}) {
+    const Bank bank(program, std::vector<float>{period, 1.5f}, program.default_size());
+    const double slope = 2 * std::numbers::pi / period;  // of sin(2 pi x / period), at most
+    EXPECT_NEAR(bank.registers()[23] / (slope * std::cos(std::numbers::pi / 200)), 1, 3e-4) << period;
+    EXPECT_EQ(amplitude(bank, 0), 1.5f);
+  }
+}
+
+TEST(Machine, ParametersAreHeldInTheirRanges) {
+  const Program program = loaded(example::program());
+  const auto with = [&](float a) { return amplitude(Bank(program, std::vector<float>{0.002f, a}, {}), 0); };
+  EXPECT_EQ(with(3), 3);
+  EXPECT_EQ(with(7), 4);
+  EXPECT_EQ(with(inf), 4);
+  EXPECT_EQ(with(-1), 0);
+  EXPECT_EQ(with(nan), 2) << "the default";
+  EXPECT_EQ(amplitude(Bank(program, {}, {}), 0), 2) << "parameters not given keep their defaults";
+  EXPECT_EQ(program.parameter("amplitude"), std::size_t{1});
+  EXPECT_EQ(program.parameter("roughness"), std::nullopt);
+  EXPECT_EQ(program.default_parameters(), (std::vector<float>{0.002f, 2.0f}));
+}
+
+TEST(Machine, SizesThatMakeNoSenseAreReplaced) {
+  const Program program = loaded(example::program());
+  const auto size = [&](PatchSize asked) { return Bank(program, {}, asked).size(); };
+  EXPECT_EQ(size({}).width, 0.1f);
+  EXPECT_EQ(size({}).height, 0.08f);
+  EXPECT_EQ(size({}).rim, 0.0f) << "no rim is a rim";
+  EXPECT_EQ(size({nan, -1, nan}).width, 0.1f);
+  EXPECT_EQ(size({nan, -1, nan}).height, 0.08f);
+  EXPECT_EQ(size({nan, -1, nan}).rim, 0.005f);
+  EXPECT_EQ(size({inf, 0.02f, 0.001f}).width, 0.1f);
+  EXPECT_EQ(size({0.04f, 0.02f, 0.015f}).rim, 0.005f) << "a quarter of the smaller side";
+  const Bank bank(program, {}, {0.04f, 0.02f, 0.001f});
+  EXPECT_EQ(bank.registers()[4], 0.02f);
+  EXPECT_EQ(bank.registers()[5], 0.01f);
+  EXPECT_EQ(bank.registers()[6], 0.001f);
+}
+
+TEST(Machine, HandIsHeldInTheEnvelope) {
+  PatchProgram p = example::least();
+  p.constants = {0.0f, 10.0f};
+  p.temporaries = 2;
+  p.tick = {instruction(limit, 18, 0, 17), instruction(limit, 19, 3, 17)};
+  p.outputs = {{OutputQuantity::force, 0, 18, 17}, {OutputQuantity::force, 1, 19, 17}};
+  Bank bank(loaded(p));
+  const float reach = 0.2286f, speed = 2.0f;
+  EXPECT_EQ(tick(bank, {{0.01f, 0}, {0, -0.5f}}), Force(0.01f, -0.5f));
+  EXPECT_EQ(tick(bank, {{5, 0}, {0, 5}}), Force(reach, speed));
+  EXPECT_EQ(tick(bank, {{-5, 0}, {0, -5}}), Force(-reach, -speed));
+  EXPECT_EQ(tick(bank, {{inf, 0}, {0, -inf}}), Force(reach, -speed));
+  EXPECT_EQ(tick(bank, {{nan, nan}, {nan, nan}}), Force(0, 0));
+}
+
+TEST(Machine, PredictsFromTheProbe) {
+  const Bank bank(loaded(example::program()));
+  for (const float probe : {0.0f, 1.0f, 3.5f}) {
+    const Prediction prediction = predict(bank, 0, probe);
+    EXPECT_EQ(prediction.magnitude, 0.5f * probe);
+    EXPECT_EQ(prediction.level, 0.5f * probe + 0.5f);
+  }
+}
+
+/// A program whose setup holds one peak of `code`, over a box of 2 by 2 (half sizes 1), in register 20.
+float peak_of(std::vector<Instruction> code, RegisterNumber value, std::uint32_t points, float percentile) {
+  PatchProgram p = example::least();
+  p.constants = {0.0f, 1.0f, 0.0f, 10.0f};
+  p.setup_registers = 1;
+  p.temporaries = 4;  // 21 ..
+  p.setup = {instruction(peak, 20, 0)};
+  p.peaks = {{std::move(code), value, 17, 17, points, percentile}};
+  p.tick = {instruction(limit, 21, 16, 17)};
+  p.outputs = {{OutputQuantity::force, 0, 21, 17}, {OutputQuantity::force, 1, 21, 17}};
+  return Bank(loaded(p)).registers()[20];
+}
+
+// x and y are uniform in -1 .. 1, so their percentile q is 2 q - 1 within the lattice's discrepancy.
+TEST(Machine, PeakIsThePercentileOfAUniformDistribution) {
+  for (const float q : {0.01f, 0.25f, 0.5f, 0.9f, 0.99f, 1.0f}) {
+    EXPECT_NEAR(peak_of({}, 0, 10000, q), 2 * q - 1, 1e-3) << q;
+    EXPECT_NEAR(peak_of({}, 1, 10000, q), 2 * q - 1, 1e-3) << q;
+  }
+  // x^2 + y^2 <= r^2 covers pi r^2 / 4 of the square.
+  const std::vector<Instruction> radius = {instruction(multiply, 21, 0, 0), instruction(multiply, 22, 1, 1),
+                                           instruction(add, 23, 21, 22), instruction(square_root, 24, 23)};
+  EXPECT_NEAR(peak_of(radius, 24, 20000, 0.5f), std::sqrt(2 / std::numbers::pi), 2e-3);
+}
+
+// The lattice by its definition, in double, and the order statistic by sorting.
+TEST(Machine, PeakSortsTheDocumentedLattice) {
+  for (const std::uint32_t points : {1u, 2u, 100u, 127u, 128u, 129u, 1000u}) {
+    std::vector<float> xs;
+    for (std::uint64_t i = 0; i < points; ++i) {
+      const double u = static_cast<double>(i * 3242174889ull % 4294967296ull) / 4294967296.0;
+      xs.push_back(static_cast<float>(2 * u - 1));
+    }
+    std::sort(xs.begin(), xs.end());
+    EXPECT_EQ(peak_of({}, 0, points, 1.0f), xs.back());
+    EXPECT_EQ(peak_of({}, 0, points, 1e-9f), xs.front());
+    EXPECT_EQ(peak_of({}, 0, points, 0.5f), xs[(points + 1) / 2 - 1]);
+  }
+  // 0.99 of 100 is the 99th, although the float 0.99 is a little more than 0.99.
+  std::vector<float> xs;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    xs.push_back(static_cast<float>(static_cast<double>(i * 3242174889ull % 4294967296ull) / 2147483648.0 - 1));
+  }
+  std::sort(xs.begin(), xs.end());
+  EXPECT_EQ(peak_of({}, 0, 100, 0.99f), xs[98]);
+}
+
+TEST(Machine, PeakTakesNoFigureForZero) {
+  // 1 / 0 and 0 / 0 everywhere.
+  EXPECT_EQ(peak_of({instruction(divide, 21, 17, 16)}, 21, 1000, 0.99f), 0.0f);
+  EXPECT_EQ(peak_of({instruction(divide, 21, 16, 16)}, 21, 1000, 0.5f), 0.0f);
+  // The square root of x is none on half of the points: the median is 0, the third quartile sqrt(0.5).
+  EXPECT_NEAR(peak_of({instruction(square_root, 21, 0)}, 21, 10000, 0.75f), std::sqrt(0.5), 2e-3);
+  EXPECT_NEAR(peak_of({instruction(square_root, 21, 0)}, 21, 10000, 0.49f), 0.0, 1e-9);
+}
+
+TEST(Machine, ReliefIsThePicture) {
+  const Bank bank(loaded(example::program()));
+  std::vector<glm::vec2> at;
+  for (int i = 0; i < 300; ++i) at.push_back({static_cast<float>(i) * 1e-5f, 0});
+  std::vector<float> heights(at.size());
+  relief_all(bank, at, heights);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    // At y = 0 the table adds its first row near its first sample, whose height is 0.
+    EXPECT_NEAR(heights[i], std::sin(2 * std::numbers::pi / 0.002 * at[i].x), 2e-3) << i;
+  }
+}
+
+TEST(Machine, LoadSaysWhyNot) {
+  auto bytes = write_patch_program(example::program());
+  EXPECT_TRUE(std::holds_alternative<Program>(Program::load(bytes)));
+  bytes[100] ^= std::byte{4};
+  EXPECT_EQ(std::get<Refusal>(Program::load(bytes)).reason,
+            "the file is damaged: its checksum does not match its bytes");
+  PatchProgram unsafe = example::program();
+  unsafe.outputs[0].ceiling = 21;
+  unsafe.tick[5].b = 21;
+  EXPECT_TRUE(std::holds_alternative<Refusal>(Program::load(write_patch_program(unsafe))));
+}
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,354 @@
+// One test for every rule of schema/PATCH_PROGRAM.md, "Verification": a program that only this rule refuses.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/machine/running.hpp"
+
+namespace wale {
+namespace {
+
+using enum Operation;
+using example::instruction;
+using example::refusal_of;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// Registers of `example::program()`: 16-19 constants, 20-21 parameters, 22-25 setup, 26-31 temporaries.
+PatchProgram program() { return example::program(); }
+
+std::string refusal_after(void (*change)(PatchProgram&)) {
+  PatchProgram changed = program();
+  change(changed);
+  return refusal_of(changed);
+}
+
+TEST(Verification, AcceptsTheExamples) {
+  EXPECT_EQ(refusal_of(program()), "");
+  EXPECT_EQ(refusal_of(example::least()), "");
+}
+
+TEST(Verification, Operations) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[2].operation = 0; }),
+            "tick 2 has operation number 0, which this Wale does not know");
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[2].operation = 200; }),
+            "setup 2 has operation number 200, which this Wale does not know");
+}
+
+TEST(Verification, UnusedFieldsAreZero) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[1].b = 5; }),
+            "tick 1 `cosine` has 5 for operand b, which it does not use and must be zero");
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[1].c = 1; }),
+            "setup 1 `peak` has 1 for operand c, which it does not use and must be zero");
+}
+
+TEST(Verification, Destinations) {
+  const auto sentence = [](std::string who, int destination, std::string section, int count, int first) {
+    return who + " writes register " + std::to_string(destination) + ", and " + section + " may write only " +
+           std::to_string(count) + " registers from " + std::to_string(first) + " on";
+  };
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[0].destination = 26; }),
+            sentence("setup 0 `divide`", 26, "setup", 4, 22));
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[0].destination = 17; }),
+            sentence("setup 0 `divide`", 17, "setup", 4, 22));
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].destination = 24; }),
+            sentence("tick 0 `multiply`", 24, "tick", 6, 26));
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].destination = 32; }),
+            sentence("tick 0 `multiply`", 32, "tick", 6, 26));
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.code[0].destination = 25; }),
+            sentence("picture 0 `multiply`", 25, "picture", 6, 26));
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].code[0].destination = 16; }),
+            sentence("peak 0 0 `multiply`", 16, "peak 0", 6, 26));
+  EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].prediction[0].destination = 7; }),
+            sentence("percept 0 0 `multiply`", 7, "percept 0", 6, 26));
+  EXPECT_EQ(
+      refusal_after([](auto& p) { p.picture.code[2].destination = 30; }),
+      "picture 2 `sample` writes register 30 and those after it, and picture may write only 6 registers from 26 on");
+}
+
+TEST(Verification, DefinitionsComeBeforeUse) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].b = 30; }),
+            "tick 0 `multiply` reads register 30, which nothing before it writes");
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[0].b = 25; }),
+            "setup 0 `divide` reads register 25, which nothing before it writes");
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].a = 32; }),
+            "tick 0 `multiply` reads register 32, and the program has 32");
+  // What tick wrote is gone when the picture is drawn.
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.code[0].a = 30; }),
+            "picture 0 `multiply` reads register 30, which nothing before it writes");
+  // Nor does a peak leave anything to the tick.
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].a = 29; }),
+            "tick 0 `multiply` reads register 29, which nothing before it writes");
+}
+
+TEST(Verification, SetupDefinesAllItsRegisters) {
+  EXPECT_EQ(refusal_after([](auto& p) {
+              p.setup.pop_back();
+              p.tick[3].b = 24;
+            }),
+            "setup leaves register 25 undefined");
+}
+
+TEST(Verification, PeaksReadSetupAsItIsWhenTheyRun) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].code[2].b = 24; }),
+            "peak 0 2 `multiply` reads register 24, which nothing before it writes");
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].half_width = 25; }),
+            "peak 0 finds its half width in register 25, which nothing before it writes");
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].half_height = 29; }),
+            "peak 0 finds its half height in register 29, which nothing before it writes");
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].half_height = 0; }),
+            "peak 0 finds its half height in input 0, which peak 0 does not have");
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].value = 31; }),
+            "peak 0 finds its value in register 31, which nothing before it writes");
+}
+
+TEST(Verification, PeaksRunOnceAndInSetup) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[3] = instruction(peak, 25, 0); }),
+            "setup 3 `peak` runs peak 0 a second time");
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[1] = instruction(add, 23, 16, 16); }),
+            "peak 0 is run by no instruction of setup");
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[1].a = 1; }), "setup 1 `peak` runs peak 1 of 1");
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick[0] = instruction(peak, 26, 0); }),
+            "tick 0 `peak` runs a peak, which only setup may");
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].code[0] = instruction(peak, 26, 0); }),
+            "peak 0 0 `peak` runs a peak, which only setup may");
+}
+
+TEST(Verification, InputsBelongToSections) {
+  for (const RegisterNumber input : {0, 1, 2, 3, 7, 8, 15}) {
+    PatchProgram p = program();
+    p.setup[0].a = input;
+    EXPECT_EQ(refusal_of(p), "setup 0 `divide` reads input " + std::to_string(input) + ", which setup does not have");
+  }
+  for (const RegisterNumber input : {2, 3, 7, 8}) {
+    PatchProgram p = program();
+    p.picture.code[0].a = input;
+    EXPECT_NE(refusal_of(p), "") << input;
+    p = program();
+    p.peaks[0].code[0].a = input;
+    EXPECT_NE(refusal_of(p), "") << input;
+  }
+  for (const RegisterNumber input : {7, 8, 15}) {
+    PatchProgram p = program();
+    p.tick[0].a = input;
+    EXPECT_NE(refusal_of(p), "") << input;
+  }
+  for (const RegisterNumber input : {0, 1, 2, 3, 9}) {
+    PatchProgram p = program();
+    p.percepts[0].prediction[0].a = input;
+    EXPECT_NE(refusal_of(p), "") << input;
+  }
+  for (const RegisterNumber input : {0, 1, 2, 3, 4, 5, 6}) {
+    PatchProgram p = program();
+    p.tick[0].a = input;
+    EXPECT_EQ(refusal_of(p), "") << input;
+  }
+}
+
+TEST(Verification, Tables) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.code[2].c = 1; }), "picture 2 `sample` looks into table 1 of 1");
+  EXPECT_EQ(refusal_after([](auto& p) {
+              p.tables[0] = {1, 6, std::vector<std::uint16_t>(6)};
+            }),
+            "table 0's width is 1 and must be in 2 .. 16384");
+  EXPECT_EQ(refusal_after([](auto& p) {
+              p.tables[0] = {2, 16385, std::vector<std::uint16_t>(2 * 16385)};
+            }),
+            "table 0's height is 16385 and must be in 2 .. 16384");
+  EXPECT_EQ(refusal_after([](auto& p) { p.tables[0].heights.pop_back(); }), "table 0 has 5 heights for 3 x 2");
+}
+
+TEST(Verification, Lattices) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].points = 0; }),
+            "peak 0's number of points is 0 and must be in 1 .. 1.04858e+06");
+  EXPECT_NE(refusal_after([](auto& p) { p.peaks[0].points = (1u << 20) + 1; }), "");
+  for (const float percentile : {0.0f, -0.5f, 1.01f, nan}) {
+    PatchProgram p = program();
+    p.peaks[0].percentile = percentile;
+    EXPECT_NE(refusal_of(p), "") << percentile;
+  }
+  EXPECT_EQ(refusal_after([](auto& p) { p.peaks[0].percentile = 1; }), "");
+}
+
+TEST(Verification, RegisterSpace) {
+  PatchProgram p = example::least();
+  p.temporaries = static_cast<std::uint16_t>(16384 - 18);
+  EXPECT_EQ(refusal_of(p), "");
+  ++p.temporaries;
+  EXPECT_EQ(refusal_of(p), "the program has 16385 registers and may have 16384");
+  p = example::least();
+  p.constants.resize(70000);
+  EXPECT_EQ(refusal_of(p), "the program has 70017 registers and may have 16384");
+}
+
+TEST(Verification, OutputsAreForceXAndForceYOnce) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }),
+            "output force y is given 0 times and must be given once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.clear(); }),
+            "output force x is given 0 times and must be given once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.push_back(p.outputs[0]); }),
+            "output force x is given 2 times and must be given once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].axis = 2; }), "an output is neither force x nor force y");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].quantity = OutputQuantity{2}; }),
+            "an output is neither force x nor force y");
+}
+
+TEST(Verification, OutputsEndInTheirLimit) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].value = 27; }),
+            "output force x is written last by tick 1 `cosine`, which is no limit");
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick.push_back(instruction(add, 30, 30, 30)); }),
+            "output force x is written last by tick 7 `add`, which is no limit");
+  EXPECT_EQ(refusal_after([](auto& p) { p.tick.push_back(instruction(sample, 29, 0, 1, 0)); }),
+            "output force x is written last by tick 7 `sample`, which is no limit");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].value = 29; }),
+            "output force x is register 29, which tick does not write");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].value = 24; }),
+            "output force x is register 24, which tick does not write");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].ceiling = 17; }),
+            "output force x is limited by register 24 and declares register 17 its ceiling");
+}
+
+TEST(Verification, CeilingsAreProved) {
+  const auto unproved = [](int number) {
+    return "output force x has register " + std::to_string(number) +
+           " for its ceiling, which is neither a constant above 0 and up to 10 N nor limited by one in setup";
+  };
+  const auto with_ceiling = [](RegisterNumber number) {
+    PatchProgram p = program();
+    p.tick[5].b = number;
+    p.outputs[0].ceiling = number;
+    return p;
+  };
+  EXPECT_EQ(refusal_of(with_ceiling(17)), "");
+  EXPECT_EQ(refusal_of(with_ceiling(24)), "");
+  EXPECT_EQ(refusal_of(with_ceiling(18)), unproved(18)) << "a constant of 0";
+  EXPECT_EQ(refusal_of(with_ceiling(21)), unproved(21)) << "a parameter";
+  EXPECT_EQ(refusal_of(with_ceiling(25)), unproved(25)) << "set up, but not limited";
+  EXPECT_EQ(refusal_of(with_ceiling(28)), unproved(28)) << "a temporary";
+  EXPECT_EQ(refusal_of(with_ceiling(4)), unproved(4)) << "an input";
+  for (const float ceiling : {10.01f, -1.0f, nan, inf}) {
+    PatchProgram p = program();
+    p.constants[1] = ceiling;
+    EXPECT_EQ(refusal_of(p), unproved(24)) << ceiling;
+  }
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup[2].b = 21; }), unproved(24)) << "limited by a parameter";
+  EXPECT_EQ(refusal_after([](auto& p) { p.setup.push_back(instruction(add, 24, 24, 24)); }), unproved(24))
+      << "overwritten after its limit";
+  PatchProgram exactly = program();
+  exactly.constants[1] = 10.0f;
+  EXPECT_EQ(refusal_of(exactly), "");
+}
+
+TEST(Verification, Parameters) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.parameters[0].name.clear(); }), "parameter 0 has no name");
+  EXPECT_EQ(refusal_after([](auto& p) { p.parameters[1].name = "period"; }),
+            "parameter 1 is the second of the name period");
+  EXPECT_EQ(refusal_after([](auto& p) { p.parameters[1].value = 5; }),
+            "parameter amplitude has the value 5 and the range 0 .. 4");
+  EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].value = -1; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].value = nan; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].high = inf; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].low = -inf; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].low = nan; }), "");
+  EXPECT_EQ(refusal_after([](auto& p) { p.parameters[1].unit_in_si = 0; }), "parameter amplitude has a unit of 0");
+  EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].unit_in_si = std::nan(""); }), "");
+}
+
+TEST(Verification, Patch) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.patch_width = 0; }),
+            "the patch's width is 0 m and must be above 0 and at most the workspace's 0.2286");
+  for (const float side : {-1.0f, 0.3f, nan, inf}) {
+    PatchProgram p = program();
+    p.patch_height = side;
+    EXPECT_NE(refusal_of(p), "") << side;
+  }
+  EXPECT_EQ(refusal_after([](auto& p) { p.patch_rim = 0.04f; }),
+            "the patch's rim is 0.04 m and must leave a middle of its 0.08");
+  EXPECT_NE(refusal_after([](auto& p) { p.patch_rim = -0.001f; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.patch_rim = nan; }), "");
+  EXPECT_EQ(refusal_after([](auto& p) { p.patch_rim = 0; }), "");
+}
+
+TEST(Verification, Device) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.device.rate = 20; }),
+            "the device's rate (Hz) is 20 and must be in 100 .. 10000");
+  for (double DeviceProfile::*figure :
+       {&DeviceProfile::workspace_diameter, &DeviceProfile::position_counts, &DeviceProfile::force_newton,
+        &DeviceProfile::force_counts, &DeviceProfile::rate, &DeviceProfile::speed_limit}) {
+    for (const double value : {0.0, -1.0, 1e12, std::nan("")}) {
+      PatchProgram p = program();
+      p.device.*figure = value;
+      EXPECT_NE(refusal_of(p), "") << value;
+    }
+  }
+  for (double DeviceProfile::*figure :
+       {&DeviceProfile::slew, &DeviceProfile::velocity_window, &DeviceProfile::velocity_noise_counts,
+        &DeviceProfile::patch_width, &DeviceProfile::patch_height, &DeviceProfile::patch_rim, &DeviceProfile::mass,
+        &DeviceProfile::damping, &DeviceProfile::friction}) {
+    for (const double value : {-1.0, 1e12, std::nan("")}) {
+      PatchProgram p = program();
+      p.device.*figure = value;
+      EXPECT_NE(refusal_of(p), "") << value;
+    }
+  }
+}
+
+TEST(Verification, Percepts) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].name.clear(); }), "percept 0 has no name");
+  EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].parameter = 2; }), "percept 0 is set by parameter 2 of 2");
+  for (const RegisterNumber amplitude : {0, 4, 26, 40}) {
+    PatchProgram p = program();
+    p.percepts[0].amplitude = amplitude;
+    EXPECT_EQ(refusal_of(p), "percept 0 finds its amplitude in register " + std::to_string(amplitude) +
+                                 ", which is neither a constant, a parameter nor set up");
+  }
+  EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].level = 31; }),
+            "percept 0 finds its level in register 31, which nothing before it writes");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].magnitude = 0; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].valid_low = 5; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].valid_low = -1; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].valid_high = inf; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].scatter = -1; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].scatter = nan; }), "");
+  EXPECT_NE(refusal_after([](auto& p) { p.percepts[0].handle = Evidence{0}; }), "");
+}
+
+TEST(Verification, PictureHasItsRelief) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.relief = 26 + 6; }),
+            "picture finds its relief in register 32, and the program has 32");
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.code.clear(); }),
+            "picture finds its relief in register 31, which nothing before it writes");
+}
+
+// At 900 Hz a quarter of the period is 277 777 units of a nanosecond.
+TEST(Verification, TickFitsItsPeriod) {
+  PatchProgram p = program();
+  const auto fill = [](std::vector<Instruction>& code, long cost) {
+    while (cost_of(code) + 16 <= cost) code.insert(code.begin(), instruction(normal, 26, 4));
+    while (cost_of(code) < cost) code.insert(code.begin(), instruction(add, 26, 4, 4));
+  };
+  fill(p.tick, 277777);
+  EXPECT_EQ(refusal_of(p), "");
+  fill(p.tick, 277778);
+  EXPECT_EQ(refusal_of(p), "tick costs 277778 units and the device's period has room for 277777");
+  p = program();
+  fill(p.picture.code, 277778);
+  EXPECT_EQ(refusal_of(p), "picture costs 277778 units and the device's period has room for 277777");
+  p = program();
+  fill(p.percepts[0].prediction, 277778);
+  EXPECT_EQ(refusal_of(p), "percept 0 costs 277778 units and the device's period has room for 277777");
+}
+
+TEST(Verification, PeaksEndInTime) {
+  PatchProgram p = program();
+  p.peaks[0].points = 1u << 20;
+  EXPECT_EQ(refusal_of(p), "");
+  for (int i = 0; i < 60; ++i) p.peaks[0].code.insert(p.peaks[0].code.begin(), instruction(normal, 26, 4));
+  EXPECT_EQ(refusal_of(p), "setup and its peaks cost 1.01922e+09 units and may cost 1e+09");
+}
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,210 @@
+#include "wale/felt.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "tests/runtime/figures.hpp"
+#include "tests/runtime/programs.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double pi = std::numbers::pi, step = 0.2286 / 4096;
+
+/// A second of ticks, each as `tick_at` says of its time.
+Record one_second(const std::function<TickRecord(double)>& tick_at) {
+  Record record{.seconds_per_tick = 1.0 / 900, .ticks = {}};
+  for (int i = 0; i < 900; ++i) {
+    TickRecord tick = tick_at(i / 900.0);
+    tick.time = i / 900.0;
+    tick.inside = true;
+    record.ticks.push_back(tick);
+  }
+  return record;
+}
+
+/// A hand that moves at 0.1 m/s over a sine texture of 2.5 mm and 2 N.
+TickRecord rubbing(double t) {
+  const double x = 0.1 * t;
+  return {.position = {x, 0},
+          .velocity = {0.1, 0},
+          .force = {2 * std::sin(2 * pi * x / 0.0025 + 0.1), 0},
+          .interaction = {0, 3}};
+}
+
+MeasureOptions options(float amplitude = 2) { return {.position_step = step, .predicted_amplitude = amplitude}; }
+
+TEST(Felt, CountsEachFlankOfATexture) {
+  // 40 periods in a second; the first swing has none before it
+  const Felt felt = measure(one_second(rubbing), options());
+  EXPECT_EQ(felt.crossings, 79);
+  EXPECT_EQ(felt.alternations, 79);
+  EXPECT_EQ(felt.stuck, 0);
+  EXPECT_EQ(felt.ticks_rubbing, 900);
+}
+
+TEST(Felt, SizesAreThoseOfASine) {
+  const Felt felt = measure(one_second(rubbing), options());
+  EXPECT_NEAR(felt.force_rubbing.rms, 2 / std::sqrt(2.0), 0.01);
+  EXPECT_NEAR(felt.force_rubbing.maximum, 2, 0.01);
+  EXPECT_NEAR(felt.force_rubbing.p99, 2 * std::sin(pi / 2 * 0.99), 0.01);
+  ASSERT_TRUE(felt.interaction);
+  EXPECT_FLOAT_EQ(felt.interaction->rms, 3);
+}
+
+TEST(Felt, P99LeavesOnePercentAbove) {
+  int i = 0;
+  const Record record = one_second([&](double) { return TickRecord{.force = {0, static_cast<float>(++i)}}; });
+  const Felt felt = measure(record, options());
+  EXPECT_EQ(felt.force.p99, 891);
+  EXPECT_EQ(felt.force.maximum, 900);
+}
+
+TEST(Felt, SizeOfATwoAxisForceIsItsMagnitude) {
+  const Felt felt = measure(one_second([](double) { return TickRecord{.force = {3, -4}}; }), options());
+  EXPECT_EQ(felt.force.p99, 5);
+  EXPECT_EQ(felt.force.rms, 5);
+}
+
+TEST(Felt, ALimitCycleOnTheSpotCrossesNothing) {
+  // 30 Hz around one ridge, 0.2 mm to each side: the force swings fully, at opposite velocities.
+  const Felt felt = measure(one_second([](double t) {
+                              const double a = 2 * pi * 30 * t + 0.1;
+                              return TickRecord{.position = {2e-4 * std::sin(a), 0},
+                                                .velocity = {2e-4 * 2 * pi * 30 * std::cos(a), 0},
+                                                .force = {2 * std::sin(a - 0.4), 0}};
+                            }),
+                            options());
+  EXPECT_GE(felt.alternations, 58);
+  EXPECT_EQ(felt.crossings, 0);
+}
+
+TEST(Felt, SpringAndOilHaveNothingToCross) {
+  for (const double lag : {0.0, pi / 2}) {
+    const Felt felt = measure(one_second([&](double t) {
+                                const double a = 2 * pi * 5 * t + 0.1;
+                                return TickRecord{.position = {0.04 * std::sin(a), 0},
+                                                  .velocity = {0.04 * 2 * pi * 5 * std::cos(a), 0},
+                                                  .force = {-2 * std::sin(a + lag), 0}};
+                              }),
+                              options());
+    EXPECT_GE(felt.alternations, 9);
+    EXPECT_EQ(felt.crossings, 0) << lag;
+  }
+}
+
+TEST(Felt, SwingsBelowHalfTheAmplitudeDoNotCount) {
+  EXPECT_EQ(measure(one_second(rubbing), options(3.9f)).crossings, 79);
+  EXPECT_EQ(measure(one_second(rubbing), options(4.1f)).crossings, 0);
+  EXPECT_EQ(measure(one_second(rubbing), options(0)).crossings, 79) << "half the P99 where nothing is predicted";
+}
+
+TEST(Felt, CrossingsAreCountedAlongTheAxisWithMoreForce) {
+  const Felt felt = measure(one_second([](double t) {
+                              TickRecord tick = rubbing(t);
+                              tick.velocity = {-tick.velocity.y, tick.velocity.x};
+                              tick.force = {0.1f, tick.force.x};
+                              return tick;
+                            }),
+                            options());
+  EXPECT_EQ(felt.crossings, 79);
+}
+
+TEST(Felt, StuckIsMovingAtMostAFewCountsForAWhile) {
+  // half the time creeping at one count in 50 ms, half the time rubbing
+  const Record record = one_second([](double t) {
+    if (t >= 0.5) return rubbing(t);
+    return TickRecord{.position = {0.05 - (0.5 - t) * 20 * step, 0}, .force = {1, 0}};
+  });
+  const Felt felt = measure(record, options());
+  EXPECT_NEAR(felt.stuck, 0.5, 0.03);
+  EXPECT_NEAR(felt.force_rubbing.rms, std::sqrt(2.0), 0.05) << "the steady 1 N while stuck is not rubbing";
+  EXPECT_NEAR(felt.force.rms, std::sqrt((2 + 1) / 2.0), 0.05);
+}
+
+TEST(Felt, SettlingAndOutsideDoNotCount) {
+  Record record = one_second([](double t) {
+    TickRecord tick = rubbing(t);
+    if (t < 0.25) tick.force = {9, 0};
+    return tick;
+  });
+  for (int i = 600; i < 900; ++i) {
+    record.ticks[i].inside = false;
+    record.ticks[i].force = {0, 0};
+  }
+  MeasureOptions settled = options();
+  settled.settling = 0.25;
+  const Felt felt = measure(record, settled);
+  EXPECT_EQ(felt.ticks, 675);
+  EXPECT_EQ(felt.ticks_rubbing, 375);
+  EXPECT_LE(felt.force.maximum, 2);
+  EXPECT_NEAR(felt.force_rubbing.rms, std::sqrt(2.0), 0.02);
+  EXPECT_NEAR(felt.force.rms, std::sqrt(2.0 * 375 / 675), 0.02);
+}
+
+TEST(Felt, MovementAboutTheMean) {
+  const Felt felt = measure(one_second([](double t) {
+                              return TickRecord{.position = {0.05 + 0.01 * std::sin(2 * pi * t), 0.02}};
+                            }),
+                            options());
+  EXPECT_NEAR(felt.position_rms, 0.01 / std::sqrt(2.0), 1e-5);
+  EXPECT_NEAR(felt.position_range, 0.02, 1e-5);
+}
+
+TEST(Felt, AnInteractionThatNobodyKnowsIsNotInvented) {
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  const Felt felt = measure(one_second([&](double) {
+                              return TickRecord{.interaction = {unknown, unknown}};
+                            }),
+                            options());
+  EXPECT_FALSE(felt.interaction);
+  EXPECT_FALSE(felt.interaction_rubbing);
+}
+
+TEST(Felt, AnEmptyRecordIsNothing) {
+  const Felt felt = measure({.seconds_per_tick = 1.0 / 900, .ticks = {}}, options());
+  EXPECT_EQ(felt.ticks, 0);
+  EXPECT_EQ(felt.force.p99, 0);
+  EXPECT_FALSE(felt.interaction);
+}
+
+TEST(LevelsBack, InvertTheMapAtTheMeasuredAmplitude) {
+  const Bank bank(corduroy(1.934f));
+  EXPECT_FLOAT_EQ(predicted_amplitude(bank), 1.934f);
+  Felt felt;
+  felt.crossings = 50;
+  felt.force_rubbing.p99 = 1.934f;
+  const std::vector<LevelBack> levels = levels_back(bank, felt);
+  ASSERT_EQ(levels.size(), 1u);
+  EXPECT_EQ(levels[0].name, "roughness");
+  ASSERT_TRUE(std::holds_alternative<Prediction>(levels[0].back));
+  EXPECT_NEAR(std::get<Prediction>(levels[0].back).level, 0.6, 0.001);  // DESIGN.md, "Percepts"
+}
+
+TEST(LevelsBack, AreRefusedWithTheReason) {
+  const Bank bank(corduroy(1.934f));
+  Felt felt;
+  felt.crossings = 49;
+  EXPECT_EQ(std::get<Refusal>(levels_back(bank, felt)[0].back).reason,
+            "only 49 crossings of the texture, 50 are needed");
+
+  PatchProgram program = corduroy(1.934f).description();
+  program.percepts[0].alone = false;
+  const Bank mixed(std::get<Program>(Program::load(program)));
+  felt.crossings = 1000;
+  EXPECT_EQ(std::get<Refusal>(levels_back(mixed, felt)[0].back).reason,
+            "other forces push besides the lateral amplitude, so the force at the handle does not read roughness");
+}
+
+TEST(LevelsBack, NoPerceptsNoLevels) {
+  const Bank bank(oil(2));
+  EXPECT_EQ(predicted_amplitude(bank), 0);
+  EXPECT_TRUE(levels_back(bank, {}).empty());
+}
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,90 @@
+#include "runtime/stage/guards.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/runtime/figures.hpp"
+
+namespace wale {
+namespace {
+
+constexpr float step = 200.0f / 900;  // N per tick
+
+/// Guards that have caught up with `force`.
+Guards at_ease(Force force = Force(0)) {
+  Guards guards(sandpaper());
+  for (int tick = 0; tick < 200; ++tick) guards(force);
+  return guards;
+}
+
+TEST(Guards, PassAForceInRange) {
+  Guards guards = at_ease();
+  const GuardCounts before = guards.counts();
+  EXPECT_EQ(guards({3, -4}), Force(3, -4));
+  EXPECT_EQ(guards({-10, 10}), Force(-10, 10));
+  EXPECT_EQ(guards.counts().not_a_number, before.not_a_number);
+  EXPECT_EQ(guards.counts().device_limit, before.device_limit);
+  EXPECT_EQ(guards.counts().slew, before.slew);
+}
+
+TEST(Guards, NotANumberIsNoForceAtOnce) {
+  Guards guards = at_ease({5, 5});
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(guards({nan, 5}), Force(0));
+  EXPECT_EQ(guards({5, -nan}), Force(0));
+  EXPECT_EQ(guards.counts().not_a_number, 2);
+}
+
+TEST(Guards, EachAxisStaysWithinTheDevicesPeak) {
+  Guards guards = at_ease();
+  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(guards({11, -3}), Force(10, -3));
+  EXPECT_EQ(guards({-infinity, infinity}), Force(-10, 10));
+  EXPECT_EQ(guards.counts().device_limit, 2);
+}
+
+TEST(Guards, SlewFromTheStartUntilCaughtUp) {
+  Guards guards(sandpaper());
+  for (int tick = 1; tick <= 9; ++tick) EXPECT_NEAR(guards({0, 2.1f}).y, tick * step, 1e-5) << tick;
+  EXPECT_EQ(guards({0, 2.1f}), Force(0, 2.1f));
+  EXPECT_EQ(guards.counts().slew, 9);
+  EXPECT_EQ(guards({0, -9}), Force(0, -9)) << "caught up, so a fast force is the program's own affair";
+  EXPECT_EQ(guards.counts().slew, 9);
+}
+
+TEST(Guards, SlewAgainAfterEachChangeAlsoAcrossAxes) {
+  Guards guards = at_ease({3, 0});
+  guards.slew();
+  const Force next = guards({0, 4});  // 5 N away
+  EXPECT_NEAR(next.x, 3 - step * 0.6f, 1e-5);
+  EXPECT_NEAR(next.y, step * 0.8f, 1e-5);
+}
+
+TEST(Guards, ChasingAMovingForceTheyStayOnUntilTheyMeetIt) {
+  Guards guards(sandpaper());
+  float last = 0;
+  for (int tick = 0; tick < 400; ++tick) {
+    const float wanted = 2 * std::sin(static_cast<float>(tick) * 0.02f) + 3;
+    const float force = guards({wanted, 0}).x;
+    ASSERT_LE(std::abs(force - last), step * 1.0001f);
+    if (tick > 60) {
+      ASSERT_EQ(force, wanted);
+    }
+    last = force;
+  }
+}
+
+TEST(Guards, WithoutADeclaredSlewNothingIsSlowed) {
+  DeviceProfile profile = sandpaper();
+  profile.slew = 0;
+  Guards guards(profile);
+  EXPECT_EQ(guards({7, 0}), Force(7, 0));
+  guards.slew();
+  EXPECT_EQ(guards({-7, 0}), Force(-7, 0));
+  EXPECT_EQ(guards.counts().slew, 0);
+}
+
+}  // namespace
+}  // namespace wale

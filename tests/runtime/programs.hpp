@@ -1,0 +1,122 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/runtime/figures.hpp"
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// Writes small patch programs by hand. Constants come first, so they are all named before the first operation.
+class Assembly {
+ public:
+  explicit Assembly(std::vector<float> constants, std::vector<Parameter> parameters = {}) {
+    program.material = "by hand";
+    program.constants = std::move(constants);
+    program.parameters = std::move(parameters);
+    program.patch_width = program.patch_height = 0.16f;
+    program.patch_rim = 0.005f;
+    program.device = sandpaper();
+  }
+
+  static RegisterNumber input(Input input) { return static_cast<RegisterNumber>(input); }
+  RegisterNumber constant(unsigned i) const { return static_cast<RegisterNumber>(first_constant + i); }
+  RegisterNumber parameter(unsigned i) const { return static_cast<RegisterNumber>(program.first_parameter() + i); }
+
+  /// Appends an operation to `code` and returns the temporary that it writes.
+  RegisterNumber operator()(std::vector<Instruction>& code, Operation operation, RegisterNumber a, RegisterNumber b = 0,
+                            RegisterNumber c = 0) {
+    const auto result = static_cast<RegisterNumber>(program.first_temporary() + program.temporaries++);
+    code.push_back({static_cast<std::uint8_t>(operation), result, a, b, c});
+    return result;
+  }
+  RegisterNumber tick(Operation operation, RegisterNumber a, RegisterNumber b = 0, RegisterNumber c = 0) {
+    return (*this)(program.tick, operation, a, b, c);
+  }
+
+  void push(std::uint8_t axis, RegisterNumber force, RegisterNumber ceiling) {
+    program.outputs.push_back({OutputQuantity::force, axis, tick(Operation::limit, force, ceiling), ceiling});
+  }
+
+  Program load() const {
+    auto loaded = Program::load(program);
+    if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
+    return std::get<Program>(loaded);
+  }
+
+  PatchProgram program;
+};
+
+/// force = -b v on both axes.
+inline Program oil(float damping, float ceiling = 9) {
+  Assembly a({-damping, ceiling});
+  for (const std::uint8_t axis : {0, 1}) {
+    const Input velocity = axis == 0 ? Input::velocity_x : Input::velocity_y;
+    a.push(axis, a.tick(Operation::multiply, a.constant(0), a.input(velocity)), a.constant(1));
+  }
+  return a.load();
+}
+
+/// force = -k x on both axes; k is the parameter `stiffness` (N/m).
+inline Program spring(float stiffness, float ceiling = 9) {
+  Assembly a({ceiling}, {{"stiffness", "N/m", 1, stiffness, 0, 10000, ""}});
+  for (const std::uint8_t axis : {0, 1}) {
+    const Input position = axis == 0 ? Input::x : Input::y;
+    const RegisterNumber pull = a.tick(Operation::multiply, a.parameter(0), a.input(position));
+    a.push(axis, a.tick(Operation::negate, pull), a.constant(0));
+  }
+  return a.load();
+}
+
+/// A constant force along x: the parameter `push` (N).
+inline Program push(float force, float ceiling = 9) {
+  Assembly a({ceiling, 0}, {{"push", "mN", 1e-3, force, -20, 20, ""}});
+  a.push(0, a.parameter(0), a.constant(0));
+  a.push(1, a.constant(1), a.constant(0));
+  return a.load();
+}
+
+/// Corduroy as its gradient: pulses of alternating sign each half a wale, Gaussian with 24/256 of a wale (the flanks of
+/// a smoothed square wave), `amplitude` N high. Its exact RMS is 0.576 of that. One percept reads it back through the
+/// law of Minsky 1995, figure 19.
+inline Program corduroy(float amplitude, float wale = 0.0025f) {
+  const float width = 24.0f / 128.0f;  // standard deviation in half wales
+  const float exponent = 0.759593f, reference = 194 * 10.0f / 512;
+  Assembly a({2, 0.5f, 1, -std::log2(std::exp(1.0f)) / (2 * width * width), amplitude, 1 / reference, exponent, 0},
+             {{"wale", "mm", 1e-3, wale, 0.001f, 0.005f, "distance between ribs"}});
+  const RegisterNumber two = a.constant(0), half = a.constant(1), one = a.constant(2);
+  const auto pulse = [&](RegisterNumber distance) {
+    const RegisterNumber square = a.tick(Operation::multiply, distance, distance);
+    return a.tick(Operation::exp2, a.tick(Operation::multiply, square, a.constant(3)));
+  };
+  const RegisterNumber half_wale = a.tick(Operation::multiply, a.parameter(0), half);
+  const RegisterNumber place = a.tick(Operation::divide, a.input(Input::x), half_wale);
+  const RegisterNumber flank = a.tick(Operation::floor, a.tick(Operation::add, place, half));
+  const RegisterNumber near = a.tick(Operation::absolute, a.tick(Operation::subtract, place, flank));
+  const RegisterNumber far = a.tick(Operation::subtract, one, near);
+  const RegisterNumber size = a.tick(Operation::subtract, pulse(near), pulse(far));
+  const RegisterNumber pair = a.tick(Operation::floor, a.tick(Operation::multiply, flank, half));
+  const RegisterNumber odd = a.tick(Operation::subtract, flank, a.tick(Operation::multiply, pair, two));
+  const RegisterNumber sign = a.tick(Operation::subtract, one, a.tick(Operation::multiply, odd, two));
+  const RegisterNumber shape = a.tick(Operation::multiply, sign, size);
+  a.push(0, a.tick(Operation::multiply, shape, a.constant(4)), a.constant(4));
+  a.push(1, a.constant(7), a.constant(4));
+
+  PerceptRecord percept;
+  percept.name = "roughness";
+  percept.carrier = "lateral amplitude";
+  percept.amplitude = a.constant(4);
+  percept.alone = true;
+  auto& code = percept.prediction;
+  const RegisterNumber ratio = a(code, Operation::multiply, a.input(Input::probe), a.constant(5));
+  percept.magnitude = percept.level =
+      a(code, Operation::exp2, a(code, Operation::multiply, a(code, Operation::log2, ratio), a.constant(6)));
+  percept.valid_low = 0.1f;
+  percept.valid_high = 4;
+  a.program.percepts.push_back(std::move(percept));
+  return a.load();
+}
+
+}  // namespace wale

@@ -1,0 +1,101 @@
+#include "schema/patch_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/schema/example_program.hpp"
+#include "tests/schema/wpp_bytes.hpp"
+
+namespace wale {
+namespace {
+
+using wpp::Bytes;
+
+PatchProgram read(const Bytes& bytes) {
+  auto result = read_patch_program(bytes);
+  if (auto* refusal = std::get_if<Refusal>(&result)) {
+    ADD_FAILURE() << refusal->reason;
+    return {};
+  }
+  return std::get<PatchProgram>(std::move(result));
+}
+
+TEST(PatchProgram, ComesBackFromItsBytes) {
+  EXPECT_EQ(read(write_patch_program(example::program())), example::program());
+  EXPECT_EQ(read(write_patch_program(example::least())), example::least());
+}
+
+TEST(PatchProgram, BytesComeBackFromTheirProgram) {
+  for (const PatchProgram& program : {example::program(), example::least()}) {
+    const Bytes bytes = write_patch_program(program);
+    EXPECT_EQ(write_patch_program(read(bytes)), bytes);
+    EXPECT_EQ(write_patch_program(program), bytes);
+  }
+}
+
+TEST(PatchProgram, ConstantsKeepEveryBit) {
+  PatchProgram program = example::least();
+  program.constants.push_back(-0.0f);
+  program.constants.push_back(1e-42f);
+  program.constants.push_back(__builtin_inff());
+  program.constants.push_back(__builtin_nanf("0x123"));
+  const Bytes bytes = write_patch_program(program);
+  EXPECT_EQ(write_patch_program(read(bytes)), bytes);
+}
+
+// The layout that schema/PATCH_PROGRAM.md states, put together by a writer of the test's own.
+TEST(PatchProgram, FileIsLaidOutAsDocumented) {
+  const Bytes bytes = write_patch_program(example::program());
+  EXPECT_EQ(wpp::file_of(wpp::sections_of(bytes)), bytes);
+  EXPECT_EQ(wpp::get(bytes, 16, 8), bytes.size());
+  std::string kinds;
+  for (const auto& section : wpp::sections_of(bytes)) kinds += section.kind + (section.flags != 0 ? "! " : "? ");
+  EXPECT_EQ(kinds, "NAME! REGS! CONS! PARM! SETU! PEAK! TICK! OUTP! PICT! TABL! PTCH! DEVI! PERC? LAYR? ");
+}
+
+TEST(PatchProgram, LayersAndPerceptsAreLeftOutWhenThereAreNone) {
+  std::string last;
+  for (const auto& section : wpp::sections_of(write_patch_program(example::least()))) last = section.kind;
+  EXPECT_EQ(last, "DEVI");
+}
+
+// Fields by hand: operation 3 (multiply) in bits 0-7, then 14 bits each of destination, a, b, c.
+TEST(PatchProgram, InstructionsTakeEightBytes) {
+  const std::uint64_t word = encode({3, 26, 1, 22, 5});
+  EXPECT_EQ(word, 3u + (26ull << 8) + (1ull << 22) + (22ull << 36) + (5ull << 50));
+  EXPECT_EQ(decode(word), (Instruction{3, 26, 1, 22, 5}));
+  EXPECT_EQ(decode(~0ull), (Instruction{255, 16383, 16383, 16383, 16383}));
+}
+
+// CRC-32 of "123456789" is 0xcbf43926 in every description of it; the file's own is checked by `sealed`.
+TEST(PatchProgram, ChecksumIsCrc32) {
+  const Bytes bytes = write_patch_program(example::program());
+  EXPECT_EQ(wpp::get(bytes, 24, 4), wpp::crc(bytes));
+  Bytes check;
+  for (const char c : std::string_view("123456789")) wpp::append(check, static_cast<unsigned char>(c), 1);
+  EXPECT_EQ(wpp::crc(check), 0xcbf43926u);
+}
+
+TEST(PatchProgram, UnknownSkippableSectionsAreSkipped) {
+  for (const std::size_t place : {0u, 5u, 14u}) {
+    auto sections = wpp::sections_of(write_patch_program(example::program()));
+    sections.insert(sections.begin() + place, {"XTRA", 0, Bytes(13, std::byte{0xee})});
+    EXPECT_EQ(read(wpp::file_of(sections)), example::program());
+  }
+}
+
+TEST(PatchProgram, LaterMinorVersionsAreRead) {
+  Bytes bytes = write_patch_program(example::program());
+  wpp::put(bytes, 10, 7, 2);
+  EXPECT_EQ(read(wpp::sealed(bytes)), example::program());
+}
+
+TEST(PatchProgram, CostIsTheSumOfItsInstructions) {
+  using enum Operation;
+  EXPECT_EQ(cost_of({}), 0);
+  const std::vector<Instruction> code = {example::instruction(add, 0), example::instruction(sine, 0),
+                                         example::instruction(sample, 0)};
+  EXPECT_EQ(cost_of(code), 1 + 8 + 40);
+}
+
+}  // namespace
+}  // namespace wale
