@@ -1,1 +1,395 @@
-int main() {}
+// The command line: a table of verbs, each a few calls into the folders.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "calibration/device_report.hpp"
+#include "calibration/felt_report.hpp"
+#include "compiler/compile.hpp"
+#include "compiler/describe.hpp"
+#include "compiler/preview.hpp"
+#include "compiler/quantity.hpp"
+#include "compiler/render.hpp"
+#include "compiler/sample.hpp"
+#include "schema/patch_program_format.hpp"
+#include "wale/felt.hpp"
+#include "wale/library.hpp"
+#include "wale/stage.hpp"
+
+namespace {
+
+using namespace wale;
+
+/// What was asked cannot be done: already said why.
+constexpr int refused = 1;
+/// The words of the command make no sense.
+constexpr int misused = 2;
+
+std::atomic<bool> interrupted{false};
+
+int refuse(const std::string& reason) {
+  fmt::print(stderr, "wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
+  return refused;
+}
+
+/// Carets in colour where a person reads them.
+bool colour(FILE* stream) { return isatty(fileno(stream)) && !std::getenv("NO_COLOR"); }
+
+void print_diagnostics(FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
+  for (const auto& diagnostic : diagnostics.all()) fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
+}
+
+/// Writes a whole file or says why not; "-" is standard output.
+std::optional<std::string> write_file(const std::string& path, std::string_view bytes) {
+  if (path == "-") {
+    std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+    return std::cout ? std::nullopt : std::optional<std::string>("cannot write to standard output");
+  }
+  std::ofstream file(path, std::ios::binary);
+  if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
+  if (!file) return fmt::format("cannot write `{}`: {}", path, std::strerror(errno));
+  return std::nullopt;
+}
+
+/// A material named on the command line: a Wale file to compile, or a patch program to load.
+struct Choice {
+  std::string file, material, device = default_device;
+
+  void offer(CLI::App& verb, const char* device_option = "--device") {
+    verb.add_option("FILE", file, "a Wale file, or a patch program (.wpp)")->required();
+    verb.add_option("--material", material, "which material of the file (default: its first)");
+    verb.add_option(device_option, device, "the device to build for (default: sandpaper; see `wale devices`)");
+  }
+};
+
+/// The programs of a file: one, or all of its materials; what is wrong has been printed when there is none.
+std::vector<Program> load_programs(const Choice& choice, bool all) {
+  auto read = read_file(choice.file);
+  if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+    refuse(fmt::format("`{}` cannot be read: {}", choice.file, problem->reason));
+    return {};
+  }
+  auto& bytes = std::get<ResolvedFile>(read).bytes;
+  const bool patch_program = std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
+                                                [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
+  if (patch_program || choice.file.ends_with(".wpp")) {
+    auto loaded = Program::load(std::as_bytes(std::span(bytes)));
+    if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
+      refuse(fmt::format("`{}` is refused: {}", choice.file, refusal->reason));
+      return {};
+    }
+    return {std::get<Program>(loaded)};
+  }
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver({});
+  const SourceId source = sources.add(choice.file, std::move(bytes));
+  const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+  std::vector<std::string> names{choice.material};
+  if (all && choice.material.empty() && module.materials.size() > 1) {
+    names.clear();
+    for (const auto& material : module.materials) names.push_back(material.name);
+  }
+  std::vector<Program> programs;
+  for (const auto& name : names) {
+    if (diagnostics.has_errors()) break;
+    if (auto program = compile_material(module, name, choice.device, sources, source, *resolver, diagnostics)) programs.push_back(*program);
+  }
+  print_diagnostics(stderr, diagnostics, sources);
+  if (diagnostics.has_errors()) programs.clear();
+  return programs;
+}
+
+/// The program's parameters with the `--set` options applied, or nothing, when what is wrong has been printed.
+std::optional<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {
+  auto values = program.default_parameters();
+  QuantityReader reader;
+  for (const auto& setting : settings) {
+    const auto equals = setting.find('=');
+    const std::string name = setting.substr(0, equals);
+    const auto index = program.parameter(name);
+    if (equals == std::string::npos || !index) {
+      std::string known;
+      for (const auto& parameter : program.description().parameters) known += (known.empty() ? "" : ", ") + parameter.name;
+      refuse(equals == std::string::npos ? fmt::format("--set takes NAME=VALUE, not `{}`", setting)
+                                         : fmt::format("`{}` has no parameter `{}`; it has: {}", program.description().material, name,
+                                                       known.empty() ? "none" : known));
+      return std::nullopt;
+    }
+    const auto value = reader.parameter("--set " + name, program.description().parameters[*index], setting.substr(equals + 1));
+    if (!value) {
+      print_diagnostics(stderr, reader.diagnostics(), reader.sources());
+      return std::nullopt;
+    }
+    values[*index] = *value;
+  }
+  return values;
+}
+
+std::optional<Trace> load_trace(const std::string& path) {
+  const auto read = read_file(path);
+  if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+    refuse(fmt::format("`{}` cannot be read: {}", path, problem->reason));
+    return std::nullopt;
+  }
+  auto trace = read_trace(std::get<ResolvedFile>(read).bytes);
+  if (const auto* error = std::get_if<TraceError>(&trace)) {
+    refuse(fmt::format("{}:{}: expected {}, found {}", path, error->line, error->expected, error->found));
+    return std::nullopt;
+  }
+  return std::get<Trace>(std::move(trace));
+}
+
+int check(const std::vector<std::string>& files, bool json) {
+  SourceSet sources;
+  Diagnostics all;
+  for (const auto& file : files) {
+    auto read = read_file(file);
+    Diagnostics diagnostics;
+    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+      const SourceId source = sources.add(file, "");
+      diagnostics.report({.code = Code::unreadable_file,
+                          .span = {source, 0, 0},
+                          .message = fmt::format("`{}` cannot be read: {}", file, problem->reason),
+                          .help = "name a Wale file"});
+    } else {
+      const auto resolver = file_resolver({});
+      const SourceId source = sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
+      const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+      if (!diagnostics.has_errors()) {
+        for (const auto& material : module.materials) {
+          Diagnostics of_material;
+          compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
+          for (const auto& diagnostic : of_material.all()) diagnostics.report(diagnostic);
+        }
+      }
+    }
+    for (const auto& diagnostic : diagnostics.all()) all.report(diagnostic);
+  }
+  if (json) {
+    fmt::print("{}\n", render_json(all, sources));
+  } else {
+    print_diagnostics(stdout, all, sources);
+    const std::size_t warnings = all.all().size() - all.error_count();
+    const auto count = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+    fmt::print("{}: {}, {}\n", count(files.size(), "file"), count(all.error_count(), "error"), count(warnings, "warning"));
+  }
+  return all.has_errors() ? refused : 0;
+}
+
+int build(const Choice& choice, const std::string& out) {
+  const auto programs = load_programs(choice, false);
+  if (programs.empty()) return refused;
+  const auto bytes = write_patch_program(programs.front().description());
+  if (const auto problem = write_file(out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()})) return refuse(*problem);
+  return 0;
+}
+
+int describe(const Choice& choice, const std::vector<std::string>& settings, bool json) {
+  const auto programs = load_programs(choice, true);
+  if (programs.empty()) return refused;
+  std::vector<Description> descriptions;
+  for (const auto& program : programs) {
+    const auto parameters = chosen_parameters(program, settings);
+    if (!parameters) return refused;
+    descriptions.push_back(describe(Bank(program, *parameters, program.default_size())));
+  }
+  if (json) {
+    fmt::print("{}", descriptions_json(descriptions));
+    return 0;
+  }
+  for (std::size_t i = 0; i < descriptions.size(); ++i) fmt::print("{}{}", i == 0 ? "" : "\n", description_text(descriptions[i]));
+  return 0;
+}
+
+int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at, const std::string& trace_file,
+           const std::string& out, bool json) {
+  const auto programs = load_programs(choice, false);
+  if (programs.empty()) return refused;
+  const auto parameters = chosen_parameters(programs.front(), settings);
+  if (!parameters) return refused;
+  std::vector<SampledHand> hands;
+  if (!trace_file.empty()) {
+    const auto trace = load_trace(trace_file);
+    if (!trace) return refused;
+    for (const auto& point : trace->points) hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
+  } else {
+    QuantityReader reader;
+    const auto hand = reader.hand("--at", at);
+    if (!hand) {
+      print_diagnostics(stderr, reader.diagnostics(), reader.sources());
+      return refused;
+    }
+    hands.push_back({0, *hand});
+  }
+  const Bank bank(programs.front(), *parameters, programs.front().default_size());
+  const std::string text = json ? samples_json(sample(bank, hands)) : samples_csv(sample(bank, hands));
+  if (const auto problem = write_file(out, text)) return refuse(*problem);
+  return 0;
+}
+
+int preview(const Choice& choice, const std::vector<std::string>& settings, const std::string& out) {
+  const auto programs = load_programs(choice, false);
+  if (programs.empty()) return refused;
+  const auto parameters = chosen_parameters(programs.front(), settings);
+  if (!parameters) return refused;
+  const Bank bank(programs.front(), *parameters, programs.front().default_size());
+  const Drawing drawing = draw_preview(bank, preview_text(bank));
+  if (!drawing.has_text) fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  if (const auto problem = save_drawing(drawing, out)) return refuse(problem->reason);
+  return 0;
+}
+
+struct FeelOptions {
+  Choice choice;
+  std::vector<std::string> settings;
+  std::string device = "simulated", hand = "lateral", record;
+  double seconds = 5;
+  bool virtual_time = false, json = false;
+};
+
+int feel(const FeelOptions& options) {
+  if (options.device != "simulated")
+    return refuse(fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
+  const auto programs = load_programs(options.choice, false);
+  if (programs.empty()) return refused;
+  const Program& program = programs.front();
+  const auto parameters = chosen_parameters(program, options.settings);
+  if (!parameters) return refused;
+
+  const auto person = std::get<SimulatedPerson>(Library().person());
+  Motion motion = person.lateral;
+  if (options.hand == "circular") motion = person.circular;
+  else if (options.hand == "rest") motion = Rest{};
+  else if (options.hand != "lateral") {
+    auto trace = load_trace(options.hand);
+    if (!trace) return refused;
+    motion = *std::move(trace);
+  }
+  SimulatedJoystick joystick(program.description().device, person.hand, std::move(motion));
+  Stage stage(joystick);
+  stage.place(program);
+  for (std::size_t i = 0; i < parameters->size(); ++i)
+    if (const auto refusal = stage.set(program.description().parameters[i].name, (*parameters)[i])) return refuse(refusal->reason);
+
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  RunOptions run{.seconds = options.seconds, .virtual_time = options.virtual_time, .progress = {}, .stop = &interrupted};
+  const bool live = isatty(fileno(stderr));
+  if (live) run.progress = [](const Progress& now) { fmt::print(stderr, "\r{}", progress_line(now)); };
+  const auto result = stage.run(run);
+  if (live) fmt::print(stderr, "\r\033[K");
+  if (const auto* refusal = std::get_if<Refusal>(&result)) return refuse(refusal->reason);
+
+  const auto& done = std::get<RunResult>(result);
+  if (!options.record.empty()) {
+    std::ostringstream csv;
+    write_csv(csv, done.record);
+    if (const auto problem = write_file(options.record, csv.str())) return refuse(*problem);
+  }
+  const FeltReport report = felt_report(*stage.bank(), done, joystick.profile(), {options.device, options.hand, options.virtual_time});
+  fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
+  return 0;
+}
+
+int devices(bool json) {
+  fmt::print("{}", json ? devices_json(Library().devices()) : devices_text(Library().devices()));
+  return 0;
+}
+
+constexpr const char* about = R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
+
+  designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
+  curators     compare and trust:        wale describe --json FILE;  wale preview FILE -o OUT.png
+  programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10 mm, 5 mm"
+                                         examples/roughness_by_name asks for a roughness by name from C++
+
+Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(about, "wale");
+  app.set_version_flag("--version", "wale " WALE_VERSION ", language version 1");
+  app.require_subcommand(1);
+  int status = 0;
+
+  std::vector<std::string> files, settings;
+  Choice choice;
+  FeelOptions feeling;
+  std::string out, at, trace;
+  bool json = false;
+  const auto with_settings = [&](CLI::App* verb, std::vector<std::string>& into) {
+    verb->add_option("--set", into, "a parameter's value, as in --set wale=5mm; may be repeated")->type_name("NAME=VALUE")->expected(1)->take_all();
+  };
+
+  auto* verb = app.add_subcommand("check", "says what is wrong with Wale files, and where, and how to mend it");
+  verb->add_option("FILE", files, "Wale files")->required();
+  verb->add_flag("--json", json, "diagnostics as a JSON array");
+  verb->callback([&] { status = check(files, json); });
+
+  verb = app.add_subcommand("build", "compiles a material to a patch program");
+  choice.offer(*verb);
+  verb->add_option("-o,--output", out, "the patch program to write (.wpp)")->required();
+  verb->callback([&] { status = build(choice, out); });
+
+  verb = app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
+  choice.offer(*verb);
+  with_settings(verb, settings);
+  verb->add_flag("--json", json, "an object for one material, an array for several");
+  verb->callback([&] { status = describe(choice, settings, json); });
+
+  verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
+  feeling.choice.offer(*verb, "--built-for");
+  with_settings(verb, feeling.settings);
+  verb->add_option("--device", feeling.device, "the joystick (default: simulated; see `wale devices`)");
+  verb->add_option("--hand", feeling.hand, "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
+  verb->add_option("--seconds", feeling.seconds, "how long (default: 5)");
+  verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
+  verb->add_option("--record", feeling.record, "writes every tick to a CSV file");
+  verb->add_flag("--json", feeling.json, "the report as a JSON object");
+  verb->callback([&] { status = feel(feeling); });
+
+  verb = app.add_subcommand("sample", "the program's force at given hands, open loop; outside the patch it is zero");
+  choice.offer(*verb);
+  with_settings(verb, settings);
+  auto* places = verb->add_option_group("hands", "where the hand is")->require_option(1);
+  places->add_option("--at", at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
+  places->add_option("--trace", trace, "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick");
+  verb->add_option("-o,--output", out, "where to write (default: standard output)");
+  verb->add_flag("--json", json, "a JSON array instead of CSV");
+  verb->callback([&] { status = sample(choice, settings, at, trace, out.empty() ? "-" : out, json); });
+
+  verb = app.add_subcommand("preview", "draws the picture a designer would pin to the wall");
+  choice.offer(*verb);
+  with_settings(verb, settings);
+  verb->add_option("-o,--output", out, "the picture to write (.png)")->required();
+  verb->callback([&] { status = preview(choice, settings, out); });
+
+  verb = app.add_subcommand("devices", "lists the joysticks that materials can be felt on and built for");
+  verb->add_flag("--json", json, "as a JSON array");
+  verb->callback([&] { status = devices(json); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : misused;
+  }
+  return status;
+}

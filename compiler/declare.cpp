@@ -78,7 +78,7 @@ class Declarer {
     declarations_.functions[node.name.text] = {&tree_, &node};
   }
 
-  void operator()(const Record& node) {
+  void operator()(const RecordDecl& node) {
     RecordReader reader(tree_, node, sources_, declarations_, diagnostics_);
     const auto& keyword = node.keyword.text;
     if (keyword == "percept") declare_percept(reader, declarations_);
@@ -165,10 +165,10 @@ void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& dec
   Declarer declarer(tree, sources, declarations, diagnostics);
   // Records speak of units, percepts and functions wherever in the file those stand.
   for (const auto& declaration : tree.declarations)
-    if (!std::holds_alternative<Record>(declaration)) std::visit(declarer, declaration);
+    if (!std::holds_alternative<RecordDecl>(declaration)) std::visit(declarer, declaration);
   for (const char* keyword : {"percept", "map", "device", "levels", "hand"})
     for (const auto& declaration : tree.declarations)
-      if (const auto* record = std::get_if<Record>(&declaration); record && record->keyword.text == keyword) declarer(*record);
+      if (const auto* record = std::get_if<RecordDecl>(&declaration); record && record->keyword.text == keyword) declarer(*record);
 }
 
 }  // namespace wale

@@ -42,7 +42,7 @@ std::optional<Dimension> carrier_dimension(const Declarations& declarations, con
 
 }  // namespace
 
-RecordReader::RecordReader(const SyntaxTree& tree, const Record& record, const SourceSet& sources, const Declarations& declarations,
+RecordReader::RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources, const Declarations& declarations,
                            Diagnostics& diagnostics)
     : tree(tree), record(record), sources(sources), declarations(declarations), diagnostics(diagnostics) {}
 
@@ -121,7 +121,7 @@ void RecordReader::report_unknown_settings() {
 }
 
 void declare_percept(RecordReader& reader, Declarations& declarations) {
-  const Record& record = reader.record;
+  const RecordDecl& record = reader.record;
   Percept percept{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
   if (declarations.percepts.contains(percept.name))
     return reader.report(Code::declared_twice, record.name.span, fmt::format("a percept `{}` is declared already", percept.name), "give one of them another name");
@@ -147,7 +147,7 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
 }
 
 void declare_map(RecordReader& reader, Declarations& declarations) {
-  const Record& record = reader.record;
+  const RecordDecl& record = reader.record;
   const auto percept = declarations.percepts.find(record.name.text);
   if (percept == declarations.percepts.end())
     return reader.report(Code::unknown_name, record.name.span, fmt::format("nothing declares a percept `{}`", record.name.text),
@@ -215,7 +215,7 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
 }
 
 void declare_device(RecordReader& reader, Declarations& declarations) {
-  const Record& record = reader.record;
+  const RecordDecl& record = reader.record;
   DeviceDeclaration device{.documentation = record.documentation, .span = record.name.span};
   DeviceProfile& profile = device.profile;
   profile.name = record.name.text;
@@ -282,7 +282,7 @@ void declare_levels(RecordReader& reader, Declarations& declarations) {
 }
 
 void declare_hand(RecordReader& reader, Declarations& declarations) {
-  const Record& record = reader.record;
+  const RecordDecl& record = reader.record;
   HandDeclaration hand{.name = record.name.text, .span = record.name.span};
   if (declarations.hands.contains(hand.name))
     return reader.report(Code::declared_twice, record.name.span, fmt::format("a hand `{}` is declared already", hand.name), "give one of them another name");

@@ -11,7 +11,7 @@ namespace wale {
 /// Reads the settings of one record: each is asked for by its key, once; what nobody asked for is reported at the end.
 class RecordReader {
  public:
-  RecordReader(const SyntaxTree& tree, const Record& record, const SourceSet& sources, const Declarations& declarations,
+  RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources, const Declarations& declarations,
                Diagnostics& diagnostics);
 
   std::vector<const Setting*> settings(const std::string& key);  ///< all of that key
@@ -30,7 +30,7 @@ class RecordReader {
   void report_unknown_settings();
 
   const SyntaxTree& tree;
-  const Record& record;
+  const RecordDecl& record;
   const SourceSet& sources;
   const Declarations& declarations;
   Diagnostics& diagnostics;

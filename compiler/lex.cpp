@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <limits>
-#include <optional>
+#include <cstdlib>
 #include <set>
 
+#include "compiler/lookalikes.hpp"
 #include "compiler/utf8.hpp"
 
 namespace wale {
@@ -19,68 +21,38 @@ struct Spelling {
 };
 
 constexpr Spelling reserved_words[] = {
-    {"if", TokenKind::word_if},     {"then", TokenKind::word_then}, {"else", TokenKind::word_else},
-    {"in", TokenKind::word_in},     {"on", TokenKind::word_on},     {"from", TokenKind::word_from},
-    {"and", TokenKind::word_and},   {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
+    {"if", TokenKind::word_if},   {"then", TokenKind::word_then}, {"else", TokenKind::word_else},
+    {"in", TokenKind::word_in},   {"on", TokenKind::word_on},     {"from", TokenKind::word_from},
+    {"and", TokenKind::word_and}, {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
 };
 
 /// Longer spellings first, so that `<=` is not read as `<` and `=`.
 constexpr Spelling punctuation[] = {
-    {"..", TokenKind::range},           {"<=", TokenKind::less_equal},       {">=", TokenKind::greater_equal},
-    {"+-", TokenKind::plus_minus},      {"(", TokenKind::left_parenthesis},  {")", TokenKind::right_parenthesis},
-    {"[", TokenKind::left_bracket},     {"]", TokenKind::right_bracket},     {"{", TokenKind::left_brace},
-    {"}", TokenKind::right_brace},      {",", TokenKind::comma},             {";", TokenKind::semicolon},
-    {":", TokenKind::colon},            {"=", TokenKind::equals},            {"+", TokenKind::plus},
-    {"-", TokenKind::minus},            {"*", TokenKind::star},              {"/", TokenKind::slash},
-    {"^", TokenKind::caret},            {"<", TokenKind::less},              {">", TokenKind::greater},
-    {"±", TokenKind::plus_minus},       {"'", TokenKind::prime},             {"%", TokenKind::percent},
+    {"..", TokenKind::range},
+    {"<=", TokenKind::less_equal},
+    {">=", TokenKind::greater_equal},
+    {"+-", TokenKind::plus_minus},
+    {"(", TokenKind::left_parenthesis},
+    {")", TokenKind::right_parenthesis},
+    {"[", TokenKind::left_bracket},
+    {"]", TokenKind::right_bracket},
+    {"{", TokenKind::left_brace},
+    {"}", TokenKind::right_brace},
+    {",", TokenKind::comma},
+    {";", TokenKind::semicolon},
+    {":", TokenKind::colon},
+    {"=", TokenKind::equals},
+    {"+", TokenKind::plus},
+    {"-", TokenKind::minus},
+    {"*", TokenKind::star},
+    {"/", TokenKind::slash},
+    {"^", TokenKind::caret},
+    {"<", TokenKind::less},
+    {">", TokenKind::greater},
+    {"±", TokenKind::plus_minus},
+    {"'", TokenKind::prime},
+    {"%", TokenKind::percent},
 };
-
-/// What people type, or their word processor makes, instead of a token of Wale.
-struct Lookalike {
-  std::string_view text;
-  std::string_view called;
-  std::string_view meant;
-  TokenKind kind;  ///< what it is read as; `unreadable` when it may mean several things
-};
-
-constexpr Lookalike lookalikes[] = {
-    {"...", "three dots", "`..`", TokenKind::range},
-    {"…", "an ellipsis", "`..`", TokenKind::range},
-    {"==", "a doubled equals sign", "`=` to define; values are compared with `<`, `<=`, `>` and `>=`",
-     TokenKind::unreadable},
-    {"!=", "an unequal sign", "`<` or `>`: values are compared with `<`, `<=`, `>` and `>=`", TokenKind::unreadable},
-    {"**", "a doubled asterisk", "`^` for a power", TokenKind::caret},
-    {"&&", "a doubled ampersand", "one `if` inside the other", TokenKind::unreadable},
-    {"||", "a doubled bar", "one `if` inside the other", TokenKind::unreadable},
-    {"×", "a multiplication sign", "`*`", TokenKind::star},
-    {"·", "a middle dot", "`*` between values, a space between units", TokenKind::unreadable},
-    {"⋅", "a dot operator", "`*` between values, a space between units", TokenKind::unreadable},
-    {"÷", "a division sign", "`/`", TokenKind::slash},
-    {"∕", "a division slash", "`/`", TokenKind::slash},
-    {"⁄", "a fraction slash", "`/`", TokenKind::slash},
-    {"−", "a typographic minus", "`-`", TokenKind::minus},
-    {"–", "a dash", "`-`", TokenKind::minus},
-    {"—", "a long dash", "`-`", TokenKind::minus},
-    {"‐", "a typographic hyphen", "`-`", TokenKind::minus},
-    {"≤", "a less-or-equal sign", "`<=`", TokenKind::less_equal},
-    {"≥", "a greater-or-equal sign", "`>=`", TokenKind::greater_equal},
-    {"’", "a typographic apostrophe", "`'`", TokenKind::prime},
-    {"‘", "a typographic quote", "`'`", TokenKind::prime},
-    {"′", "a prime", "`'`", TokenKind::prime},
-};
-
-/// Characters that stand for an ASCII spelling of two tokens or of a name.
-struct Abbreviation {
-  std::string_view text;
-  std::string_view called;
-  std::string_view meant;
-};
-
-constexpr Abbreviation abbreviations[] = {
-    {"²", "a raised 2", "^2"}, {"³", "a raised 3", "^3"}, {"°", "a degree sign", "deg"}};
-
-constexpr std::string_view typographic_quotes[] = {"“", "”", "„", "«", "»", "‟"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
@@ -88,7 +60,8 @@ bool continues_name(char c) { return begins_name(c) || is_digit(c); }
 
 bool is_micro(char32_t code) { return code == 0xB5 || code == 0x3BC; }
 
-/// Letters of other alphabets, roughly: everything beyond Latin-1's signs but for the blocks of punctuation and symbols.
+/// Letters of other alphabets, roughly: everything beyond Latin-1's signs but for the blocks of punctuation and
+/// symbols.
 bool is_foreign_letter(char32_t code) {
   const bool sign = code == 0xD7 || code == 0xF7 || (code >= 0x2000 && code <= 0x2BFF) ||
                     (code >= 0x3000 && code <= 0x303F) || (code >= 0xFE00 && code <= 0xFEFF) || code >= 0xFFF0;
@@ -119,8 +92,9 @@ class Lexer {
  private:
   bool is_readable() {
     if (text_.size() > largest_source) {
-      report(Code::too_long, 0, 0, fmt::format("this file has {:.1f} MB; Wale reads up to {} MB", text_.size() / 1048576.0,
-                                               largest_source >> 20),
+      report(Code::too_long, 0, 0,
+             fmt::format("this file has {:.1f} MB; Wale reads up to {} MB", text_.size() / 1048576.0,
+                         largest_source >> 20),
              "keep measurements in an image or a table of their own, or split the file and `import` its parts");
       return false;
     }
@@ -128,8 +102,9 @@ class Lexer {
       const Character character = decode(text_, at);
       if (!character.valid || character.code == 0) {
         report(Code::invalid_encoding, at, at + 1,
-               character.code == 0 ? "a NUL byte: this is not a text file"
-                                   : fmt::format("the byte {:#04x} is not UTF-8", static_cast<unsigned char>(text_[at])),
+               character.code == 0
+                   ? "a NUL byte: this is not a text file"
+                   : fmt::format("the byte {:#04x} is not UTF-8", static_cast<unsigned char>(text_[at])),
                character.code == 0 ? "Wale files are plain text" : "save the file as UTF-8");
         return false;
       }
@@ -269,7 +244,8 @@ class Lexer {
     if (foreign) {
       // A name may be used many times; once is enough to say what is wrong with it.
       if (reported_names_.emplace(word).second) {
-        report(Code::unexpected_character, begin, at_, fmt::format("names are written in the letters a to z; `{}` is not", word),
+        report(Code::unexpected_character, begin, at_,
+               fmt::format("names are written in the letters a to z; `{}` is not", word),
                "rename it with a-z, A-Z, 0-9 and `_`; texts in quotes may hold any letter");
       }
     } else if (micro) {
@@ -341,7 +317,8 @@ class Lexer {
     at_ += 1 + character.bytes;
     if (c == 'n') return '\n';
     if (c != '"' && c != '\\') {
-      report(Code::unexpected_character, begin, at_, fmt::format("`{}` means nothing in a text", text_.substr(begin, at_ - begin)),
+      report(Code::unexpected_character, begin, at_,
+             fmt::format("`{}` means nothing in a text", text_.substr(begin, at_ - begin)),
              "write `\\\\` for a backslash, `\\\"` for a quote, `\\n` for a new line; paths are written with `/`");
     }
     return c;
@@ -353,7 +330,8 @@ class Lexer {
       const std::size_t begin = at_;
       at_ += each.text.size();
       while (each.kind == TokenKind::range && at_ < text_.size() && text_[at_] == '.') ++at_;
-      report(Code::unexpected_character, begin, at_, fmt::format("`{}` is {}", text_.substr(begin, at_ - begin), each.called),
+      report(Code::unexpected_character, begin, at_,
+             fmt::format("`{}` is {}", text_.substr(begin, at_ - begin), each.called),
              fmt::format("write {}", each.meant));
       add(each.kind, begin);
       return true;
@@ -449,13 +427,19 @@ class Lexer {
   }
 
   void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
-    result_.tokens.push_back({kind, starts_line_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_), value});
+    result_.tokens.push_back(
+        {kind, starts_line_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_), value});
     starts_line_ = false;
   }
 
   void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help) {
-    diagnostics_.report({code, {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)},
-                         std::move(message), {}, {}, {}, std::move(help)});
+    diagnostics_.report({code,
+                         {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)},
+                         std::move(message),
+                         {},
+                         {},
+                         {},
+                         std::move(help)});
   }
 
   std::string_view text_;

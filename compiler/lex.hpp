@@ -67,14 +67,15 @@ struct Tokens {
   std::map<std::size_t, std::string> documentation;  ///< text of the `///` comments before a token
 };
 
-/// Files larger than this are refused (W0109); a material has a few hundred lines, measured tables live in their own files.
+/// Files larger than this are refused (W0109); a material has a few hundred lines, measured tables live in their own
+/// files.
 constexpr std::size_t largest_source = 4u << 20;
 
 /// Reading a file stops after this many errors in it.
 constexpr std::size_t error_limit = 100;
 
-/// Cuts one file into tokens. Reports what is no token and leaves `unreadable`, or what was evidently meant, in its place.
-/// A file that is no text at all (W0107, W0109) gives nothing but `end`.
+/// Cuts one file into tokens. Reports what is no token and leaves `unreadable`, or what was evidently meant, in its
+/// place. A file that is no text at all (W0107, W0109) gives nothing but `end`.
 Tokens lex(const SourceSet& sources, SourceId source, Diagnostics& diagnostics);
 
 }  // namespace wale

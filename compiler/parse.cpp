@@ -16,8 +16,8 @@ constexpr int known_version = 1;
 /// Declarations whose blocks hold settings; what the settings mean is `check`'s business.
 const std::vector<std::string> record_words = {"percept", "map", "device", "levels", "hand"};
 
-const std::vector<std::string> declaration_words = {"material", "percept",  "map",  "device",    "levels", "hand",
-                                                    "function", "let",      "unit", "dimension", "import"};
+const std::vector<std::string> declaration_words = {"material", "percept", "map",  "device",    "levels", "hand",
+                                                    "function", "let",     "unit", "dimension", "import"};
 
 bool is_record(const std::string& word) {
   return std::find(record_words.begin(), record_words.end(), word) != record_words.end();
@@ -27,15 +27,21 @@ bool is_record(const std::string& word) {
 void report_in_order(const Diagnostics& found, Diagnostics& diagnostics) {
   std::vector<Diagnostic> all = found.all();
   // What is wrong in a newer language is not ours to say.
-  const auto newer = std::find_if(all.begin(), all.end(), [](const auto& each) { return each.code == Code::newer_version; });
+  const auto newer =
+      std::find_if(all.begin(), all.end(), [](const auto& each) { return each.code == Code::newer_version; });
   if (newer != all.end()) all = {Diagnostic(*newer)};
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.span.begin < b.span.begin; });
   const bool cut = all.size() >= error_limit;
   const Span last = all.empty() ? Span{} : all.back().span;
   for (Diagnostic& each : all) diagnostics.report(std::move(each));
   if (cut) {
-    diagnostics.report({Code::unexpected_token, last, fmt::format("{} errors so far; the rest of this file was not read", error_limit),
-                        {}, {}, {}, "correct these first"});
+    diagnostics.report({Code::unexpected_token,
+                        last,
+                        fmt::format("{} errors so far; the rest of this file was not read", error_limit),
+                        {},
+                        {},
+                        {},
+                        "correct these first"});
   }
 }
 
@@ -54,7 +60,8 @@ SyntaxTree parse(const SourceSet& sources, SourceId source, Diagnostics& diagnos
   return tree;
 }
 
-std::vector<ExprId> parse_expressions(const SourceSet& sources, SourceId source, SyntaxTree& tree, Diagnostics& diagnostics) {
+std::vector<ExprId> parse_expressions(const SourceSet& sources, SourceId source, SyntaxTree& tree,
+                                      Diagnostics& diagnostics) {
   tree = SyntaxTree{};
   tree.source = source;
   Diagnostics found;
@@ -108,11 +115,12 @@ bool Parser::version() {
   }
   if (!has_number || number != known_version || first != "wale") {
     const bool plain_start = !is_wale;
-    complain_at(Code::missing_version, span,
-                has_number && first == "wale" ? fmt::format("there is no version {} of Wale", number)
-                                              : "the file does not begin with its version",
-                fmt::format("`wale {}`", known_version), here().kind == TokenKind::end ? "the end of the file" : shown(here()),
-                fmt::format("write `wale {}` {}", known_version, plain_start ? "in a line above everything else" : "here"));
+    complain_at(
+        Code::missing_version, span,
+        has_number && first == "wale" ? fmt::format("there is no version {} of Wale", number)
+                                      : "the file does not begin with its version",
+        fmt::format("`wale {}`", known_version), here().kind == TokenKind::end ? "the end of the file" : shown(here()),
+        fmt::format("write `wale {}` {}", known_version, plain_start ? "in a line above everything else" : "here"));
     if (plain_start) return true;
   }
   advance();
@@ -123,8 +131,8 @@ bool Parser::version() {
 
 void Parser::declaration() {
   if (here().kind == TokenKind::right_brace) {
-    complain_at(Code::unexpected_token, span_of(here()), "nothing is open that this `}` could close", "a declaration", "`}`",
-                "remove it, or look for a `}` too many above");
+    complain_at(Code::unexpected_token, span_of(here()), "nothing is open that this `}` could close", "a declaration",
+                "`}`", "remove it, or look for a `}` too many above");
     advance();
     return;
   }
@@ -141,9 +149,10 @@ void Parser::declaration() {
       if (keyword == word) help = fmt::format("`{}` stands in the `physical {{ … }}` of a material", word);
     }
     if (keyword == "wale") help = "the version is stated once, in the first line";
-    complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
-                "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `device`, `levels` or `hand`",
-                shown(here()), std::move(help));
+    complain_at(
+        Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
+        "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `device`, `levels` or `hand`",
+        shown(here()), std::move(help));
     if (!meant || keyword == "wale") throw Abandon{};
     keyword = *meant;
   }
@@ -231,7 +240,8 @@ FormalParameter Parser::formal_parameter() {
   FormalParameter parameter{declared_name("parameter"), {}, {}};
   if (at(TokenKind::colon)) {
     advance();
-    if (!at(TokenKind::name)) fail("expected a dimension" + after_previous(), "a dimension, as in `period: length`", {});
+    if (!at(TokenKind::name))
+      fail("expected a dimension" + after_previous(), "a dimension, as in `period: length`", {});
     parameter.dimension = take_word();
   }
   if (at(TokenKind::equals)) {
@@ -244,7 +254,7 @@ FormalParameter Parser::formal_parameter() {
 /// `percept NAME { … }`, `map NAME from NAME { … }` and the like.
 void Parser::record() {
   const std::size_t begin = at_;
-  Record record;
+  RecordDecl record;
   record.documentation = documentation_here();
   record.keyword = take_word();
   const auto meant = nearest_spelling(record.keyword.text, record_words);
@@ -280,7 +290,8 @@ void Parser::material() {
     bool misplaced = false;
     block(false, [&] { material_section(material, misplaced); });
   } else if (!material.derived_from) {
-    fail("expected `{` or `=`" + after_previous(), "`{` or `=`", fmt::format("write `material {} {{ … }}`", material.name.text));
+    fail("expected `{` or `=`" + after_previous(), "`{` or `=`",
+         fmt::format("write `material {} {{ … }}`", material.name.text));
   }
   material.span = since(begin);
   tree_.declarations.push_back(std::move(material));

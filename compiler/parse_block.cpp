@@ -58,8 +58,8 @@ Setting Parser::setting() {
 /// `amplitude -3 N .. 3 N`.
 bool Parser::is_leading_word() const {
   if (!at(TokenKind::name)) return false;
-  for (const TokenKind operation : {TokenKind::left_parenthesis, TokenKind::star, TokenKind::slash, TokenKind::caret,
-                                    TokenKind::range}) {
+  for (const TokenKind operation :
+       {TokenKind::left_parenthesis, TokenKind::star, TokenKind::slash, TokenKind::caret, TokenKind::range}) {
     if (followed_by(operation)) return false;
   }
   return true;
@@ -69,7 +69,8 @@ SettingItem Parser::setting_item() {
   const std::size_t begin = at_;
   SettingItem item;
   while (is_leading_word()) item.words.push_back(take_word());
-  const bool has_value = !ends_statement(at_) && !at(TokenKind::comma) && !at(TokenKind::word_on) && !at(TokenKind::equals);
+  const bool has_value =
+      !ends_statement(at_) && !at(TokenKind::comma) && !at(TokenKind::word_on) && !at(TokenKind::equals);
   if (has_value) {
     item.value = expression();
     if (at(TokenKind::range)) {
@@ -95,7 +96,8 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
     const auto meant = opens ? nearest_spelling(section, section_names) : std::nullopt;
     if (!meant) return stray_statement(material, misplaced);
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("a material has no `{}`", section),
-                "`representative`, `perceptual` or `physical`", "`" + section + "`", fmt::format("did you mean `{}`?", *meant));
+                "`representative`, `perceptual` or `physical`", "`" + section + "`",
+                fmt::format("did you mean `{}`?", *meant));
     section = *meant;
   }
   advance();
@@ -117,15 +119,16 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
   }
 }
 
-/// What stands in a material but in none of its sections. A physical statement is read where it is, and only the first of
-/// them reported: they were all meant to be in the same `physical { … }`.
+/// What stands in a material but in none of its sections. A physical statement is read where it is, and only the first
+/// of them reported: they were all meant to be in the same `physical { … }`.
 void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
-  const bool physical = here().kind == TokenKind::name &&
-                        (holds(physical_words, spelling(here())) || kind(at_ + 1) == TokenKind::prime);
+  const bool physical =
+      here().kind == TokenKind::name && (holds(physical_words, spelling(here())) || kind(at_ + 1) == TokenKind::prime);
   if (misplaced && physical) {
     reported_ = true;
   } else {
-    complain_at(Code::unexpected_token, span_of(here()), fmt::format("{} stands outside the sections of the material", shown(here())),
+    complain_at(Code::unexpected_token, span_of(here()),
+                fmt::format("{} stands outside the sections of the material", shown(here())),
                 "`representative`, `perceptual` or `physical`", shown(here()),
                 physical ? "put it into `physical { … }`" : "put it into the section that it belongs to");
   }
@@ -143,8 +146,8 @@ PerceptStatement Parser::percept_statement() {
     advance();
   }
   if (here().kind != TokenKind::name) {
-    complain_at(Code::unexpected_token, span_of(here()), "expected the name of a percept", "a percept, as in `roughness 0.6`",
-                shown(here()), {});
+    complain_at(Code::unexpected_token, span_of(here()), "expected the name of a percept",
+                "a percept, as in `roughness 0.6`", shown(here()), {});
     throw Abandon{};
   }
   percept.name = take_word();
@@ -193,8 +196,8 @@ std::string_view Parser::physical_keyword() {
     const auto meant = nearest_spelling(word, defines ? std::vector<std::string>{"force"} : physical_words);
     const bool plausible = meant && (defines || followed_by(TokenKind::name) || *meant == "patch");
     if (plausible) {
-      complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word), "`" + *meant + "`",
-                  "`" + word + "`", fmt::format("did you mean `{}`?", *meant));
+      complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word),
+                  "`" + *meant + "`", "`" + word + "`", fmt::format("did you mean `{}`?", *meant));
       return word_of_table(*meant);
     }
     if (defines) {
@@ -232,7 +235,8 @@ PhysicalStatement Parser::physical_statement() {
   } else {
     if (keyword != "=") advance();
     Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
-    expect(TokenKind::equals, "`=`", fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text));
+    expect(TokenKind::equals, "`=`",
+           fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text));
     const ExprId value = expression();
     if (keyword == "height") {
       result.what = HeightStatement{std::move(name), value};
@@ -291,7 +295,8 @@ UpdateStatement Parser::update() {
 PatchStatement Parser::patch() {
   advance();
   if (at(TokenKind::equals)) {
-    complain("the size of the patch has no `=` before it", "a length", fmt::format("write `patch {}`", spelling(token(at_ + 1))));
+    complain("the size of the patch has no `=` before it", "a length",
+             fmt::format("write `patch {}`", spelling(token(at_ + 1))));
     advance();
   }
   PatchStatement patch{{expression()}};
@@ -327,10 +332,11 @@ void Parser::missing_brace(std::size_t open) {
   const std::string owner = open > 0 ? shown(token(open - 1)) : "";
   const bool at_end = here().kind == TokenKind::end;
   const Span last = span_of(token(at_ - 1));
-  complain_at(Code::unexpected_token, at_end ? Span{last.source, last.end, last.end} : span_of(here()),
-              at_end ? "expected `}` before the end of the file" : fmt::format("expected `}}` before {}", shown(here())), "`}`",
-              at_end ? "the end of the file" : shown(here()),
-              fmt::format("close the `{{` after {} in line {}, column {}", owner, opened.line, opened.column));
+  complain_at(
+      Code::unexpected_token, at_end ? Span{last.source, last.end, last.end} : span_of(here()),
+      at_end ? "expected `}` before the end of the file" : fmt::format("expected `}}` before {}", shown(here())), "`}`",
+      at_end ? "the end of the file" : shown(here()),
+      fmt::format("close the `{{` after {} in line {}, column {}", owner, opened.line, opened.column));
 }
 
 }  // namespace wale

@@ -43,15 +43,16 @@ bool Parser::is_word(std::size_t index, std::string_view word) const {
 
 bool Parser::ends_statement(std::size_t index) const {
   const Token& next = token(index);
-  if (next.kind == TokenKind::end || next.kind == TokenKind::semicolon || next.kind == TokenKind::right_brace) return true;
+  if (next.kind == TokenKind::end || next.kind == TokenKind::semicolon || next.kind == TokenKind::right_brace)
+    return true;
   if (!next.starts_line || !open_parentheses_.empty()) return false;
   // No statement begins with these, so they may also begin the second line of a long conditional.
   if (next.kind == TokenKind::word_then || next.kind == TokenKind::word_else) return false;
   return index > 0 && !continues(kind(index - 1));
 }
 
-/// Whether a line that begins at the token can only be a new statement. Asked where an expression is incomplete, so that
-/// the mistake in one line does not swallow the next.
+/// Whether a line that begins at the token can only be a new statement. Asked where an expression is incomplete, so
+/// that the mistake in one line does not swallow the next.
 bool Parser::begins_statement(std::size_t index) const {
   if (kind(index) != TokenKind::name) return false;
   const TokenKind next = kind(index + 1);
@@ -103,8 +104,8 @@ Word Parser::declared_name(std::string_view declares) {
   }
   Word name = take_word();
   if (name.text.find('.') != std::string::npos) {
-    complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} has no dots", declares), "a plain name",
-                "`" + name.text + "`", "dots lead to what another module declares; write `_` instead");
+    complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} has no dots", declares),
+                "a plain name", "`" + name.text + "`", "dots lead to what another module declares; write `_` instead");
   }
   return name;
 }
@@ -141,7 +142,8 @@ std::string Parser::shown(const Token& token) const {
 
 std::string Parser::found_here() const {
   if (here().kind == TokenKind::end) return "the end of the file";
-  if (!ends_statement(at_) || here().kind == TokenKind::right_brace) return shown(here());
+  const bool brace_here = here().kind == TokenKind::right_brace && !here().starts_line;
+  if (!ends_statement(at_) || brace_here) return shown(here());
   return here().kind == TokenKind::semicolon ? "`;`" : "the end of the line";
 }
 
@@ -153,8 +155,6 @@ std::string Parser::documentation_here() const {
 }
 
 void Parser::complain(std::string message, std::string expected, std::string help) {
-  // What the lexer could not read has been reported by the lexer.
-  if (here().kind == TokenKind::unreadable) reported_ = true;
   Span span = span_of(here());
   const bool after_last = here().starts_line || here().kind == TokenKind::end;
   if (ends_statement(at_) && after_last && at_ > 0) span.begin = span.end = token(at_ - 1).end;
@@ -163,6 +163,8 @@ void Parser::complain(std::string message, std::string expected, std::string hel
 
 void Parser::complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
                          std::string help) {
+  // What the lexer could not read has been reported by the lexer.
+  if (here().kind == TokenKind::unreadable) reported_ = true;
   if (reported_) return;
   reported_ = true;
   diagnostics_.report({code, span, std::move(message), {}, std::move(expected), std::move(found), std::move(help)});
@@ -190,11 +192,13 @@ std::string Parser::mend_here() const {
     case TokenKind::number:
     case TokenKind::left_parenthesis:
       if (!ends_value(previous.kind)) return {};
-      if (next.kind == TokenKind::left_parenthesis) return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
+      if (next.kind == TokenKind::left_parenthesis)
+        return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
       return fmt::format("to multiply, write `{} * {}{}`", spelling(previous), spelling(next),
                          after.kind == TokenKind::left_parenthesis ? "(…)" : "");
     case TokenKind::comma:
-      if (previous.kind == TokenKind::number && touching && after.kind == TokenKind::number && after.begin == next.end) {
+      if (previous.kind == TokenKind::number && touching && after.kind == TokenKind::number &&
+          after.begin == next.end) {
         return fmt::format("decimals are written with a point: `{}.{}`", spelling(previous), spelling(after));
       }
       return {};

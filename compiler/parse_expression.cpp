@@ -34,8 +34,8 @@ const InfixOperator* infix(TokenKind kind) {
 }
 
 /// How well a number is known, where a declaration says so: these words are no units.
-constexpr std::string_view evidence_words[] = {"measured",  "published",   "estimated",
-                                               "recalled",  "transferred", "assumed"};
+constexpr std::string_view evidence_words[] = {"measured", "published",   "estimated",
+                                               "recalled", "transferred", "assumed"};
 
 }  // namespace
 
@@ -128,7 +128,9 @@ ExprId Parser::operand() {
     case TokenKind::word_on:
     case TokenKind::word_from:
     case TokenKind::word_then:
-    case TokenKind::word_else: help = fmt::format("`{}` is a word of the language, not a name", spelling(here())); break;
+    case TokenKind::word_else:
+      help = fmt::format("`{}` is a word of the language, not a name", spelling(here()));
+      break;
     default:
       if (!open_parentheses_.empty() && token(open_parentheses_.back()).value == 0) help = unclosed_parenthesis();
   }
@@ -254,8 +256,8 @@ void Parser::close_parenthesis(std::string_view expected) {
     const bool closed_later = token(open_parentheses_.back()).value > 0;
     if (here().starts_line && (begins_statement(at_) || !closed_later)) {
       const Span end = span_of(token(at_ - 1));
-      complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, std::string(expected), "the end of the line",
-                  unclosed_parenthesis());
+      complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, std::string(expected),
+                  "the end of the line", unclosed_parenthesis());
       throw Abandon{};
     }
     std::string help = mend_here();
@@ -285,7 +287,8 @@ ExprId Parser::conditional() {
   advance();
   const ExprId yes = operation(0);
   if (!at(TokenKind::word_else)) {
-    fail("expected `else`" + after_previous(), "`else`", "an `if` says what the value is otherwise: `if … then … else …`");
+    fail("expected `else`" + after_previous(), "`else`",
+         "an `if` says what the value is otherwise: `if … then … else …`");
   }
   advance();
   const ExprId no = operation(0);
@@ -296,8 +299,9 @@ ExprId Parser::add(Expr expr, Span span, std::initializer_list<ExprId> children)
   std::uint32_t height = 1;
   for (const ExprId child : children) height = std::max(height, heights_[child] + 1);
   if (height > highest_expression) {
-    complain_at(Code::nested_too_deep, span, fmt::format("an expression of more than {} steps in a row", highest_expression), {},
-                {}, "name parts of it with `let`");
+    complain_at(Code::nested_too_deep, span,
+                fmt::format("an expression of more than {} steps in a row", highest_expression), {}, {},
+                "name parts of it with `let`");
     throw Abandon{};
   }
   tree_.exprs.push_back(std::move(expr));

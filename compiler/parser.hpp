@@ -107,7 +107,8 @@ class Parser {
 
   /// Reports what stands here, or the place just after the last token when the statement has ended.
   void complain(std::string message, std::string expected, std::string help);
-  void complain_at(Code code, Span span, std::string message, std::string expected, std::string found, std::string help);
+  void complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
+                   std::string help);
   [[noreturn]] void fail(std::string message, std::string expected, std::string help);
   ExprId erroneous(std::size_t first_token) { return add(Erroneous{}, since(first_token)); }
   std::string mend_here() const;
@@ -128,9 +129,9 @@ class Parser {
   std::size_t statement_begin_ = 0;
   std::size_t nesting_ = 0;
   std::optional<ExprId> last_expression_;  ///< of this statement
-  bool reported_ = false;       ///< this statement has had its error
-  bool brace_missing_ = false;  ///< this declaration has had its error about braces
-  bool in_setting_ = false;     ///< words of evidence end a unit: `0.3 kg assumed`
+  bool reported_ = false;                  ///< this statement has had its error
+  bool brace_missing_ = false;             ///< this declaration has had its error about braces
+  bool in_setting_ = false;                ///< words of evidence end a unit: `0.3 kg assumed`
 };
 
 template <class Body>

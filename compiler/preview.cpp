@@ -47,7 +47,8 @@ void write_caption(Canvas& canvas, const std::string& text) {
 
 /// Where on the relief the curves beside it were taken.
 void mark_section(Canvas& canvas, const Exhibit& exhibit) {
-  const double x = (picture.left + picture.right) / 2, y = (picture.top + picture.bottom) / 2;
+  const double aside = exhibit.aside / exhibit.side * picture.width();
+  const double x = (picture.left + picture.right) / 2 + aside, y = (picture.top + picture.bottom) / 2 - aside;
   const Pen thin = {1.3, style::ink, 0.55f, 6}, thick = {2, style::ink};
   if (exhibit.axis == 0) {
     canvas.line({picture.left, y}, {picture.right, y}, thin);
@@ -152,16 +153,16 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
   canvas.write_within({margin, 146}, width - 420, text.names, style::names);
   canvas.write_within({page_width - margin, 146}, 400, place, style::label, Align::right);
 
-  const double top = 858;
+  const double top = 848;
   canvas.line({margin, top}, {page_width - margin, top}, {1, style::rule});
   const std::size_t count = std::min<std::size_t>(text.figures.size(), 6);
   const double column = width / static_cast<double>(std::max<std::size_t>(count, 4));
   for (std::size_t i = 0; i < count; ++i) {
     const double left = margin + static_cast<double>(i) * column;
-    canvas.write_within({left, top + 31}, column - 24, text.figures[i].word, style::word);
-    canvas.write_within({left, top + 72}, column - 24, text.figures[i].value, style::value);
+    canvas.write_within({left, top + 30}, column - 24, text.figures[i].word, style::word);
+    canvas.write_within({left, top + 70}, column - 24, text.figures[i].value, style::value);
   }
-  canvas.write_within({margin, 972}, width, text.evidence, style::label);
+  canvas.write_within({margin, 957}, width, text.evidence, style::label);
 }
 
 }  // namespace

@@ -50,7 +50,10 @@ PreviewText preview_text(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   PreviewText text;
   text.title = joined(said(program.layers, "title"), " ");
-  if (text.title.empty()) text.title = program.material;
+  if (text.title.empty()) {
+    text.title = program.material;
+    std::ranges::replace(text.title, '_', ' ');
+  }
   text.names = joined(said(program.layers, "called"), " · ");
 
   std::vector<std::string> evidence;

@@ -84,7 +84,8 @@ class TreePrinter {
     line(0, "(dimension " + dimension.name.text + optional(dimension.definition) + ")");
   }
   void operator()(const UnitDecl& unit) {
-    line(0, documented(unit.documentation) + "(unit " + unit.name.text + typed(unit.dimension) + optional(unit.definition) + ")");
+    line(0, documented(unit.documentation) + "(unit " + unit.name.text + typed(unit.dimension) +
+                optional(unit.definition) + ")");
   }
   void operator()(const Constant& constant) {
     line(0, documented(constant.documentation) + "(let " + constant.name.text + " " + expr(constant.value) + ")");
@@ -97,7 +98,7 @@ class TreePrinter {
     }
     line(0, text + ") " + expr(function.body) + ")");
   }
-  void operator()(const Record& record) {
+  void operator()(const RecordDecl& record) {
     line(0, documented(record.documentation) + "(" + record.keyword.text + " " + record.name.text +
                 (record.from ? " from " + record.from->text : ""));
     settings(1, record.settings);
@@ -160,8 +161,8 @@ class TreePrinter {
     if (item.range_end) append(".. " + expr(*item.range_end));
     if (item.equals) append("= " + expr(*item.equals));
     for (const Word& word : item.trailing) append(word.text);
-    const std::size_t parts = item.words.size() + item.trailing.size() + item.value.has_value() + item.equals.has_value() +
-                              item.range_end.has_value();
+    const std::size_t parts = item.words.size() + item.trailing.size() + item.value.has_value() +
+                              item.equals.has_value() + item.range_end.has_value();
     return parts == 1 ? text : "{" + text + "}";
   }
 
@@ -174,11 +175,14 @@ class TreePrinter {
   }
 
   std::string statement_text(const ParamStatement& param) const {
-    std::string text = documented(param.documentation) + "(param " + param.name.text + " " + expr(param.value) + range(param.range);
+    std::string text =
+        documented(param.documentation) + "(param " + param.name.text + " " + expr(param.value) + range(param.range);
     if (!param.description.empty()) text += " " + quoted(param.description);
     return text + ")";
   }
-  std::string statement_text(const LetStatement& let) const { return "(let " + let.name.text + " " + expr(let.value) + ")"; }
+  std::string statement_text(const LetStatement& let) const {
+    return "(let " + let.name.text + " " + expr(let.value) + ")";
+  }
   std::string statement_text(const HeightStatement& height) const {
     return "(height " + height.name.text + " " + expr(height.value) + ")";
   }

@@ -6,7 +6,8 @@
 
 namespace wale {
 
-/// The tree as S-expressions, one declaration or statement a line: what `--emit tree` shows and the parser's tests compare.
+/// The tree as S-expressions, one declaration or statement a line: what `--emit tree` shows and the parser's tests
+/// compare.
 ///
 ///     (material corduroy
 ///       (perceptual (roughness 0.6))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "compiler/utf8.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::size_t tab_width = 4;
 /// Longer lines are cut to this many characters around the place; terminals wrap and then no caret points anywhere.
-constexpr std::size_t widest_line = 100;
+constexpr std::size_t widest_line = 140;
 /// How much of a cut line stays visible before the place.
 constexpr std::size_t context_before = 30;
 
@@ -27,8 +28,8 @@ struct DisplayedLine {
 /// Control characters and broken UTF-8 become visible and harmless: a file must not steer the reader's terminal.
 std::string displayable(std::string_view bytes, const Character& character) {
   const bool control = character.code < ' ' || (character.code >= 0x7F && character.code < 0xA0);
-  const bool reorders = (character.code >= 0x202A && character.code <= 0x202E) ||
-                        (character.code >= 0x2066 && character.code <= 0x2069);
+  const bool reorders =
+      (character.code >= 0x202A && character.code <= 0x202E) || (character.code >= 0x2066 && character.code <= 0x2069);
   return character.valid && !control && !reorders ? std::string(bytes) : "\uFFFD";
 }
 
@@ -69,7 +70,8 @@ void trim(DisplayedLine& line) {
   std::size_t from = line.begin > context_before ? line.begin - context_before : 0;
   from = std::min(from, line.columns.size() - std::min(line.columns.size(), widest_line));
   const std::size_t to = std::min(line.columns.size(), from + widest_line);
-  Columns kept(line.columns.begin() + static_cast<std::ptrdiff_t>(from), line.columns.begin() + static_cast<std::ptrdiff_t>(to));
+  Columns kept(line.columns.begin() + static_cast<std::ptrdiff_t>(from),
+               line.columns.begin() + static_cast<std::ptrdiff_t>(to));
   if (from > 0) kept.front() = "…";
   if (to < line.columns.size()) kept.back() = "…";
   line.columns = std::move(kept);
@@ -107,26 +109,30 @@ std::string indented(std::string_view text, std::size_t indent) {
 std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, bool colour) {
   const Severity severity = severity_of(diagnostic.code);
   const Palette& paint = !colour ? plain : severity == Severity::error ? error_colours : warning_colours;
-  const Place place = sources.place(diagnostic.span);
+  // What is wrong with a command line rather than a file has no place.
+  const bool has_place = diagnostic.span.source < sources.size();
+  const Place place = has_place ? sources.place(diagnostic.span) : Place{};
   const std::string line_number = std::to_string(place.line);
   const std::string margin(line_number.size() + 1, ' ');
 
-  std::string out = fmt::format("{}{}[{}]{}{}: {}{}\n", paint.severity, severity_name(severity), code_name(diagnostic.code), paint.off,
-                                paint.bold, indented(diagnostic.message, 0), paint.off);
-  if (diagnostic.span.source < sources.size()) {
+  std::string out =
+      fmt::format("{}{}[{}]{}{}: {}{}\n", paint.severity, severity_name(severity), code_name(diagnostic.code),
+                  paint.off, paint.bold, indented(diagnostic.message, 0), paint.off);
+  if (has_place) {
     const std::string_view line = sources.line(diagnostic.span);
     const auto line_begin = static_cast<std::size_t>(line.data() - sources[diagnostic.span.source].text.data());
-    DisplayedLine shown = display(line, diagnostic.span.begin - std::min<std::size_t>(line_begin, diagnostic.span.begin),
-                                  diagnostic.span.end - std::min<std::size_t>(line_begin, diagnostic.span.end));
+    DisplayedLine shown =
+        display(line, diagnostic.span.begin - std::min<std::size_t>(line_begin, diagnostic.span.begin),
+                diagnostic.span.end - std::min<std::size_t>(line_begin, diagnostic.span.end));
     trim(shown);
     std::string text;
     for (const std::string& column : shown.columns) text += column;
-    out += fmt::format("{}{}-->{} {}:{}:{}\n", margin, paint.gutter, paint.off, sources[diagnostic.span.source].name, place.line,
-                       place.column);
+    out += fmt::format("{}{}-->{} {}:{}:{}\n", margin, paint.gutter, paint.off, sources[diagnostic.span.source].name,
+                       place.line, place.column);
     out += fmt::format("{}{} |{}\n", margin, paint.gutter, paint.off);
     out += fmt::format(" {}{} |{}{}{}\n", paint.gutter, line_number, paint.off, text.empty() ? "" : " ", text);
-    out += fmt::format("{}{} |{} {}{}{}{}{}{}\n", margin, paint.gutter, paint.off, std::string(shown.begin, ' '), paint.severity,
-                       std::string(shown.end - shown.begin, '^'), diagnostic.label.empty() ? "" : " ",
+    out += fmt::format("{}{} |{} {}{}{}{}{}{}\n", margin, paint.gutter, paint.off, std::string(shown.begin, ' '),
+                       paint.severity, std::string(shown.end - shown.begin, '^'), diagnostic.label.empty() ? "" : " ",
                        indented(diagnostic.label, 0), paint.off);
   }
   if (diagnostic.expected.empty() && diagnostic.found.empty() && diagnostic.help.empty()) return out;
@@ -150,16 +156,17 @@ std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources
   using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (const Diagnostic& each : diagnostics.all()) {
-    const Place begin = sources.place(each.span);
-    const Place end = sources.place({each.span.source, each.span.end, each.span.end});
-    Json object = {{"code", code_name(each.code)},
-                   {"severity", severity_name(severity_of(each.code))},
-                   {"file", sources[each.span.source].name},
-                   {"line", begin.line},
-                   {"column", begin.column},
-                   {"end_line", end.line},
-                   {"end_column", end.column},
-                   {"message", each.message}};
+    Json object = {{"code", code_name(each.code)}, {"severity", severity_name(severity_of(each.code))}};
+    if (each.span.source < sources.size()) {
+      const Place begin = sources.place(each.span);
+      const Place end = sources.place({each.span.source, each.span.end, each.span.end});
+      object["file"] = sources[each.span.source].name;
+      object["line"] = begin.line;
+      object["column"] = begin.column;
+      object["end_line"] = end.line;
+      object["end_column"] = end.column;
+    }
+    object["message"] = each.message;
     if (!each.expected.empty()) object["expected"] = each.expected;
     if (!each.found.empty()) object["found"] = each.found;
     if (!each.help.empty()) object["help"] = each.help;

@@ -66,7 +66,7 @@ struct Setting {
 };
 
 /// `percept`, `map`, `device`, `levels`, `hand` and the like: a keyword, a name, a block of settings.
-struct Record {
+struct RecordDecl {
   Word keyword;
   Word name;
   std::optional<Word> from;  ///< `map roughness from amplitude`
@@ -121,7 +121,7 @@ struct MaterialDecl {
   Span span;
 };
 
-using Declaration = std::variant<Import, DimensionDecl, UnitDecl, Constant, FunctionDecl, Record, MaterialDecl>;
+using Declaration = std::variant<Import, DimensionDecl, UnitDecl, Constant, FunctionDecl, RecordDecl, MaterialDecl>;
 
 /// One parsed file. Expressions live in `exprs` and are named by index; `expr_spans` runs beside it.
 struct SyntaxTree {

@@ -13,15 +13,10 @@ namespace {
 
 namespace algorithm = OIIO::ImageBufAlgo;
 
-/// The first of these fonts that is installed, empty when none is.
-std::string installed_font(std::initializer_list<const char*> names) {
-  for (const char* name : names) {
-    const bool found = algorithm::text_size("0", 20, name).defined();
-    OIIO::geterror();
-    if (found) return name;
-  }
-  return {};
-}
+constexpr std::array<std::string_view, 5> sans_fonts = {"DejaVuSans.ttf", "LiberationSans-Regular.ttf",
+                                                        "NotoSans-Regular.ttf", "FreeSans.ttf", "Arial.ttf"};
+constexpr std::array<std::string_view, 4> serif_fonts = {"DejaVuSerif.ttf", "LiberationSerif-Regular.ttf",
+                                                         "NotoSerif-Regular.ttf", "FreeSerif.ttf"};
 
 /// What a font can set: control characters become spaces, and bytes that are not UTF-8 question marks.
 std::string printable(std::string_view text) {
@@ -90,9 +85,9 @@ Colour mixed(Colour first, Colour second, float part) {
 Canvas::Canvas(int width, int height, Colour paper)
     : pixels_(OIIO::ImageSpec(width * fineness, height * fineness, 3, OIIO::TypeFloat)) {
   algorithm::fill(pixels_, {paper.red, paper.green, paper.blue}, {}, 1);
-  sans_ = installed_font({"DejaVuSans", "LiberationSans-Regular", "NotoSans-Regular", "FreeSans", "Arial"});
-  serif_ = installed_font({"DejaVuSerif", "LiberationSerif-Regular", "NotoSerif-Regular", "FreeSerif"});
-  if (serif_.empty()) serif_ = sans_;
+  sans_ = Font::find(sans_fonts);
+  serif_ = Font::find(serif_fonts);
+  if (!serif_) serif_ = sans_;
 }
 
 void Canvas::blend(int x, int y, Colour colour, float opacity) {
@@ -183,16 +178,10 @@ void Canvas::shade(std::span<const PagePoint> points, double base, Colour colour
 }
 
 void Canvas::write(PagePoint at, std::string_view text, const Type& type, Align align) {
-  const std::string& font = type.face == Face::serif ? serif_ : sans_;
-  const std::string letters = printable(text);
-  if (font.empty() || letters.empty()) return;
   const double width = width_of(text, type);
   const double left = align == Align::left ? at.x : align == Align::centre ? at.x - width / 2 : at.x - width;
-  const std::array ink = {type.colour.red, type.colour.green, type.colour.blue};
-  algorithm::render_text(pixels_, static_cast<int>(std::lround(left * fineness)),
-                         static_cast<int>(std::lround(at.y * fineness)), letters,
-                         static_cast<int>(std::lround(type.size * fineness)), font, ink, algorithm::TextAlignX::Left,
-                         algorithm::TextAlignY::Baseline, 0, {}, 1);
+  font_of(type).draw(printable(text), type.size * fineness, left * fineness, at.y * fineness,
+                     [&](int x, int y, float opacity) { blend(x, y, type.colour, opacity); });
 }
 
 void Canvas::write_within(PagePoint at, double width, std::string_view text, const Type& type, Align align) {
@@ -206,11 +195,7 @@ void Canvas::write_within(PagePoint at, double width, std::string_view text, con
 }
 
 double Canvas::width_of(std::string_view text, const Type& type) const {
-  const std::string& font = type.face == Face::serif ? serif_ : sans_;
-  if (font.empty() || text.empty()) return 0;
-  const OIIO::ROI box =
-      algorithm::text_size(printable(text), static_cast<int>(std::lround(type.size * fineness)), font);
-  return box.defined() ? static_cast<double>(box.xend) / fineness : 0;
+  return font_of(type).width_of(printable(text), type.size * fineness) / fineness;
 }
 
 void Canvas::place(const PageBox& box, std::span<const Colour> pixels) {
@@ -227,7 +212,7 @@ Drawing Canvas::finish() const {
   const int width = pixels_.spec().width / fineness, height = pixels_.spec().height / fineness;
   const OIIO::ROI size(0, width, 0, height, 0, 1, 0, 3);
   const OIIO::ImageBuf page = algorithm::resize(pixels_, "box", 1.0f, size, 1);
-  Drawing drawing{width, height, {}, !sans_.empty()};
+  Drawing drawing{width, height, {}, static_cast<bool>(sans_)};
   drawing.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
   page.get_pixels(size, OIIO::TypeUInt8, drawing.rgb.data());
   return drawing;

@@ -4,10 +4,10 @@
 
 #include <glm/vec2.hpp>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "compiler/drawing.hpp"
+#include "compiler/preview/lettering.hpp"
 
 namespace wale {
 
@@ -71,10 +71,11 @@ class Canvas {
   Drawing finish() const;
 
  private:
+  const Font& font_of(const Type& type) const { return type.face == Face::serif ? serif_ : sans_; }
   void blend(int x, int y, Colour colour, float opacity);
 
   OIIO::ImageBuf pixels_;
-  std::string serif_, sans_;  // names of installed fonts, empty when there is none
+  Font serif_, sans_;
 };
 
 }  // namespace wale

@@ -139,20 +139,31 @@ Exhibit exhibit_of(const Bank& bank) {
     if (exhibit.period) exhibit.side = std::min(exhibit.side, periods_shown * *exhibit.period);
   }
 
-  std::vector<glm::vec2> along_x, along_y;
-  for (int i = 0; i < 997; ++i) {
-    const auto at = static_cast<float>(((i + 0.5) / 997 - 0.5) * exhibit.side);
-    along_x.emplace_back(at, 0);
-    along_y.emplace_back(0, at);
+  // The section runs along x through the centre, unless nothing varies there: along ribs, or between rows of bumps.
+  constexpr int points = 997;
+  const auto along = [&](int axis, double aside) {
+    std::vector<glm::vec2> line(points, glm::vec2(static_cast<float>(aside)));
+    for (int i = 0; i < points; ++i) {
+      line[static_cast<std::size_t>(i)][axis] = static_cast<float>(((i + 0.5) / points - 0.5) * exhibit.side);
+    }
+    const Look look = look_at(bank, line);
+    return exhibit.has_relief ? look.relief : look.force;
+  };
+  const double enough = 0.1 * (exhibit.has_relief ? whole.relief : whole.force);
+  const double off_centre = exhibit.period.value_or(exhibit.side / 8) / 4;
+  for (double aside : {0.0, off_centre}) {
+    for (int axis : {0, 1}) {
+      if (along(axis, aside) <= enough) continue;
+      exhibit.axis = axis;
+      exhibit.aside = aside;
+      return exhibit;
+    }
   }
-  const Look x = look_at(bank, along_x), y = look_at(bank, along_y);
-  const bool flat_along_x = exhibit.has_relief ? x.relief < 0.02 * y.relief : x.force < 0.02 * y.force;
-  exhibit.axis = flat_along_x ? 1 : 0;
   return exhibit;
 }
 
 Profile height_along(const Bank& bank, const Exhibit& exhibit, int count) {
-  std::vector<glm::vec2> line(static_cast<std::size_t>(count), glm::vec2(0.0f));
+  std::vector<glm::vec2> line(static_cast<std::size_t>(count), glm::vec2(static_cast<float>(exhibit.aside)));
   Profile profile;
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
@@ -168,8 +179,10 @@ Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int 
   Profile profile;
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
-    hands[static_cast<std::size_t>(i)].position[exhibit.axis] = static_cast<float>(profile.at.back());
-    hands[static_cast<std::size_t>(i)].velocity[exhibit.axis] = static_cast<float>(speed);
+    Hand& hand = hands[static_cast<std::size_t>(i)];
+    hand.position = glm::vec2(static_cast<float>(exhibit.aside));
+    hand.position[exhibit.axis] = static_cast<float>(profile.at.back());
+    hand.velocity[exhibit.axis] = static_cast<float>(speed);
   }
   for (Force force : forces_on(bank, hands)) profile.values.push_back(force[exhibit.axis]);
   return profile;

@@ -15,6 +15,7 @@ struct Exhibit {
   bool resists_motion = false;   ///< the force depends on velocity
   double side = 0;               ///< m; of the square around the patch's centre that is shown
   int axis = 0;                  ///< along which the section through the centre runs: 0 x, 1 y
+  double aside = 0;              ///< m; how far the section runs from the centre, across its axis
   std::optional<double> period;  ///< m; the longer of the texture's periods along x and y, if it has one
   double speed = 0;              ///< m/s; up to which forces against velocity are shown
 };

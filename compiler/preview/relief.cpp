@@ -10,8 +10,8 @@
 namespace wale {
 namespace {
 
-constexpr Colour plaster = {0.905f, 0.872f, 0.812f};
-constexpr Colour shadow = {0.235f, 0.205f, 0.200f};
+constexpr Colour plaster = {0.865f, 0.820f, 0.745f};
+constexpr Colour shadow = {0.225f, 0.190f, 0.180f};
 constexpr Colour glint = {1.0f, 0.992f, 0.965f};
 
 /// Rows from the top, one more pixel on every side than is shown, so that slopes at the edge have both neighbours.
@@ -38,19 +38,21 @@ Heights heights_of(const Bank& bank, const Exhibit& exhibit, int shown) {
   return heights;
 }
 
-/// How far each point lies below its surroundings, 0 .. 1: the light that a hollow does not get.
-std::vector<float> hollowness(const Heights& heights, double radius) {
+/// How far each point lies below its surroundings, 0 .. 1: the light that a hollow does not get. `reach` in pixels.
+std::vector<float> hollowness(const Heights& heights, double reach) {
+  using namespace OIIO::ImageBufAlgo;
   OIIO::ImageBuf source(OIIO::ImageSpec(heights.side, heights.side, 1, OIIO::TypeFloat));
   source.set_pixels(source.roi(), OIIO::TypeFloat, heights.values.data());
-  const auto width = static_cast<float>(std::max(3.0, radius));
-  const auto row = OIIO::ImageBufAlgo::make_kernel("gaussian", width, 1.0f);
-  const auto column = OIIO::ImageBufAlgo::make_kernel("gaussian", 1.0f, width);
-  const auto across = OIIO::ImageBufAlgo::convolve(source, row, true, {}, 1);
-  const auto around = OIIO::ImageBufAlgo::convolve(across, column, true, {}, 1);
-  std::vector<float> blurred(heights.values.size());
-  around.get_pixels(around.roi(), OIIO::TypeFloat, blurred.data());
-  for (std::size_t i = 0; i < blurred.size(); ++i) blurred[i] = std::clamp(blurred[i] - heights.values[i], 0.0f, 1.0f);
-  return blurred;
+  // What is blurred is blurred as well from a small picture.
+  const int small = std::clamp(static_cast<int>(12 * heights.side / reach), 16, heights.side);
+  const auto width = static_cast<float>(reach * small / heights.side);
+  const auto shrunk = resize(source, "triangle", 0.0f, OIIO::ROI(0, small, 0, small, 0, 1, 0, 1), 1);
+  const auto blurred = convolve(shrunk, make_kernel("gaussian", width, width), true, {}, 1);
+  const auto around = resize(blurred, "gaussian", 0.0f, source.roi(), 1);
+  std::vector<float> hollow(heights.values.size());
+  around.get_pixels(around.roi(), OIIO::TypeFloat, hollow.data());
+  for (std::size_t i = 0; i < hollow.size(); ++i) hollow[i] = std::clamp(hollow[i] - heights.values[i], 0.0f, 1.0f);
+  return hollow;
 }
 
 }  // namespace
@@ -92,7 +94,7 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Exh
       const float tone = lit - light[2];
       const float shade =
           std::clamp(0.42f * in_hollow + 0.10f * (1 - height) + (tone < 0 ? -0.95f * tone : 0.0f), 0.0f, 0.92f);
-      const float shine = std::clamp(tone * 2.2f, 0.0f, 0.95f);
+      const float shine = std::clamp(tone * 2.6f, 0.0f, 0.95f);
       pixels.push_back(mixed(mixed(plaster, glint, shine), shadow, shade));
     }
   }

@@ -17,7 +17,7 @@ constexpr int priority = 80;
 constexpr std::size_t stack_bytes = 64 * 1024;
 
 void touch_stack() {
-  volatile std::byte stack[stack_bytes];
+  [[maybe_unused]] volatile std::byte stack[stack_bytes];
   for (std::size_t i = 0; i < stack_bytes; i += 1024) stack[i] = std::byte{0};
 }
 

@@ -2,6 +2,7 @@
 //     clang++ -std=c++20 -fsanitize=fuzzer,address,undefined -I. tests/fuzz/parse.cpp compiler/{source,…}.cpp -lfmt
 
 #include "compiler/parse.hpp"
+
 #include "compiler/print_tree.hpp"
 #include "compiler/render.hpp"
 

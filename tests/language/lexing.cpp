@@ -1,6 +1,6 @@
-#include "compiler/lex.hpp"
-
 #include <gtest/gtest.h>
+
+#include "compiler/lex.hpp"
 
 namespace wale {
 namespace {
@@ -24,18 +24,39 @@ using enum TokenKind;
 using Kinds = std::vector<TokenKind>;
 
 TEST(Lexing, EveryTokenOfTheTable) {
-  EXPECT_EQ(Cut("( ) [ ] { } , ; : = .. + - * / ^ < <= > >= ± +- ' %").kinds(),
-            (Kinds{left_parenthesis, right_parenthesis, left_bracket, right_bracket, left_brace, right_brace, comma, semicolon,
-                   colon, equals, range, plus, minus, star, slash, caret, less, less_equal, greater, greater_equal, plus_minus,
-                   plus_minus, prime, percent, end}));
+  EXPECT_EQ(Cut("( ) [ ] { } , ; : = .. + - * / ^ < <= > >= ± +- ' %").kinds(), (Kinds{left_parenthesis,
+                                                                                       right_parenthesis,
+                                                                                       left_bracket,
+                                                                                       right_bracket,
+                                                                                       left_brace,
+                                                                                       right_brace,
+                                                                                       comma,
+                                                                                       semicolon,
+                                                                                       colon,
+                                                                                       equals,
+                                                                                       range,
+                                                                                       plus,
+                                                                                       minus,
+                                                                                       star,
+                                                                                       slash,
+                                                                                       caret,
+                                                                                       less,
+                                                                                       less_equal,
+                                                                                       greater,
+                                                                                       greater_equal,
+                                                                                       plus_minus,
+                                                                                       plus_minus,
+                                                                                       prime,
+                                                                                       percent,
+                                                                                       end}));
   EXPECT_EQ(Cut("if then else in on from and or not").kinds(),
             (Kinds{word_if, word_then, word_else, word_in, word_on, word_from, word_and, word_or, word_not, end}));
 }
 
 TEST(Lexing, NumbersAndNamesNeedNoSpaceBetween) {
   const Cut cut("5mm 1mm..5mm 2e3 2e 1..5 1e-3");
-  EXPECT_EQ(cut.kinds(),
-            (Kinds{number, name, number, name, range, number, name, number, number, name, number, range, number, number, end}));
+  EXPECT_EQ(cut.kinds(), (Kinds{number, name, number, name, range, number, name, number, number, name, number, range,
+                                number, number, end}));
   EXPECT_EQ(cut.tokens.numbers, (std::vector<double>{5, 1, 5, 2000, 2, 1, 5, 0.001}));
 }
 
@@ -132,9 +153,9 @@ TEST(Lexing, WhatIsNoTextGivesOneError) {
   } cases[] = {
       {std::string("wale 1\n\0", 8), 7, Code::invalid_encoding},
       {"wale 1 \xB5m \xB5m", 7, Code::invalid_encoding},
-      {"\xC0\x80", 0, Code::invalid_encoding},                                       // overlong
-      {"a \xED\xA0\x80", 2, Code::invalid_encoding},                                 // a surrogate
-      {"a \xE2\x82", 2, Code::invalid_encoding},                                     // cut off
+      {"\xC0\x80", 0, Code::invalid_encoding},        // overlong
+      {"a \xED\xA0\x80", 2, Code::invalid_encoding},  // a surrogate
+      {"a \xE2\x82", 2, Code::invalid_encoding},      // cut off
       {std::string(largest_source + 1, '\xFF'), 0, Code::too_long},
   };
   for (const auto& each : cases) {

@@ -14,7 +14,9 @@ struct Reading {
   wale::Diagnostics diagnostics;
   wale::SyntaxTree tree;
 
-  explicit Reading(std::string text) { tree = wale::parse(sources, sources.add("test.wale", std::move(text)), diagnostics); }
+  explicit Reading(std::string text) {
+    tree = wale::parse(sources, sources.add("test.wale", std::move(text)), diagnostics);
+  }
 
   std::string printed() const { return print_tree(tree); }
 

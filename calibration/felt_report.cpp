@@ -1,0 +1,118 @@
+#include "calibration/felt_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace wale {
+
+namespace {
+
+constexpr double settling_seconds = 0.5;  // forces slew in and the hand comes up to speed; half a run at most
+
+std::string force_text(const ForceSize& size) { return fmt::format("P99 {:.3f} N, maximum {:.3f} N, RMS {:.3f} N", size.p99, size.maximum, size.rms); }
+
+nlohmann::ordered_json force_json(const ForceSize& size) {
+  return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
+}
+
+}  // namespace
+
+FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner) {
+  const PatchProgram& program = bank.program().description();
+  FeltReport report{.material = program.material, .manner = std::move(manner), .device = device};
+  report.ticks_run = run.ticks_run;
+  report.ticks_missed = run.ticks_missed;
+  report.seconds = static_cast<double>(run.ticks_run + run.ticks_missed) * run.record.seconds_per_tick;
+  report.lateness = run.lateness;
+  report.guards = run.guards;
+  report.scheduling = run.scheduling;
+  report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.force_newton));
+  report.felt = measure(run.record, {.position_step = device.position_step(),
+                                     .predicted_amplitude = report.predicted_amplitude,
+                                     .settling = std::min(settling_seconds, report.seconds / 2)});
+  report.levels = levels_back(bank, report.felt, least_crossings);
+  for (const auto& level : report.levels) {
+    const auto& parameter = program.percepts[level.percept].parameter;
+    report.asked.push_back(parameter ? bank.registers()[program.first_parameter() + *parameter] : -1);
+  }
+  return report;
+}
+
+std::string felt_text(const FeltReport& report) {
+  const Felt& felt = report.felt;
+  std::string text = fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device, report.device.name,
+                                 report.manner.hand, report.seconds, report.manner.virtual_time ? " of virtual time" : "");
+  text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed, report.device.rate);
+  if (report.manner.virtual_time)
+    text += "  lateness     none: virtual time\n";
+  else
+    text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50, 1e6 * report.lateness.p99,
+                        1e6 * report.lateness.maximum);
+  if (!report.scheduling.empty()) text += fmt::format("  scheduling   {}\n", report.scheduling);
+  text += fmt::format("  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
+                      felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
+  if (report.predicted_amplitude > 0) text += fmt::format("  predicted    amplitude {:.3f} N\n", report.predicted_amplitude);
+  if (felt.interaction)
+    text += fmt::format("  interaction  {} (hand on handle, with inertia and friction)\n",
+                        force_text(felt.interaction_rubbing && felt.ticks_rubbing > 0 ? *felt.interaction_rubbing : *felt.interaction));
+  text += fmt::format("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n", felt.crossings, 100 * felt.stuck,
+                      1e3 * felt.position_range);
+  for (std::size_t i = 0; i < report.levels.size(); ++i) {
+    const auto& level = report.levels[i];
+    if (const auto* back = std::get_if<Prediction>(&level.back))
+      text += fmt::format("  {:<12} {:.2f} read back from the measured amplitude{}\n", level.name, back->level,
+                          report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
+    else
+      text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
+  }
+  if (report.levels.empty()) text += "  percepts     none to read back: nothing in its force is a texture\n";
+  text += fmt::format("  guards       slew {}, device limit {}, not-a-number {} (ticks)\n", report.guards.slew, report.guards.device_limit,
+                      report.guards.not_a_number);
+  return text;
+}
+
+std::string felt_json(const FeltReport& report) {
+  const Felt& felt = report.felt;
+  nlohmann::ordered_json json;
+  json["material"] = report.material;
+  json["device"] = report.manner.device;
+  json["profile"] = report.device.name;
+  json["hand"] = report.manner.hand;
+  json["virtual_time"] = report.manner.virtual_time;
+  json["seconds"] = report.seconds;
+  json["ticks"] = {{"run", report.ticks_run}, {"missed", report.ticks_missed}, {"rubbing", felt.ticks_rubbing}};
+  json["lateness"] = {{"p50_s", report.lateness.p50}, {"p99_s", report.lateness.p99}, {"max_s", report.lateness.maximum}};
+  json["scheduling"] = report.scheduling;
+  json["actuator"] = force_json(felt.force);
+  json["actuator_rubbing"] = force_json(felt.force_rubbing);
+  json["predicted_amplitude_newton"] = report.predicted_amplitude;
+  if (felt.interaction) json["interaction"] = force_json(*felt.interaction);
+  json["crossings"] = felt.crossings;
+  json["alternations"] = felt.alternations;
+  json["stuck"] = felt.stuck;
+  json["position_rms_m"] = felt.position_rms;
+  json["position_range_m"] = felt.position_range;
+  auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < report.levels.size(); ++i) {
+    auto& entry = percepts[report.levels[i].name];
+    if (const auto* back = std::get_if<Prediction>(&report.levels[i].back))
+      entry = {{"level", back->level}, {"magnitude", back->magnitude}};
+    else
+      entry = {{"refused", std::get<Refusal>(report.levels[i].back).reason}};
+    if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
+  }
+  json["guards"] = {{"slew", report.guards.slew}, {"device_limit", report.guards.device_limit}, {"not_a_number", report.guards.not_a_number}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string progress_line(const Progress& now) {
+  return fmt::format("{:7.1f} s  x {:6.1f} mm  y {:6.1f} mm  {:5.0f} mm/s  {:5.2f} N  {} ticks, {} missed{}\033[K", now.time, 1e3 * now.position.x,
+                     1e3 * now.position.y, 1e3 * glm::length(now.velocity), glm::length(now.force), now.ticks_run, now.ticks_missed,
+                     now.inside ? "" : "  (off the patch)");
+}
+
+}  // namespace wale

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wale/felt.hpp"
+#include "wale/stage.hpp"
+
+namespace wale {
+
+/// How a run was made, to say so.
+struct RunManner {
+  std::string device;  ///< "simulated"
+  std::string hand;    ///< "lateral", or the trace's file
+  bool virtual_time = false;
+};
+
+/// What came out of the handle, beside what the program aimed at.
+struct FeltReport {
+  std::string material;
+  RunManner manner;
+  DeviceProfile device;
+  double seconds = 0;
+  long ticks_run = 0, ticks_missed = 0;
+  Lateness lateness;
+  GuardCounts guards;
+  std::string scheduling;
+  Felt felt;
+  float predicted_amplitude = 0;  ///< N; 0 when no percept of the program says
+  std::vector<LevelBack> levels;
+  std::vector<double> asked;      ///< beside `levels`: the level asked for, negative where none was
+};
+
+/// Crossings below which a texture is not read back.
+inline constexpr long least_crossings = 50;
+
+/// Measures a run. The first part of it, while forces slew in and the hand comes up to speed, does not count.
+FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner);
+
+std::string felt_text(const FeltReport& report);
+std::string felt_json(const FeltReport& report);
+
+/// The live line of a run under way: time, place, speed, force.
+std::string progress_line(const Progress& now);
+
+}  // namespace wale

@@ -1,0 +1,92 @@
+#include "compiler/quantity.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "compiler/check_expression.hpp"
+#include "compiler/parse.hpp"
+
+namespace wale {
+
+QuantityReader::QuantityReader() : resolver_(file_resolver({})) {
+  const SourceId nothing = sources_.add("", "wale 1\n");
+  modules_ = load_modules(parse(sources_, nothing, diagnostics_), sources_, *resolver_, diagnostics_);
+}
+
+std::optional<std::vector<double>> QuantityReader::list(const std::string& option, const std::string& text,
+                                                        const std::vector<Dimension>& dimensions, std::size_t needed,
+                                                        const std::string& example) {
+  const SourceId source = sources_.add(option, text);
+  SyntaxTree tree;
+  const auto expressions = parse_expressions(sources_, source, tree, diagnostics_);
+  if (diagnostics_.has_errors()) return std::nullopt;
+  const Span whole{source, 0, static_cast<std::uint32_t>(text.size())};
+  if (expressions.size() != needed && expressions.size() != dimensions.size()) {
+    diagnostics_.report({.code = Code::missing_argument,
+                         .span = whole,
+                         .message = needed == dimensions.size()
+                                        ? fmt::format("{} value{} due here, not {}", needed, needed == 1 ? " is" : "s are", expressions.size())
+                                        : fmt::format("{} or {} values are due here, not {}", needed, dimensions.size(), expressions.size()),
+                         .help = fmt::format("write, for example, `{}`", example)});
+    return std::nullopt;
+  }
+  Terms terms;
+  std::vector<HeightTable> tables;
+  ExpressionChecker checker({sources_, modules_.declarations, diagnostics_}, terms, tables);
+  Scope scope;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < expressions.size(); ++i)
+    if (const auto value = checker.constant(tree, expressions[i], scope, dimensions[i])) values.push_back(*value);
+  if (diagnostics_.has_errors()) return std::nullopt;
+  return values;
+}
+
+std::optional<Hand> QuantityReader::hand(const std::string& option, const std::string& text) {
+  const Dimension length = modules_.declarations.dimension("length"), velocity = modules_.declarations.dimension("velocity");
+  const auto values = list(option, text, {length, length, velocity, velocity}, 2, "10 mm, 5 mm");
+  if (!values) return std::nullopt;
+  Hand hand;
+  hand.position = {static_cast<float>((*values)[0]), static_cast<float>((*values)[1])};
+  if (values->size() == 4) hand.velocity = {static_cast<float>((*values)[2]), static_cast<float>((*values)[3])};
+  return hand;
+}
+
+std::optional<float> QuantityReader::parameter(const std::string& option, const Parameter& parameter, const std::string& text) {
+  // A unit that only the material's own file declares travels with the parameter.
+  Declarations& declarations = modules_.declarations;
+  Dimension dimension;
+  if (!parameter.unit.empty()) {
+    Diagnostics silent;
+    const SourceId source = sources_.add(parameter.unit, "1 " + parameter.unit);
+    SyntaxTree tree;
+    const auto expressions = parse_expressions(sources_, source, tree, silent);
+    Terms terms;
+    std::vector<HeightTable> tables;
+    ExpressionChecker checker({sources_, declarations, silent}, terms, tables);
+    Scope scope;
+    const Value unit = expressions.size() == 1 ? checker.check(tree, expressions[0], scope) : Value{};
+    if (!unit.failed()) {
+      dimension = unit.dimension;
+    } else {
+      dimension.twelfths.back() = Dimension::unit_exponent;
+      declarations.units[parameter.unit] = {parameter.unit_in_si, dimension};
+    }
+  }
+  const std::string example = parameter.unit.empty() ? "0.5" : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit);
+  const auto values = list(option, text, {dimension}, 1, example);
+  if (!values) return std::nullopt;
+  const float value = static_cast<float>(values->front());
+  if (!(value >= parameter.low && value <= parameter.high)) {
+    const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+    diagnostics_.report({.code = Code::value_out_of_range,
+                         .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
+                         .message = fmt::format("`{}` is out of its range", parameter.name),
+                         .help = fmt::format("give a value from {:.6g}{} to {:.6g}{}", parameter.low / parameter.unit_in_si, unit,
+                                             parameter.high / parameter.unit_in_si, unit)});
+    return std::nullopt;
+  }
+  return value;
+}
+
+}  // namespace wale

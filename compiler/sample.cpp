@@ -1,0 +1,40 @@
+#include "compiler/sample.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace wale {
+
+std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
+  const glm::vec2 extent = glm::vec2(bank.size().width, bank.size().height) / 2.0f;
+  for (auto& sampled : hands) {
+    const glm::vec2 place = sampled.hand.position;
+    const bool inside = std::abs(place.x) <= extent.x && std::abs(place.y) <= extent.y;
+    sampled.force = inside ? tick(bank, sampled.hand) : Force(0.0f);
+  }
+  return hands;
+}
+
+std::string samples_csv(const std::vector<SampledHand>& samples) {
+  std::string text = "t (s),x (m),y (m),vx (m/s),vy (m/s),fx (N),fy (N)\n";
+  for (const auto& [time, hand, force] : samples)
+    text += fmt::format("{},{},{},{},{},{},{}\n", time, hand.position.x, hand.position.y, hand.velocity.x, hand.velocity.y, force.x, force.y);
+  return text;
+}
+
+std::string samples_json(const std::vector<SampledHand>& samples) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& [time, hand, force] : samples)
+    json.push_back({{"t", time},
+                    {"x", hand.position.x},
+                    {"y", hand.position.y},
+                    {"vx", hand.velocity.x},
+                    {"vy", hand.velocity.y},
+                    {"fx", force.x},
+                    {"fy", force.y}});
+  return json.dump(2) + "\n";
+}
+
+}  // namespace wale

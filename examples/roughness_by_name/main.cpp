@@ -1,0 +1,33 @@
+// Asks for a roughness by name, puts it under the hand, and reads back what came out of the handle.
+#include <cstdio>
+#include <wale/felt.hpp>
+#include <wale/library.hpp>
+#include <wale/stage.hpp>
+
+int main(int argc, char** argv) {
+  const char* name = argc > 1 ? argv[1] : "coarse";
+
+  const wale::Library library;
+  const auto surface = library.level("roughness", name);
+  if (const auto* unavailable = std::get_if<wale::Unavailable>(&surface)) {
+    std::fputs(unavailable->reason.c_str(), stderr);
+    return 1;
+  }
+
+  const auto joystick = library.simulated_joystick();
+  wale::Stage stage(*joystick);
+  stage.place(std::get<wale::Program>(surface));
+  const auto run = stage.run({.seconds = 3, .virtual_time = true});
+  if (const auto* refusal = std::get_if<wale::Refusal>(&run)) {
+    std::fprintf(stderr, "%s\n", refusal->reason.c_str());
+    return 1;
+  }
+
+  const auto felt = wale::measure(std::get<wale::RunResult>(run).record,
+                                  {.position_step = joystick->profile().position_step(),
+                                   .predicted_amplitude = wale::predicted_amplitude(*stage.bank()),
+                                   .settling = 0.5});
+  for (const auto& level : wale::levels_back(*stage.bank(), felt))
+    if (const auto* back = std::get_if<wale::Prediction>(&level.back))
+      std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99, back->level);
+}

@@ -1,0 +1,42 @@
+// A tick allocates nothing: every allocation of this test program is counted.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <utility>
+
+#include "tests/machine/random_program.hpp"
+#include "tests/machine/running.hpp"
+
+namespace {
+thread_local long allocations = 0;
+}
+
+// Not inlined, or GCC takes malloc and delete for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace wale {
+namespace {
+
+static_assert(noexcept(tick(std::declval<Bank&>(), std::declval<const Hand&>())));
+
+TEST(RealTime, TickAllocatesNothing) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const long before = allocations;
+    Bank bank(example::loaded(example::RandomProgram(seed).make()));
+    const long loaded = allocations;
+    ASSERT_GT(loaded, before) << "the counter counts";
+    for (int i = 0; i < 1000; ++i) tick(bank, {{static_cast<float>(i) * 1e-4f, 0.01f}, {0.1f, 0}});
+    ASSERT_EQ(allocations, loaded) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace wale

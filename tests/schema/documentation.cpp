@@ -1,0 +1,76 @@
+// schema/PATCH_PROGRAM.md against what it documents.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "schema/instruction.hpp"
+#include "tests/schema/example_program.hpp"
+#include "tests/schema/wpp_bytes.hpp"
+
+namespace wale {
+namespace {
+
+std::vector<std::string> lines_of_documentation() {
+  std::ifstream file(WALE_SOURCE_DIR "/schema/PATCH_PROGRAM.md");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string row(int number, std::string name, std::string fields, int results, int cost, std::string meaning) {
+  std::ostringstream row;
+  row << "| " << number << " | " << name << " | `" << fields << "` | " << results << " | " << cost << " | " << meaning
+      << " |";
+  return row.str();
+}
+
+TEST(Documentation, ListsEveryInstruction) {
+  const std::vector<std::string> expected = {
+// clang-format off
+#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+      row(number, #name, fields, results, cost, "`" #meaning "`"),
+#define SPECIAL(number, name, fields, results, cost) row(number, #name, fields, results, cost, "see below"),
+#include "schema/instruction.def"
+      // clang-format on
+  };
+  const std::vector<std::string> lines = lines_of_documentation();
+  const std::string header = "| number | name | fields | results | cost | meaning |";
+  const auto table = std::find(lines.begin(), lines.end(), header);
+  ASSERT_NE(table, lines.end());
+  std::vector<std::string> found;
+  for (auto line = table + 2; line < lines.end() && line->starts_with("|"); ++line) found.push_back(*line);
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Documentation, ListsEverySectionInOrder) {
+  std::vector<std::string> expected;
+  for (const auto& section : wpp::sections_of(write_patch_program(example::program()))) {
+    expected.push_back("| `" + section.kind + "` | " + (section.flags == 1 ? "yes" : "no") + " |");
+  }
+  std::vector<std::string> found;
+  for (const std::string& line : lines_of_documentation()) {
+    const std::size_t end = line.find(" |", 11);
+    if (line.starts_with("| `") && line.substr(7, 4) == "` | ") found.push_back(line.substr(0, end + 2));
+  }
+  EXPECT_EQ(found, expected);
+}
+
+// Numbers never change: those of the format's first version, by hand.
+TEST(Documentation, NumbersNeverChange) {
+  const std::vector<std::string_view> names = {
+      "add",  "subtract", "multiply", "divide", "negate", "absolute", "minimum", "maximum", "floor",  "square_root",
+      "less", "select",   "sine",     "cosine", "exp2",   "log2",     "normal",  "limit",   "sample", "peak"};
+  EXPECT_FALSE(operation_facts(0));
+  for (unsigned number = 1; number <= names.size(); ++number) {
+    ASSERT_TRUE(operation_facts(number));
+    EXPECT_EQ(operation_facts(number)->name, names[number - 1]);
+  }
+}
+
+}  // namespace
+}  // namespace wale
