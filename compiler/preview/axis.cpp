@@ -67,8 +67,8 @@ std::string shown_number(double value) {
   return with_minus(fmt::format("{:.3g}", value));
 }
 
-std::string shown_quantity(double si_value, const Notation& notation) {
-  const std::string number = shown_number(si_value * notation.per_si);
+std::string shown_quantity(double value, const Notation& notation) {
+  const std::string number = shown_number(value * notation.per_si);
   return notation.unit.empty() ? number : number + " " + notation.unit;
 }
 

@@ -31,6 +31,6 @@ std::vector<Tick> round_ticks(double low, double high, int count);
 /// minus, not a hyphen.
 std::string shown_number(double value);
 /// With its unit: "2.5 mm"; just the number where there is no unit.
-std::string shown_quantity(double si_value, const Notation& notation);
+std::string shown_quantity(double value, const Notation& notation);
 
 }  // namespace wale

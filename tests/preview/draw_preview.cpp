@@ -1,0 +1,232 @@
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "compiler/preview.hpp"
+#include "compiler/preview/axis.hpp"
+#include "compiler/preview/exhibit.hpp"
+#include "tests/preview/hand_made.hpp"
+
+namespace wale {
+namespace {
+
+// Where the parts of the page stand, in pixels.
+constexpr int picture_left = 64, picture_top = 196, picture_side = 580;
+constexpr int force_left = 764, force_right = 1536, force_middle = 655;
+
+struct Pixel {
+  int red, green, blue;
+  int lightness() const { return red + green + blue; }
+  /// The blue in which forces are drawn; the page has no other.
+  bool is_force() const { return blue > red + 60; }
+};
+
+Pixel at(const Drawing& drawing, int x, int y) {
+  const auto* p = &drawing.rgb[static_cast<std::size_t>((y * drawing.width + x) * 3)];
+  return {p[0], p[1], p[2]};
+}
+
+int darkest(const Drawing& drawing, int left, int top, int right, int bottom) {
+  int least = 3 * 255;
+  for (int y = top; y < bottom; ++y) {
+    for (int x = left; x < right; ++x) least = std::min(least, at(drawing, x, y).lightness());
+  }
+  return least;
+}
+
+Drawing draw(const Bank& bank) { return draw_preview(bank, preview_text(bank)); }
+
+TEST(Preview, ReliefRepeatsWithThePeriodAndAcrossTheRibsNotAtAll) {
+  const Drawing drawing = draw(sine_grating(0.004f, 1));
+  ASSERT_EQ(drawing.width, 1600);
+  ASSERT_EQ(drawing.height, 1000);
+  // Eight periods over 580 pixels: two are 145. In the outermost period a hollow has only one side to shade it.
+  constexpr int two_periods = picture_side / 4, edge = picture_side / 8;
+  int least = 999, most = 0;
+  for (int x = picture_left + edge; x < picture_left + picture_side - two_periods - edge; ++x) {
+    const int here = at(drawing, x, picture_top + 100).lightness();
+    EXPECT_NEAR(here, at(drawing, x + two_periods, picture_top + 100).lightness(), 9) << x;
+    EXPECT_NEAR(here, at(drawing, x, picture_top + 500).lightness(), 3) << x;
+    least = std::min(least, here), most = std::max(most, here);
+  }
+  EXPECT_GT(most - least, 200);  // the relief is there to be seen
+}
+
+TEST(Preview, LightComesFromTheLeft) {
+  const Drawing drawing = draw(sine_grating(0.004f, 1));
+  // sin(2 pi x / period) rises to the right at x = 0, so its flank there faces left: lit. Half a period on it faces
+  // right.
+  const int centre = picture_left + picture_side / 2, half_period = picture_side / 16;
+  EXPECT_GT(at(drawing, centre, picture_top + 100).lightness(),
+            at(drawing, centre + half_period, picture_top + 100).lightness() + 150);
+}
+
+TEST(Preview, ForceCurveCrossesZeroTwiceAPeriod) {
+  const Drawing drawing = draw(sine_grating(0.004f, 1));
+  // Three pixels off the zero line, so that the line itself is not counted.
+  int crossings = 0;
+  for (int x = force_left + 2; x < force_right; ++x) {
+    crossings += at(drawing, x, force_middle - 4).is_force() && !at(drawing, x - 1, force_middle - 4).is_force();
+  }
+  EXPECT_EQ(crossings, 16);
+}
+
+TEST(Preview, WordsAreOnThePage) {
+  const Bank bank = sine_grating(0.004f, 1);
+  PreviewText text = preview_text(bank);
+  EXPECT_EQ(text.title, "A sine grating");
+  EXPECT_EQ(text.names, "grating · washboard");
+  ASSERT_EQ(text.figures.size(), 1u);
+  EXPECT_EQ(text.figures[0].word, "force at most");
+  EXPECT_EQ(text.figures[0].value, "1 N");
+  const Drawing drawing = draw_preview(bank, text);
+  if (!drawing.has_text) GTEST_SKIP() << "no font is installed";
+  EXPECT_LT(darkest(drawing, 64, 60, 500, 110), 200);     // title
+  EXPECT_LT(darkest(drawing, 64, 860, 300, 920), 200);    // figures
+  EXPECT_GT(darkest(drawing, 1100, 30, 1590, 110), 700);  // nothing beside the title
+
+  // Letters outside ASCII are letters: an accent adds ink above.
+  text.title = "Crepe";
+  const Drawing plain = draw_preview(bank, text);
+  text.title = "Crêpe";
+  const Drawing accented = draw_preview(bank, text);
+  EXPECT_NE(plain, accented);
+  for (int y = 80; y < 1000; ++y) {
+    for (int x = 0; x < 1600; x += 7)
+      ASSERT_EQ(at(plain, x, y).lightness(), at(accented, x, y).lightness()) << x << ", " << y;
+  }
+}
+
+TEST(Preview, LongAndBrokenWordsStayOnThePage) {
+  const Bank bank = spring_and_oil(100, 0);
+  PreviewText text;
+  text.title = std::string(100000, 'W');
+  text.names = "tab\there, newline\nthere, \xff\xfe not UTF-8, \xe2\x82";
+  for (int i = 0; i < 40; ++i) text.figures.push_back({std::string(300, 'w'), std::string(300, '8')});
+  text.evidence = std::string(5000, 'e');
+  const Drawing drawing = draw_preview(bank, text);
+  EXPECT_GT(darkest(drawing, 1545, 0, 1600, 1000), 700);  // the right margin is empty
+  const Drawing wordless = draw_preview(bank, {});
+  EXPECT_EQ(wordless.width, drawing.width);
+}
+
+TEST(Preview, SameBankSameBytes) {
+  const auto png_of = [](const Bank& bank) {
+    return std::get<std::vector<std::byte>>(encode_drawing(draw(bank), "a.png"));
+  };
+  EXPECT_EQ(png_of(sine_grating(0.0025f, 1.934f)), png_of(sine_grating(0.0025f, 1.934f)));
+  EXPECT_EQ(png_of(spring_and_oil(120, 2)), png_of(spring_and_oil(120, 2)));
+}
+
+TEST(Preview, NothingToShowIsStillAPicture) {
+  const Drawing drawing = draw(spring_and_oil(0, 0));
+  EXPECT_EQ(drawing.rgb.size(), 1600u * 1000u * 3u);
+}
+
+TEST(Exhibit, GratingShowsEightPeriods) {
+  const Exhibit exhibit = exhibit_of(sine_grating(0.0025f, 1));
+  EXPECT_TRUE(exhibit.has_relief);
+  EXPECT_TRUE(exhibit.pushes_at_rest);
+  EXPECT_FALSE(exhibit.resists_motion);
+  ASSERT_TRUE(exhibit.period);
+  EXPECT_NEAR(*exhibit.period, 0.0025, 1e-6);
+  EXPECT_NEAR(exhibit.side, 0.020, 1e-5);
+  EXPECT_EQ(exhibit.axis, 0);
+}
+
+TEST(Exhibit, LongPeriodShowsTheWholePatch) {
+  EXPECT_NEAR(exhibit_of(sine_grating(0.02f, 1)).side, 0.08, 1e-6);
+  EXPECT_NEAR(exhibit_of(sine_grating(0.5f, 1)).side, 0.08, 1e-6);  // less than one period on the patch
+}
+
+TEST(Exhibit, SpringPushesAndOilResists) {
+  const Exhibit spring = exhibit_of(spring_and_oil(120, 0)), oil = exhibit_of(spring_and_oil(0, 3));
+  EXPECT_FALSE(spring.has_relief);
+  EXPECT_TRUE(spring.pushes_at_rest);
+  EXPECT_FALSE(spring.resists_motion);
+  EXPECT_FALSE(oil.pushes_at_rest);
+  EXPECT_TRUE(oil.resists_motion);
+}
+
+TEST(Exhibit, ProfilesAreThePrograms) {
+  const Bank oil = spring_and_oil(0, 3);
+  const Profile against = force_against_speed(oil, exhibit_of(oil), 11);
+  for (std::size_t i = 0; i < 11; ++i) EXPECT_NEAR(against.values[i], -3 * against.at[i], 1e-6);
+  const Bank grating = sine_grating(0.004f, 2);
+  const Exhibit exhibit = exhibit_of(grating);
+  const Profile force = force_along(grating, exhibit, 0, 101), height = height_along(grating, exhibit, 101);
+  for (std::size_t i = 0; i < 101; ++i) {
+    EXPECT_NEAR(force.values[i], -2 * std::cos(2 * pi * force.at[i] / 0.004), 1e-4);
+    EXPECT_NEAR(height.values[i], 0.5 + 0.5 * std::sin(2 * pi * height.at[i] / 0.004), 1e-4);
+  }
+}
+
+TEST(Axis, TicksAreRoundNumbers) {
+  const auto labels = [](double low, double high, int count) {
+    std::string all;
+    for (const Tick& tick : round_ticks(low, high, count)) all += (all.empty() ? "" : " ") + tick.label;
+    return all;
+  };
+  EXPECT_EQ(labels(-2.3, 2.3, 5), "−2 −1 0 1 2");
+  EXPECT_EQ(labels(-10, 10, 10), "−10 −8 −6 −4 −2 0 2 4 6 8 10");
+  EXPECT_EQ(labels(0, 0.1, 5), "0.00 0.02 0.04 0.06 0.08 0.10");
+  EXPECT_EQ(labels(1, 1, 5), "");
+}
+
+TEST(Axis, QuantitiesReadWell) {
+  EXPECT_EQ(shown_quantity(1.934, force_notation(1.934)), "1.93 N");
+  EXPECT_EQ(shown_quantity(0.0123, force_notation(0.0123)), "12.3 mN");
+  EXPECT_EQ(shown_quantity(0.0025, length_notation(0.0025)), "2.5 mm");
+  EXPECT_EQ(shown_quantity(25e-6, length_notation(25e-6)), "25 µm");
+  EXPECT_EQ(shown_quantity(-0.25, {"", 1}), "−0.25");
+  EXPECT_EQ(shown_number(1234.4), "1234");
+  EXPECT_EQ(round_number(6.9), 5);
+  EXPECT_EQ(round_number(20), 20);
+  EXPECT_DOUBLE_EQ(round_number(0.03), 0.02);
+}
+
+TEST(SaveDrawing, PngComesBackPixelForPixel) {
+  Drawing drawing{3, 2, {1, 2, 3, 40, 50, 60, 7, 8, 9, 0, 0, 0, 255, 255, 255, 9, 8, 7}};
+  const auto path = std::filesystem::path(testing::TempDir()) / "wale_preview_test.png";
+  ASSERT_FALSE(save_drawing(drawing, path.string()));
+  auto input = OIIO::ImageInput::open(path.string());
+  ASSERT_TRUE(input);
+  std::vector<std::uint8_t> back(drawing.rgb.size());
+  EXPECT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeUInt8, back.data()));
+  EXPECT_EQ(back, drawing.rgb);
+  EXPECT_FALSE(input->spec().find_attribute("DateTime"));
+  EXPECT_FALSE(input->spec().find_attribute("Software"));
+  input->close();
+  std::filesystem::remove(path);
+}
+
+TEST(SaveDrawing, ProblemsAreWords) {
+  const Drawing drawing{1, 1, {1, 2, 3}};
+  const auto reason = [&](const std::string& path) {
+    return save_drawing(drawing, path).value_or(DrawingProblem{"was written"}).reason;
+  };
+  EXPECT_EQ(reason("wall"), "cannot write wall: its name ends in no picture format; try .png");
+  EXPECT_EQ(reason("wall.wale"), "cannot write wall.wale: pictures are not written as .wale; try .png");
+  EXPECT_EQ(reason("wall.null"), "cannot write wall.null: pictures are not written as .null; try .png");
+  EXPECT_EQ(reason("/no/such/folder/wall.png"), "cannot write /no/such/folder/wall.png: No such file or directory");
+  EXPECT_FALSE(OIIO::has_error());
+}
+
+TEST(SaveDrawing, FullDeviceIsReportedAndLeftAlone) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
+  const auto link = std::filesystem::path(testing::TempDir()) / "wale_preview_full.png";
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink("/dev/full", link);
+  const auto problem = save_drawing({1, 1, {1, 2, 3}}, link.string());
+  ASSERT_TRUE(problem);
+  EXPECT_NE(problem->reason.find("No space left"), std::string::npos) << problem->reason;
+  EXPECT_TRUE(std::filesystem::exists("/dev/full"));
+  std::filesystem::remove(link);
+}
+
+}  // namespace
+}  // namespace wale
