@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -19,7 +20,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/device_report.hpp"
 #include "calibration/felt_report.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/describe.hpp"
@@ -27,6 +27,8 @@
 #include "compiler/quantity.hpp"
 #include "compiler/render.hpp"
 #include "compiler/sample.hpp"
+#include "compiler/spelling.hpp"
+#include "library/device_report.hpp"
 #include "schema/patch_program_format.hpp"
 #include "wale/felt.hpp"
 #include "wale/library.hpp"
@@ -386,6 +388,19 @@ int main(int argc, char** argv) {
   verb->add_flag("--json", json, "as a JSON array");
   verb->callback([&] { status = devices(json); });
 
+  // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.
+  if (argc == 1) {
+    fmt::print(stderr, "{}", app.help());
+    return misused;
+  }
+  std::vector<std::string> verbs;
+  for (const auto* known : app.get_subcommands({})) verbs.push_back(known->get_name());
+  if (const std::string first = argv[1]; !first.starts_with('-') && std::ranges::find(verbs, first) == verbs.end()) {
+    const auto near = nearest_spelling(first, verbs);
+    fmt::print(stderr, "wale: there is no verb `{}`; {}\n", first,
+               near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(verbs, ", ")));
+    return misused;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -15,8 +15,14 @@ namespace {
 /// Checks one material, statement by statement in the order of the text.
 class MaterialChecker {
  public:
-  MaterialChecker(const SyntaxTree& tree, const MaterialDecl& declaration, Surroundings surroundings)
-      : tree_(tree), declaration_(declaration), surroundings_(surroundings), checker_(surroundings, material_.terms, material_.tables) {
+  /// `whole`: the file has been read and declared without errors, so that nothing of the material is missing.
+  MaterialChecker(const SyntaxTree& tree, const MaterialDecl& declaration, Surroundings surroundings, bool whole)
+      : tree_(tree),
+        declaration_(declaration),
+        surroundings_(surroundings),
+        checker_(surroundings, material_.terms, material_.tables),
+        whole_(whole),
+        errors_before_(surroundings.diagnostics.error_count()) {
     scope_.hand = true;
   }
 
@@ -31,7 +37,8 @@ class MaterialChecker {
       statement_span_ = statement.span;
       std::visit(*this, statement.what);
     }
-    warn_of_unused_names();
+    // What stands in an expression that could not be read or checked may be the use that is missed.
+    if (whole_ && surroundings_.diagnostics.error_count() == errors_before_) warn_of_unused_names();
     const auto& sources = surroundings_.sources;
     if (declaration_.perceptual_span) material_.layers.perceptual = sources.text(*declaration_.perceptual_span);
     if (declaration_.physical_span) material_.layers.physical = sources.text(*declaration_.physical_span);
@@ -43,7 +50,7 @@ class MaterialChecker {
 
   void operator()(const ParamStatement& node) {
     const Value value = checker_.check(tree_, node.value, scope_);
-    if (value.failed()) return declare_failed(node.name);
+    if (value.failed() || lacks_its_unit(node, value)) return declare_failed(node.name);
     if (value.type != Value::Type::number) {
       report(Code::wrong_type, value.span, fmt::format("a parameter is a number, not {}", type_words(value.type)), "use one `param` for each part");
       return declare_failed(node.name);
@@ -67,6 +74,7 @@ class MaterialChecker {
     parameter.low = static_cast<float>(low);
     parameter.high = static_cast<float>(high);
     std::tie(parameter.unit, parameter.unit_in_si) = written_unit(node, value.dimension);
+    parameter.si_unit = surroundings_.declarations.names.unit(value.dimension);
     const auto index = static_cast<std::uint32_t>(material_.parameters.size());
     declare(node.name, {.type = Value::Type::number, .x = material_.terms.parameter(index, node.name.span), .dimension = value.dimension, .span = node.name.span});
     for (const auto& other : material_.parameters)
@@ -80,7 +88,8 @@ class MaterialChecker {
     Value value = checker_.check(tree_, node.value, scope_);
     if (value.failed()) return declare_failed(node.name);
     if (value.type != Value::Type::number) {
-      report(Code::wrong_type, value.span, fmt::format("a height is a number at each place, not {}", type_words(value.type)), "");
+      report(Code::wrong_type, value.span, fmt::format("a height is a number at each place, not {}", type_words(value.type)),
+             "give it by `x` and `y`, as in `grating(x, period: 2.5 mm)`");
       return declare_failed(node.name);
     }
     if (!value.dimension.plain() && value.dimension != surroundings_.declarations.dimension("length")) {
@@ -118,7 +127,7 @@ class MaterialChecker {
     for (int side = 0; side < 2; ++side) {
       const auto size = checker_.constant(tree_, node.sizes[side], scope_, surroundings_.declarations.dimension("length"));
       if (!size) return;
-      if (!(*size > 0)) return report(Code::value_out_of_range, tree_.span(node.sizes[side]), "a patch must be larger than nothing", "");
+      if (!(*size > 0)) return report(Code::value_out_of_range, tree_.span(node.sizes[side]), "a patch must be larger than nothing", "write, for example, `patch 95 mm, 95 mm`");
       sizes[side] = *size;
     }
     material_.patch = sizes;
@@ -214,6 +223,25 @@ class MaterialChecker {
     return std::nullopt;
   }
 
+  /// A default without a unit in a range that has one is one mistake, and not two of the range's.
+  bool lacks_its_unit(const ParamStatement& node, const Value& value) {
+    if (!node.range || value.type != Value::Type::number || !value.dimension.plain()) return false;
+    const Value low = checker_.check(tree_, node.range->low, scope_);
+    if (low.failed()) return true;
+    if (low.type != Value::Type::number || low.dimension.plain()) return false;
+    const auto& names = surroundings_.declarations.names;
+    const std::string unit = written_unit(node, low.dimension).first;
+    const auto sides = names.side_by_side(low.dimension, value.dimension);
+    const std::string text(surroundings_.sources.text(value.span));
+    surroundings_.diagnostics.report({.code = Code::wrong_dimension,
+                                      .span = value.span,
+                                      .message = fmt::format("`{}` is {} and its default has no unit", node.name.text, names.words(low.dimension)),
+                                      .expected = sides[0],
+                                      .found = sides[1],
+                                      .help = fmt::format("write `{} {}`", text, unit)});
+    return true;
+  }
+
   /// The unit that the author wrote for a parameter, and its size in SI.
   std::pair<std::string, double> written_unit(const ParamStatement& node, const Dimension& dimension) {
     std::vector<ExprId> written{node.value};
@@ -262,7 +290,13 @@ class MaterialChecker {
     for (const auto& [name, binding] : scope_.names)
       if (!binding.used && !binding.value.failed()) unused.emplace_back(name, binding.declared);
     std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
-    for (const auto& [name, span] : unused) report(Code::unused_name, span, fmt::format("nothing uses `{}`", name), "use it or leave it out");
+    for (const auto& [name, span] : unused) {
+      const bool parameter = std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
+      report(Code::unused_name, span,
+             parameter ? fmt::format("the parameter `{}` does nothing: no height and no force depends on it", name)
+                       : fmt::format("nothing uses `{}`", name),
+             "use it or leave it out");
+    }
   }
 
   /// The surface as it looks: what the textures push by, or else the last height of the text.
@@ -291,9 +325,11 @@ class MaterialChecker {
   Span statement_span_;
   std::optional<TermId> last_height_;
   bool force_seen_ = false;
+  bool whole_;
+  std::size_t errors_before_;
 };
 
-/// Functions and constants are otherwise read only where they are used: an unused one must not hide an error of names.
+/// Constants are otherwise read only where they are used: an unused one must not hide an error.
 void check_constants(const ModuleSet& modules, Surroundings surroundings) {
   for (const auto& [name, constant] : modules.declarations.constants) {
     if (constant.tree->source != modules.source) continue;
@@ -316,10 +352,11 @@ const CheckedMaterial* CheckedModule::material(const std::string& name) const {
 CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
   CheckedModule checked;
   const Surroundings surroundings{sources, modules.declarations, diagnostics, &resolver};
+  const bool whole = !diagnostics.has_errors();
   check_constants(modules, surroundings);
   for (const auto& material : modules.declarations.materials) {
     if (material.tree->source != modules.source) continue;
-    checked.materials.push_back(MaterialChecker(*material.tree, *material.node, surroundings).check());
+    checked.materials.push_back(MaterialChecker(*material.tree, *material.node, surroundings, whole).check());
   }
   checked.trees = std::move(modules.trees);
   checked.declarations = std::move(modules.declarations);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +13,8 @@ namespace wale {
 
 namespace {
 
-constexpr std::size_t deepest_call = 64;
+/// A material that needs more terms than this is far beyond what a patch program holds.
+constexpr std::size_t most_terms = std::size_t{1} << 18;
 
 /// A function of the compiler's own: its name, its arguments, how many of them are needed.
 struct Builtin {
@@ -39,6 +41,8 @@ constexpr double log2_e = 1.4426950408889634, log10_2 = 0.30102999566398120, ln_
 
 }  // namespace
 
+bool is_builtin_function(const std::string& name) { return std::ranges::find(builtins(), name, &Builtin::name) != builtins().end(); }
+
 /// The meaning of each function that the compiler knows; a member a function, so that each reads on its own.
 struct BuiltinFunctions {
   using Actual = ExpressionChecker::Actual;
@@ -51,7 +55,9 @@ struct BuiltinFunctions {
 
   bool number(std::size_t i) const {
     if (value(i).type == Value::Type::number) return true;
-    checker.report(Code::wrong_type, actuals[i].span, fmt::format("a number is due here, not {}", type_words(value(i).type)));
+    checker.report(Code::wrong_type, actuals[i].span, fmt::format("a number is due here, not {}", type_words(value(i).type)), "",
+                   value(i).type == Value::Type::vector ? "take its `length(…)`, or work with `x` and `y`"
+                                                        : "give a number, with its unit if it has one");
     return false;
   }
   bool plain(std::size_t i) const {
@@ -87,7 +93,8 @@ struct BuiltinFunctions {
     const auto root = power(value(0).dimension, 1, 2);
     if (!root)
       return checker.report(Code::wrong_dimension, actuals[0].span,
-                            fmt::format("the root of {} has no dimension", checker.names().words(value(0).dimension)));
+                            fmt::format("the root of {} has no dimension", checker.names().words(value(0).dimension)), "",
+                            "divide it by a quantity of its own dimension first");
     return scalar(terms().apply(Operation::square_root, value(0).x, span), *root);
   }
 
@@ -103,8 +110,8 @@ struct BuiltinFunctions {
         {.code = Code::mismatched_dimensions,
          .span = checker.blame(actuals[b].span),
          .message = fmt::format("{} expected, found {}{}", checker.names().words(value(a).dimension),
-                                checker.names().words(value(b).dimension), checker.inside()),
-         .label = checker.names().unit(value(b).dimension),
+                                checker.names().words(value(b).dimension), checker.inside(actuals[b].span)),
+         .label = checker.names().unit_beside(value(a).dimension, value(b).dimension),
          .expected = sides[0],
          .found = sides[1],
          .help = "the arguments must have one dimension"});
@@ -200,14 +207,15 @@ struct BuiltinFunctions {
                                                 .span = checker.blame(actuals[i].span),
                                                 .message = fmt::format("{} expected, found {}", checker.names().words(dimension),
                                                                        checker.names().words(value(i).dimension)),
-                                                .label = checker.names().unit(value(i).dimension),
+                                                .label = checker.names().unit_beside(dimension, value(i).dimension),
                                                 .expected = sides[0],
                                                 .found = sides[1],
                                                 .help = fmt::format("write something like `{}`", example)});
       return std::nullopt;
     }
     const auto known = constant_value(terms(), value(i).x);
-    if (!known) checker.report(Code::not_constant, actuals[i].span, "a value known at compile time is due here", "it may change");
+    if (!known) checker.report(Code::not_constant, actuals[i].span, "a value known at compile time is due here", "it may change",
+                               "use numbers, units and constants; no parameters and no places");
     return known;
   }
 
@@ -236,8 +244,10 @@ struct BuiltinFunctions {
     const auto& file = std::get<ResolvedFile>(resolved);
     auto read = read_height_image(std::as_bytes(std::span(file.bytes)), file.name, *smooth / *scale);
     if (const auto* problem = std::get_if<ImageProblem>(&read))
-      return checker.report(Code::unreadable_image, actuals[0].span, fmt::format("`{}` {}", value(0).text, problem->reason), "",
-                            "any picture that OpenImageIO reads will do: PNG, TIFF, JPEG, EXR and their like");
+      return checker.report(problem->size ? Code::image_size : Code::unreadable_image, actuals[0].span,
+                            fmt::format("`{}` {}", value(0).text, problem->reason), "",
+                            problem->size ? fmt::format("take a picture of {0} x {0} to {1} x {1} pixels", smallest_image_side, largest_image_side)
+                                          : "any picture that OpenImageIO reads will do: PNG, TIFF, JPEG, EXR and their like");
     auto& picture = std::get<HeightImage>(read);
 
     const double column = *scale * picture.pixels_per_column, row = *scale * picture.pixels_per_row;
@@ -339,9 +349,11 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
   if (const auto found = functions.find(call.callee.text); found != functions.end())
     return call_function(tree, expr, call, found->second, scope);
   const auto builtin = std::ranges::find(builtins(), call.callee.text, &Builtin::name);
-  if (builtin == builtins().end())
+  if (builtin == builtins().end()) {
+    for (const auto& argument : call.arguments) check(tree, argument.value, scope);  // they have errors of their own
     return report(Code::unknown_name, call.callee.span, fmt::format("no function is called `{}`", call.callee.text), "",
                   spelling_help(call.callee.text, nullptr, true).value_or("schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
+  }
   std::vector<Actual> actuals;
   if (!bind_arguments(tree, call, builtin->formals, scope, actuals)) return failed(span);
   for (std::size_t i = 0; i < builtin->needed; ++i)
@@ -352,7 +364,8 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
     if (actual.given && actual.value.type == Value::Type::open)
       return report(Code::wrong_type, actual.span, "`open` is the default of a function's argument, not a value", "", "leave the argument out");
   if ((builtin->name == "grad" || builtin->name == "peak" || builtin->name == "image") && !scope.hand)
-    return report(Code::not_constant, span, fmt::format("`{}` is of places on a patch, and a constant is due here", builtin->name));
+    return report(Code::not_constant, span, fmt::format("`{}` is of places on a patch, and a constant is due here", builtin->name), "",
+                  "use it in a material's physical block");
   return BuiltinFunctions{*this, actuals, span}.dispatch(builtin->name);
 }
 
@@ -360,22 +373,32 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
                                        Scope& scope) {
   const Span span = tree.span(expr);
   const auto& declaration = *function.node;
-  if (std::ranges::find(callees_, call.callee.text) != callees_.end() || callees_.size() >= deepest_call)
+  if (std::ranges::find(callees_, call.callee.text) != callees_.end())
     return report(Code::recursive_definition, call.callee.span, fmt::format("`{}` would call itself", call.callee.text), "",
                   "functions are written out where they are called, so none may lead back to itself");
+  if (callees_.size() >= deepest_call)
+    return report(Code::nested_too_deep, call.callee.span, fmt::format("more than {} definitions lead to one another here", deepest_call), "",
+                  "write some of them out");
+  if (terms_.size() > most_terms) {
+    if (!std::exchange(too_large_, true))
+      surroundings_.diagnostics.report({.code = Code::program_too_large,
+                                        .span = call_sites_.empty() ? span : call_sites_.front(),
+                                        .message = fmt::format("written out, this comes to more than {} operations", most_terms),
+                                        .help = "functions are written out at every call; let them call each other less often"});
+    return failed(span);
+  }
   std::vector<std::string> formals;
   for (const auto& parameter : declaration.parameters) formals.push_back(parameter.name.text);
   std::vector<Actual> actuals;
-  if (!bind_arguments(tree, call, formals, scope, actuals)) return failed(span);
+  const bool bound = bind_arguments(tree, call, formals, scope, actuals);
 
-  const Scope* outside = &scope;
   Scope inner;
-  inner.hand = outside->hand;
-  bool good = true;
+  inner.hand = scope.hand;
+  bool good = bound;
   for (std::size_t i = 0; i < formals.size(); ++i) {
     const auto& formal = declaration.parameters[i];
     if (!actuals[i].given && !formal.default_value) {
-      report(Code::missing_argument, span, fmt::format("`{}` needs its argument `{}`", call.callee.text, formals[i]), "",
+      if (bound) report(Code::missing_argument, span, fmt::format("`{}` needs its argument `{}`", call.callee.text, formals[i]), "",
              fmt::format("it takes: {}", fmt::join(formals, ", ")));
       good = false;
       continue;
@@ -392,7 +415,7 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
       value = check(*function.tree, *formal.default_value, defaults);
       value.span = span;
     }
-    if (value.type == Value::Type::open) {
+    if (value.type == Value::Type::open && good) {
       value = {.type = Value::Type::number,
                .x = terms_.add({.kind = TermKind::open, .index = static_cast<std::uint32_t>(open_spans_.size()), .span = span}),
                .dimension = dimension.value_or(Dimension{}),
@@ -419,7 +442,7 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   return result;
 }
 
-void ExpressionChecker::record_carrier(const Call& call, const FunctionDecl& function, const Scope& formals, const Value& result, Span span) {
+void ExpressionChecker::record_carrier(const Call& call, const FunctionDecl& function, Scope& formals, const Value& result, Span span) {
   // A function with an argument that may be left open renders a percept: that argument is the carrier's size.
   for (const auto& formal : function.parameters) {
     if (!formal.default_value || result.type != Value::Type::vector) continue;
@@ -436,7 +459,17 @@ void ExpressionChecker::record_carrier(const Call& call, const FunctionDecl& fun
                     .force_y = result.y,
                     .relief = {},
                     .span = blame(span)};
-    if (const auto height = formals.names.find("height"); height != formals.names.end()) carrier.relief = height->second.value.x;
+    if (const auto fixed = carrier.open ? std::nullopt : constant_value(terms_, size.x); fixed && *fixed < 0) {
+      report(Code::value_out_of_range, span, fmt::format("`{}` is less than nothing", formal.name.text), "",
+             "give its size; to push the other way, turn the height around with a minus");
+      continue;
+    }
+    if (const auto* height = formals.find("height"); height && !terms_.dependence(height->value.x).position) {
+      report(Code::flat_height, span, "this height is the same everywhere, and a flat height pushes nothing", "",
+             "let it change with `x` or `y`, as in `grating(x, period: 2.5 mm)`");
+      continue;
+    }
+    if (const auto* height = formals.find("height")) carrier.relief = height->value.x;
     carriers_.push_back(carrier);
   }
 }

@@ -28,6 +28,13 @@ std::string_view verb(BinaryOperator op) {
   }
 }
 
+/// What to do with a value that is neither number nor vector.
+std::string calculable(Value::Type type) {
+  if (type == Value::Type::boolean) return "make a number of it, as in `if x < 5 mm then 1 else 0`";
+  if (type == Value::Type::text) return "texts name files and titles; write numbers without quotes";
+  return "use numbers and vectors";
+}
+
 double evaluate(Operation operation, double a, double b, double c) {
   switch (operation) {
     case Operation::add: return a + b;
@@ -93,13 +100,21 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 
 Value ExpressionChecker::failed(Span span) const { return {.type = Value::Type::failed, .span = span}; }
 
-std::string ExpressionChecker::inside() const {
-  return callees_.empty() ? std::string{} : fmt::format(" (inside `{}`)", callees_.back());
+std::string ExpressionChecker::inside(Span span) const {
+  return callees_.empty() || at_home(span) ? std::string{} : fmt::format(" (inside `{}`)", callees_.back());
+}
+
+std::string ExpressionChecker::called_from(Span span) const {
+  if (!at_home(span) || callees_.front().starts_with("let ")) return {};
+  return fmt::format("called on line {}", surroundings_.sources.place(call_sites_.front()).line);
 }
 
 Value ExpressionChecker::report(Code code, Span span, std::string message, std::string label, std::string help) {
-  surroundings_.diagnostics.report(
-      {.code = code, .span = blame(span), .message = message + inside(), .label = std::move(label), .help = std::move(help)});
+  surroundings_.diagnostics.report({.code = code,
+                                    .span = blame(span),
+                                    .message = message + inside(span),
+                                    .label = label.empty() ? called_from(span) : std::move(label),
+                                    .help = std::move(help)});
   return failed(span);
 }
 
@@ -216,12 +231,20 @@ Value ExpressionChecker::name(const Word& word, Scope& scope) {
       if (callee == guard)
         return report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
                       "a `let` may use only what does not need it");
-    callees_.push_back(guard);
-    call_sites_.push_back(word.span);
-    Scope outside;
-    Value value = check(*found->second.tree, found->second.node->value, outside);
-    call_sites_.pop_back();
-    callees_.pop_back();
+    const auto known = constants_.find(found->second.node);
+    if (known == constants_.end()) {
+      if (callees_.size() >= deepest_call)
+        return report(Code::nested_too_deep, word.span, fmt::format("more than {} definitions lead to one another here", deepest_call), "",
+                      "write some of them out");
+      callees_.push_back(guard);
+      call_sites_.push_back(word.span);
+      Scope outside;
+      const Value value = check(*found->second.tree, found->second.node->value, outside);
+      call_sites_.pop_back();
+      callees_.pop_back();
+      constants_[found->second.node] = value;
+    }
+    Value value = constants_.at(found->second.node);
     value.span = word.span;
     return value;
   }
@@ -245,7 +268,7 @@ Value ExpressionChecker::unary(const SyntaxTree& tree, ExprId, const Unary& node
   Value value = check(tree, node.operand, scope);
   if (value.failed() || node.op == UnaryOperator::plus) return value;
   if (value.type != Value::Type::number && value.type != Value::Type::vector)
-    return report(Code::wrong_type, value.span, fmt::format("{} cannot be negated", type_words(value.type)));
+    return report(Code::wrong_type, value.span, fmt::format("{} cannot be negated", type_words(value.type)), "", calculable(value.type));
   value.x = terms_.apply(Operation::negate, value.x, value.span);
   if (value.type == Value::Type::vector) value.y = terms_.apply(Operation::negate, value.y, value.span);
   return value;
@@ -258,22 +281,26 @@ Value ExpressionChecker::binary(const SyntaxTree& tree, ExprId expr, const Binar
   if (left.failed() || right.failed()) return failed(span);
   for (const auto* side : {&left, &right})
     if (side->type != Value::Type::number && side->type != Value::Type::vector)
-      return report(Code::wrong_type, side->span, fmt::format("{} cannot be calculated with", type_words(side->type)));
+      return report(Code::wrong_type, side->span, fmt::format("{} cannot be calculated with", type_words(side->type)), "", calculable(side->type));
   switch (node.op) {
     case BinaryOperator::multiply: return multiply(left, right, span);
     case BinaryOperator::divide: return divide(left, right, span);
     case BinaryOperator::power: return raise(left, right, span);
-    default: return add_or_compare(node.op, left, right, span);
+    default: return add_or_compare(tree, node, left, right, scope, span);
   }
 }
 
-Value ExpressionChecker::add_or_compare(BinaryOperator op, Value left, Value right, Span span) {
+Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
+                                        Span span) {
+  const BinaryOperator op = node.op;
   if (left.type != right.type)
     return report(Code::wrong_type, span, fmt::format("{} and {} cannot be {}", type_words(left.type), type_words(right.type), verb(op)),
                   "", "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
   if (left.dimension != right.dimension) {
     auto sides = names().side_by_side(left.dimension, right.dimension);
-    std::string help = "convert one side to the dimension of the other";
+    std::string help;
+    if (!left.dimension.plain() && !right.dimension.plain())
+      help = "if the left side is as meant: " + dimension_mend(tree, node.right, scope, left.dimension, right.dimension);
     for (const auto& [bare, other] : {std::pair{&left, &right}, std::pair{&right, &left}})
       if (bare->dimension.plain() && !other->dimension.plain())
         help = fmt::format("a plain number needs a unit here, such as `{} {}`",
@@ -281,8 +308,8 @@ Value ExpressionChecker::add_or_compare(BinaryOperator op, Value left, Value rig
     surroundings_.diagnostics.report({.code = Code::mismatched_dimensions,
                                       .span = blame(span),
                                       .message = fmt::format("{} and {} cannot be {}{}", names().words(left.dimension),
-                                                             names().words(right.dimension), verb(op), inside()),
-                                      .label = {},
+                                                             names().words(right.dimension), verb(op), inside(span)),
+                                      .label = called_from(span),
                                       .expected = sides[0] + "   (left)",
                                       .found = sides[1] + "   (right)",
                                       .help = help});
@@ -392,14 +419,15 @@ Value ExpressionChecker::conditional(const SyntaxTree& tree, ExprId expr, const 
     return report(Code::wrong_type, condition.span, fmt::format("a condition is due here, not {}", type_words(condition.type)), "",
                   "compare it with something, as in `x < 5 mm`");
   if (yes.type != no.type || (yes.type != Value::Type::number && yes.type != Value::Type::vector))
-    return report(Code::wrong_type, span, fmt::format("`then` gives {} and `else` gives {}", type_words(yes.type), type_words(no.type)));
+    return report(Code::wrong_type, span, fmt::format("`then` gives {} and `else` gives {}", type_words(yes.type), type_words(no.type)), "",
+                  "let both give a number, or both a vector");
   if (yes.dimension != no.dimension) {
     const auto sides = names().side_by_side(yes.dimension, no.dimension);
     surroundings_.diagnostics.report({.code = Code::mismatched_dimensions,
                                       .span = blame(span),
                                       .message = fmt::format("`then` gives {}, `else` gives {}{}", names().words(yes.dimension),
-                                                             names().words(no.dimension), inside()),
-                                      .label = {},
+                                                             names().words(no.dimension), inside(span)),
+                                      .label = called_from(span),
                                       .expected = sides[0] + "   (then)",
                                       .found = sides[1] + "   (else)",
                                       .help = "both must have one dimension"});
@@ -426,7 +454,8 @@ Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& sc
     return report(Code::wrong_type, value.span, fmt::format("{} is due here, not {}", type_words(type), type_words(value.type)), "",
                   type == Value::Type::vector && measurable
                       ? fmt::format("give both parts, as in `vector({}, {})`", text, zero)
-                      : value.type == Value::Type::vector ? fmt::format("take one part, or `length({})`", text) : "");
+                  : value.type == Value::Type::vector ? fmt::format("take its `length({})`, or work with `x` and `y`", text)
+                                                      : calculable(value.type));
   }
   return value;
 }
@@ -441,7 +470,8 @@ std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId
     return std::nullopt;
   }
   if (!std::isfinite(*known)) {
-    report(Code::number_out_of_range, value.span, "this comes to no finite number");
+    report(Code::number_out_of_range, value.span, "this comes to no finite number", "",
+           "look for a division by zero, or the root or logarithm of less than nothing");
     return std::nullopt;
   }
   return known;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ class ExpressionChecker {
   /// The same, and of this type and dimension, or reported: "force expected, found energy".
   Value check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type, const Dimension& dimension);
 
+  /// The value of a name that the parser has left as a word.
+  Value named(const Word& word, Scope& scope) { return name(word, scope); }
+
   /// The value in SI of an expression of that dimension that needs nothing but literals; otherwise reported.
   std::optional<double> constant(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& dimension);
 
@@ -61,9 +65,9 @@ class ExpressionChecker {
                       Scope& scope);
   bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string>& formals, Scope& scope,
                       std::vector<Actual>& actuals);
-  void record_carrier(const Call& call, const FunctionDecl& function, const Scope& formals, const Value& result, Span span);
+  void record_carrier(const Call& call, const FunctionDecl& function, Scope& formals, const Value& result, Span span);
 
-  Value add_or_compare(BinaryOperator op, Value left, Value right, Span span);
+  Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope, Span span);
   Value multiply(const Value& left, const Value& right, Span span);
   Value divide(const Value& left, const Value& right, Span span);
   Value raise(const Value& base, const Value& exponent, Span span);
@@ -75,8 +79,10 @@ class ExpressionChecker {
                              const Dimension& found);
   std::optional<std::string> spelling_help(const std::string& word, const Scope* scope, bool functions) const;
   /// Where to point: inside a function of another file, at the call that led there.
-  Span blame(Span span) const { return call_sites_.empty() ? span : call_sites_.front(); }
-  std::string inside() const;
+  Span blame(Span span) const { return call_sites_.empty() || at_home(span) ? span : call_sites_.front(); }
+  bool at_home(Span span) const { return !call_sites_.empty() && span.source == call_sites_.front().source; }
+  std::string inside(Span span) const;       ///< " (inside `grating`)", where the place does not say so
+  std::string called_from(Span span) const;  ///< "called on line 12", for a place inside a function of the same file
   const DimensionNames& names() const { return surroundings_.declarations.names; }
   const Unit* unit(const std::string& name) const;
 
@@ -85,9 +91,17 @@ class ExpressionChecker {
   std::vector<HeightTable>& tables_;
   std::vector<Carrier> carriers_;
   std::vector<Span> open_spans_;
+  std::map<const Constant*, Value> constants_;
+  bool too_large_ = false;  ///< reported
   std::vector<Span> call_sites_;
   std::vector<std::string> callees_;
 };
+
+/// Definitions lead to one another at most so deep.
+inline constexpr std::size_t deepest_call = 64;
+
+/// Whether the compiler itself defines a function of that name.
+bool is_builtin_function(const std::string& name);
 
 /// The value of a term that depends on nothing, in double precision, or nothing.
 std::optional<double> constant_value(const Terms& terms, TermId id);

@@ -30,8 +30,25 @@ void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vecto
   }
 }
 
-/// "one length too many", "a length and a mass too few"; empty when the ratio is no such product.
+/// "a length", "an energy".
+std::string with_article(const std::string& word) {
+  return (word.find_first_of("aeiou") == 0 ? "an " : "a ") + word;
+}
+
+/// Whether it is one base dimension and nothing else.
+bool base(const Dimension& dimension) {
+  int sum = 0;
+  for (const int exponent : dimension.twelfths) {
+    if (exponent < 0) return false;
+    sum += exponent;
+  }
+  return sum == Dimension::unit_exponent;
+}
+
+/// "one length too many", "one mass too few"; empty when no name fits the ratio.
 std::string surplus(const DimensionNames& names, const Dimension& ratio) {
+  // "One time too few" says more than "one frequency too many".
+  if (const auto name = names.name(Dimension{} / ratio); name && base(Dimension{} / ratio)) return fmt::format("one {} too few", *name);
   if (const auto name = names.name(ratio)) return fmt::format("one {} too many", *name);
   if (const auto name = names.name(Dimension{} / ratio)) return fmt::format("one {} too few", *name);
   return {};
@@ -55,27 +72,29 @@ std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId exp
   std::vector<ProductName> factors;
   collect_names(tree, expr, false, factors);
 
-  // A name that would fit if it were declared in another unit is the likeliest slip; the next is a factor too many.
+  // Of three factors or more, one that is exactly the surplus is the likeliest slip; then comes a name that would fit if
+  // it were declared in another unit.
+  for (const auto& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (!binding || factor.divides || factors.size() < 3 || binding->value.dimension != ratio) continue;
+    const unsigned line = surroundings_.sources.place(binding->declared).line;
+    return fmt::format("{}{}divide by {}, or drop `* {}` ({}, line {})", count, count.empty() ? "" : "; ",
+                       with_article(names().words(ratio)), factor.name, with_article(names().words(ratio)), line);
+  }
   for (const auto& factor : factors) {
     const auto* binding = scope.find(factor.name);
     if (!binding) continue;
     const Dimension needed = factor.divides ? binding->value.dimension * ratio : binding->value.dimension / ratio;
     if (const auto name = names().name(needed); name && !needed.plain()) {
       const unsigned line = surroundings_.sources.place(binding->declared).line;
-      return fmt::format("{}{}if `{}` (line {}) is meant as a {}, give it in {}", count, count.empty() ? "" : ": ", factor.name, line, *name,
-                         names().unit(needed));
+      return fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ", factor.name, line,
+                         with_article(*name), customary_unit(surroundings_.declarations, needed));
     }
   }
-  for (const auto& factor : factors) {
-    const auto* binding = scope.find(factor.name);
-    if (!binding || factor.divides || factors.size() < 2 || binding->value.dimension != ratio) continue;
-    const unsigned line = surroundings_.sources.place(binding->declared).line;
-    return fmt::format("{}{}divide by a {}, or drop `* {}` (a {}, line {})", count, count.empty() ? "" : "; ", names().words(ratio), factor.name,
-                       names().words(ratio), line);
-  }
-  if (const auto name = names().name(ratio)) return fmt::format("{}; divide by a {}", count, *name);
-  if (const auto name = names().name(Dimension{} / ratio)) return fmt::format("{}; multiply by a {}", count, *name);
-  return fmt::format("a {} is due here, in {}", names().words(expected), unit);
+  const auto inverse = names().name(Dimension{} / ratio);
+  if (const auto name = names().name(ratio); name && !(inverse && base(Dimension{} / ratio))) return fmt::format("{}; divide by {}", count, with_article(*name));
+  if (inverse) return fmt::format("{}; multiply by {}", count, with_article(*inverse));
+  return fmt::format("{} is due here, in {}", with_article(names().words(expected)), unit);
 }
 
 void ExpressionChecker::report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value, const Dimension& expected) {
@@ -83,8 +102,8 @@ void ExpressionChecker::report_dimension(const SyntaxTree& tree, ExprId expr, Sc
   surroundings_.diagnostics.report(
       {.code = Code::wrong_dimension,
        .span = blame(tree.span(expr)),
-       .message = fmt::format("{} expected, found {}{}", names().words(expected), names().words(value.dimension), inside()),
-       .label = names().unit(value.dimension),
+       .message = fmt::format("{} expected, found {}{}", names().words(expected), names().words(value.dimension), inside(tree.span(expr))),
+       .label = names().unit_beside(expected, value.dimension),
        .expected = sides[0],
        .found = sides[1],
        .help = dimension_mend(tree, expr, scope, expected, value.dimension)});

@@ -72,7 +72,12 @@ class Declarer {
   }
 
   void operator()(const FunctionDecl& node) {
-    if (declarations_.functions.contains(node.name.text)) return twice(node.name, "function");
+    if (declarations_.functions.contains(node.name.text) || is_builtin_function(node.name.text)) return twice(node.name, "function");
+    for (std::size_t i = 0; i < node.parameters.size(); ++i)
+      for (std::size_t before = 0; before < i; ++before)
+        if (node.parameters[i].name.text == node.parameters[before].name.text)
+          report(Code::declared_twice, node.parameters[i].name.span, fmt::format("`{}` has two arguments `{}`", node.name.text, node.parameters[i].name.text),
+                 "give one of them another name");
     for (const auto& parameter : node.parameters)
       if (parameter.dimension && !declarations_.dimensions.contains(parameter.dimension->text)) unknown_dimension(*parameter.dimension);
     declarations_.functions[node.name.text] = {&tree_, &node};

@@ -111,7 +111,13 @@ std::string RecordReader::text(const std::string& key) {
   return {};
 }
 
+void RecordReader::reject(Code code, Span span, std::string message, std::string help) {
+  report(code, span, std::move(message), std::move(help));
+  rejected_ = true;
+}
+
 void RecordReader::report_unknown_settings() {
+  if (rejected_) return;
   for (const auto& setting : record.settings) {
     if (read_.contains(&setting)) continue;
     const auto near = nearest_spelling(setting.key.text, {asked_.begin(), asked_.end()});
@@ -124,7 +130,7 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   Percept percept{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
   if (declarations.percepts.contains(percept.name))
-    return reader.report(Code::declared_twice, record.name.span, fmt::format("a percept `{}` is declared already", percept.name), "give one of them another name");
+    return reader.reject(Code::declared_twice, record.name.span, fmt::format("a percept `{}` is declared already", percept.name), "give one of them another name");
   if (const auto* one = reader.required("one", "lateral amplitude 194 pu on sandpaper"); one && !one->items.empty()) {
     const SettingItem& item = one->items.front();
     percept.carrier = joined(item.words);
@@ -135,9 +141,9 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
                     "name the function and its argument, as in `lateral amplitude`");
     } else {
       percept.carrier_dimension = *dimension;
-      if (item.value)
-        if (const auto size = reader.value(*item.value, *dimension)) percept.one = *size;
-      if (!(percept.one > 0)) reader.report(Code::value_out_of_range, item.span, "the reference stimulus has no size", "give it one, as in `lateral amplitude 194 pu`");
+      const auto size = item.value ? reader.value(*item.value, *dimension) : std::optional<double>(0.0);
+      percept.one = size.value_or(0);
+      if (size && !(*size > 0)) reader.report(Code::value_out_of_range, item.span, "the reference stimulus has no size", "give it one, as in `lateral amplitude 194 pu`");
     }
   }
   reader.setting("zero");
@@ -150,7 +156,7 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   const auto percept = declarations.percepts.find(record.name.text);
   if (percept == declarations.percepts.end())
-    return reader.report(Code::unknown_name, record.name.span, fmt::format("nothing declares a percept `{}`", record.name.text),
+    return reader.reject(Code::unknown_name, record.name.span, fmt::format("nothing declares a percept `{}`", record.name.text),
                          "declare it, as in schema/percepts.wale");
   Map map{.percept = record.name.text, .from = record.from ? record.from->text : "", .span = record.name.span};
   if (!percept->second.carrier.ends_with(" " + map.from))
@@ -158,21 +164,27 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
                   fmt::format("`{}` is carried by its `{}`, not by `{}`", map.percept, percept->second.carrier, map.from),
                   fmt::format("write `map {} from {}`", map.percept, percept->second.carrier.substr(percept->second.carrier.find(' ') + 1)));
 
-  if (const auto* law = reader.required("law", "log10(magnitude) = …"); law && law->items.size() == 1 && law->items[0].value && law->items[0].equals) {
+  const auto* law = reader.required("law", "log10(magnitude) = …");
+  const SettingItem* equation = law && law->items.size() == 1 && law->items[0].equals ? &law->items[0] : nullptr;
+  // In `law magnitude = …` the parser takes the lone name before `=` for a word.
+  const Word* lone = equation && !equation->value && equation->words.size() == 1 ? &equation->words[0] : nullptr;
+  if (equation && (equation->value || lone)) {
     std::vector<HeightTable> tables;
+    const std::size_t errors_before = reader.diagnostics.error_count();
     ExpressionChecker checker({reader.sources, declarations, reader.diagnostics}, map.terms, tables);
     Scope scope;
     scope.names["magnitude"] = {{.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::magnitude})}, law->span};
     scope.names[map.from] = {
         {.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::carrier}), .dimension = percept->second.carrier_dimension}, law->span};
-    const Value left = checker.check(reader.tree, *law->items[0].value, scope);
+    const Value left = lone ? checker.named(*lone, scope) : checker.check(reader.tree, *equation->value, scope);
     if (!left.failed()) {
-      const Value right = checker.check_as(reader.tree, *law->items[0].equals, scope, Value::Type::number, left.dimension);
+      const Value right = checker.check_as(reader.tree, *equation->equals, scope, Value::Type::number, left.dimension);
       map.left = left.x;
       map.right = right.x;
     }
+    const bool read = reader.diagnostics.error_count() == errors_before;
     for (const auto& [name, binding] : scope.names)
-      if (!binding.used) reader.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name), "tie the magnitude to the carrier");
+      if (read && !binding.used) reader.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name), "tie the magnitude to the carrier");
   } else if (law) {
     reader.report(Code::wrong_type, law->span, "a law is an equation", fmt::format("write `law log10(magnitude) = …` in `magnitude` and `{}`", map.from));
   }
@@ -210,7 +222,7 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
     else if (on->items.size() == 1) map.device = joined(on->items[0].words);
   }
   map.source = reader.text("source");
-  if (map.source.empty()) reader.report(Code::missing_setting, record.name.span, "a map without a source is a rumour", "add `source \"author, year, figure\"`");
+  if (!reader.setting("source")) reader.report(Code::missing_setting, record.name.span, "a map without a source is a rumour", "add `source \"author, year, figure\"`");
   declarations.maps.push_back(std::move(map));
 }
 
@@ -220,7 +232,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   DeviceProfile& profile = device.profile;
   profile.name = record.name.text;
   if (declarations.devices.contains(profile.name))
-    return reader.report(Code::declared_twice, record.name.span, fmt::format("a device `{}` is declared already", profile.name), "give one of them another name");
+    return reader.reject(Code::declared_twice, record.name.span, fmt::format("a device `{}` is declared already", profile.name), "give one of them another name");
 
   if (const auto* workspace = reader.required("workspace", "disc(228.6 mm)"); workspace && !workspace->items.empty()) {
     const auto* call = workspace->items[0].value ? std::get_if<Call>(&reader.tree.expr(*workspace->items[0].value)) : nullptr;
@@ -285,7 +297,7 @@ void declare_hand(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   HandDeclaration hand{.name = record.name.text, .span = record.name.span};
   if (declarations.hands.contains(hand.name))
-    return reader.report(Code::declared_twice, record.name.span, fmt::format("a hand `{}` is declared already", hand.name), "give one of them another name");
+    return reader.reject(Code::declared_twice, record.name.span, fmt::format("a hand `{}` is declared already", hand.name), "give one of them another name");
   hand.mass = reader.positive("mass", 0, "mass", "0.55 kg");
   hand.damping = reader.positive("damping", 0, "viscosity", "6.5 N s/m");
   hand.stiffness = reader.positive("stiffness", 0, "stiffness", "135 N/m");

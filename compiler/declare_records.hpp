@@ -27,6 +27,8 @@ class RecordReader {
   std::optional<double> value(ExprId expr, const Dimension& dimension);
 
   void report(Code code, Span span, std::string message, std::string help);
+  /// The same about the record as a whole, whose settings then are not read.
+  void reject(Code code, Span span, std::string message, std::string help);
   void report_unknown_settings();
 
   const SyntaxTree& tree;
@@ -38,6 +40,7 @@ class RecordReader {
  private:
   std::set<const Setting*> read_;
   std::set<std::string> asked_;
+  bool rejected_ = false;
 };
 
 /// Each enters one record of its kind.

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double normal_95 = 1.96;  // standard deviations on either side that hold 95 % of a normal distribution
 
-/// A figure in its author's unit, as short as single precision allows: "2.5", not "2.50000006".
-double shown(float value, double unit_in_si) {
-  const double exact = value / unit_in_si;
-  return std::stod(fmt::format("{:.6g}", exact));
-}
+/// A figure with the digits that single precision holds: 0.6, not 0.60000002384.
+double figure(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
+
+/// A parameter's value in its author's unit.
+double shown(float value, double unit_in_si) { return figure(value / unit_in_si); }
 
 DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   const PatchProgram& program = bank.program().description();
@@ -87,13 +87,13 @@ nlohmann::ordered_json to_json(const Description& description) {
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
   for (const auto& percept : description.percepts) {
     auto& entry = percepts[percept.name];
-    entry["level"] = percept.level;
-    entry["magnitude"] = percept.magnitude;
-    entry["low"] = percept.low;
-    entry["high"] = percept.high;
+    entry["level"] = figure(percept.level);
+    entry["magnitude"] = figure(percept.magnitude);
+    entry["low"] = figure(percept.low);
+    entry["high"] = figure(percept.high);
     entry["carrier"] = percept.carrier;
-    entry["amplitude_newton"] = percept.amplitude;
-    if (percept.asked) entry["asked"] = *percept.asked;
+    entry["amplitude_newton"] = figure(percept.amplitude);
+    if (percept.asked) entry["asked"] = figure(*percept.asked);
     entry["saturated"] = percept.saturated;
     entry["outside_validity"] = percept.outside_validity;
     entry["evidence"] = evidence_word(percept.worst);
@@ -102,9 +102,9 @@ nlohmann::ordered_json to_json(const Description& description) {
     entry["measured_on"] = percept.device;
     entry["source"] = percept.source;
   }
-  json["force"] = {{"max_newton", description.force.max_newton},
-                   {"p99_newton", description.force.p99_newton},
-                   {"rms_newton", description.force.rms_newton}};
+  json["force"] = {{"max_newton", figure(description.force.max_newton)},
+                   {"p99_newton", figure(description.force.p99_newton)},
+                   {"rms_newton", figure(description.force.rms_newton)}};
   auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
   for (const auto& parameter : description.parameters)
     parameters.push_back({{"name", parameter.name},
@@ -113,7 +113,7 @@ nlohmann::ordered_json to_json(const Description& description) {
                           {"min", shown(parameter.low, parameter.unit_in_si)},
                           {"max", shown(parameter.high, parameter.unit_in_si)},
                           {"description", parameter.description}});
-  json["patch"] = {{"width_m", description.patch.width}, {"height_m", description.patch.height}, {"rim_m", description.patch.rim}};
+  json["patch"] = {{"width_m", figure(description.patch.width)}, {"height_m", figure(description.patch.height)}, {"rim_m", figure(description.patch.rim)}};
   json["instructions"] = description.code.tick;
   json["sections"] = {{"setup", {{"instructions", description.code.setup}, {"cost", description.code.setup_cost}}},
                       {"peak", {{"instructions", description.code.peaks}, {"cost", description.code.peak_cost}}},

@@ -32,6 +32,8 @@ std::string code_title(Code code) { return entry(code).title; }
 Severity severity_of(Code code) { return entry(code).severity; }
 
 void Diagnostics::report(Diagnostic diagnostic) {
+  for (const Diagnostic& other : all_)
+    if (other.code == diagnostic.code && other.span == diagnostic.span && other.message == diagnostic.message) return;
   if (severity_of(diagnostic.code) == Severity::error) ++errors_;
   all_.push_back(std::move(diagnostic));
 }

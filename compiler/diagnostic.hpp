@@ -35,6 +35,7 @@ struct Diagnostic {
 /// What the stages report to. Nothing is printed here.
 class Diagnostics {
  public:
+  /// A thing is said once: the same message at the same place again is dropped.
   void report(Diagnostic diagnostic);
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }

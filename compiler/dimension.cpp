@@ -71,24 +71,28 @@ std::string DimensionNames::factors(const Dimension& dimension) const {
 std::string DimensionNames::unit(const Dimension& dimension) const {
   if (dimension.plain()) return {};
   if (const auto found = std::ranges::find(units, dimension, &Named::dimension); found != units.end()) return found->name;
-  // N/m, N s/m and their like read better than their base units: one named unit times or over a base unit or two.
-  for (const auto& named : units)
-    for (std::size_t i = 0; i < base_units.size(); ++i) {
-      Dimension base;
-      base.twelfths[i] = Dimension::unit_exponent;
-      if (named.dimension == base) continue;
-      if (named.dimension / base == dimension) return fmt::format("{}/{}", named.name, base_units[i]);
-      if (named.dimension * base == dimension) return fmt::format("{} {}", named.name, base_units[i]);
-    }
-  for (const auto& named : units)
-    for (std::size_t over = 0; over < base_units.size(); ++over)
-      for (std::size_t times = 0; times < base_units.size(); ++times) {
-        Dimension ratio;
-        ratio.twelfths[times] += Dimension::unit_exponent;
-        ratio.twelfths[over] -= Dimension::unit_exponent;
-        if (times != over && named.dimension * ratio == dimension)
-          return fmt::format("{} {}/{}", named.name, base_units[times], base_units[over]);
+  // N/m, N s/m and their like read better than their base units: one named unit times or over a base unit or two. Units
+  // made of several come first, N s/m before kg/s, and nothing is told per kg, m/s^2 least of all.
+  const auto single = [&](const Named& named) { return std::ranges::count(named.dimension.twelfths, 0) >= std::ptrdiff_t{Dimension::capacity} - 1; };
+  for (const bool single_too : {false, true}) {
+    for (const auto& named : units)
+      for (std::size_t i = 0; i < base_units.size(); ++i) {
+        Dimension base;
+        base.twelfths[i] = Dimension::unit_exponent;
+        if (named.dimension == base || base_units[i] == "kg" || (single(named) && !single_too)) continue;
+        if (named.dimension / base == dimension) return fmt::format("{}/{}", named.name, base_units[i]);
+        if (named.dimension * base == dimension) return fmt::format("{} {}", named.name, base_units[i]);
       }
+    for (const auto& named : units)
+      for (std::size_t over = 0; over < base_units.size(); ++over)
+        for (std::size_t times = 0; times < base_units.size(); ++times) {
+          Dimension ratio;
+          ratio.twelfths[times] += Dimension::unit_exponent;
+          ratio.twelfths[over] -= Dimension::unit_exponent;
+          if (times != over && base_units[over] != "kg" && base_units[times] != "kg" && (single_too || !single(named)) && named.dimension * ratio == dimension)
+            return fmt::format("{} {}/{}", named.name, base_units[times], base_units[over]);
+        }
+  }
   std::string above, below;
   for (const std::size_t i : writing_order(base_units)) {
     const int exponent = dimension.twelfths[i];
@@ -98,10 +102,23 @@ std::string DimensionNames::unit(const Dimension& dimension) const {
   return (above.empty() ? "1" : above) + below;
 }
 
+std::string DimensionNames::unit_beside(const Dimension& expected, const Dimension& found) const {
+  const std::string known = unit(expected);
+  const bool derived = std::ranges::find(base_units, known) == base_units.end() && known.find_first_of(" /") == std::string::npos;
+  if (expected.plain() || found.plain() || !derived) return unit(found);  // "m m" and "N/m m" would say less
+  for (std::size_t i = 0; i < base_units.size(); ++i) {
+    Dimension base;
+    base.twelfths[i] = Dimension::unit_exponent;
+    if (found == expected * base && expected != base) return fmt::format("{} {}", known, base_units[i]);
+    if (found == expected / base && found != base) return fmt::format("{}/{}", known, base_units[i]);
+  }
+  return unit(found);
+}
+
 std::array<std::string, 2> DimensionNames::side_by_side(const Dimension& expected, const Dimension& found) const {
   const std::array<const Dimension*, 2> both{&expected, &found};
   std::array<std::string, 2> text;
-  std::array<std::string, 2> names{unit(expected), unit(found)};
+  std::array<std::string, 2> names{unit(expected), unit_beside(expected, found)};
   for (auto& name : names)
     if (name.empty()) name = "number";
   const std::size_t name_width = std::max(names[0].size(), names[1].size());
@@ -115,6 +132,7 @@ std::array<std::string, 2> DimensionNames::side_by_side(const Dimension& expecte
   }
   for (int side = 0; side < 2; ++side) {
     if (both[side]->plain()) text[side] = "a plain number";
+    if (names[side] == factors(*both[side])) text[side] = names[side];  // m is m and needs no equation
     text[side].erase(text[side].find_last_not_of(' ') + 1);
   }
   return text;

@@ -43,6 +43,9 @@ struct DimensionNames {
   /// "kg m^2 s^-2"; "1" for a plain number.
   std::string factors(const Dimension& dimension) const;
 
+  /// The unit of `found` in terms of that of `expected` where they differ by one factor: "N m" beside N, else `unit`.
+  std::string unit_beside(const Dimension& expected, const Dimension& found) const;
+
   /// "N    = kg m   s^-2" and "N m  = kg m^2 s^-2": two dimensions, factor under factor.
   std::array<std::string, 2> side_by_side(const Dimension& expected, const Dimension& found) const;
 };

@@ -132,23 +132,26 @@ std::vector<float> luminance_weights(const ImageSpec& spec) {
   return weights;
 }
 
-std::optional<std::string> refusal_of(const ImageSpec& spec) {
-  if (spec.deep) return "is a deep image, which has no single height per pixel";
-  if (spec.depth > 1) return "is a volume; a height map has two dimensions";
+std::optional<ImageProblem> refusal_of(const ImageSpec& spec) {
+  if (spec.deep) return ImageProblem{"is a deep image, which has no single height per pixel"};
+  if (spec.depth > 1) return ImageProblem{"is a volume; a height map has two dimensions"};
   if (spec.width < smallest_image_side || spec.height < smallest_image_side) {
-    return fmt::format("is {} x {} pixels; heights need at least {} x {}", spec.width, spec.height, smallest_image_side,
-                       smallest_image_side);
+    return ImageProblem{fmt::format("is {} x {} pixels; heights need at least {} x {}", spec.width, spec.height,
+                                    smallest_image_side, smallest_image_side),
+                        true};
   }
   if (static_cast<long long>(spec.width) * spec.height > most_image_pixels) {
-    return fmt::format("is {} x {} pixels, more than {} million; make it smaller", spec.width, spec.height,
-                       most_image_pixels / 1'000'000);
+    return ImageProblem{fmt::format("is {} x {} pixels, more than {} million; make it smaller", spec.width, spec.height,
+                                    most_image_pixels / 1'000'000),
+                        true};
   }
   if (spec.nchannels < 1 || spec.nchannels > most_channels) {
-    return fmt::format("has {} channels; a picture has 1 to {}", spec.nchannels, most_channels);
+    return ImageProblem{fmt::format("has {} channels; a picture has 1 to {}", spec.nchannels, most_channels)};
   }
   if (static_cast<long long>(spec.tile_width) * spec.tile_height * spec.nchannels > most_image_pixels) {
-    return fmt::format("is made of tiles of {} x {} pixels, which is too much to hold", spec.tile_width,
-                       spec.tile_height);
+    return ImageProblem{fmt::format("is made of tiles of {} x {} pixels, which is too much to hold", spec.tile_width,
+                                    spec.tile_height),
+                        true};
   }
   return std::nullopt;
 }
@@ -156,7 +159,7 @@ std::optional<std::string> refusal_of(const ImageSpec& spec) {
 /// Reads band by band, so that a large picture of many channels never stands in memory whole.
 std::variant<HeightField, ImageProblem> read_luminance(ImageInput& input) {
   const ImageSpec spec = input.spec();
-  if (auto refused = refusal_of(spec)) return ImageProblem{*refused};
+  if (auto refused = refusal_of(spec)) return *refused;
   const std::vector<float> weights = luminance_weights(spec);
   HeightField field{spec.width, spec.height, spec.get_int_attribute("Orientation", 1), {}};
   field.heights.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
@@ -340,7 +343,7 @@ std::variant<HeightImage, ImageProblem> heights_from(HeightField whole, double s
   const double columns = whole.width, rows = whole.height;
   HeightField field = fitted(std::move(whole));
   if (std::min(field.width, field.height) < smallest_image_side) {
-    return ImageProblem{fmt::format("is {} x {} pixels, too long and narrow for heights", columns, rows)};
+    return ImageProblem{fmt::format("is {} x {} pixels, too long and narrow for heights", columns, rows), true};
   }
   HeightImage image;
   image.pixels_per_column = columns / field.width;

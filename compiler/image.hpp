@@ -20,6 +20,7 @@ struct HeightImage {
 /// Why a file cannot be used as heights; a phrase that follows the file's name, "is 3 x 2 pixels; …".
 struct ImageProblem {
   std::string reason;
+  bool size = false;  ///< it is its size that cannot be used
 };
 
 /// The smallest and largest side of a height table, in samples. A spline needs four; what is larger is resized down.

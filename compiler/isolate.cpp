@@ -1,29 +1,37 @@
+#include <algorithm>
+
 #include "compiler/solve.hpp"
 
 namespace wale {
 
 namespace {
 
-/// How often the unknown stands in an expression; laws are a dozen terms long.
-int occurrences(const Terms& terms, TermId id, TermId unknown) {
-  if (id == unknown) return 1;
-  const Term& term = terms[id];
-  if (term.kind != TermKind::operation) return 0;
-  const TermId operands[] = {term.a, term.b, term.c};
-  int count = 0;
-  for (int i = 0; i < operand_count(term.operation); ++i) count += occurrences(terms, operands[i], unknown);
-  return count;
+/// How often the unknown stands in each term up to `last`: 0, 1, or 2 for more. One pass, since operands stand before
+/// what uses them.
+std::vector<int> occurrences(const Terms& terms, TermId last, TermId unknown) {
+  std::vector<int> counts(last + 1, 0);
+  for (TermId id = 0; id <= last; ++id) {
+    const Term& term = terms[id];
+    if (id == unknown) {
+      counts[id] = 1;
+    } else if (term.kind == TermKind::operation) {
+      const TermId operands[] = {term.a, term.b, term.c};
+      for (int i = 0; i < operand_count(term.operation); ++i) counts[id] = std::min(2, counts[id] + counts[operands[i]]);
+    }
+  }
+  return counts;
 }
 
 }  // namespace
 
 std::optional<TermId> isolate(Terms& terms, TermId left, TermId right, TermId unknown) {
-  if (occurrences(terms, left, unknown) + occurrences(terms, right, unknown) != 1) return std::nullopt;
-  TermId side = occurrences(terms, left, unknown) == 1 ? left : right;
+  const auto counts = occurrences(terms, std::max(left, right), unknown);
+  if (counts[left] + counts[right] != 1) return std::nullopt;
+  TermId side = counts[left] == 1 ? left : right;
   TermId other = side == left ? right : left;
   while (side != unknown) {
     const Term term = terms[side];
-    const bool in_a = occurrences(terms, term.a, unknown) == 1;
+    const bool in_a = counts[term.a] == 1;
     switch (term.operation) {
       case Operation::add:
         other = terms.apply(Operation::subtract, other, in_a ? term.b : term.a);

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
+#include "compiler/describe.hpp"
 #include "compiler/preview.hpp"
 #include "compiler/preview/axis.hpp"
 
@@ -27,20 +26,16 @@ std::vector<std::string> said(const Layers& layers, std::string_view word) {
   return {};
 }
 
-std::string evidence_word(Evidence evidence) {
-  constexpr std::array words = {"measured", "published", "estimated", "recalled", "transferred"};
-  const auto index = static_cast<std::size_t>(evidence) - 1;
-  return index < words.size() ? words[index] : "unknown";
-}
-
-/// "roughness: measured (Minsky 1995, figure 19) on sandpaper": the worst of the three grades, and where from.
-std::string evidence_of(const PerceptRecord& percept, float amplitude) {
-  const Evidence worst = std::max({percept.slope, percept.anchor, percept.handle});
-  std::string text = fmt::format("{}: {}", percept.name, evidence_word(worst));
+/// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of observers' means within 0.48 .. 0.75": the worst
+/// of the three grades, where it comes from and how sure it is.
+std::string evidence_of(const DescribedPercept& percept) {
+  std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.worst));
   if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
   if (!percept.device.empty()) text += " on " + percept.device;
-  const bool inside = amplitude >= percept.valid_low && amplitude <= percept.valid_high;
-  if (percept.valid_high > percept.valid_low && !inside) text += ", outside the measured range";
+  if (percept.low < percept.high)
+    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.low, percept.high);
+  if (percept.saturated) text += ", all that the device can push";
+  if (percept.outside_validity) text += ", outside the measured range";
   return text;
 }
 
@@ -56,26 +51,26 @@ PreviewText preview_text(const Bank& bank) {
   }
   text.names = joined(said(program.layers, "called"), " · ");
 
+  const Description description = describe(bank);
   std::vector<std::string> evidence;
-  std::vector<bool> is_level(program.parameters.size(), false);
-  for (std::size_t i = 0; i < program.percepts.size(); ++i) {
-    const PerceptRecord& percept = program.percepts[i];
-    const float newton = amplitude(bank, i);
-    text.figures.push_back({percept.name, fmt::format("{:.2f}", predict(bank, i, newton).level)});
-    text.figures.push_back({percept.carrier, shown_quantity(newton, force_notation(newton))});
-    evidence.push_back(evidence_of(percept, newton));
-    if (percept.parameter && *percept.parameter < is_level.size()) is_level[*percept.parameter] = true;
+  for (const DescribedPercept& percept : description.percepts) {
+    text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
+    text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, force_notation(percept.amplitude))});
+    evidence.push_back(evidence_of(percept));
   }
   text.evidence = evidence.empty() ? "described by its physics alone: no percept" : joined(evidence, " · ");
+  text.figures.push_back(
+      {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
 
-  float ceiling = 0;
-  for (const Output& output : program.outputs) ceiling = std::max(ceiling, bank.registers()[output.ceiling]);
-  text.figures.push_back({"force at most", shown_quantity(ceiling, force_notation(ceiling))});
-  for (std::size_t i = 0; i < program.parameters.size(); ++i) {
-    const Parameter& parameter = program.parameters[i];
+  std::vector<bool> is_level(program.parameters.size(), false);
+  for (const PerceptRecord& percept : program.percepts) {
+    if (percept.parameter) is_level[*percept.parameter] = true;
+  }
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const Parameter& parameter = description.parameters[i];
     if (is_level[i]) continue;
-    const double value = bank.registers()[program.first_parameter() + i];
-    text.figures.push_back({parameter.name, shown_quantity(value, {parameter.unit, 1 / parameter.unit_in_si})});
+    text.figures.push_back(
+        {parameter.name, shown_quantity(parameter.value, {parameter.unit, 1 / parameter.unit_in_si})});
   }
   return text;
 }

@@ -53,26 +53,21 @@ std::optional<Hand> QuantityReader::hand(const std::string& option, const std::s
 }
 
 std::optional<float> QuantityReader::parameter(const std::string& option, const Parameter& parameter, const std::string& text) {
-  // A unit that only the material's own file declares travels with the parameter.
-  Declarations& declarations = modules_.declarations;
   Dimension dimension;
-  if (!parameter.unit.empty()) {
-    Diagnostics silent;
-    const SourceId source = sources_.add(parameter.unit, "1 " + parameter.unit);
+  if (!parameter.si_unit.empty()) {
+    const SourceId source = sources_.add("the unit of " + parameter.name, "1 " + parameter.si_unit);
     SyntaxTree tree;
-    const auto expressions = parse_expressions(sources_, source, tree, silent);
+    const auto expressions = parse_expressions(sources_, source, tree, diagnostics_);
     Terms terms;
     std::vector<HeightTable> tables;
-    ExpressionChecker checker({sources_, declarations, silent}, terms, tables);
+    ExpressionChecker checker({sources_, modules_.declarations, diagnostics_}, terms, tables);
     Scope scope;
     const Value unit = expressions.size() == 1 ? checker.check(tree, expressions[0], scope) : Value{};
-    if (!unit.failed()) {
-      dimension = unit.dimension;
-    } else {
-      dimension.twelfths.back() = Dimension::unit_exponent;
-      declarations.units[parameter.unit] = {parameter.unit_in_si, dimension};
-    }
+    if (unit.failed()) return std::nullopt;
+    dimension = unit.dimension;
   }
+  // A unit that only the material's own file declares travels with the parameter.
+  modules_.declarations.units.try_emplace(parameter.unit, Unit{parameter.unit_in_si, dimension});
   const std::string example = parameter.unit.empty() ? "0.5" : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit);
   const auto values = list(option, text, {dimension}, 1, example);
   if (!values) return std::nullopt;

@@ -12,7 +12,7 @@ std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
   for (auto& sampled : hands) {
     const glm::vec2 place = sampled.hand.position;
     const bool inside = std::abs(place.x) <= extent.x && std::abs(place.y) <= extent.y;
-    sampled.force = inside ? tick(bank, sampled.hand) : Force(0.0f);
+    sampled.force = inside ? tick(bank, sampled.hand) + Force(0.0f) : Force(0.0f);  // a spreadsheet has no use for -0
   }
   return hands;
 }

@@ -193,13 +193,14 @@ class Solver {
   }
 
   /// The map for a percept on this device, or the one of the percept's own device, with its handle transferred.
-  const Map* map_for(const Percept& percept, Span span) {
+  /// Without one: reported at `span`, if there is one.
+  const Map* map_for(const Percept& percept, std::optional<Span> span) {
     for (const auto& device : {device_->profile.name, percept.reference_device}) {
       const Map* found = nullptr;
       for (const auto& map : declarations_.maps) {
         if (map.percept != percept.name || map.device != device) continue;
         if (found) {
-          report(Code::no_map, span, fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map.source),
+          if (span) report(Code::no_map, *span, fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map.source),
                  "keep one of them");
           return nullptr;
         }
@@ -207,7 +208,7 @@ class Solver {
       }
       if (found) return found;
     }
-    report(Code::no_map, span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_->profile.name),
+    if (span) report(Code::no_map, *span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_->profile.name),
            "declare one, as in calibration/minsky1995.wale");
     return nullptr;
   }
@@ -319,7 +320,7 @@ class Solver {
       for (std::size_t i = 0; i < carriers_.size(); ++i)
         if (carriers_[i].name == percept.carrier) only = i, ++count;
       if (count != 1) continue;
-      const Map* map = map_for(percept, material_.span);
+      const Map* map = map_for(percept, std::nullopt);  // asked for, it has been reported
       if (!map) continue;
       const Carrier& carrier = carriers_[*only];
       SolvedPercept solved;
@@ -328,7 +329,8 @@ class Solver {
       const TermId probe = solved_.terms.input(Input::probe);
       const auto magnitude = law.magnitude(solved_.terms, probe), level = law.level(solved_.terms, probe);
       if (!magnitude || !level) {
-        report(Code::unsolvable_law, map->span, fmt::format("the law of {} cannot be solved for its magnitude", name), "");
+        report(Code::unsolvable_law, map->span, fmt::format("the law of {} cannot be solved for its magnitude", name),
+               "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can");
         continue;
       }
       solved.magnitude = *magnitude;

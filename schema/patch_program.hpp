@@ -23,6 +23,7 @@ struct Parameter {
   float value = 0;          ///< the default
   float low = 0, high = 0;  ///< hard range, low <= value <= high
   std::string description;
+  std::string si_unit;      ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
 
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };

@@ -101,11 +101,12 @@ std::vector<float> read_constants(ByteReader& in) {
 }
 
 std::vector<Parameter> read_parameters(ByteReader& in) {
-  std::vector<Parameter> parameters(in.count(32, "parameters"));
+  std::vector<Parameter> parameters(in.count(36, "parameters"));
   for (Parameter& parameter : parameters) {
     parameter.name = in.text("a parameter's name");
     parameter.unit = in.text("a parameter's unit");
     parameter.unit_in_si = in.finite_f64("a parameter's unit");
+    parameter.si_unit = in.text("a parameter's SI unit");
     parameter.value = in.finite_f32("a parameter's default");
     parameter.low = in.finite_f32("a parameter's range");
     parameter.high = in.finite_f32("a parameter's range");

@@ -46,6 +46,7 @@ void write_parameters(ByteWriter& out, std::span<const Parameter> parameters) {
     out.text(parameter.name);
     out.text(parameter.unit);
     out.f64(parameter.unit_in_si);
+    out.text(parameter.si_unit);
     out.f32(parameter.value);
     out.f32(parameter.low);
     out.f32(parameter.high);

@@ -79,6 +79,11 @@ std::optional<double> relief_period(const Bank& bank, int axis, double length, f
   return *samples * length / count;
 }
 
+double in_three_digits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return std::round(value / unit) * unit;
+}
+
 struct Look {
   double relief = 0, force = 0;  // how much they vary
 };
@@ -136,7 +141,8 @@ Exhibit exhibit_of(const Bank& bank) {
         if (period) exhibit.period = std::max(exhibit.period.value_or(0.0), *period);
       }
     }
-    if (exhibit.period) exhibit.side = std::min(exhibit.side, periods_shown * *exhibit.period);
+    // Found from samples, so that the last digits are chance: 19.9973 mm is shown as 20.
+    if (exhibit.period) exhibit.side = std::min(exhibit.side, in_three_digits(periods_shown * *exhibit.period));
   }
 
   // The section runs along x through the centre, unless nothing varies there: along ribs, or between rows of bumps.

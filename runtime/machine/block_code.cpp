@@ -1,9 +1,3 @@
-// Floating-point exceptions are masked wherever this runs, and only knowing so does GCC turn comparisons into lanes:
-// three times as fast, the same bits. Clang knows without being told.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC optimize("no-trapping-math")
-#endif
-
 #include "runtime/machine/block_code.hpp"
 
 #include <array>

@@ -81,7 +81,7 @@ TEST(Preview, WordsAreOnThePage) {
   EXPECT_EQ(text.title, "A sine grating");
   EXPECT_EQ(text.names, "grating · washboard");
   ASSERT_EQ(text.figures.size(), 1u);
-  EXPECT_EQ(text.figures[0].word, "force at most");
+  EXPECT_EQ(text.figures[0].word, "maximum force");
   EXPECT_EQ(text.figures[0].value, "1 N");
   const Drawing drawing = draw_preview(bank, text);
   if (!drawing.has_text) GTEST_SKIP() << "no font is installed";

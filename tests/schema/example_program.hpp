@@ -42,7 +42,7 @@ inline PatchProgram program() {
   // Registers: 16 2 pi, 17 device ceiling 5 N, 18 zero, 19 one half; 20 period, 21 amplitude;
   // setup 22 wave number, 23 peak, 24 ceiling, 25 gain; temporaries 26 ..
   p.constants = {6.2831853f, 5.0f, 0.0f, 0.5f};
-  p.parameters = {{"period", "mm", 1e-3, 0.002f, 0.001f, 0.01f, "distance between ribs"},
+  p.parameters = {{"period", "mm", 1e-3, 0.002f, 0.001f, 0.01f, "distance between ribs", "m"},
                   {"amplitude", "N", 1, 2.0f, 0.0f, 4.0f, ""}};
   p.setup_registers = 4;
   p.temporaries = 6;

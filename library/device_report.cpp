@@ -1,4 +1,4 @@
-#include "calibration/device_report.hpp"
+#include "library/device_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "compiler/compile.hpp"
+#include "compiler/render.hpp"
+#include "wale/program.hpp"
+
+namespace wale::compiling {
+
+/// Files by name, in memory.
+class Files final : public Resolver {
+ public:
+  std::map<std::string, std::string> contents;
+
+  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override { return file(path, ""); }
+  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string&) override {
+    const auto found = contents.find(name);
+    if (found == contents.end()) return ResolveProblem{"no such file"};
+    return ResolvedFile{name, found->second};
+  }
+};
+
+/// A text and the programs of all its materials. Throws with the diagnostics when something is wrong.
+struct Compiled {
+  std::map<std::string, Program> programs;
+
+  explicit Compiled(std::string text, Files files = {}) {
+    SourceSet sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add("test.wale", std::move(text));
+    const CheckedModule module = check_source(sources, source, files, diagnostics);
+    for (const auto& material : module.materials)
+      if (!diagnostics.has_errors())
+        if (const auto program = compile_material(module, material.name, default_device, sources, source, files, diagnostics))
+          programs.emplace(material.name, *program);
+    if (!diagnostics.has_errors()) return;
+    std::string reasons = sources[source].text + "\n";
+    for (const auto& diagnostic : diagnostics.all()) reasons += render_text(diagnostic, sources, false);
+    throw std::runtime_error(reasons);
+  }
+
+  const Program& only() const { return programs.begin()->second; }
+};
+
+/// One material of the physical block `physical`, perhaps asked for a percept, among other declarations.
+inline Program compiled(const std::string& physical, const std::string& declarations = "", const std::string& perceptual = "",
+                        Files files = {}) {
+  const std::string percept = perceptual.empty() ? "" : "  perceptual { " + perceptual + " }\n";
+  return Compiled("wale 1\n" + declarations + "\nmaterial m {\n" + percept + "  physical {\n" + physical + "\n  }\n}\n", std::move(files))
+      .only();
+}
+
+}  // namespace wale::compiling

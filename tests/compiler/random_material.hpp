@@ -1,0 +1,241 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace wale::compiling {
+
+/// Writes materials whose dimensions fit, of everything that expressions can be made of. The same seed writes the same
+/// text everywhere.
+class RandomMaterial {
+ public:
+  explicit RandomMaterial(std::uint32_t seed) : random_(seed) {}
+
+  /// A parameter: what it is set to when it is not inlined.
+  struct Param {
+    std::string name, value, unit;
+  };
+
+  /// A file with one material; its parameters are constants instead where `inlined`.
+  std::string text(bool inlined) const {
+    std::string params;
+    for (const auto& param : params_)
+      params += inlined ? fmt::format("    let {} = {} {}\n", param.name, param.value, param.unit)
+                        : fmt::format("    param {0} = {1} {2} in 0.01 {2} .. 100 {2}\n", param.name, param.value, param.unit);
+    return fmt::format("wale 1\n\n{}\nmaterial m {{\n  physical {{\n{}{}  }}\n}}\n", declarations_, params, body_);
+  }
+
+  void write() {
+    for (int i = below(3); i >= 0; --i) {
+      const std::string name = fmt::format("c{}", names_.size());
+      const Dimension dimension = small_dimension();
+      declarations_ += fmt::format("let {} = {}\n", name, literal(dimension));
+      names_.push_back({name, dimension, false});
+    }
+    for (int i = below(3); i >= 0; --i) write_function();
+    for (int i = below(3); i >= 0; --i) {
+      const Dimension dimension = small_dimension();
+      params_.push_back({fmt::format("p{}", names_.size()), figure(), unit(dimension)});
+      names_.push_back({params_.back().name, dimension, false});
+    }
+    hand_ = true;
+    for (int i = below(4); i >= 0; --i) {
+      const std::string name = fmt::format("l{}", names_.size());
+      const bool vector = one_in(3);
+      const Dimension dimension = small_dimension();
+      body_ += fmt::format("    let {} = {}\n", name, vector ? vector_of(dimension, 3) : number_of(dimension, 3));
+      names_.push_back({name, dimension, vector});
+    }
+    // Brought under the device's limit, whatever its size.
+    body_ += fmt::format("    let push = {}\n", vector_of(force, 4));
+    body_ += "    force = push * (5 N / (1 N + length(push)))\n";
+  }
+
+ private:
+  using Dimension = std::array<int, 3>;  // m, kg, s
+  static constexpr Dimension force{1, 1, -2}, length{1, 0, 0}, plain{0, 0, 0};
+
+  struct Name {
+    std::string text;
+    Dimension dimension;
+    bool vector;
+  };
+
+  int below(int n) { return static_cast<int>(random_() % static_cast<std::uint32_t>(n)); }
+  bool one_in(int n) { return below(n) == 0; }
+
+  Dimension small_dimension() {
+    static const std::vector<Dimension> common{plain,      plain,      length,     force,     {1, 0, -1}, {0, 1, 0},
+                                               {0, 1, -2}, {0, 1, -1}, {2, 1, -2}, {0, 0, 1}, {2, 0, 0},  {-1, 0, 0}};
+    return common[static_cast<std::size_t>(below(static_cast<int>(common.size())))];
+  }
+
+  /// "2.75": no float holds most of these exactly.
+  std::string figure() { return fmt::format("{}.{:02}", below(9) + (one_in(3) ? 1 : 0), 1 + below(99)); }
+
+  /// "mm", "N s/m", "kg m^2/s": some way to write the dimension, of about unit size.
+  std::string unit(const Dimension& dimension) {
+    static const std::vector<std::pair<Dimension, std::vector<std::string>>> known{
+        {length, {"m", "cm", "inch", "mm"}}, {{0, 1, 0}, {"kg", "g"}},      {{0, 0, 1}, {"s", "ms"}},
+        {force, {"N", "gf", "ozf", "pu"}},   {{0, 0, -1}, {"Hz", "kHz"}},   {{2, 1, -2}, {"J", "N m"}},
+        {{0, 1, -2}, {"N/m", "N/cm"}},       {{0, 1, -1}, {"N s/m", "kg/s"}}, {{1, 0, -1}, {"m/s", "cm/s"}},
+        {plain, {"", "", "%", "deg"}}};
+    for (const auto& [which, units] : known)
+      if (which == dimension) return units[static_cast<std::size_t>(below(static_cast<int>(units.size())))];
+    std::string text;
+    const std::array<const char*, 3> base{"m", "kg", "s"};
+    for (int i = 0; i < 3; ++i) {
+      if (dimension[i] == 0) continue;
+      text += fmt::format("{}{}", text.empty() && dimension[i] > 0 ? "" : dimension[i] > 0 ? " " : "/", base[i]);
+      if (std::abs(dimension[i]) > 1) text += fmt::format("^{}", std::abs(dimension[i]));
+    }
+    return text;
+  }
+
+  std::string literal(const Dimension& dimension) {
+    const std::string in = unit(dimension);
+    return figure() + (in.empty() ? "" : " " + in);
+  }
+
+  void write_function() {
+    const std::string name = fmt::format("f{}", functions_.size());
+    Function function{name, small_dimension(), {}};
+    std::vector<Name> outside;
+    std::swap(outside, names_);
+    for (const auto& each : outside)
+      if (each.text[0] == 'c') names_.push_back(each);
+    std::string formals;
+    for (int i = below(2); i >= 0; --i) {
+      const Dimension dimension = small_dimension();
+      formals += fmt::format("{}a{}", formals.empty() ? "" : ", ", i);
+      function.formals.push_back(dimension);
+      names_.push_back({fmt::format("a{}", i), dimension, false});
+    }
+    declarations_ += fmt::format("function {}({}) = {}\n", name, formals, number_of(function.result, 3));
+    std::swap(outside, names_);
+    functions_.push_back(function);
+  }
+
+  /// The name of something of that dimension, or nothing.
+  std::string named(const Dimension& dimension, bool vector) {
+    std::vector<std::string> fitting;
+    for (const auto& name : names_)
+      if (name.dimension == dimension && name.vector == vector) fitting.push_back(name.text);
+    if (hand_ && dimension == length) fitting.insert(fitting.end(), vector ? std::vector<std::string>{"hand"} : std::vector<std::string>{"x", "y"});
+    if (hand_ && vector && dimension == Dimension{1, 0, -1}) fitting.push_back("velocity");
+    if (!vector && dimension == plain) fitting.push_back("pi");
+    return fitting.empty() ? "" : fitting[static_cast<std::size_t>(below(static_cast<int>(fitting.size())))];
+  }
+
+  std::string number_of(const Dimension& d, int depth) {
+    if (depth == 0 || one_in(6)) {
+      const std::string name = named(d, false);
+      return name.empty() || one_in(4) ? literal(d) : name;
+    }
+    const auto n = [&](const Dimension& dimension) { return number_of(dimension, depth - 1); };
+    switch (below(d == plain ? 18 : 12)) {
+      case 0: return fmt::format("({} + {})", n(d), n(d));
+      case 1: return fmt::format("({} - {})", n(d), n(d));
+      case 2: return product(d, depth);
+      case 3: return quotient(d, depth);
+      case 4: return fmt::format("-{}", n(d));
+      case 5: return fmt::format("{}({}, {})", one_in(2) ? "min" : "max", n(d), n(d));
+      case 6: return fmt::format("(if {} then {} else {})", condition(depth - 1), n(d), n(d));
+      case 7: return one_in(2) ? fmt::format("abs({})", n(d)) : fmt::format("length({})", vector_of(d, depth - 1));
+      case 8: return d[0] % 2 == 0 && d[1] % 2 == 0 && d[2] % 2 == 0 ? power(d, depth) : product(d, depth);
+      case 9: return fmt::format("{}({}, {}, {})", one_in(2) ? "clamp" : "within", n(d), literal(d), n(d));
+      case 10: return call(d, depth);
+      case 11: {
+        const Dimension a = small_dimension(), b{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
+        return fmt::format("dot({}, {})", vector_of(a, depth - 1), vector_of(b, depth - 1));
+      }
+      case 12: return fmt::format("{}({})", one_in(2) ? "sin" : "cos", n(plain));
+      case 13: return fmt::format("exp(-abs({}))", n(plain));
+      case 14: return fmt::format("{}(0.2 + abs({}))", std::array{"log", "log2", "log10"}[static_cast<std::size_t>(below(3))], n(plain));
+      case 15: return fmt::format("{}({})", one_in(2) ? "normal" : "smoothstep", n(plain));
+      case 16: return fmt::format("floor({})", n(plain));
+      default: return fmt::format("modulo({}, {})", n(plain), literal(plain));
+    }
+  }
+
+  std::string product(const Dimension& d, int depth) {
+    const Dimension a = small_dimension(), b{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
+    return fmt::format("{} * {}", number_of(a, depth - 1), number_of(b, depth - 1));
+  }
+  std::string quotient(const Dimension& d, int depth) {
+    const Dimension b = small_dimension(), a{d[0] + b[0], d[1] + b[1], d[2] + b[2]};
+    return fmt::format("({} / ({}))", number_of(a, depth - 1), number_of(b, depth - 1));
+  }
+  /// Whole powers and roots, and of plain numbers any power.
+  std::string power(const Dimension& d, int depth) {
+    const Dimension half{d[0] / 2, d[1] / 2, d[2] / 2}, twice{2 * d[0], 2 * d[1], 2 * d[2]}, inverse{-d[0], -d[1], -d[2]};
+    if (d == plain && one_in(3)) return fmt::format("(0.1 + abs({}))^{}.{}", number_of(plain, depth - 1), below(2), 1 + below(9));
+    switch (below(3)) {
+      case 0: return fmt::format("({})^2", number_of(half, depth - 1));
+      case 1: return fmt::format("sqrt(abs({}))", number_of(twice, depth - 1));
+      default: return fmt::format("({})^-1", number_of(inverse, depth - 1));
+    }
+  }
+  std::string call(const Dimension& d, int depth) {
+    for (const auto& function : functions_) {
+      if (function.result != d) continue;
+      std::string arguments;
+      for (const auto& formal : function.formals) arguments += (arguments.empty() ? "" : ", ") + number_of(formal, depth - 1);
+      return fmt::format("{}({})", function.name, arguments);
+    }
+    return product(d, depth);
+  }
+
+  std::string condition(int depth) {
+    const Dimension d = small_dimension();
+    return fmt::format("{} {} {}", number_of(d, depth), std::array{"<", "<=", ">", ">="}[static_cast<std::size_t>(below(4))], number_of(d, depth));
+  }
+
+  std::string vector_of(const Dimension& d, int depth) {
+    if (depth == 0 || one_in(6)) {
+      const std::string name = named(d, true);
+      if (!name.empty()) return name;
+      return fmt::format("vector({}, {})", number_of(d, 0), number_of(d, 0));
+    }
+    const auto v = [&](const Dimension& dimension) { return vector_of(dimension, depth - 1); };
+    switch (below(hand_ && d == force ? 9 : 7)) {
+      case 0: return fmt::format("({} + {})", v(d), v(d));
+      case 1: return fmt::format("({} - {})", v(d), v(d));
+      case 2: {
+        const Dimension a = small_dimension(), b{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
+        return one_in(2) ? fmt::format("{} * {}", number_of(a, depth - 1), v(b)) : fmt::format("{} * {}", v(b), number_of(a, depth - 1));
+      }
+      case 3: {
+        const Dimension b = small_dimension(), a{d[0] + b[0], d[1] + b[1], d[2] + b[2]};
+        return fmt::format("({} / ({}))", v(a), number_of(b, depth - 1));
+      }
+      case 4: return fmt::format("-{}", v(d));
+      case 5: return fmt::format("(if {} then {} else {})", condition(depth - 1), v(d), v(d));
+      case 7: return fmt::format("viscous({})", number_of({0, 1, -1}, depth - 1));
+      case 8: return fmt::format("spring({})", number_of({0, 1, -2}, depth - 1));
+      default: return fmt::format("vector({}, {})", number_of(d, depth - 1), number_of(d, depth - 1));
+    }
+  }
+
+  struct Function {
+    std::string name;
+    Dimension result;
+    std::vector<Dimension> formals;
+  };
+
+  std::mt19937 random_;  // its numbers are the same everywhere; distributions' are not, so none is used
+  std::vector<Name> names_;
+  std::vector<Function> functions_;
+  std::vector<Param> params_;
+  std::string declarations_, body_;
+  bool hand_ = false;
+
+ public:
+  const std::vector<Param>& params() const { return params_; }
+};
+
+}  // namespace wale::compiling

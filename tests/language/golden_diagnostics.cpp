@@ -1,0 +1,208 @@
+// Every case under tests/language/diagnostics/Wnnnn/ says on its own lines what is wrong with them:
+//
+//     force = k * hand * wale       // error W0301: force expected, found energy; drop `* wale`
+//
+// The file is compiled as `wale check` compiles it. Each expectation must meet a diagnostic on its line, of its code,
+// whose message, expectation, finding or mend has each part of the text (parts are parted by "; "), and nothing else may
+// be wrong. Lines are read raw: an expectation may stand inside a text or comment that does not end.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "compiler/compile.hpp"
+#include "compiler/render.hpp"
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path folder = fs::path(WALE_SOURCE_DIR) / "tests/language/diagnostics";
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> split(std::string text, const std::string& at) {
+  std::vector<std::string> parts;
+  for (std::size_t found; (found = text.find(at)) != std::string::npos; text.erase(0, found + at.size()))
+    parts.push_back(text.substr(0, found));
+  parts.push_back(text);
+  return parts;
+}
+
+/// What one line of a case says is wrong with it.
+struct Expectation {
+  SourceId source;
+  unsigned line;
+  std::string severity, code;
+  std::vector<std::string> parts;
+};
+
+std::vector<Expectation> expectations(const SourceSet& sources, SourceId source) {
+  static const std::regex pattern("// (error|warning) (W[0-9]{4}): ");
+  std::vector<Expectation> result;
+  unsigned line = 0;
+  for (const std::string& text : split(sources[source].text, "\n")) {
+    ++line;
+    std::vector<std::smatch> found;
+    for (std::sregex_iterator each(text.begin(), text.end(), pattern), end; each != end; ++each) found.push_back(*each);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const auto from = static_cast<std::size_t>(found[i].position() + found[i].length());
+      const auto to = i + 1 < found.size() ? static_cast<std::size_t>(found[i + 1].position()) : text.size();
+      std::string parts = text.substr(from, to - from);
+      parts.erase(parts.find_last_not_of(" \r") + 1);
+      result.push_back({source, line, found[i][1], found[i][2], split(parts, "; ")});
+    }
+  }
+  return result;
+}
+
+bool meets(const Diagnostic& diagnostic, const Expectation& expected, const SourceSet& sources) {
+  const bool error = severity_of(diagnostic.code) == Severity::error;
+  return diagnostic.span.source == expected.source && sources.place(diagnostic.span).line == expected.line &&
+         code_name(diagnostic.code) == expected.code && expected.severity == (error ? "error" : "warning") &&
+         std::ranges::all_of(expected.parts, [&](const std::string& part) {
+           return std::ranges::any_of(
+               std::initializer_list<const std::string*>{&diagnostic.message, &diagnostic.expected, &diagnostic.found,
+                                                         &diagnostic.help},
+               [&](const std::string* text) { return text->find(part) != std::string::npos; });
+         });
+}
+
+/// All that is wrong with the file, as `wale check` finds it.
+std::vector<Diagnostic> checked(SourceSet& sources, SourceId source) {
+  const auto resolver = file_resolver({});
+  Diagnostics diagnostics;
+  const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+  std::vector<Diagnostic> all = diagnostics.all();
+  if (!diagnostics.has_errors())
+    for (const auto& material : module.materials) {
+      Diagnostics of_material;
+      compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
+      all.insert(all.end(), of_material.all().begin(), of_material.all().end());
+    }
+  return all;
+}
+
+std::vector<fs::path> cases() {
+  std::vector<fs::path> all;
+  for (const auto& code : fs::directory_iterator(folder))
+    for (const auto& file : fs::directory_iterator(code))
+      if (file.path().extension() == ".wale") all.push_back(file.path());
+  std::ranges::sort(all);
+  return all;
+}
+
+std::string case_name(const testing::TestParamInfo<fs::path>& info) {
+  std::string name = info.param.parent_path().filename().string() + "_" + info.param.stem().string();
+  std::ranges::replace_if(name, [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+class GoldenDiagnostics : public testing::TestWithParam<fs::path> {};
+
+TEST_P(GoldenDiagnostics, AreThoseThatTheLinesSay) {
+  SourceSet sources;
+  const SourceId source = sources.add(GetParam().string(), bytes_of(GetParam()));
+  std::vector<Diagnostic> diagnostics = checked(sources, source);
+
+  std::vector<Expectation> expected;
+  for (SourceId each = 0; each < sources.size(); ++each)
+    if (fs::path(sources[each].name).string().starts_with(folder.string()))
+      std::ranges::copy(expectations(sources, each), std::back_inserter(expected));
+  const std::string code = GetParam().parent_path().filename();
+  EXPECT_TRUE(std::ranges::any_of(expected, [&](const auto& each) { return each.code == code; }))
+      << "no line expects " << code;
+
+  for (const auto& each : expected) {
+    const auto found = std::ranges::find_if(diagnostics, [&](const auto& diagnostic) { return meets(diagnostic, each, sources); });
+    if (found == diagnostics.end())
+      ADD_FAILURE() << sources[each.source].name << ":" << each.line << ": nothing is the expected " << each.code << ": "
+                    << fmt::format("{}", each.parts.front()) << (each.parts.size() > 1 ? "; …" : "");
+    else
+      diagnostics.erase(found);
+  }
+  for (const auto& diagnostic : diagnostics) ADD_FAILURE() << "not expected:\n" << render_text(diagnostic, sources, false);
+}
+
+TEST_P(GoldenDiagnostics, SayWhatToDo) {
+  SourceSet sources;
+  const SourceId source = sources.add(GetParam().string(), bytes_of(GetParam()));
+  for (const auto& diagnostic : checked(sources, source)) {
+    const auto shown = render_text(diagnostic, sources, false);
+    EXPECT_FALSE(diagnostic.message.empty()) << shown;
+    EXPECT_FALSE(diagnostic.help.empty() && diagnostic.expected.empty()) << shown;
+    EXPECT_LE(diagnostic.span.begin, diagnostic.span.end) << shown;
+    EXPECT_LE(diagnostic.span.end, sources[diagnostic.span.source].text.size()) << shown;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, GoldenDiagnostics, testing::ValuesIn(cases()), case_name);
+
+TEST(DiagnosticCodes, EachHasACase) {
+  // Those that no file of a few lines can show.
+  const std::map<std::string, std::string> without_cases{
+      {"W0109", "a file of more than 4 MB: LargeFiles.AreRefused below"},
+      {"W0601", "the device is named on the command line: Choices.NearestDeviceIsProposed below"},
+      {"W0602", "the material is named on the command line: Choices.NearestMaterialIsProposed below"},
+  };
+  std::set<std::string> codes;
+#define CODE(number, name, severity, title) codes.insert(code_name(Code::name));
+#include "compiler/diagnostic_codes.def"
+  for (const auto& code : codes)
+    EXPECT_NE(fs::exists(folder / code), without_cases.contains(code)) << code << " needs a folder of cases, or a reason";
+  for (const auto& each : fs::directory_iterator(folder))
+    EXPECT_TRUE(codes.contains(each.path().filename())) << each.path() << " is named after no code";
+}
+
+TEST(LargeFiles, AreRefused) {
+  SourceSet sources;
+  const SourceId source = sources.add("large.wale", "wale 1\n" + std::string(5 << 20, '\n'));
+  const auto diagnostics = checked(sources, source);
+  ASSERT_EQ(diagnostics.size(), 1u);
+  EXPECT_EQ(diagnostics[0].code, Code::too_long);
+  EXPECT_FALSE(diagnostics[0].help.empty());
+}
+
+Diagnostics choosing(const std::string& material, const std::string& device, const std::string& text) {
+  SourceSet sources;
+  const auto resolver = file_resolver({});
+  Diagnostics diagnostics;
+  compile(sources, sources.add("test.wale", text), material, device, *resolver, diagnostics);
+  return diagnostics;
+}
+
+const char* const brick = "wale 1\nmaterial brick { physical { force = -1 N/m * hand } }\n";
+
+TEST(Choices, NearestDeviceIsProposed) {
+  const auto diagnostics = choosing("brick", "sandpapre", brick);
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(code_name(diagnostics.all()[0].code), "W0601");
+  EXPECT_EQ(diagnostics.all()[0].help, "did you mean `sandpaper`?");
+}
+
+TEST(Choices, NearestMaterialIsProposed) {
+  const auto diagnostics = choosing("birck", "sandpaper", brick);
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(code_name(diagnostics.all()[0].code), "W0602");
+  EXPECT_EQ(diagnostics.all()[0].help, "did you mean `brick`?");
+}
+
+TEST(Choices, AFileWithoutMaterialsSaysSo) {
+  const auto diagnostics = choosing("", "sandpaper", "wale 1\n");
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].message, "this file has no material");
+}
+
+}  // namespace
+}  // namespace wale

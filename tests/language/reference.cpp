@@ -1,0 +1,122 @@
+// schema/LANGUAGE.md holds what it says: its examples compile, its error is the one it prints, and it names everything
+// that schema/ declares.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "compiler/compile.hpp"
+#include "compiler/render.hpp"
+
+namespace wale {
+namespace {
+
+std::string content(const std::string& name) {
+  std::ifstream file(std::filesystem::path(WALE_SOURCE_DIR) / name);
+  EXPECT_TRUE(file) << name;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A fenced block: what stands behind its opening fence, its first line in the page, its text.
+struct Block {
+  std::string kind;
+  int line = 0;
+  std::string text;
+};
+
+std::vector<Block> blocks_of(const std::string& page) {
+  std::vector<Block> blocks;
+  bool inside = false;
+  int number = 0;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.starts_with("```")) {
+      if (!inside) blocks.push_back({line.substr(3), number + 1, ""});
+      inside = !inside;
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  EXPECT_FALSE(inside) << "a block does not end";
+  return blocks;
+}
+
+std::string rendered(const Diagnostics& diagnostics, const SourceSet& sources) {
+  std::string text;
+  for (const auto& each : diagnostics.all()) text += render_text(each, sources, false);
+  return text;
+}
+
+/// All matches of a pattern's first group.
+std::vector<std::string> found_in(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match)
+    found.push_back((*match)[1]);
+  return found;
+}
+
+TEST(Reference, ItsExamplesCompile) {
+  int compiled = 0;
+  for (const Block& block : blocks_of(content("schema/LANGUAGE.md"))) {
+    if (block.kind != "wale") continue;
+    SourceSet sources;
+    Diagnostics diagnostics;
+    const auto resolver = file_resolver({});
+    const SourceId source = sources.add("example.wale", block.text);
+    const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+    EXPECT_FALSE(module.materials.empty()) << "line " << block.line;
+    for (const auto& material : module.materials) {
+      compile_material(module, material.name, default_device, sources, source, *resolver, diagnostics);
+      ++compiled;
+    }
+    EXPECT_EQ(rendered(diagnostics, sources), "") << "line " << block.line;
+  }
+  EXPECT_GE(compiled, 6);
+}
+
+TEST(Reference, ItsErrorIsWhatTheCompilerSays) {
+  const auto blocks = blocks_of(content("schema/LANGUAGE.md"));
+  int shown = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (blocks[i].kind != "wale-error") continue;
+    SourceSet sources;
+    Diagnostics diagnostics;
+    const auto resolver = file_resolver({});
+    compile(sources, sources.add("detent.wale", blocks[i].text), "", default_device, *resolver, diagnostics);
+    ASSERT_LT(i + 1, blocks.size());
+    EXPECT_EQ(blocks[i + 1].kind, "text");
+    EXPECT_EQ(rendered(diagnostics, sources), blocks[i + 1].text);
+    ++shown;
+  }
+  EXPECT_EQ(shown, 1);
+}
+
+TEST(Reference, EveryBlockIsOfAKindThatIsTested) {
+  for (const Block& block : blocks_of(content("schema/LANGUAGE.md")))
+    EXPECT_TRUE(block.kind == "wale" || block.kind == "wale-error" || block.kind == "text") << "line " << block.line;
+}
+
+TEST(Reference, NamesEveryDeclarationOfTheSchema) {
+  const std::string page = content("schema/LANGUAGE.md");
+  const std::string units = content("schema/units.wale"), functions = content("schema/functions.wale");
+  const auto expect_all = [&](const std::vector<std::string>& names, std::size_t at_least) {
+    EXPECT_GE(names.size(), at_least);
+    for (const auto& name : names) EXPECT_NE(page.find("`" + name + "`"), std::string::npos) << name;
+  };
+  expect_all(found_in(units, R"(\nunit (\S+))"), 25);
+  expect_all(found_in(units, R"(\ndimension (\w+))"), 15);
+  expect_all(found_in(functions, R"(\nfunction ((?:[^=]|= )+?\)) =)"), 9);  // with their arguments
+  for (const auto& level : found_in(content("library/levels.wale"), R"(\n  (\w+) +[0-9.]+)"))
+    EXPECT_NE(page.find(" " + level + " "), std::string::npos) << level;
+}
+
+}  // namespace
+}  // namespace wale

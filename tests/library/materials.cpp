@@ -1,0 +1,115 @@
+// Every material of the library is fit to be published: clean, described, compilable, and the same bytes every time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compiler/compile.hpp"
+#include "compiler/render.hpp"
+
+namespace wale {
+namespace {
+
+/// One file, read and checked from scratch.
+struct Checked {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  std::unique_ptr<Resolver> resolver = file_resolver({});
+  SourceId source = 0;
+  CheckedModule module;
+
+  explicit Checked(const std::string& path) {
+    auto read = read_file(path);
+    source = sources.add(path, std::get<ResolvedFile>(read).bytes);
+    module = check_source(sources, source, *resolver, diagnostics);
+  }
+
+  std::optional<Program> program(const std::string& material) {
+    return compile_material(module, material, default_device, sources, source, *resolver, diagnostics);
+  }
+
+  std::string complaints() const {
+    std::string text;
+    for (const auto& each : diagnostics.all()) text += render_text(each, sources, false);
+    return text;
+  }
+};
+
+std::vector<std::string> library_files() {
+  std::vector<std::string> files;
+  const std::filesystem::path library = std::filesystem::path(WALE_SOURCE_DIR) / "library";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library))
+    if (entry.path().extension() == ".wale") files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
+class LibraryFile : public testing::TestWithParam<std::string> {};
+
+std::string name_of(const testing::TestParamInfo<std::string>& file) {
+  return std::filesystem::path(file.param).stem().string();
+}
+
+TEST_P(LibraryFile, IsWithoutErrorsAndWarnings) {
+  Checked checked(GetParam());
+  for (const auto& material : checked.module.materials)
+    EXPECT_TRUE(checked.program(material.name).has_value()) << material.name;
+  EXPECT_EQ(checked.complaints(), "");
+}
+
+TEST_P(LibraryFile, CompilesToTheSameBytesTwice) {
+  Checked first(GetParam()), second(GetParam());
+  for (const auto& material : first.module.materials) {
+    const auto once = first.program(material.name), again = second.program(material.name);
+    ASSERT_TRUE(once && again) << material.name;
+    const auto bytes = write_patch_program(once->description());
+    EXPECT_EQ(bytes, write_patch_program(again->description())) << material.name;
+    const auto loaded = Program::load(bytes);
+    ASSERT_TRUE(std::holds_alternative<Program>(loaded)) << std::get<Refusal>(loaded).reason;
+    EXPECT_EQ(std::get<Program>(loaded).description(), once->description()) << material.name;
+  }
+}
+
+TEST_P(LibraryFile, SaysWhatItsMaterialsAre) {
+  const Checked checked(GetParam());
+  for (const auto& declared : checked.module.declarations.materials) {
+    if (declared.tree->source != checked.source) continue;
+    if (declared.node->name.text == "corduroy") continue;  // the first example: every word of it is explained elsewhere
+    EXPECT_NE(declared.node->documentation, "") << declared.node->name.text;
+  }
+  for (const auto& material : checked.module.materials) {
+    std::set<std::string> settings;
+    for (const auto& [key, texts] : material.layers.representative) {
+      settings.insert(key);
+      EXPECT_FALSE(texts.empty() || texts.front().empty()) << material.name << " " << key;
+    }
+    EXPECT_EQ(settings, (std::set<std::string>{"called", "kind", "title"})) << material.name;
+    for (const auto& parameter : material.parameters) {
+      EXPECT_NE(parameter.description, "") << material.name << " " << parameter.name;
+      EXPECT_LT(parameter.low, parameter.high) << material.name << " " << parameter.name;
+    }
+    const bool is_texture = !material.carriers.empty();
+    EXPECT_EQ(is_texture, !material.percepts.empty()) << material.name;
+  }
+}
+
+TEST_P(LibraryFile, StandsInTheFolderOfItsKind) {
+  Checked checked(GetParam());
+  const std::string folder = std::filesystem::path(GetParam()).parent_path().filename().string();
+  for (const auto& material : checked.module.materials) {
+    for (const auto& [key, texts] : material.layers.representative) {
+      if (key != "kind") continue;
+      EXPECT_EQ(texts.front().substr(0, texts.front().find('.')), folder) << material.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, LibraryFile, testing::ValuesIn(library_files()), name_of);
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,144 @@
+// What is asked for by percept comes out of the handle. A corduroy of roughness 0.6 is rubbed by the simulated hand; the
+// force of the actuator, and nothing of the program, is turned back into a level by the published regression, worked out
+// here a second time.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "tests/promises/running.hpp"
+
+namespace wale {
+namespace {
+
+// Minsky 1995, figure 19: log10 R = 0.759593 log10 F - 0.513365, F in program units of 10 N / 512 up to 194 of them,
+// where level 1 is. A level is linear in R, so level = (F / 194 pu)^0.759593.
+constexpr double newtons_per_unit = 10.0 / 512, loudest_units = 194, slope = 0.759593;
+double force_of_level(double level) { return loudest_units * newtons_per_unit * std::pow(level, 1 / slope); }
+double level_of_force(double newtons) { return std::pow(newtons / (loudest_units * newtons_per_unit), slope); }
+
+// 10 N in 2048 steps from zero.
+constexpr double force_step = 10.0 / 2048;
+
+/// The text of library/fabric/corduroy.wale with `from` replaced by `to`.
+std::string corduroy(const std::string& from = "", const std::string& to = "") {
+  std::ifstream file(std::string(WALE_SOURCE_DIR) + "/library/fabric/corduroy.wale");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!from.empty()) {
+    const auto at = text.find(from);
+    if (at == std::string::npos) throw std::runtime_error("the corduroy has no " + from);
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+TEST(TheMap, IsTheOneThatTheIssueQuotes) {
+  EXPECT_NEAR(force_of_level(0.6), 1.934, 0.0005);
+  EXPECT_NEAR(force_of_level(0.3), 0.777, 0.0005);
+  EXPECT_NEAR(level_of_force(force_of_level(0.42)), 0.42, 1e-12);
+}
+
+TEST(Corduroy, WhatIsAskedForComesOutOfTheHandle) {
+  const Felt felt = promises::rubbed(promises::compiled(corduroy()));
+  const double asked = force_of_level(0.6);
+  EXPECT_NEAR(felt.force_rubbing.p99, asked, 0.01 * asked + force_step);
+  EXPECT_NEAR(level_of_force(felt.force_rubbing.p99), 0.60, 0.01);
+  EXPECT_LE(felt.force_rubbing.maximum, asked + force_step);
+}
+
+TEST(Corduroy, RubbingForceHasTheGratingsOwnMean) {
+  // The slope is a Gaussian of 24/256 of a period up and one down: its mean square is 2 sqrt(pi) 24/256 of its maximum's.
+  const double share = std::sqrt(2 * std::sqrt(std::acos(-1.0)) * 24 / 256);
+  EXPECT_NEAR(share, 0.576, 0.001);
+  const Felt felt = promises::rubbed(promises::compiled(corduroy()));
+  EXPECT_NEAR(felt.force_rubbing.rms, share * force_of_level(0.6), 0.1 * share * force_of_level(0.6));
+}
+
+TEST(Corduroy, IsCrossedRidgeByRidge) {
+  // +-40 mm of target, somewhat less of hand, 5 s at 1 Hz: two strokes a second over some 28 ridges of two flanks each.
+  const Felt felt = promises::rubbed(promises::compiled(corduroy()));
+  EXPECT_GT(felt.crossings, 300);
+  EXPECT_LT(felt.crossings, 700);
+  EXPECT_LT(felt.stuck, 0.2);
+}
+
+TEST(Corduroy, AnotherRoughnessIsAnotherForce) {
+  const Felt felt = promises::rubbed(promises::compiled(corduroy("roughness 0.6", "roughness 0.3")));
+  const double asked = force_of_level(0.3);
+  EXPECT_NEAR(felt.force_rubbing.p99, asked, 0.01 * asked + force_step);
+  EXPECT_NEAR(level_of_force(felt.force_rubbing.p99), 0.30, 0.01);
+}
+
+TEST(Corduroy, AnotherPeriodIsTheSameRoughness) {
+  const Felt felt =
+      promises::rubbed(promises::compiled(corduroy()), [](Stage& stage) { EXPECT_FALSE(stage.set("wale", 0.005f)); });
+  EXPECT_NEAR(felt.force_rubbing.p99, force_of_level(0.6), 0.01 * force_of_level(0.6) + force_step);
+}
+
+TEST(Corduroy, AnotherPeriodWhileRubbingIsTheSameRoughness) {
+  // The slider moves at 2 s; what is measured is what comes after.
+  const Program program = promises::compiled(corduroy());
+  auto joystick = promises::joystick();
+  Stage stage(*joystick);
+  stage.place(program);
+  bool moved = false;
+  RunOptions run{.seconds = 7, .virtual_time = true};
+  run.progress = [&](const Progress& now) {
+    if (now.time >= 2 && !std::exchange(moved, true)) {
+      EXPECT_FALSE(stage.set("wale", 0.005f));
+    }
+  };
+  const auto result = stage.run(run);
+  ASSERT_TRUE(std::holds_alternative<RunResult>(result));
+  ASSERT_TRUE(moved);
+  const Felt after = promises::measured(program, std::get<RunResult>(result).record, 2.5);
+  EXPECT_NEAR(after.force_rubbing.p99, force_of_level(0.6), 0.01 * force_of_level(0.6) + force_step);
+  // Half as many ridges as at 2.5 mm.
+  EXPECT_LT(after.crossings, 300);
+  EXPECT_GT(after.crossings, 100);
+}
+
+class AtRest : public testing::TestWithParam<double> {};
+
+TEST_P(AtRest, NothingOscillates) {
+  // Wherever on a ridge the hand wants to be: on its top, on a flank, in the valley, and in between. It may slide
+  // downhill to where its own spring holds it, and then it stays.
+  const Program program = promises::compiled(corduroy());
+  auto joystick = promises::joystick(Rest{{GetParam(), 0.0}});
+  Stage stage(*joystick);
+  stage.place(program);
+  const auto result = stage.run({.seconds = 4, .virtual_time = true});
+  ASSERT_TRUE(std::holds_alternative<RunResult>(result));
+  const Felt felt = promises::measured(program, std::get<RunResult>(result).record, 2);
+  EXPECT_EQ(felt.alternations, 0);
+  EXPECT_LT(felt.position_rms, 0.2286 / 4096) << "more than an encoder count";
+}
+
+// Eighths of a period of 2.5 mm, and one place far from the centre.
+INSTANTIATE_TEST_SUITE_P(PlacesInAPeriod, AtRest,
+                         testing::Values(0.0, 0.0003125, 0.000625, 0.0009375, 0.00125, 0.0015625, 0.001875, 0.0021875,
+                                         0.0306));
+
+TEST(Corduroy, TheSameRunGivesTheSameBits) {
+  const Program program = promises::compiled(corduroy());
+  const auto bits = [&] {
+    auto joystick = promises::joystick();
+    Stage stage(*joystick);
+    stage.place(program);
+    const auto result = stage.run({.seconds = 2, .virtual_time = true});
+    std::ostringstream csv;
+    write_csv(csv, std::get<RunResult>(result).record);
+    return csv.str();
+  };
+  const std::string first = bits();
+  EXPECT_GT(first.size(), 1800u * 20);
+  EXPECT_EQ(first, bits());
+}
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "compiler/compile.hpp"
+#include "compiler/render.hpp"
+#include "wale/felt.hpp"
+#include "wale/library.hpp"
+#include "wale/stage.hpp"
+
+/// Materials compiled, rubbed and measured in one go.
+namespace wale::promises {
+
+/// A material from its text, for the default device.
+inline Program compiled(std::string text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver({});
+  auto program = compile(sources, sources.add("test.wale", std::move(text)), "", default_device, *resolver, diagnostics);
+  if (program) return *program;
+  std::string reasons;
+  for (const auto& diagnostic : diagnostics.all()) reasons += render_text(diagnostic, sources, false);
+  throw std::runtime_error(reasons);
+}
+
+/// The simulated Sandpaper joystick in the hand of the normal person, who moves as told; else rubs to and fro.
+inline std::unique_ptr<SimulatedJoystick> joystick(std::optional<Motion> motion = std::nullopt) {
+  const Library library;
+  const auto person = std::get<SimulatedPerson>(library.person());
+  return std::make_unique<SimulatedJoystick>(library.devices().front().profile, person.hand,
+                                             motion.value_or(Motion(person.lateral)));
+}
+
+/// What the record felt like, less its beginning.
+inline Felt measured(const Program& program, const Record& record, double settling) {
+  const auto& device = program.description().device;
+  return measure(record, {.position_step = device.workspace_diameter / device.position_counts,
+                          .predicted_amplitude = predicted_amplitude(Bank(program)),
+                          .settling = settling});
+}
+
+/// Five seconds of rubbing after half a second of settling in; `prepare` may set parameters first.
+inline Felt rubbed(const Program& program, const std::function<void(Stage&)>& prepare = {}) {
+  auto stick = joystick();
+  Stage stage(*stick);
+  stage.place(program);
+  if (prepare) prepare(stage);
+  const auto result = stage.run({.seconds = 5.5, .virtual_time = true});
+  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
+  return measured(program, std::get<RunResult>(result).record, 0.5);
+}
+
+}  // namespace wale::promises

@@ -1,0 +1,344 @@
+#include "tests/reference/evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace wale::reference {
+
+namespace {
+
+using Dimension = std::array<double, 3>;
+
+// A float holds a real number within half of this times its size; each operation rounds once.
+constexpr double rounding = 1.2e-7;
+// sin, cos, exp2, log2 and normal of the machine are right within a few units in the last place.
+constexpr double function_rounding = 6e-7;
+
+struct Unit {
+  double size;
+  Dimension dimension;
+};
+
+// From the SI brochure and NIST SP 811, not from schema/units.wale.
+const std::map<std::string, Unit> units{
+    {"m", {1, {1, 0, 0}}},       {"km", {1e3, {1, 0, 0}}},       {"cm", {1e-2, {1, 0, 0}}},   {"mm", {1e-3, {1, 0, 0}}},
+    {"um", {1e-6, {1, 0, 0}}},   {"inch", {0.0254, {1, 0, 0}}},  {"kg", {1, {0, 1, 0}}},      {"g", {1e-3, {0, 1, 0}}},
+    {"mg", {1e-6, {0, 1, 0}}},   {"s", {1, {0, 0, 1}}},          {"ms", {1e-3, {0, 0, 1}}},   {"us", {1e-6, {0, 0, 1}}},
+    {"Hz", {1, {0, 0, -1}}},     {"kHz", {1e3, {0, 0, -1}}},     {"N", {1, {1, 1, -2}}},      {"mN", {1e-3, {1, 1, -2}}},
+    {"kN", {1e3, {1, 1, -2}}},   {"gf", {9.80665e-3, {1, 1, -2}}}, {"J", {1, {2, 1, -2}}},    {"mJ", {1e-3, {2, 1, -2}}},
+    {"W", {1, {2, 1, -3}}},      {"Pa", {1, {-1, 1, -2}}},       {"pu", {10.0 / 512, {1, 1, -2}}},
+    {"ozf", {9.80665e-3 * 28.349523125, {1, 1, -2}}},            {"rad", {1, {}}},
+    {"deg", {std::acos(-1.0) / 180, {}}},                        {"%", {0.01, {}}},           {"counts", {1, {}}},
+};
+
+using Names = std::map<std::string, Quantity>;
+
+Quantity number(double value, Dimension dimension = {}, double error = -1) {
+  return {Quantity::Type::number, {value, 0}, {error < 0 ? std::abs(value) * rounding : error, 0}, dimension};
+}
+
+void require(bool good, const char* what) {
+  if (!good) throw std::runtime_error(what);
+}
+
+Dimension sum(const Dimension& a, const Dimension& b, double factor = 1) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+
+/// One part of a quantity, and its bound.
+struct Part {
+  double value, error;
+};
+Part part(const Quantity& of, int i) { return {of.value[i], of.error[i]}; }
+
+/// Rounds a result: what comes in as its error came from the operands.
+Part rounded(double value, double error, double by = rounding) {
+  // Beyond these a float is infinite or flushed to zero.
+  if (!std::isfinite(value) || !std::isfinite(error) || std::abs(value) > 1e37) throw Undecided{};
+  if (value != 0 && std::abs(value) < 1e-36) throw Undecided{};
+  return {value, error + by * std::abs(value)};
+}
+
+Part add(Part a, Part b) { return rounded(a.value + b.value, a.error + b.error); }
+Part negated(Part a) { return {-a.value, a.error}; }
+Part multiply(Part a, Part b) {
+  return rounded(a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error);
+}
+Part divide(Part a, Part b) {
+  const double least = std::abs(b.value) - b.error;
+  if (least <= 0.1 * std::abs(b.value)) throw Undecided{};
+  return rounded(a.value / b.value, (a.error + std::abs(a.value / b.value) * b.error) / least);
+}
+Part square_root(Part a) {
+  if (a.value <= 2 * a.error) throw Undecided{};
+  return rounded(std::sqrt(a.value), a.error / std::sqrt(a.value - a.error));
+}
+/// A function whose slope is at most `slope` near the argument.
+Part smooth(double value, Part argument, double slope) {
+  return rounded(value, argument.error * slope + function_rounding, function_rounding);
+}
+Part exponential(Part a, double base) {  // base^a
+  const double log_base = std::log(base), value = std::pow(base, a.value);
+  return rounded(value, value * std::expm1(std::abs(log_base) * a.error + function_rounding * (1 + std::abs(a.value * log_base))));
+}
+Part logarithm(Part a, double base) {
+  if (a.value <= 2 * a.error) throw Undecided{};
+  const double value = std::log(a.value) / std::log(base);
+  return rounded(value, a.error / (a.value - a.error) / std::log(base) + function_rounding, 2 * function_rounding);
+}
+bool less(Part a, Part b) {
+  if (std::abs(a.value - b.value) <= a.error + b.error) throw Undecided{};
+  return a.value < b.value;
+}
+Part smaller(Part a, Part b) { return {std::min(a.value, b.value), std::max(a.error, b.error)}; }
+Part larger(Part a, Part b) { return {std::max(a.value, b.value), std::max(a.error, b.error)}; }
+Part floor_of(Part a) {
+  const double up = std::ceil(a.value) - a.value, down = a.value - std::floor(a.value);
+  if (std::min(up, down) <= a.error && a.error > 0) throw Undecided{};
+  return {std::floor(a.value), 0};
+}
+
+class Evaluator {
+ public:
+  Evaluator(const SyntaxTree& tree, const HandState& hand) : tree_(tree), hand_(hand) {}
+
+  Quantity evaluate(ExprId id, const Names& names) {
+    return std::visit([&](const auto& node) { return (*this)(node, names); }, tree_.expr(id));
+  }
+
+ private:
+  Quantity operator()(const NumberLiteral& node, const Names& names) {
+    Quantity result = number(node.value);
+    double size = 1;
+    for (const auto& factor : node.suffix) {
+      const double exponent = factor.divides ? -factor.exponent : factor.exponent;
+      if (const auto unit = units.find(factor.name.text); unit != units.end()) {
+        size *= std::pow(unit->second.size, exponent);
+        result.dimension = sum(result.dimension, unit->second.dimension, exponent);
+        continue;
+      }
+      require(factor.exponent == 1, "a power of a name behind a number");
+      result = number(result.value[0] * size, result.dimension);
+      size = 1;
+      result = product(result, lookup(factor.name.text, names), factor.divides);
+    }
+    return size == 1 ? result : number(result.value[0] * size, result.dimension);
+  }
+
+  Quantity operator()(const NameUse& node, const Names& names) { return lookup(node.name, names); }
+
+  Quantity operator()(const Unary& node, const Names& names) {
+    Quantity result = evaluate(node.operand, names);
+    require(result.type != Quantity::Type::condition, "a sign before a condition");
+    if (node.op == UnaryOperator::negate)
+      for (double& value : result.value) value = -value;
+    return result;
+  }
+
+  Quantity operator()(const Binary& node, const Names& names) {
+    const Quantity a = evaluate(node.left, names), b = evaluate(node.right, names);
+    switch (node.op) {
+      case BinaryOperator::multiply: return product(a, b, false);
+      case BinaryOperator::divide: return product(a, b, true);
+      case BinaryOperator::power: return raised(a, b);
+      case BinaryOperator::add: return parts(a, b, add);
+      case BinaryOperator::subtract: return parts(a, b, [](Part p, Part q) { return add(p, negated(q)); });
+      case BinaryOperator::less: return compared(a, b, true, true);
+      case BinaryOperator::less_equal: return compared(a, b, true, false);
+      case BinaryOperator::greater: return compared(a, b, false, true);
+      case BinaryOperator::greater_equal: return compared(a, b, false, false);
+    }
+    throw std::runtime_error("an operator");
+  }
+
+  Quantity operator()(const Conditional& node, const Names& names) {
+    // Both sides are checked, one is taken: what is undecided in the other must not matter, and so decides nothing.
+    const Quantity condition = evaluate(node.condition, names);
+    require(condition.type == Quantity::Type::condition, "no condition");
+    return evaluate(condition.value[0] != 0 ? node.yes : node.no, names);
+  }
+
+  Quantity operator()(const Call& node, const Names& names) {
+    for (const auto& declaration : tree_.declarations)
+      if (const auto* function = std::get_if<FunctionDecl>(&declaration); function && function->name.text == node.callee.text) {
+        Names inner;
+        std::size_t position = 0;
+        for (const auto& argument : node.arguments) {
+          const std::string formal = argument.name ? argument.name->text : function->parameters.at(position++).name.text;
+          inner[formal] = evaluate(argument.value, names);
+        }
+        for (const auto& formal : function->parameters)
+          if (!inner.contains(formal.name.text)) inner[formal.name.text] = evaluate(formal.default_value.value(), {});
+        return evaluate(function->body, inner);
+      }
+    std::vector<Quantity> arguments;
+    for (const auto& argument : node.arguments) arguments.push_back(evaluate(argument.value, names));
+    return built_in(node.callee.text, arguments);
+  }
+
+  Quantity operator()(const TextLiteral&, const Names&) { throw std::runtime_error("a text"); }
+  Quantity operator()(const Erroneous&, const Names&) { throw std::runtime_error("an error"); }
+
+  Quantity lookup(const std::string& name, const Names& names) {
+    if (const auto known = names.find(name); known != names.end()) return known->second;
+    if (name == "x") return number(hand_.x, {1, 0, 0}, 0);
+    if (name == "y") return number(hand_.y, {1, 0, 0}, 0);
+    if (name == "hand") return {Quantity::Type::vector, {hand_.x, hand_.y}, {}, {1, 0, 0}};
+    if (name == "velocity") return {Quantity::Type::vector, {hand_.vx, hand_.vy}, {}, {1, 0, -1}};
+    if (name == "pi") return number(std::acos(-1.0));
+    for (const auto& declaration : tree_.declarations)
+      if (const auto* constant = std::get_if<Constant>(&declaration); constant && constant->name.text == name)
+        return evaluate(constant->value, {});
+    throw std::runtime_error("no name " + name);
+  }
+
+  template <typename F>
+  Quantity parts(const Quantity& a, const Quantity& b, F f) {
+    require(a.type == b.type && a.type != Quantity::Type::condition && a.dimension == b.dimension, "unlike operands");
+    Quantity result = a;
+    for (int i = 0; i < (a.type == Quantity::Type::vector ? 2 : 1); ++i) {
+      const Part p = f(part(a, i), part(b, i));
+      result.value[i] = p.value;
+      result.error[i] = p.error;
+    }
+    return result;
+  }
+
+  Quantity of(Part part, const Dimension& dimension = {}) {
+    return {Quantity::Type::number, {part.value, 0}, {part.error, 0}, dimension};
+  }
+
+  Quantity product(const Quantity& a, const Quantity& b, bool divides) {
+    require(a.type != Quantity::Type::condition && b.type != Quantity::Type::condition, "a condition in a product");
+    require(a.type == Quantity::Type::number || b.type == Quantity::Type::number, "two vectors multiplied");
+    require(!divides || b.type == Quantity::Type::number, "divided by a vector");
+    Quantity result;
+    const bool vector = a.type == Quantity::Type::vector || b.type == Quantity::Type::vector;
+    result.type = vector ? Quantity::Type::vector : Quantity::Type::number;
+    result.dimension = sum(a.dimension, b.dimension, divides ? -1 : 1);
+    for (int i = 0; i < (vector ? 2 : 1); ++i) {
+      const Part left = part(a, a.type == Quantity::Type::vector ? i : 0);
+      const Part right = part(b, b.type == Quantity::Type::vector ? i : 0);
+      const Part p = divides ? divide(left, right) : multiply(left, right);
+      result.value[i] = p.value;
+      result.error[i] = p.error;
+    }
+    return result;
+  }
+
+  Quantity compared(const Quantity& a, const Quantity& b, bool less_than, bool) {
+    require(a.type == Quantity::Type::number && b.type == Quantity::Type::number && a.dimension == b.dimension, "unlike sides");
+    // Ties are undecided, so whether equality counts makes no difference here.
+    const bool holds = less_than ? less(part(a, 0), part(b, 0)) : less(part(b, 0), part(a, 0));
+    return {Quantity::Type::condition, {holds ? 1.0 : 0.0, 0}, {}, {}};
+  }
+
+  Quantity raised(const Quantity& base, const Quantity& exponent) {
+    require(base.type == Quantity::Type::number && exponent.type == Quantity::Type::number, "a power of no number");
+    require(exponent.dimension == Dimension{}, "an exponent with a dimension");
+    const double power = exponent.value[0];
+    const Dimension dimension = sum({}, base.dimension, power);
+    if (power == 0.5) return of(square_root(part(base, 0)), dimension);
+    if (power == std::floor(power) && std::abs(power) <= 16) {
+      Part product{1, 0};
+      for (int i = 0; i < std::abs(power); ++i) product = multiply(product, part(base, 0));
+      return of(power < 0 ? divide({1, 0}, product) : product, dimension);
+    }
+    return of(exponential(multiply(part(exponent, 0), logarithm(part(base, 0), 2)), 2), dimension);
+  }
+
+  /// Arguments by position, each as schema/LANGUAGE.md describes the function.
+  Quantity built_in(const std::string& name, const std::vector<Quantity>& arguments) {
+    const auto scalar = [&](std::size_t i) {
+      require(arguments.at(i).type == Quantity::Type::number, "a number is due");
+      return part(arguments[i], 0);
+    };
+    const auto plain = [&](std::size_t i) {
+      require(arguments.at(i).dimension == Dimension{}, "a plain number is due");
+      return scalar(i);
+    };
+    const auto dimension = [&](std::size_t i) { return arguments.at(i).dimension; };
+    const auto dot = [&](const Quantity& a, const Quantity& b) {
+      require(a.type == Quantity::Type::vector && b.type == Quantity::Type::vector, "a vector is due");
+      return add(multiply(part(a, 0), part(b, 0)), multiply(part(a, 1), part(b, 1)));
+    };
+    const auto alike = [&] {
+      for (const auto& argument : arguments) require(argument.dimension == arguments[0].dimension, "unlike arguments");
+    };
+    constexpr double e = 2.718281828459045;
+    if (name == "abs") return of({std::abs(scalar(0).value), scalar(0).error}, dimension(0));
+    if (name == "floor") return of(floor_of(plain(0)));
+    if (name == "sqrt") return of(square_root(scalar(0)), sum({}, dimension(0), 0.5));
+    if (name == "sin") return of(smooth(std::sin(plain(0).value), plain(0), 1));
+    if (name == "cos") return of(smooth(std::cos(plain(0).value), plain(0), 1));
+    if (name == "exp") return of(exponential(plain(0), e));
+    if (name == "log") return of(logarithm(plain(0), e));
+    if (name == "log2") return of(logarithm(plain(0), 2));
+    if (name == "log10") return of(logarithm(plain(0), 10));
+    if (name == "normal") return of(smooth(0.5 * std::erfc(-plain(0).value / std::sqrt(2.0)), plain(0), 0.4));
+    if (name == "min" || name == "max") {
+      alike();
+      return of(name == "min" ? smaller(scalar(0), scalar(1)) : larger(scalar(0), scalar(1)), dimension(0));
+    }
+    if (name == "clamp" || name == "within") {
+      alike();
+      return of(smaller(larger(scalar(0), scalar(1)), scalar(2)), dimension(0));
+    }
+    if (name == "smoothstep") {
+      const Part t = smaller(larger(plain(0), {0, 0}), {1, 0});
+      return of(multiply(multiply(t, t), add({3, 0}, negated(multiply({2, 0}, t)))));
+    }
+    if (name == "modulo") {
+      alike();
+      const Part whole = floor_of(divide(scalar(0), scalar(1)));
+      return of(add(scalar(0), negated(multiply(scalar(1), whole))), dimension(0));
+    }
+    if (name == "vector") {
+      alike();
+      return {Quantity::Type::vector, {scalar(0).value, scalar(1).value}, {scalar(0).error, scalar(1).error}, dimension(0)};
+    }
+    if (name == "dot") return of(dot(arguments.at(0), arguments.at(1)), sum(dimension(0), dimension(1)));
+    if (name == "length") return of(square_root(dot(arguments.at(0), arguments.at(0))), dimension(0));
+    if (name == "viscous") {
+      require(dimension(0) == Dimension{0, 1, -1}, "a viscosity is due");
+      return product(arguments[0], {Quantity::Type::vector, {-hand_.vx, -hand_.vy}, {}, {1, 0, -1}}, false);
+    }
+    if (name == "spring") {
+      require(dimension(0) == Dimension{0, 1, -2}, "a stiffness is due");
+      return product(arguments[0], {Quantity::Type::vector, {-hand_.x, -hand_.y}, {}, {1, 0, 0}}, false);
+    }
+    throw std::runtime_error("no function " + name);
+  }
+
+  const SyntaxTree& tree_;
+  HandState hand_;
+};
+
+}  // namespace
+
+Quantity force(const SyntaxTree& tree, const HandState& hand, const std::map<std::string, double>& parameters) {
+  Evaluator evaluator(tree, hand);
+  for (const auto& declaration : tree.declarations) {
+    const auto* material = std::get_if<MaterialDecl>(&declaration);
+    if (!material) continue;
+    Names names;
+    for (const auto& statement : material->physical) {
+      if (const auto* param = std::get_if<ParamStatement>(&statement.what)) {
+        Quantity value = evaluator.evaluate(param->value, names);
+        // What is set is a float already.
+        if (const auto set = parameters.find(param->name.text); set != parameters.end()) value = number(set->second, value.dimension, 0);
+        names[param->name.text] = value;
+      }
+      if (const auto* let = std::get_if<LetStatement>(&statement.what)) names[let->name.text] = evaluator.evaluate(let->value, names);
+      if (const auto* force = std::get_if<ForceStatement>(&statement.what)) {
+        const Quantity result = evaluator.evaluate(force->value, names);
+        require(result.type == Quantity::Type::vector && result.dimension == Dimension{1, 1, -2}, "no force");
+        return result;
+      }
+    }
+  }
+  throw std::runtime_error("no material with a force");
+}
+
+}  // namespace wale::reference
