@@ -101,7 +101,8 @@ class MaterialChecker {
                                         .label = surroundings_.declarations.names.unit(value.dimension),
                                         .expected = sides[0],
                                         .found = sides[1],
-                                        .help = "only its shape matters to `lateral`; divide by a quantity of the surplus dimension"});
+                                        .help = fmt::format("only its shape matters to `lateral`: make it plain, as in `/ 1 {}`",
+                                                            customary_unit(surroundings_.declarations, value.dimension))});
       return declare_failed(node.name);
     }
     if (material_.terms.dependence(value.x).velocity) {
@@ -130,7 +131,9 @@ class MaterialChecker {
       if (!(*size > 0)) return report(Code::value_out_of_range, tree_.span(node.sizes[side]), "a patch must be larger than nothing", "write, for example, `patch 95 mm, 95 mm`");
       sizes[side] = *size;
     }
+    if (material_.patch) return report(Code::declared_twice, statement_span_, "a material has one patch", "keep one of them");
     material_.patch = sizes;
+    material_.patch_span = statement_span_;
   }
 
   void operator()(const StateStatement& node) {
@@ -202,7 +205,8 @@ class MaterialChecker {
     }
     if (!(level >= 0 && level <= 1))
       return report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", level),
-                    fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text));
+                    level > 1 && level <= 100 ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text, level, level / 100)
+                                              : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text));
     material_.percepts.push_back({node.name.text, level, span});
   }
 
@@ -235,7 +239,7 @@ class MaterialChecker {
     const std::string text(surroundings_.sources.text(value.span));
     surroundings_.diagnostics.report({.code = Code::wrong_dimension,
                                       .span = value.span,
-                                      .message = fmt::format("`{}` is {} and its default has no unit", node.name.text, names.words(low.dimension)),
+                                      .message = fmt::format("`{}` is {}, and its default has no unit", node.name.text, with_article(names.words(low.dimension))),
                                       .expected = sides[0],
                                       .found = sides[1],
                                       .help = fmt::format("write `{} {}`", text, unit)});
@@ -269,8 +273,7 @@ class MaterialChecker {
   }
 
   void declare(const Word& name, Value value) {
-    static const char* const taken[] = {"x", "y", "hand", "velocity", "patch_half_width", "patch_half_height", "patch_rim", "open"};
-    if (std::ranges::find(taken, name.text) != std::end(taken))
+    if (names_hand_or_patch(name.text) || name.text == "open")
       return report(Code::declared_twice, name.span, fmt::format("`{}` already means the hand's or the patch's own", name.text), "give it another name");
     if (const auto* other = scope_.find(name.text)) {
       const unsigned line = surroundings_.sources.place(other->declared).line;

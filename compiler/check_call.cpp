@@ -246,7 +246,7 @@ struct BuiltinFunctions {
     if (const auto* problem = std::get_if<ImageProblem>(&read))
       return checker.report(problem->size ? Code::image_size : Code::unreadable_image, actuals[0].span,
                             fmt::format("`{}` {}", value(0).text, problem->reason), "",
-                            problem->size ? fmt::format("take a picture of {0} x {0} to {1} x {1} pixels", smallest_image_side, largest_image_side)
+                            problem->size ? fmt::format("make its sides {} to {} pixels long", smallest_image_side, largest_image_side)
                                           : "any picture that OpenImageIO reads will do: PNG, TIFF, JPEG, EXR and their like");
     auto& picture = std::get<HeightImage>(read);
 

@@ -92,6 +92,11 @@ std::optional<double> constant_value(const Terms& terms, TermId id) {
   return known[id];
 }
 
+bool names_hand_or_patch(std::string_view name) {
+  return name == "x" || name == "y" || name == "hand" || name == "velocity" || name == "patch_half_width" || name == "patch_half_height" ||
+         name == "patch_rim";
+}
+
 std::string customary_unit(const Declarations& declarations, const Dimension& dimension) {
   const auto millimetre = declarations.units.find("mm");
   if (millimetre != declarations.units.end() && millimetre->second.dimension == dimension) return "mm";
@@ -174,8 +179,7 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
   for (; next < literal.suffix.size(); ++next) {
     const auto& part = literal.suffix[next];
     const bool known = scope.find(part.name.text) || surroundings_.declarations.constants.contains(part.name.text) ||
-                       part.name.text == "x" || part.name.text == "y" || part.name.text == "hand" ||
-                       part.name.text == "velocity";
+                       names_hand_or_patch(part.name.text);
     if (!known) {
       std::vector<std::string> candidates;
       for (const auto& [name, definition] : surroundings_.declarations.units) candidates.push_back(name);
@@ -300,7 +304,7 @@ Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& no
     auto sides = names().side_by_side(left.dimension, right.dimension);
     std::string help;
     if (!left.dimension.plain() && !right.dimension.plain())
-      help = "if the left side is as meant: " + dimension_mend(tree, node.right, scope, left.dimension, right.dimension);
+      help = "to fit the left side: " + dimension_mend(tree, node.right, scope, left.dimension, right.dimension);
     for (const auto& [bare, other] : {std::pair{&left, &right}, std::pair{&right, &left}})
       if (bare->dimension.plain() && !other->dimension.plain())
         help = fmt::format("a plain number needs a unit here, such as `{} {}`",

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/declarations.hpp"
@@ -102,6 +103,9 @@ inline constexpr std::size_t deepest_call = 64;
 
 /// Whether the compiler itself defines a function of that name.
 bool is_builtin_function(const std::string& name);
+
+/// Whether the language itself gives this name a meaning on a patch: the hand's place and velocity, the patch's extents.
+bool names_hand_or_patch(std::string_view name);
 
 /// The value of a term that depends on nothing, in double precision, or nothing.
 std::optional<double> constant_value(const Terms& terms, TermId id);

@@ -30,11 +30,6 @@ void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vecto
   }
 }
 
-/// "a length", "an energy".
-std::string with_article(const std::string& word) {
-  return (word.find_first_of("aeiou") == 0 ? "an " : "a ") + word;
-}
-
 /// Whether it is one base dimension and nothing else.
 bool base(const Dimension& dimension) {
   int sum = 0;
@@ -66,6 +61,11 @@ std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId exp
     return fmt::format("give it a unit, as in `({}) * 1 {}`", text(tree.span(expr)), unit);
   }
   if (expected.plain()) return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`", customary_unit(surroundings_.declarations, found));
+
+  ExprId bare = expr;
+  while (const auto* unary = std::get_if<Unary>(&tree.expr(bare))) bare = unary->operand;
+  if (std::holds_alternative<NumberLiteral>(tree.expr(bare)))
+    return fmt::format("{} is due here, in {}", with_article(names().words(expected)), unit);
 
   const Dimension ratio = found / expected;
   const std::string count = surplus(names(), ratio);

@@ -31,6 +31,7 @@ struct CheckedMaterial {
   std::optional<TermId> relief;           ///< the surface as it looks, when it has one
   Span force_span;
   std::optional<std::array<double, 2>> patch;  ///< width and height in m, when the material says
+  Span patch_span;
   Layers layers;
 };
 

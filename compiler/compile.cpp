@@ -14,7 +14,9 @@ namespace wale {
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
   SyntaxTree tree = parse(sources, source, diagnostics);
   ModuleSet modules = load_modules(std::move(tree), sources, resolver, diagnostics);
-  return check(std::move(modules), sources, resolver, diagnostics);
+  CheckedModule checked = check(std::move(modules), sources, resolver, diagnostics);
+  diagnostics.sort();
+  return checked;
 }
 
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& name, const std::string& device,
@@ -43,7 +45,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     diagnostics.report({.code = Code::program_too_large,
                         .span = solved.span,
                         .message = fmt::format("the machine refuses `{}`: {}", solved.name, refusal->reason),
-                        .help = "make the material's expressions smaller"});
+                        .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
   if (measure(Bank(std::get<Program>(loaded))).flat) {

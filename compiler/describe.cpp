@@ -57,7 +57,7 @@ std::string heading(const Description& description) {
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
   if (description.percepts.empty()) {
-    text += "  no percept with a scale: nothing in its force is a texture\n";
+    text += "  none that can be read: its force is not one texture\n";
     return;
   }
   for (const auto& percept : description.percepts) {

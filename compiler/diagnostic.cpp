@@ -1,5 +1,8 @@
 #include "compiler/diagnostic.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 namespace wale {
@@ -36,6 +39,10 @@ void Diagnostics::report(Diagnostic diagnostic) {
     if (other.code == diagnostic.code && other.span == diagnostic.span && other.message == diagnostic.message) return;
   if (severity_of(diagnostic.code) == Severity::error) ++errors_;
   all_.push_back(std::move(diagnostic));
+}
+
+void Diagnostics::sort() {
+  std::ranges::stable_sort(all_, {}, [](const Diagnostic& each) { return std::pair(each.span.source, each.span.begin); });
 }
 
 }  // namespace wale

@@ -37,6 +37,8 @@ class Diagnostics {
  public:
   /// A thing is said once: the same message at the same place again is dropped.
   void report(Diagnostic diagnostic);
+  /// By file, then by place, what is at one place in the order of reporting.
+  void sort();
   bool has_errors() const { return errors_ > 0; }
   std::size_t error_count() const { return errors_; }
   const std::vector<Diagnostic>& all() const { return all_; }

@@ -26,6 +26,8 @@ std::optional<Dimension> power(Dimension a, int numerator, int denominator) {
   return a;
 }
 
+std::string with_article(const std::string& word) { return (word.find_first_of("aeiou") == 0 ? "an " : "a ") + word; }
+
 namespace {
 
 /// "m", "m^2", "s^-1", "m^(1/2)"; empty for exponent 0.

@@ -24,6 +24,9 @@ Dimension operator/(Dimension a, const Dimension& b);
 /// `a` to the power numerator / denominator, or nothing when an exponent is no whole number of twelfths.
 std::optional<Dimension> power(Dimension a, int numerator, int denominator = 1);
 
+/// "a length", "an energy".
+std::string with_article(const std::string& word);
+
 /// What the declarations call dimensions and their coherent units, to speak of a dimension in words.
 struct DimensionNames {
   struct Named {

@@ -1,14 +1,11 @@
 #include "compiler/drawing.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+
+#include "compiler/openimageio.hpp"
 
 namespace wale {
 

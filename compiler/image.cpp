@@ -1,12 +1,6 @@
 #include "compiler/image.hpp"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +10,8 @@
 #include <memory>
 #include <mutex>
 #include <vector>
+
+#include "compiler/openimageio.hpp"
 
 namespace wale {
 namespace {
@@ -149,9 +145,9 @@ std::optional<ImageProblem> refusal_of(const ImageSpec& spec) {
     return ImageProblem{fmt::format("has {} channels; a picture has 1 to {}", spec.nchannels, most_channels)};
   }
   if (static_cast<long long>(spec.tile_width) * spec.tile_height * spec.nchannels > most_image_pixels) {
-    return ImageProblem{fmt::format("is made of tiles of {} x {} pixels, which is too much to hold", spec.tile_width,
-                                    spec.tile_height),
-                        true};
+    return ImageProblem{
+        fmt::format("is made of tiles of {} x {} pixels, which is too much to hold", spec.tile_width, spec.tile_height),
+        true};
   }
   return std::nullopt;
 }

@@ -100,6 +100,9 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
                 fmt::format("did you mean `{}`?", *meant));
     section = *meant;
   }
+  if ((section == "perceptual" && material.perceptual_span) || (section == "physical" && material.physical_span))
+    complain_at(Code::declared_twice, span_of(here()), fmt::format("a material has one `{}` block", section), "", "",
+                "put all its statements into one block");
   advance();
   if (section == "representative") {
     block(true, [&] {

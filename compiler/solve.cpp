@@ -141,6 +141,12 @@ class Solver {
     solved_.patch_height = material_.patch ? (*material_.patch)[1] : device_->profile.patch_height;
     solved_.patch_rim = std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
 
+    const double workspace = device_->profile.workspace_diameter;
+    if (std::max(solved_.patch_width, solved_.patch_height) > workspace)
+      report(Code::value_out_of_range, material_.patch ? material_.patch_span : material_.span,
+             fmt::format("a patch of {:.4g} mm x {:.4g} mm does not fit `{}`", 1e3 * solved_.patch_width, 1e3 * solved_.patch_height, device_name),
+             fmt::format("its workspace is {:.4g} mm across", 1e3 * workspace));
+
     open_terms_ = material_.terms;
     carriers_ = material_.carriers;
     open_spans_ = material_.open_spans;
@@ -157,7 +163,7 @@ class Solver {
                fmt::format("say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give the amplitude: `amplitude: 1.2 N`", percept_of(i)));
     if (diagnostics_.has_errors()) return std::move(solved_);
     substitute();
-    describe_unasked_percepts();
+    describe_percepts();
     return std::move(solved_);
   }
 
@@ -312,19 +318,28 @@ class Solver {
     for (const auto& carrier : carriers_) solved_sizes_.push_back(copier(carrier.size));
   }
 
-  /// Every percept that a single carrier of the force reads, asked for or not, can be told from the program.
-  void describe_unasked_percepts() {
+  /// The carrier that tells of a percept: the one solved for it, or the only one there is.
+  std::optional<std::size_t> carrier_of(const Percept& percept) const {
+    std::optional<std::size_t> only;
+    int count = 0;
+    for (std::size_t i = 0; i < carriers_.size(); ++i) {
+      if (carriers_[i].name != percept.carrier) continue;
+      if (carriers_[i].open) return i;
+      only = i, ++count;
+    }
+    return count == 1 ? only : std::nullopt;
+  }
+
+  /// Every percept that a carrier of the force tells of, asked for or not, is told from the program.
+  void describe_percepts() {
     for (const auto& [name, percept] : declarations_.percepts) {
-      std::optional<std::size_t> only;
-      int count = 0;
-      for (std::size_t i = 0; i < carriers_.size(); ++i)
-        if (carriers_[i].name == percept.carrier) only = i, ++count;
-      if (count != 1) continue;
+      const auto index = carrier_of(percept);
+      if (!index) continue;
       const Map* map = map_for(percept, std::nullopt);  // asked for, it has been reported
       if (!map) continue;
-      const Carrier& carrier = carriers_[*only];
+      const Carrier& carrier = carriers_[*index];
       SolvedPercept solved;
-      solved.amplitude = solved_sizes_[*only];
+      solved.amplitude = solved_sizes_[*index];
       const Law law(*map, percept);
       const TermId probe = solved_.terms.input(Input::probe);
       const auto magnitude = law.magnitude(solved_.terms, probe), level = law.level(solved_.terms, probe);

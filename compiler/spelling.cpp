@@ -7,7 +7,11 @@ namespace wale {
 
 namespace {
 
-/// How many slips make `b` of `a`: a letter inserted, dropped or replaced, or two neighbours that changed places, each
+char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }
+
+bool same(char a, char b) { return lower(a) == lower(b); }
+
+/// How many slips make `b` of `a`, capitals aside: a letter inserted, dropped or replaced, or two neighbours that changed places, each
 /// letter touched once (the optimal string alignment distance).
 std::size_t letters_changed(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -15,8 +19,8 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same(a[i - 1], b[j - 1])});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, row);
@@ -34,8 +38,10 @@ std::optional<std::string> nearest_spelling(std::string_view word, const std::ve
   for (const auto& candidate : candidates) {
     if (candidate.size() > longest_compared || candidate == word) continue;
     const std::size_t changed = letters_changed(word, candidate);
-    // A name of one letter is not mistaken for another of one letter.
-    if (changed < fewest && changed < std::max(word.size(), candidate.size())) fewest = changed, nearest = candidate;
+    // With one or two letters every other name is near: only their order and their capitals can be a slip.
+    const bool short_word = std::max(word.size(), candidate.size()) <= 2;
+    const bool turned = word.size() == 2 && candidate.size() == 2 && word[0] == candidate[1] && word[1] == candidate[0];
+    if (changed < fewest && (!short_word || changed == 0 || turned)) fewest = changed, nearest = candidate;
   }
   return nearest;
 }

@@ -7,7 +7,8 @@
 
 namespace wale {
 
-/// The candidate that a reader would take `word` for: the fewest letters changed, and at most a third of them.
+/// The candidate that a reader would take `word` for: the fewest letters changed, and at most a third of them;
+/// capitals and two neighbours that changed places count little.
 std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace wale

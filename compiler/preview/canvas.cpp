@@ -1,17 +1,14 @@
 #include "compiler/preview/canvas.hpp"
 
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "compiler/openimageio.hpp"
 #include "compiler/utf8.hpp"
 
 namespace wale {
 namespace {
-
-namespace algorithm = OIIO::ImageBufAlgo;
 
 constexpr std::array<std::string_view, 5> sans_fonts = {"DejaVuSans.ttf", "LiberationSans-Regular.ttf",
                                                         "NotoSans-Regular.ttf", "FreeSans.ttf", "Arial.ttf"};
@@ -82,17 +79,18 @@ Colour mixed(Colour first, Colour second, float part) {
   return {between(first.red, second.red), between(first.green, second.green), between(first.blue, second.blue)};
 }
 
-Canvas::Canvas(int width, int height, Colour paper)
-    : pixels_(OIIO::ImageSpec(width * fineness, height * fineness, 3, OIIO::TypeFloat)) {
-  algorithm::fill(pixels_, {paper.red, paper.green, paper.blue}, {}, 1);
+Canvas::Canvas(int width, int height, Colour paper) : width_(width * fineness), height_(height * fineness) {
+  pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
+  fill({0, 0, static_cast<double>(width), static_cast<double>(height)}, paper);
   sans_ = Font::find(sans_fonts);
   serif_ = Font::find(serif_fonts);
   if (!serif_) serif_ = sans_;
 }
 
 void Canvas::blend(int x, int y, Colour colour, float opacity) {
-  if (opacity <= 0 || x < 0 || y < 0 || x >= pixels_.spec().width || y >= pixels_.spec().height) return;
-  auto* pixel = static_cast<float*>(pixels_.pixeladdr(x, y));
+  if (opacity <= 0 || x < 0 || y < 0 || x >= width_ || y >= height_) return;
+  float* pixel =
+      &pixels_[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * 3];
   pixel[0] += (colour.red - pixel[0]) * opacity;
   pixel[1] += (colour.green - pixel[1]) * opacity;
   pixel[2] += (colour.blue - pixel[2]) * opacity;
@@ -100,8 +98,9 @@ void Canvas::blend(int x, int y, Colour colour, float opacity) {
 
 void Canvas::fill(const PageBox& box, Colour colour) {
   const auto fine = [](double x) { return static_cast<int>(std::lround(x * fineness)); };
-  const OIIO::ROI roi(fine(box.left), fine(box.right), fine(box.top), fine(box.bottom));
-  algorithm::fill(pixels_, {colour.red, colour.green, colour.blue}, roi, 1);
+  for (int y = fine(box.top); y < fine(box.bottom); ++y) {
+    for (int x = fine(box.left); x < fine(box.right); ++x) blend(x, y, colour, 1);
+  }
 }
 
 void Canvas::outline(const PageBox& box, const Pen& pen) {
@@ -123,10 +122,8 @@ void Canvas::stroke(std::span<const PagePoint> points, const Pen& pen) {
       top = std::min(top, point.y), bottom = std::max(bottom, point.y);
     }
     const auto inside = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, double(size))); };
-    const int x0 = inside(left - radius - 2, pixels_.spec().width),
-              x1 = inside(right + radius + 2, pixels_.spec().width);
-    const int y0 = inside(top - radius - 2, pixels_.spec().height),
-              y1 = inside(bottom + radius + 2, pixels_.spec().height);
+    const int x0 = inside(left - radius - 2, width_), x1 = inside(right + radius + 2, width_);
+    const int y0 = inside(top - radius - 2, height_), y1 = inside(bottom + radius + 2, height_);
     if (x0 >= x1 || y0 >= y1) continue;
     const auto stride = static_cast<std::size_t>(x1 - x0);
     std::vector<float> coverage(stride * static_cast<std::size_t>(y1 - y0), 0.0f);
@@ -209,9 +206,11 @@ void Canvas::place(const PageBox& box, std::span<const Colour> pixels) {
 }
 
 Drawing Canvas::finish() const {
-  const int width = pixels_.spec().width / fineness, height = pixels_.spec().height / fineness;
+  const int width = width_ / fineness, height = height_ / fineness;
   const OIIO::ROI size(0, width, 0, height, 0, 1, 0, 3);
-  const OIIO::ImageBuf page = algorithm::resize(pixels_, "box", 1.0f, size, 1);
+  // A wrapped buffer is written to by no one here; ImageBuf has no wrapper of constants.
+  const OIIO::ImageBuf fine(OIIO::ImageSpec(width_, height_, 3, OIIO::TypeFloat), const_cast<float*>(pixels_.data()));
+  const OIIO::ImageBuf page = OIIO::ImageBufAlgo::resize(fine, "box", 1.0f, size, 1);
   Drawing drawing{width, height, {}, static_cast<bool>(sans_)};
   drawing.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
   page.get_pixels(size, OIIO::TypeUInt8, drawing.rgb.data());

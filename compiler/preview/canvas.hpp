@@ -1,10 +1,9 @@
 #pragma once
 
-#include <OpenImageIO/imagebuf.h>
-
 #include <glm/vec2.hpp>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "compiler/drawing.hpp"
 #include "compiler/preview/lettering.hpp"
@@ -74,7 +73,8 @@ class Canvas {
   const Font& font_of(const Type& type) const { return type.face == Face::serif ? serif_ : sans_; }
   void blend(int x, int y, Colour colour, float opacity);
 
-  OIIO::ImageBuf pixels_;
+  int width_ = 0, height_ = 0;  // canvas pixels
+  std::vector<float> pixels_;   // rows from the top, three channels
   Font serif_, sans_;
 };
 

@@ -1,11 +1,10 @@
 #include "compiler/preview/relief.hpp"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "compiler/openimageio.hpp"
 
 namespace wale {
 namespace {

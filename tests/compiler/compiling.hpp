@@ -16,7 +16,9 @@ class Files final : public Resolver {
  public:
   std::map<std::string, std::string> contents;
 
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override { return file(path, ""); }
+  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override {
+    return file(path, "");
+  }
   std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string&) override {
     const auto found = contents.find(name);
     if (found == contents.end()) return ResolveProblem{"no such file"};
@@ -35,7 +37,8 @@ struct Compiled {
     const CheckedModule module = check_source(sources, source, files, diagnostics);
     for (const auto& material : module.materials)
       if (!diagnostics.has_errors())
-        if (const auto program = compile_material(module, material.name, default_device, sources, source, files, diagnostics))
+        if (const auto program =
+                compile_material(module, material.name, default_device, sources, source, files, diagnostics))
           programs.emplace(material.name, *program);
     if (!diagnostics.has_errors()) return;
     std::string reasons = sources[source].text + "\n";
@@ -47,10 +50,11 @@ struct Compiled {
 };
 
 /// One material of the physical block `physical`, perhaps asked for a percept, among other declarations.
-inline Program compiled(const std::string& physical, const std::string& declarations = "", const std::string& perceptual = "",
-                        Files files = {}) {
+inline Program compiled(const std::string& physical, const std::string& declarations = "",
+                        const std::string& perceptual = "", Files files = {}) {
   const std::string percept = perceptual.empty() ? "" : "  perceptual { " + perceptual + " }\n";
-  return Compiled("wale 1\n" + declarations + "\nmaterial m {\n" + percept + "  physical {\n" + physical + "\n  }\n}\n", std::move(files))
+  return Compiled("wale 1\n" + declarations + "\nmaterial m {\n" + percept + "  physical {\n" + physical + "\n  }\n}\n",
+                  std::move(files))
       .only();
 }
 

@@ -15,15 +15,19 @@ TEST(Determinism, SameTextSameBytes) {
     RandomMaterial material(seed);
     material.write();
     const std::string text = material.text(false);
-    EXPECT_EQ(write_patch_program(Compiled(text).only().description()), write_patch_program(Compiled(text).only().description())) << text;
+    EXPECT_EQ(write_patch_program(Compiled(text).only().description()),
+              write_patch_program(Compiled(text).only().description()))
+        << text;
   }
 }
 
 TEST(Determinism, OtherMaterialsOfTheFileChangeNothing) {
   const std::string one = "material a { physical { force = lateral(grating(x, period: 2 mm), amplitude: 1 N) } }\n";
-  const std::string other = "material b { perceptual { roughness 0.4 } physical { force = lateral(grating(y, period: 3 mm)) } }\n";
+  const std::string other =
+      "material b { perceptual { roughness 0.4 } physical { force = lateral(grating(y, period: 3 mm)) } }\n";
   const auto alone = Compiled("wale 1\n" + one), both = Compiled("wale 1\n" + other + one);
-  EXPECT_EQ(write_patch_program(alone.programs.at("a").description()), write_patch_program(both.programs.at("a").description()));
+  EXPECT_EQ(write_patch_program(alone.programs.at("a").description()),
+            write_patch_program(both.programs.at("a").description()));
 }
 
 TEST(Sharing, AChainOfLetsIsLinear) {
@@ -45,8 +49,11 @@ TEST(Sharing, AChainOfConstantsIsLinear) {
 }
 
 TEST(Sharing, EqualExpressionsAreOneValue) {
-  const auto instructions = [](const std::string& force) { return compiled("    force = " + force).description().tick.size(); };
-  EXPECT_EQ(instructions("vector(sin(x / 1 mm) * 1 N, 0 N)") + 1, instructions("vector(sin(x / 1 mm) * 1 N + sin(x / 1 mm) * 1 N, 0 N)"));
+  const auto instructions = [](const std::string& force) {
+    return compiled("    force = " + force).description().tick.size();
+  };
+  EXPECT_EQ(instructions("vector(sin(x / 1 mm) * 1 N, 0 N)") + 1,
+            instructions("vector(sin(x / 1 mm) * 1 N + sin(x / 1 mm) * 1 N, 0 N)"));
 }
 
 }  // namespace

@@ -78,8 +78,9 @@ std::vector<std::uint32_t> bits(const Program& program) {
   Bank bank(program);
   std::vector<std::uint32_t> all;
   for (int i = 0; i < 8; ++i) {
-    const Force force = tick(bank, {{static_cast<float>(0.07 * uniform(random)), static_cast<float>(0.07 * uniform(random))},
-                                    {static_cast<float>(uniform(random)), static_cast<float>(uniform(random))}});
+    const Force force =
+        tick(bank, {{static_cast<float>(0.07 * uniform(random)), static_cast<float>(0.07 * uniform(random))},
+                    {static_cast<float>(uniform(random)), static_cast<float>(uniform(random))}});
     all.insert(all.end(), {std::bit_cast<std::uint32_t>(force.x), std::bit_cast<std::uint32_t>(force.y)});
   }
   return all;
@@ -89,27 +90,32 @@ TEST(RandomMaterials, AChangeOfRateChangesNoBit) {
   for (std::uint32_t seed = 0; seed < 500; ++seed) {
     RandomMaterial material(seed);
     material.write();
-    ASSERT_EQ(bits(Compiled(material.text(false)).only()), bits(Compiled(material.text(true)).only())) << material.text(false);
+    ASSERT_EQ(bits(Compiled(material.text(false)).only()), bits(Compiled(material.text(true)).only()))
+        << material.text(false);
   }
 }
 
 TEST(Rates, AGratingOfConstantsIsTheGratingOfParameters) {
   const auto grating = [](const std::string& word) {
-    return compiled("    " + word + " wale = 2.7 mm\n    " + word + " share = 0.4\n    " + word + " soft = 0.11\n    " + word +
-                    " push = 1.7 N\n    force = lateral(grating(x + 0.3 * y, period: wale, duty: share, smooth: soft), amplitude: push)");
+    return compiled("    " + word + " wale = 2.7 mm\n    " + word + " share = 0.4\n    " + word + " soft = 0.11\n    " +
+                    word +
+                    " push = 1.7 N\n    force = lateral(grating(x + 0.3 * y, period: wale, duty: share, smooth: soft), "
+                    "amplitude: push)");
   };
   EXPECT_EQ(bits(grating("let")), bits(grating("param")));
 }
 
 TEST(Rates, ASolvedAmplitudeIsSetupWhateverSetsIt) {
   const auto asked = compiled("    force = lateral(grating(x, period: 2 mm))", "", "roughness 0.6");
-  const auto given = compiled("    param push = 1.934 N in 0 N .. 5 N\n    force = lateral(grating(x, period: 2 mm), amplitude: push)");
+  const auto given = compiled(
+      "    param push = 1.934 N in 0 N .. 5 N\n    force = lateral(grating(x, period: 2 mm), amplitude: push)");
   EXPECT_EQ(asked.description().tick.size(), given.description().tick.size());
 }
 
 TEST(Arguments, AreEvaluatedWhereTheyAreWritten) {
   // A formal named like a name of the material means the formal, inside only.
-  const Program program = compiled("    let k = 2 N/m\n    force = scaled(3, 1 N/m) * hand + k * hand", "function scaled(k, unit) = k * unit");
+  const Program program = compiled("    let k = 2 N/m\n    force = scaled(3, 1 N/m) * hand + k * hand",
+                                   "function scaled(k, unit) = k * unit");
   Bank bank(program);
   EXPECT_FLOAT_EQ(tick(bank, {{0.01f, -0.02f}, {0, 0}}).x, 0.05f);
   EXPECT_FLOAT_EQ(tick(bank, {{0.01f, -0.02f}, {0, 0}}).y, -0.1f);

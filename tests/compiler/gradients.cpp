@@ -28,7 +28,8 @@ double grating(double along, double period, double duty = 0.5, double smooth = 2
 
 /// Slopes by central differences whose error is far below that of 32-bit arithmetic.
 std::array<double, 2> slope(const Height& height, double x, double y, double step = 1e-7) {
-  return {(height(x + step, y) - height(x - step, y)) / (2 * step), (height(x, y + step) - height(x, y - step)) / (2 * step)};
+  return {(height(x + step, y) - height(x - step, y)) / (2 * step),
+          (height(x, y + step) - height(x, y - step)) / (2 * step)};
 }
 
 /// Places all over the patch, away from its rim.
@@ -51,23 +52,31 @@ void expect_gradient(const std::string& expression, const Height& height, double
     const Force force = tick(bank, {place, {0, 0}});
     const auto expected = slope(height, place.x, place.y);
     for (int axis = 0; axis < 2; ++axis)
-      ASSERT_NEAR(force[axis] * 1e3, expected[axis], tolerance_per_metre) << expression << " at " << place.x << " " << place.y;
+      ASSERT_NEAR(force[axis] * 1e3, expected[axis], tolerance_per_metre)
+          << expression << " at " << place.x << " " << place.y;
   }
 }
 
 // At 70 mm a float of x is good to 4 nm; slopes bend by up to some 1e7 /m^2 at these periods.
 
 TEST(Gradient, OfAGrating) {
-  expect_gradient("grating(x, period: 2.5 mm)", [](double x, double) { return grating(x, 0.0025); }, 2);
-  expect_gradient("grating(y, period: 10 mm, duty: 0.3, smooth: 0.05)", [](double, double y) { return grating(y, 0.01, 0.3, 0.05); }, 0.5);
-  expect_gradient("grating(0.6 * x + 0.8 * y, period: 3 mm)", [](double x, double y) { return grating(0.6 * x + 0.8 * y, 0.003); }, 2);
+  expect_gradient(
+      "grating(x, period: 2.5 mm)", [](double x, double) { return grating(x, 0.0025); }, 2);
+  expect_gradient(
+      "grating(y, period: 10 mm, duty: 0.3, smooth: 0.05)",
+      [](double, double y) { return grating(y, 0.01, 0.3, 0.05); }, 0.5);
+  expect_gradient(
+      "grating(0.6 * x + 0.8 * y, period: 3 mm)", [](double x, double y) { return grating(0.6 * x + 0.8 * y, 0.003); },
+      2);
 }
 
 TEST(Gradient, OfSumsAndProducts) {
-  expect_gradient("grating(x, period: 3 mm) + 0.5 * grating(y, period: 5 mm)",
-                  [](double x, double y) { return grating(x, 0.003) + 0.5 * grating(y, 0.005); }, 2);
-  expect_gradient("grating(x, period: 3 mm) * grating(y, period: 5 mm)", [](double x, double y) { return grating(x, 0.003) * grating(y, 0.005); },
-                  2);
+  expect_gradient(
+      "grating(x, period: 3 mm) + 0.5 * grating(y, period: 5 mm)",
+      [](double x, double y) { return grating(x, 0.003) + 0.5 * grating(y, 0.005); }, 2);
+  expect_gradient(
+      "grating(x, period: 3 mm) * grating(y, period: 5 mm)",
+      [](double x, double y) { return grating(x, 0.003) * grating(y, 0.005); }, 2);
 }
 
 TEST(Gradient, OfEveryFunctionThatHasOne) {
@@ -95,19 +104,27 @@ TEST(Gradient, OfEveryFunctionThatHasOne) {
 
 TEST(Gradient, TakesTheSideThatCounts) {
   // Slopes of 1/20 mm on one side and 1/50 mm on the other; the kink itself is at places that are not drawn.
-  const auto expect_slopes = [](const std::string& text, const std::function<std::array<double, 2>(double, double)>& expected) {
+  const auto expect_slopes = [](const std::string& text,
+                                const std::function<std::array<double, 2>(double, double)>& expected) {
     const Program program = compiled("    force = grad(" + text + ") * 1 N * 1 mm");
     Bank bank(program);
     for (const auto& place : places(300)) {
       const Force force = tick(bank, {place, {0, 0}});
-      for (int axis = 0; axis < 2; ++axis) ASSERT_NEAR(force[axis] * 1e3, expected(place.x, place.y)[axis], 1e-3) << text;
+      for (int axis = 0; axis < 2; ++axis)
+        ASSERT_NEAR(force[axis] * 1e3, expected(place.x, place.y)[axis], 1e-3) << text;
     }
   };
   using Pair = std::array<double, 2>;
   expect_slopes("abs(x / 20 mm)", [](double x, double) { return Pair{x < 0 ? -50.0 : 50.0, 0}; });
-  expect_slopes("min(x / 20 mm, y / 50 mm)", [](double x, double y) { return x / 0.02 < y / 0.05 ? Pair{50, 0} : Pair{0, 20}; });
-  expect_slopes("max(x / 20 mm, y / 50 mm)", [](double x, double y) { return x / 0.02 > y / 0.05 ? Pair{50, 0} : Pair{0, 20}; });
-  expect_slopes("if x < 3 mm then y / 50 mm else 2 * x / 20 mm", [](double x, double) { return x < 0.003 ? Pair{0, 20} : Pair{100, 0}; });
+  expect_slopes("min(x / 20 mm, y / 50 mm)", [](double x, double y) {
+    return x / 0.02 < y / 0.05 ? Pair{50, 0} : Pair{0, 20};
+  });
+  expect_slopes("max(x / 20 mm, y / 50 mm)", [](double x, double y) {
+    return x / 0.02 > y / 0.05 ? Pair{50, 0} : Pair{0, 20};
+  });
+  expect_slopes("if x < 3 mm then y / 50 mm else 2 * x / 20 mm", [](double x, double) {
+    return x < 0.003 ? Pair{0, 20} : Pair{100, 0};
+  });
   expect_slopes("x / 20 mm + floor(y / 1 mm)", [](double, double) { return Pair{50, 0}; });
 }
 
@@ -143,8 +160,10 @@ TEST(Lateral, PushesDownhillScaledByItsPeakAndHeldAtItsAmplitude) {
       const double size = amplitude * std::hypot(s[0], s[1]) / peak;
       const double held = std::min(1.0, amplitude / size);
       // One percent: both peaks are percentiles of samples.
-      ASSERT_NEAR(force.x, -amplitude * s[0] / peak * held, 0.01 * amplitude) << text << " at " << place.x << " " << place.y;
-      ASSERT_NEAR(force.y, -amplitude * s[1] / peak * held, 0.01 * amplitude) << text << " at " << place.x << " " << place.y;
+      ASSERT_NEAR(force.x, -amplitude * s[0] / peak * held, 0.01 * amplitude)
+          << text << " at " << place.x << " " << place.y;
+      ASSERT_NEAR(force.y, -amplitude * s[1] / peak * held, 0.01 * amplitude)
+          << text << " at " << place.x << " " << place.y;
       ASSERT_LE(std::hypot(force.x, force.y), amplitude * (1 + 1e-6));
     }
   }
@@ -170,7 +189,8 @@ TEST(Gradient, OfAnImageIsThatOfOneSpline) {
   const float step = 1e-4f;  // a fiftieth of a pixel
   for (const auto& place : places(500)) {
     if (std::abs(place.x) > 0.026 || std::abs(place.y) > 0.021) continue;  // mirrored beyond, with a kink
-    const std::array<glm::vec2, 4> around{{{place.x + step, place.y}, {place.x - step, place.y}, {place.x, place.y + step}, {place.x, place.y - step}}};
+    const std::array<glm::vec2, 4> around{
+        {{place.x + step, place.y}, {place.x - step, place.y}, {place.x, place.y + step}, {place.x, place.y - step}}};
     std::array<float, 4> heights{};
     relief_all(bank, around, heights);
     const Force force = tick(bank, {place, {0, 0}});
@@ -187,7 +207,8 @@ TEST(Gradient, OfAnImageRunsTheRightWayUp) {
     for (int column = 0; column < 8; ++column) ramp += fmt::format("{} ", 10 * column + 20 * (7 - row));
   Files files;
   files.contents["ramp.pgm"] = ramp;
-  const Program program = compiled("    force = grad(image(\"ramp.pgm\", scale: 5 mm/px, height: 2.55 mm)) * 1 N", "", "", files);
+  const Program program =
+      compiled("    force = grad(image(\"ramp.pgm\", scale: 5 mm/px, height: 2.55 mm)) * 1 N", "", "", files);
   Bank bank(program);
   const Force force = tick(bank, {{0.001f, 0.002f}, {0, 0}});
   // 10 of 255 of 2.55 mm in 5 mm; the spline overshoots a little at the mirrored edges.

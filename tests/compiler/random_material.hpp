@@ -25,7 +25,8 @@ class RandomMaterial {
     std::string params;
     for (const auto& param : params_)
       params += inlined ? fmt::format("    let {} = {} {}\n", param.name, param.value, param.unit)
-                        : fmt::format("    param {0} = {1} {2} in 0.01 {2} .. 100 {2}\n", param.name, param.value, param.unit);
+                        : fmt::format("    param {0} = {1} {2} in 0.01 {2} .. 100 {2}\n", param.name, param.value,
+                                      param.unit);
     return fmt::format("wale 1\n\n{}\nmaterial m {{\n  physical {{\n{}{}  }}\n}}\n", declarations_, params, body_);
   }
 
@@ -80,8 +81,8 @@ class RandomMaterial {
   /// "mm", "N s/m", "kg m^2/s": some way to write the dimension, of about unit size.
   std::string unit(const Dimension& dimension) {
     static const std::vector<std::pair<Dimension, std::vector<std::string>>> known{
-        {length, {"m", "cm", "inch", "mm"}}, {{0, 1, 0}, {"kg", "g"}},      {{0, 0, 1}, {"s", "ms"}},
-        {force, {"N", "gf", "ozf", "pu"}},   {{0, 0, -1}, {"Hz", "kHz"}},   {{2, 1, -2}, {"J", "N m"}},
+        {length, {"m", "cm", "inch", "mm"}}, {{0, 1, 0}, {"kg", "g"}},        {{0, 0, 1}, {"s", "ms"}},
+        {force, {"N", "gf", "ozf", "pu"}},   {{0, 0, -1}, {"Hz", "kHz"}},     {{2, 1, -2}, {"J", "N m"}},
         {{0, 1, -2}, {"N/m", "N/cm"}},       {{0, 1, -1}, {"N s/m", "kg/s"}}, {{1, 0, -1}, {"m/s", "cm/s"}},
         {plain, {"", "", "%", "deg"}}};
     for (const auto& [which, units] : known)
@@ -125,7 +126,9 @@ class RandomMaterial {
     std::vector<std::string> fitting;
     for (const auto& name : names_)
       if (name.dimension == dimension && name.vector == vector) fitting.push_back(name.text);
-    if (hand_ && dimension == length) fitting.insert(fitting.end(), vector ? std::vector<std::string>{"hand"} : std::vector<std::string>{"x", "y"});
+    if (hand_ && dimension == length)
+      for (const char* place : {"hand", "x", "y"})
+        if (vector == (place[0] == 'h')) fitting.push_back(place);
     if (hand_ && vector && dimension == Dimension{1, 0, -1}) fitting.push_back("velocity");
     if (!vector && dimension == plain) fitting.push_back("pi");
     return fitting.empty() ? "" : fitting[static_cast<std::size_t>(below(static_cast<int>(fitting.size())))];
@@ -147,7 +150,7 @@ class RandomMaterial {
       case 6: return fmt::format("(if {} then {} else {})", condition(depth - 1), n(d), n(d));
       case 7: return one_in(2) ? fmt::format("abs({})", n(d)) : fmt::format("length({})", vector_of(d, depth - 1));
       case 8: return d[0] % 2 == 0 && d[1] % 2 == 0 && d[2] % 2 == 0 ? power(d, depth) : product(d, depth);
-      case 9: return fmt::format("{}({}, {}, {})", one_in(2) ? "clamp" : "within", n(d), literal(d), n(d));
+      case 9: return fmt::format("clamp({}, {}, {})", n(d), literal(d), n(d));
       case 10: return call(d, depth);
       case 11: {
         const Dimension a = small_dimension(), b{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
@@ -155,7 +158,9 @@ class RandomMaterial {
       }
       case 12: return fmt::format("{}({})", one_in(2) ? "sin" : "cos", n(plain));
       case 13: return fmt::format("exp(-abs({}))", n(plain));
-      case 14: return fmt::format("{}(0.2 + abs({}))", std::array{"log", "log2", "log10"}[static_cast<std::size_t>(below(3))], n(plain));
+      case 14:
+        return fmt::format("{}(0.2 + abs({}))", std::array{"log", "log2", "log10"}[static_cast<std::size_t>(below(3))],
+                           n(plain));
       case 15: return fmt::format("{}({})", one_in(2) ? "normal" : "smoothstep", n(plain));
       case 16: return fmt::format("floor({})", n(plain));
       default: return fmt::format("modulo({}, {})", n(plain), literal(plain));
@@ -172,8 +177,10 @@ class RandomMaterial {
   }
   /// Whole powers and roots, and of plain numbers any power.
   std::string power(const Dimension& d, int depth) {
-    const Dimension half{d[0] / 2, d[1] / 2, d[2] / 2}, twice{2 * d[0], 2 * d[1], 2 * d[2]}, inverse{-d[0], -d[1], -d[2]};
-    if (d == plain && one_in(3)) return fmt::format("(0.1 + abs({}))^{}.{}", number_of(plain, depth - 1), below(2), 1 + below(9));
+    const Dimension half{d[0] / 2, d[1] / 2, d[2] / 2}, twice{2 * d[0], 2 * d[1], 2 * d[2]},
+        inverse{-d[0], -d[1], -d[2]};
+    if (d == plain && one_in(3))
+      return fmt::format("(0.1 + abs({}))^{}.{}", number_of(plain, depth - 1), below(2), 1 + below(9));
     switch (below(3)) {
       case 0: return fmt::format("({})^2", number_of(half, depth - 1));
       case 1: return fmt::format("sqrt(abs({}))", number_of(twice, depth - 1));
@@ -184,7 +191,8 @@ class RandomMaterial {
     for (const auto& function : functions_) {
       if (function.result != d) continue;
       std::string arguments;
-      for (const auto& formal : function.formals) arguments += (arguments.empty() ? "" : ", ") + number_of(formal, depth - 1);
+      for (const auto& formal : function.formals)
+        arguments += (arguments.empty() ? "" : ", ") + number_of(formal, depth - 1);
       return fmt::format("{}({})", function.name, arguments);
     }
     return product(d, depth);
@@ -192,7 +200,8 @@ class RandomMaterial {
 
   std::string condition(int depth) {
     const Dimension d = small_dimension();
-    return fmt::format("{} {} {}", number_of(d, depth), std::array{"<", "<=", ">", ">="}[static_cast<std::size_t>(below(4))], number_of(d, depth));
+    return fmt::format("{} {} {}", number_of(d, depth),
+                       std::array{"<", "<=", ">", ">="}[static_cast<std::size_t>(below(4))], number_of(d, depth));
   }
 
   std::string vector_of(const Dimension& d, int depth) {
@@ -207,7 +216,8 @@ class RandomMaterial {
       case 1: return fmt::format("({} - {})", v(d), v(d));
       case 2: {
         const Dimension a = small_dimension(), b{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
-        return one_in(2) ? fmt::format("{} * {}", number_of(a, depth - 1), v(b)) : fmt::format("{} * {}", v(b), number_of(a, depth - 1));
+        return one_in(2) ? fmt::format("{} * {}", number_of(a, depth - 1), v(b))
+                         : fmt::format("{} * {}", v(b), number_of(a, depth - 1));
       }
       case 3: {
         const Dimension b = small_dimension(), a{d[0] + b[0], d[1] + b[1], d[2] + b[2]};

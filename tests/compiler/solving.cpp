@@ -48,9 +48,11 @@ TEST(Isolate, UndoesEachOperation) {
 TEST(Isolate, FindsTheUnknownOnEitherSideAndDeepInside) {
   Equation e;
   // 3 * log2(2 * x + 1) - 4 = 5
-  const TermId inner = e.terms.apply(Operation::add, e.terms.apply(Operation::multiply, e.number(2), e.unknown), e.number(1));
-  const TermId left =
-      e.terms.apply(Operation::subtract, e.terms.apply(Operation::multiply, e.number(3), e.terms.apply(Operation::log2, inner)), e.number(4));
+  const TermId inner =
+      e.terms.apply(Operation::add, e.terms.apply(Operation::multiply, e.number(2), e.unknown), e.number(1));
+  const TermId left = e.terms.apply(
+      Operation::subtract, e.terms.apply(Operation::multiply, e.number(3), e.terms.apply(Operation::log2, inner)),
+      e.number(4));
   EXPECT_DOUBLE_EQ(e.solved(left, 5), 3.5);
   const auto turned = isolate(e.terms, e.number(5), left, e.unknown);
   ASSERT_TRUE(turned);
@@ -70,7 +72,8 @@ TEST(Isolate, IsLinearInTheSizeOfTheLaw) {
   // Two to the power 200 ways lead to the constant; walking each would never end.
   Equation e;
   TermId shared = e.number(0.5);
-  for (int i = 0; i < 200; ++i) shared = e.terms.apply(Operation::multiply, e.number(0.5), e.terms.apply(Operation::add, shared, shared));
+  for (int i = 0; i < 200; ++i)
+    shared = e.terms.apply(Operation::multiply, e.number(0.5), e.terms.apply(Operation::add, shared, shared));
   EXPECT_DOUBLE_EQ(e.solved(e.terms.apply(Operation::add, e.unknown, shared), 2), 1.5);
 }
 
@@ -81,7 +84,8 @@ double amplitude_by(const std::string& law, double level) {
       "map grit from amplitude {{\n  law {}\n  valid amplitude 0.01 N .. 4 N\n  scatter 0.05\n"
       "  evidence slope measured, anchor measured, handle measured\n  on sandpaper\n  source \"a test\"\n}}\n",
       law);
-  const Program program = compiled("    force = lateral(grating(x, period: 2 mm))", declarations, fmt::format("grit {}", level));
+  const Program program =
+      compiled("    force = lateral(grating(x, period: 2 mm))", declarations, fmt::format("grit {}", level));
   return amplitude(Bank(program), 0);
 }
 
@@ -90,7 +94,8 @@ TEST(SolvedAmplitude, IsTheClosedForm) {
   EXPECT_NEAR(amplitude_by("magnitude = amplitude / 1 N", 0.5), 4 * 0.5, 1e-6);
   EXPECT_NEAR(amplitude_by("magnitude = 3 * (amplitude / 1 N)^0.5", 0.5), 4 * 0.25, 1e-5);
   EXPECT_NEAR(amplitude_by("magnitude = 2 * (amplitude / 1 N)^1.7", 0.5), 4 * std::pow(0.5, 1 / 1.7), 1e-5);
-  EXPECT_NEAR(amplitude_by("log10(magnitude) = 0.8 * log10(amplitude / 1 N) + 0.3", 0.25), 4 * std::pow(0.25, 1 / 0.8), 1e-5);
+  EXPECT_NEAR(amplitude_by("log10(magnitude) = 0.8 * log10(amplitude / 1 N) + 0.3", 0.25), 4 * std::pow(0.25, 1 / 0.8),
+              1e-5);
   EXPECT_NEAR(amplitude_by("magnitude = log(1 + amplitude / 2 N)", 0.5), 2 * (std::exp(0.5 * std::log(3.0)) - 1), 1e-5);
   EXPECT_NEAR(amplitude_by("sqrt(magnitude) = amplitude / 2 N", 0.25), 2, 1e-6);
   EXPECT_NEAR(amplitude_by("1 / magnitude = 3 N / amplitude", 0.3), 1.2, 1e-6);
@@ -105,14 +110,16 @@ TEST(SolvedAmplitude, OfMinskysMap) {
   ASSERT_TRUE(index);
   auto parameters = program.default_parameters();
   parameters[*index] = 0.3f;
-  EXPECT_NEAR(amplitude(Bank(program, parameters, program.default_size()), 0), 194 * 10.0 / 512 * std::pow(0.3, 1 / 0.759593), 1e-5);
+  EXPECT_NEAR(amplitude(Bank(program, parameters, program.default_size()), 0),
+              194 * 10.0 / 512 * std::pow(0.3, 1 / 0.759593), 1e-5);
 }
 
 TEST(SolvedAmplitude, ReadsBackAsItsLevel) {
   const Program program = compiled("    force = lateral(grating(x, period: 2 mm))", "", "roughness 0.6");
   EXPECT_NEAR(predict(Bank(program), 0, amplitude(Bank(program), 0)).level, 0.6, 1e-6);
   // log10 R = 0.759593 log10(99.02) - 0.513365 at 1.934 N, 99.02 program units
-  EXPECT_NEAR(predict(Bank(program), 0, 1.934f).magnitude, std::pow(10, 0.759593 * std::log10(1.934 * 51.2) - 0.513365), 1e-4);
+  EXPECT_NEAR(predict(Bank(program), 0, 1.934f).magnitude, std::pow(10, 0.759593 * std::log10(1.934 * 51.2) - 0.513365),
+              1e-4);
 }
 
 TEST(SolvedAmplitude, OfAPerceptAloneIsTheDevicesOwnRealisation) {

@@ -1,6 +1,3 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +7,15 @@
 #include <numbers>
 
 #include "compiler/image.hpp"
+#include "compiler/openimageio.hpp"
+
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+/// OpenImageIO 2.4's PNG reader leaves a damaged file by longjmp, past the destructor of its error's text.
+using LeaksOfPngReader = __lsan::ScopedDisabler;
+#else
+struct LeaksOfPngReader {};
+#endif
 
 namespace wale {
 namespace {
@@ -284,6 +290,7 @@ std::vector<std::pair<std::string, Bytes>> one_of_each() {
 }
 
 TEST(Image, TruncatedFilesAreRefusedWithWords) {
+  [[maybe_unused]] const LeaksOfPngReader leaks;
   for (const auto& [name, bytes] : one_of_each()) {
     read(bytes, name);
     for (double part : {0.02, 0.3, 0.6}) {
@@ -295,6 +302,7 @@ TEST(Image, TruncatedFilesAreRefusedWithWords) {
 }
 
 TEST(Image, DamagedFilesNeverCrashAndPrintNothing) {
+  [[maybe_unused]] const LeaksOfPngReader leaks;
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   std::uint32_t random = 1;

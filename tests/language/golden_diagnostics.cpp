@@ -3,8 +3,8 @@
 //     force = k * hand * wale       // error W0301: force expected, found energy; drop `* wale`
 //
 // The file is compiled as `wale check` compiles it. Each expectation must meet a diagnostic on its line, of its code,
-// whose message, expectation, finding or mend has each part of the text (parts are parted by "; "), and nothing else may
-// be wrong. Lines are read raw: an expectation may stand inside a text or comment that does not end.
+// whose message, expectation, finding or mend has each part of the text (parts are parted by "; "), and nothing else
+// may be wrong. Lines are read raw: an expectation may stand inside a text or comment that does not end.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -105,7 +105,8 @@ std::vector<fs::path> cases() {
 
 std::string case_name(const testing::TestParamInfo<fs::path>& info) {
   std::string name = info.param.parent_path().filename().string() + "_" + info.param.stem().string();
-  std::ranges::replace_if(name, [](unsigned char c) { return !std::isalnum(c); }, '_');
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return !std::isalnum(c); }, '_');
   return name;
 }
 
@@ -125,14 +126,16 @@ TEST_P(GoldenDiagnostics, AreThoseThatTheLinesSay) {
       << "no line expects " << code;
 
   for (const auto& each : expected) {
-    const auto found = std::ranges::find_if(diagnostics, [&](const auto& diagnostic) { return meets(diagnostic, each, sources); });
+    const auto found =
+        std::ranges::find_if(diagnostics, [&](const auto& diagnostic) { return meets(diagnostic, each, sources); });
     if (found == diagnostics.end())
-      ADD_FAILURE() << sources[each.source].name << ":" << each.line << ": nothing is the expected " << each.code << ": "
-                    << fmt::format("{}", each.parts.front()) << (each.parts.size() > 1 ? "; …" : "");
+      ADD_FAILURE() << sources[each.source].name << ":" << each.line << ": nothing is the expected " << each.code
+                    << ": " << fmt::format("{}", each.parts.front()) << (each.parts.size() > 1 ? "; …" : "");
     else
       diagnostics.erase(found);
   }
-  for (const auto& diagnostic : diagnostics) ADD_FAILURE() << "not expected:\n" << render_text(diagnostic, sources, false);
+  for (const auto& diagnostic : diagnostics)
+    ADD_FAILURE() << "not expected:\n" << render_text(diagnostic, sources, false);
 }
 
 TEST_P(GoldenDiagnostics, SayWhatToDo) {
@@ -160,7 +163,8 @@ TEST(DiagnosticCodes, EachHasACase) {
 #define CODE(number, name, severity, title) codes.insert(code_name(Code::name));
 #include "compiler/diagnostic_codes.def"
   for (const auto& code : codes)
-    EXPECT_NE(fs::exists(folder / code), without_cases.contains(code)) << code << " needs a folder of cases, or a reason";
+    EXPECT_NE(fs::exists(folder / code), without_cases.contains(code))
+        << code << " needs a folder of cases, or a reason";
   for (const auto& each : fs::directory_iterator(folder))
     EXPECT_TRUE(codes.contains(each.path().filename())) << each.path() << " is named after no code";
 }

@@ -1,11 +1,10 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "compiler/openimageio.hpp"
 #include "compiler/preview.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/exhibit.hpp"

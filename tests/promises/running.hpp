@@ -21,7 +21,8 @@ inline Program compiled(std::string text) {
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver({});
-  auto program = compile(sources, sources.add("test.wale", std::move(text)), "", default_device, *resolver, diagnostics);
+  auto program =
+      compile(sources, sources.add("test.wale", std::move(text)), "", default_device, *resolver, diagnostics);
   if (program) return *program;
   std::string reasons;
   for (const auto& diagnostic : diagnostics.all()) reasons += render_text(diagnostic, sources, false);

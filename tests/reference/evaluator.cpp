@@ -22,14 +22,34 @@ struct Unit {
 
 // From the SI brochure and NIST SP 811, not from schema/units.wale.
 const std::map<std::string, Unit> units{
-    {"m", {1, {1, 0, 0}}},       {"km", {1e3, {1, 0, 0}}},       {"cm", {1e-2, {1, 0, 0}}},   {"mm", {1e-3, {1, 0, 0}}},
-    {"um", {1e-6, {1, 0, 0}}},   {"inch", {0.0254, {1, 0, 0}}},  {"kg", {1, {0, 1, 0}}},      {"g", {1e-3, {0, 1, 0}}},
-    {"mg", {1e-6, {0, 1, 0}}},   {"s", {1, {0, 0, 1}}},          {"ms", {1e-3, {0, 0, 1}}},   {"us", {1e-6, {0, 0, 1}}},
-    {"Hz", {1, {0, 0, -1}}},     {"kHz", {1e3, {0, 0, -1}}},     {"N", {1, {1, 1, -2}}},      {"mN", {1e-3, {1, 1, -2}}},
-    {"kN", {1e3, {1, 1, -2}}},   {"gf", {9.80665e-3, {1, 1, -2}}}, {"J", {1, {2, 1, -2}}},    {"mJ", {1e-3, {2, 1, -2}}},
-    {"W", {1, {2, 1, -3}}},      {"Pa", {1, {-1, 1, -2}}},       {"pu", {10.0 / 512, {1, 1, -2}}},
-    {"ozf", {9.80665e-3 * 28.349523125, {1, 1, -2}}},            {"rad", {1, {}}},
-    {"deg", {std::acos(-1.0) / 180, {}}},                        {"%", {0.01, {}}},           {"counts", {1, {}}},
+    {"m", {1, {1, 0, 0}}},
+    {"km", {1e3, {1, 0, 0}}},
+    {"cm", {1e-2, {1, 0, 0}}},
+    {"mm", {1e-3, {1, 0, 0}}},
+    {"um", {1e-6, {1, 0, 0}}},
+    {"inch", {0.0254, {1, 0, 0}}},
+    {"kg", {1, {0, 1, 0}}},
+    {"g", {1e-3, {0, 1, 0}}},
+    {"mg", {1e-6, {0, 1, 0}}},
+    {"s", {1, {0, 0, 1}}},
+    {"ms", {1e-3, {0, 0, 1}}},
+    {"us", {1e-6, {0, 0, 1}}},
+    {"Hz", {1, {0, 0, -1}}},
+    {"kHz", {1e3, {0, 0, -1}}},
+    {"N", {1, {1, 1, -2}}},
+    {"mN", {1e-3, {1, 1, -2}}},
+    {"kN", {1e3, {1, 1, -2}}},
+    {"gf", {9.80665e-3, {1, 1, -2}}},
+    {"J", {1, {2, 1, -2}}},
+    {"mJ", {1e-3, {2, 1, -2}}},
+    {"W", {1, {2, 1, -3}}},
+    {"Pa", {1, {-1, 1, -2}}},
+    {"pu", {10.0 / 512, {1, 1, -2}}},
+    {"ozf", {9.80665e-3 * 28.349523125, {1, 1, -2}}},
+    {"rad", {1, {}}},
+    {"deg", {std::acos(-1.0) / 180, {}}},
+    {"%", {0.01, {}}},
+    {"counts", {1, {}}},
 };
 
 using Names = std::map<std::string, Quantity>;
@@ -80,7 +100,8 @@ Part smooth(double value, Part argument, double slope) {
 }
 Part exponential(Part a, double base) {  // base^a
   const double log_base = std::log(base), value = std::pow(base, a.value);
-  return rounded(value, value * std::expm1(std::abs(log_base) * a.error + function_rounding * (1 + std::abs(a.value * log_base))));
+  return rounded(
+      value, value * std::expm1(std::abs(log_base) * a.error + function_rounding * (1 + std::abs(a.value * log_base))));
 }
 Part logarithm(Part a, double base) {
   if (a.value <= 2 * a.error) throw Undecided{};
@@ -161,11 +182,13 @@ class Evaluator {
 
   Quantity operator()(const Call& node, const Names& names) {
     for (const auto& declaration : tree_.declarations)
-      if (const auto* function = std::get_if<FunctionDecl>(&declaration); function && function->name.text == node.callee.text) {
+      if (const auto* function = std::get_if<FunctionDecl>(&declaration);
+          function && function->name.text == node.callee.text) {
         Names inner;
         std::size_t position = 0;
         for (const auto& argument : node.arguments) {
-          const std::string formal = argument.name ? argument.name->text : function->parameters.at(position++).name.text;
+          const std::string formal =
+              argument.name ? argument.name->text : function->parameters.at(position++).name.text;
           inner[formal] = evaluate(argument.value, names);
         }
         for (const auto& formal : function->parameters)
@@ -228,7 +251,8 @@ class Evaluator {
   }
 
   Quantity compared(const Quantity& a, const Quantity& b, bool less_than, bool) {
-    require(a.type == Quantity::Type::number && b.type == Quantity::Type::number && a.dimension == b.dimension, "unlike sides");
+    require(a.type == Quantity::Type::number && b.type == Quantity::Type::number && a.dimension == b.dimension,
+            "unlike sides");
     // Ties are undecided, so whether equality counts makes no difference here.
     const bool holds = less_than ? less(part(a, 0), part(b, 0)) : less(part(b, 0), part(a, 0));
     return {Quantity::Type::condition, {holds ? 1.0 : 0.0, 0}, {}, {}};
@@ -281,7 +305,7 @@ class Evaluator {
       alike();
       return of(name == "min" ? smaller(scalar(0), scalar(1)) : larger(scalar(0), scalar(1)), dimension(0));
     }
-    if (name == "clamp" || name == "within") {
+    if (name == "clamp") {
       alike();
       return of(smaller(larger(scalar(0), scalar(1)), scalar(2)), dimension(0));
     }
@@ -296,7 +320,8 @@ class Evaluator {
     }
     if (name == "vector") {
       alike();
-      return {Quantity::Type::vector, {scalar(0).value, scalar(1).value}, {scalar(0).error, scalar(1).error}, dimension(0)};
+      return {
+          Quantity::Type::vector, {scalar(0).value, scalar(1).value}, {scalar(0).error, scalar(1).error}, dimension(0)};
     }
     if (name == "dot") return of(dot(arguments.at(0), arguments.at(1)), sum(dimension(0), dimension(1)));
     if (name == "length") return of(square_root(dot(arguments.at(0), arguments.at(0))), dimension(0));
@@ -327,10 +352,12 @@ Quantity force(const SyntaxTree& tree, const HandState& hand, const std::map<std
       if (const auto* param = std::get_if<ParamStatement>(&statement.what)) {
         Quantity value = evaluator.evaluate(param->value, names);
         // What is set is a float already.
-        if (const auto set = parameters.find(param->name.text); set != parameters.end()) value = number(set->second, value.dimension, 0);
+        if (const auto set = parameters.find(param->name.text); set != parameters.end())
+          value = number(set->second, value.dimension, 0);
         names[param->name.text] = value;
       }
-      if (const auto* let = std::get_if<LetStatement>(&statement.what)) names[let->name.text] = evaluator.evaluate(let->value, names);
+      if (const auto* let = std::get_if<LetStatement>(&statement.what))
+        names[let->name.text] = evaluator.evaluate(let->value, names);
       if (const auto* force = std::get_if<ForceStatement>(&statement.what)) {
         const Quantity result = evaluator.evaluate(force->value, names);
         require(result.type == Quantity::Type::vector && result.dimension == Dimension{1, 1, -2}, "no force");

@@ -14,9 +14,9 @@ namespace wale::reference {
 struct Quantity {
   enum class Type { number, vector, condition };
   Type type = Type::number;
-  std::array<double, 2> value{};           ///< a number and a condition use the first
-  std::array<double, 2> error{};           ///< absolute
-  std::array<double, 3> dimension{};       ///< exponents of m, kg and s
+  std::array<double, 2> value{};      ///< a number and a condition use the first
+  std::array<double, 2> error{};      ///< absolute
+  std::array<double, 3> dimension{};  ///< exponents of m, kg and s
 };
 
 /// Where the hand is and how it moves: m and m/s.

@@ -1,0 +1,168 @@
+// Help, versions, exit statuses, and files that are not what they should be.
+
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line {
+namespace {
+
+const std::vector<std::string> verbs{"check", "build", "describe", "feel", "sample", "preview", "devices"};
+
+TEST(Help, TellsADesignerACuratorAndAProgrammerWhereToStart) {
+  const Outcome help = wale({"--help"});
+  EXPECT_EQ(help.status, 0);
+  const std::string first_lines = help.out.substr(0, 800);
+  for (const char* who : {"designers", "curators", "programmers"})
+    EXPECT_TRUE(contains(first_lines, who)) << first_lines;
+  for (const auto& verb : verbs) EXPECT_TRUE(contains(help.out, "  " + verb)) << verb;
+}
+
+TEST(Help, EveryVerbHasItsOwn) {
+  for (const auto& verb : verbs) {
+    const Outcome help = wale({verb, "--help"});
+    EXPECT_EQ(help.status, 0) << verb;
+    EXPECT_TRUE(contains(help.out, verb)) << help.out;
+    EXPECT_EQ(help.err, "") << verb;
+  }
+}
+
+TEST(Version, NamesProgramAndLanguage) {
+  const Outcome version = wale({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(version.out.starts_with("wale ")) << version.out;
+  EXPECT_TRUE(contains(version.out, "language version 1"));
+}
+
+TEST(Misuse, IsStatus2AndSaysSo) {
+  const std::vector<std::vector<std::string>> misuses{{},
+                                                      {"nonsense"},
+                                                      {"chekc", corduroy},
+                                                      {"check"},
+                                                      {"build", corduroy},
+                                                      {"describe", corduroy, "--colour"},
+                                                      {"preview", corduroy},
+                                                      {"sample", corduroy},
+                                                      {"sample", corduroy, "--at", "0 mm, 0 mm", "--trace", "t.csv"},
+                                                      {"feel", corduroy, "--seconds", "long"},
+                                                      {"describe", corduroy, "--set"}};
+  for (const auto& words : misuses) {
+    const Outcome outcome = wale(words);
+    EXPECT_EQ(outcome.status, 2) << testing::PrintToString(words);
+    EXPECT_FALSE(outcome.err.empty()) << testing::PrintToString(words);
+  }
+}
+
+TEST(Misuse, NearestVerbIsProposed) { EXPECT_TRUE(contains(wale({"chekc", corduroy}).err, "`check`")); }
+
+TEST(Files, EveryVerbRefusesWhatCannotBeRead) {
+  const Folder folder;
+  const std::string folder_itself = folder / ".", missing = folder / "missing.wale";
+  for (const auto& file : {folder_itself, missing}) {
+    const std::vector<std::vector<std::string>> commands{{"check", file},
+                                                         {"build", file, "-o", folder / "out.wpp"},
+                                                         {"describe", file},
+                                                         {"feel", file, "--virtual-time", "--seconds", "0.1"},
+                                                         {"sample", file, "--at", "0 mm, 0 mm"},
+                                                         {"preview", file, "-o", folder / "out.png"}};
+    for (const auto& words : commands) {
+      const Outcome outcome = wale(words);
+      EXPECT_EQ(outcome.status, 1) << testing::PrintToString(words);
+      EXPECT_TRUE(contains(outcome.out + outcome.err, file == missing ? "no such file" : "folder"))
+          << outcome.out << outcome.err;
+    }
+  }
+}
+
+TEST(Files, TextThatIsNoneIsADiagnostic) {
+  const Folder folder;
+  const std::string empty = folder.write("empty.wale", ""),
+                    binary = folder.write("binary.wale", std::string("\x7f"
+                                                                     "ELF\0\xff\xfe",
+                                                                     7));
+  EXPECT_EQ(wale({"check", empty}).status, 1);
+  EXPECT_TRUE(contains(wale({"check", empty}).out, "W0104")) << wale({"check", empty}).out;
+  EXPECT_EQ(wale({"check", binary}).status, 1);
+  EXPECT_TRUE(contains(wale({"check", binary}).out, "W0107")) << wale({"check", binary}).out;
+  EXPECT_EQ(wale({"describe", binary}).status, 1);
+}
+
+TEST(Files, OutputsThatCannotBeWrittenAreErrors) {
+  const Folder folder;
+  const std::string nowhere = folder / "missing/out";
+  const std::vector<std::vector<std::string>> commands{
+      {"build", corduroy, "-o", nowhere + ".wpp"},
+      {"preview", corduroy, "-o", nowhere + ".png"},
+      {"sample", corduroy, "--at", "0 mm, 0 mm", "-o", nowhere + ".csv"},
+      {"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", nowhere + ".csv"}};
+  for (const auto& words : commands) {
+    const Outcome outcome = wale(words);
+    EXPECT_EQ(outcome.status, 1) << testing::PrintToString(words);
+    EXPECT_TRUE(contains(outcome.err, "cannot write")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "missing/out")) << outcome.err;
+  }
+}
+
+TEST(Check, CountsAndStatus) {
+  const Folder folder;
+  EXPECT_EQ(wale({"check", corduroy}).status, 0);
+  EXPECT_TRUE(contains(wale({"check", corduroy}).out, "1 file: 0 errors, 0 warnings"));
+  const std::string warned =
+      folder.write("warned.wale", "wale 1\nmaterial a { physical { let b = 2\n force = -1 N/m * hand } }\n");
+  const Outcome warning = wale({"check", corduroy, warned});
+  EXPECT_EQ(warning.status, 0) << "a warning is no error";
+  EXPECT_TRUE(contains(warning.out, "2 files: 0 errors, 1 warning")) << warning.out;
+  const std::string wrong =
+      folder.write("wrong.wale", "wale 1\nmaterial a { physical { param k = 3 N\n force = k * x } }\n");
+  const Outcome error = wale({"check", wrong, corduroy});
+  EXPECT_EQ(error.status, 1);
+  EXPECT_TRUE(contains(error.out, "N    = kg m   s^-2")) << error.out;
+  EXPECT_TRUE(contains(error.out, "N m  = kg m^2 s^-2")) << error.out;
+  EXPECT_TRUE(contains(error.out, "if `k` (line 2) is meant as a stiffness, give it in N/m")) << error.out;
+}
+
+TEST(Check, JsonHasEveryFieldOfADiagnostic) {
+  const Folder folder;
+  const std::string wrong = folder.write("wrong.wale", "wale 1\nmaterial a { physical { force = 3 mm * hand } }\n");
+  const Outcome outcome = wale({"check", "--json", wrong});
+  EXPECT_EQ(outcome.status, 1);
+  const auto diagnostics = outcome.json();
+  ASSERT_EQ(diagnostics.size(), 1u);
+  const auto& only = diagnostics[0];
+  EXPECT_EQ(only.at("code"), "W0301");
+  EXPECT_EQ(only.at("severity"), "error");
+  EXPECT_EQ(only.at("file"), wrong);
+  EXPECT_EQ(only.at("line"), 2);
+  EXPECT_EQ(only.at("column"), 33);
+  EXPECT_EQ(only.at("message"), "force expected, found area");
+  for (const char* field : {"end_line", "end_column", "expected", "found", "help"})
+    EXPECT_TRUE(only.contains(field)) << field;
+  EXPECT_EQ(wale({"check", "--json", corduroy}).json(), nlohmann::json::array());
+}
+
+TEST(Devices, AreTheSimulatedOneAndThoseToBuildFor) {
+  EXPECT_TRUE(contains(wale({"devices"}).out, "sandpaper"));
+  const auto devices = wale({"devices", "--json"}).json();
+  const auto named = [&](const std::string& name) {
+    for (const auto& device : devices)
+      if (device.at("name") == name) return device;
+    return nlohmann::json();
+  };
+  EXPECT_EQ(named("simulated").at("feel"), true);
+  EXPECT_EQ(named("sandpaper").at("force_newton"), 10.0);
+  EXPECT_EQ(named("sandpaper").at("rate_hz"), 900.0);
+}
+
+TEST(Choices, UnknownNamesAreRefusedWithTheNearest) {
+  const Folder folder;
+  const Outcome material = wale({"describe", corduroy, "--material", "corderoy"});
+  EXPECT_EQ(material.status, 1);
+  EXPECT_TRUE(contains(material.err, "`corduroy`")) << material.err;
+  const Outcome device = wale({"build", corduroy, "--device", "sandpapre", "-o", folder / "out.wpp"});
+  EXPECT_EQ(device.status, 1);
+  EXPECT_TRUE(contains(device.err, "`sandpaper`")) << device.err;
+  EXPECT_EQ(wale({"feel", corduroy, "--device", "phantom", "--virtual-time"}).status, 1);
+}
+
+}  // namespace
+}  // namespace wale::command_line

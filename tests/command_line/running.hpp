@@ -1,0 +1,90 @@
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// The `wale` binary run as a person runs it.
+namespace wale::command_line {
+
+namespace fs = std::filesystem;
+
+inline const std::string corduroy = std::string(WALE_SOURCE_DIR) + "/library/fabric/corduroy.wale";
+
+/// A folder of its own for one test, gone with it.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "wale-test-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  /// Writes a file and gives its path.
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return *this / name;
+  }
+
+ private:
+  fs::path path_;
+};
+
+inline std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What a command left behind.
+struct Outcome {
+  int status = -1;  ///< 128 and more: ended by a signal
+  std::string out, err;
+
+  nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+inline std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// Runs `wale` with these words; nothing is typed, and colours are off.
+inline Outcome wale(const std::vector<std::string>& words) {
+  const Folder folder;
+  std::string command = quoted(WALE_BINARY);
+  for (const auto& word : words) command += " " + quoted(word);
+  command += " </dev/null >" + quoted(folder / "out") + " 2>" + quoted(folder / "err");
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, bytes_of(folder / "out"), bytes_of(folder / "err")};
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The corduroy with `from` replaced by `to`.
+inline std::string corduroy_with(const std::string& from, const std::string& to) {
+  std::string text = bytes_of(corduroy);
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error("the corduroy has no " + from);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace wale::command_line

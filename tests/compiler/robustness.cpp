@@ -1,0 +1,102 @@
+// Files with words dropped, doubled, exchanged and borrowed from each other: most are wrong, and whatever is wrong with
+// them is said in words, at a place, with a mend; none crashes a stage or makes a program that the machine refuses.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "tests/compiler/compiling.hpp"
+
+namespace wale::compiling {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; };
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i + 1;
+    if (letter(text[i]))
+      while (end < text.size() && letter(text[end])) ++end;
+    words.push_back(text.substr(i, end - i));
+    i = end;
+  }
+  return words;
+}
+
+/// The library's materials and the cases of all diagnostics but those of damaged text and of size.
+std::vector<std::vector<std::string>> corpus() {
+  std::vector<fs::path> files;
+  for (const char* folder : {"library", "schema", "calibration", "tests/language/diagnostics"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(WALE_SOURCE_DIR) / folder))
+      if (entry.path().extension() == ".wale" && entry.path().string().find("W01") == std::string::npos &&
+          entry.path().string().find("W0603") == std::string::npos)
+        files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::vector<std::vector<std::string>> texts;
+  for (const auto& path : files) {
+    std::ifstream file(path, std::ios::binary);
+    texts.push_back(words_of({std::istreambuf_iterator<char>(file), {}}));
+  }
+  return texts;
+}
+
+TEST(MangledFiles, AreToldWhatIsWrong) {
+  const auto texts = corpus();
+  ASSERT_GT(texts.size(), 30u);
+  std::mt19937 random(1);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  long wrong = 0, right = 0;
+  for (int round = 0; round < 1500; ++round) {
+    std::vector<std::string> words = texts[below(texts.size())];
+    for (std::size_t change = below(4); change < 4; ++change) {
+      const auto& other = texts[below(texts.size())];
+      const auto at = words.begin() + static_cast<std::ptrdiff_t>(below(words.size()));
+      switch (below(5)) {
+        case 0: words.erase(at); break;
+        case 1: words.insert(at, *at); break;
+        case 2: std::swap(*at, words[below(words.size())]); break;
+        case 3: *at = other[below(other.size())]; break;
+        default: words.insert(at, {" ", other[below(other.size())], " "}); break;
+      }
+    }
+    std::string text;
+    for (const auto& word : words) text += word;
+
+    SourceSet sources;
+    Diagnostics diagnostics;
+    Files none;
+    const SourceId source = sources.add("mangled.wale", text);
+    const CheckedModule module = check_source(sources, source, none, diagnostics);
+    std::vector<Diagnostic> all = diagnostics.all();
+    if (!diagnostics.has_errors())
+      for (const auto& material : module.materials) {
+        Diagnostics of_material;
+        const auto program =
+            compile_material(module, material.name, default_device, sources, source, none, of_material);
+        EXPECT_EQ(program.has_value(), !of_material.has_errors()) << text;
+        all.insert(all.end(), of_material.all().begin(), of_material.all().end());
+      }
+    for (const auto& diagnostic : all) {
+      const std::string shown = render_text(diagnostic, sources, false);
+      ASSERT_LE(diagnostic.span.begin, diagnostic.span.end) << shown;
+      ASSERT_LE(diagnostic.span.end, sources[diagnostic.span.source].text.size()) << shown;
+      ASSERT_FALSE(diagnostic.message.empty()) << shown;
+      ASSERT_FALSE(diagnostic.help.empty() && diagnostic.expected.empty()) << shown;
+      ASSERT_EQ(shown.find("the machine refuses"), std::string::npos) << shown << text;
+      ASSERT_EQ(diagnostic.message.find("nan"), std::string::npos) << shown << text;
+    }
+    ++(all.empty() ? right : wrong);
+  }
+  EXPECT_GT(wrong, right);
+  EXPECT_GT(right, 10) << "some changes change nothing that matters";
+}
+
+}  // namespace
+}  // namespace wale::compiling
