@@ -1,5 +1,7 @@
 // The command line: a table of verbs, each a few calls into the folders.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -11,8 +13,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -54,7 +54,8 @@ int refuse(const std::string& reason) {
 bool colour(FILE* stream) { return isatty(fileno(stream)) && !std::getenv("NO_COLOR"); }
 
 void print_diagnostics(FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
-  for (const auto& diagnostic : diagnostics.all()) fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
+  for (const auto& diagnostic : diagnostics.all())
+    fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
 }
 
 /// Writes a whole file or says why not; "-" is standard output.
@@ -88,8 +89,9 @@ std::vector<Program> load_programs(const Choice& choice, bool all) {
     return {};
   }
   auto& bytes = std::get<ResolvedFile>(read).bytes;
-  const bool patch_program = std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
-                                                [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
+  const bool patch_program =
+      std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
+                         [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
   if (patch_program || choice.file.ends_with(".wpp")) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
     if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
@@ -111,7 +113,8 @@ std::vector<Program> load_programs(const Choice& choice, bool all) {
   std::vector<Program> programs;
   for (const auto& name : names) {
     if (diagnostics.has_errors()) break;
-    if (auto program = compile_material(module, name, choice.device, sources, source, *resolver, diagnostics)) programs.push_back(*program);
+    if (auto program = compile_material(module, name, choice.device, sources, source, *resolver, diagnostics))
+      programs.push_back(*program);
   }
   print_diagnostics(stderr, diagnostics, sources);
   if (diagnostics.has_errors()) programs.clear();
@@ -128,13 +131,16 @@ std::optional<std::vector<float>> chosen_parameters(const Program& program, cons
     const auto index = program.parameter(name);
     if (equals == std::string::npos || !index) {
       std::string known;
-      for (const auto& parameter : program.description().parameters) known += (known.empty() ? "" : ", ") + parameter.name;
-      refuse(equals == std::string::npos ? fmt::format("--set takes NAME=VALUE, not `{}`", setting)
-                                         : fmt::format("`{}` has no parameter `{}`; it has: {}", program.description().material, name,
-                                                       known.empty() ? "none" : known));
+      for (const auto& parameter : program.description().parameters)
+        known += (known.empty() ? "" : ", ") + parameter.name;
+      refuse(equals == std::string::npos
+                 ? fmt::format("--set takes NAME=VALUE, not `{}`", setting)
+                 : fmt::format("`{}` has no parameter `{}`; it has: {}", program.description().material, name,
+                               known.empty() ? "none" : known));
       return std::nullopt;
     }
-    const auto value = reader.parameter("--set " + name, program.description().parameters[*index], setting.substr(equals + 1));
+    const auto value =
+        reader.parameter("--set " + name, program.description().parameters[*index], setting.substr(equals + 1));
     if (!value) {
       print_diagnostics(stderr, reader.diagnostics(), reader.sources());
       return std::nullopt;
@@ -189,8 +195,11 @@ int check(const std::vector<std::string>& files, bool json) {
   } else {
     print_diagnostics(stdout, all, sources);
     const std::size_t warnings = all.all().size() - all.error_count();
-    const auto count = [](std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-    fmt::print("{}: {}, {}\n", count(files.size(), "file"), count(all.error_count(), "error"), count(warnings, "warning"));
+    const auto count = [](std::size_t n, const char* what) {
+      return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    fmt::print("{}: {}, {}\n", count(files.size(), "file"), count(all.error_count(), "error"),
+               count(warnings, "warning"));
   }
   return all.has_errors() ? refused : 0;
 }
@@ -199,7 +208,8 @@ int build(const Choice& choice, const std::string& out) {
   const auto programs = load_programs(choice, false);
   if (programs.empty()) return refused;
   const auto bytes = write_patch_program(programs.front().description());
-  if (const auto problem = write_file(out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()})) return refuse(*problem);
+  if (const auto problem = write_file(out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+    return refuse(*problem);
   return 0;
 }
 
@@ -216,12 +226,13 @@ int describe(const Choice& choice, const std::vector<std::string>& settings, boo
     fmt::print("{}", descriptions_json(descriptions));
     return 0;
   }
-  for (std::size_t i = 0; i < descriptions.size(); ++i) fmt::print("{}{}", i == 0 ? "" : "\n", description_text(descriptions[i]));
+  for (std::size_t i = 0; i < descriptions.size(); ++i)
+    fmt::print("{}{}", i == 0 ? "" : "\n", description_text(descriptions[i]));
   return 0;
 }
 
-int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at, const std::string& trace_file,
-           const std::string& out, bool json) {
+int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at,
+           const std::string& trace_file, const std::string& out, bool json) {
   const auto programs = load_programs(choice, false);
   if (programs.empty()) return refused;
   const auto parameters = chosen_parameters(programs.front(), settings);
@@ -230,7 +241,8 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
   if (!trace_file.empty()) {
     const auto trace = load_trace(trace_file);
     if (!trace) return refused;
-    for (const auto& point : trace->points) hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
+    for (const auto& point : trace->points)
+      hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
   } else {
     QuantityReader reader;
     const auto hand = reader.hand("--at", at);
@@ -253,7 +265,8 @@ int preview(const Choice& choice, const std::vector<std::string>& settings, cons
   if (!parameters) return refused;
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
   const Drawing drawing = draw_preview(bank, preview_text(bank));
-  if (!drawing.has_text) fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  if (!drawing.has_text)
+    fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
   if (const auto problem = save_drawing(drawing, out)) return refuse(problem->reason);
   return 0;
 }
@@ -268,7 +281,8 @@ struct FeelOptions {
 
 int feel(const FeelOptions& options) {
   if (options.device != "simulated")
-    return refuse(fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
+    return refuse(
+        fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
   const auto programs = load_programs(options.choice, false);
   if (programs.empty()) return refused;
   const Program& program = programs.front();
@@ -277,8 +291,10 @@ int feel(const FeelOptions& options) {
 
   const auto person = std::get<SimulatedPerson>(Library().person());
   Motion motion = person.lateral;
-  if (options.hand == "circular") motion = person.circular;
-  else if (options.hand == "rest") motion = Rest{};
+  if (options.hand == "circular")
+    motion = person.circular;
+  else if (options.hand == "rest")
+    motion = Rest{};
   else if (options.hand != "lateral") {
     auto trace = load_trace(options.hand);
     if (!trace) return refused;
@@ -288,11 +304,13 @@ int feel(const FeelOptions& options) {
   Stage stage(joystick);
   stage.place(program);
   for (std::size_t i = 0; i < parameters->size(); ++i)
-    if (const auto refusal = stage.set(program.description().parameters[i].name, (*parameters)[i])) return refuse(refusal->reason);
+    if (const auto refusal = stage.set(program.description().parameters[i].name, (*parameters)[i]))
+      return refuse(refusal->reason);
 
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
-  RunOptions run{.seconds = options.seconds, .virtual_time = options.virtual_time, .progress = {}, .stop = &interrupted};
+  RunOptions run{
+      .seconds = options.seconds, .virtual_time = options.virtual_time, .progress = {}, .stop = &interrupted};
   const bool live = isatty(fileno(stderr));
   if (live) run.progress = [](const Progress& now) { fmt::print(stderr, "\r{}", progress_line(now)); };
   const auto result = stage.run(run);
@@ -305,7 +323,8 @@ int feel(const FeelOptions& options) {
     write_csv(csv, done.record);
     if (const auto problem = write_file(options.record, csv.str())) return refuse(*problem);
   }
-  const FeltReport report = felt_report(*stage.bank(), done, joystick.profile(), {options.device, options.hand, options.virtual_time});
+  const FeltReport report =
+      felt_report(*stage.bank(), done, joystick.profile(), {options.device, options.hand, options.virtual_time});
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
   return 0;
 }
@@ -315,7 +334,8 @@ int devices(bool json) {
   return 0;
 }
 
-constexpr const char* about = R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
+constexpr const char* about =
+    R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
 
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
   curators     compare and trust:        wale describe --json FILE;  wale preview FILE -o OUT.png
@@ -338,7 +358,10 @@ int main(int argc, char** argv) {
   std::string out, at, trace;
   bool json = false;
   const auto with_settings = [&](CLI::App* verb, std::vector<std::string>& into) {
-    verb->add_option("--set", into, "a parameter's value, as in --set wale=5mm; may be repeated")->type_name("NAME=VALUE")->expected(1)->take_all();
+    verb->add_option("--set", into, "a parameter's value, as in --set wale=5mm; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->take_all();
   };
 
   auto* verb = app.add_subcommand("check", "says what is wrong with Wale files, and where, and how to mend it");
@@ -351,7 +374,8 @@ int main(int argc, char** argv) {
   verb->add_option("-o,--output", out, "the patch program to write (.wpp)")->required();
   verb->callback([&] { status = build(choice, out); });
 
-  verb = app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
+  verb =
+      app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
   choice.offer(*verb);
   with_settings(verb, settings);
   verb->add_flag("--json", json, "an object for one material, an array for several");
@@ -361,7 +385,8 @@ int main(int argc, char** argv) {
   feeling.choice.offer(*verb, "--built-for");
   with_settings(verb, feeling.settings);
   verb->add_option("--device", feeling.device, "the joystick (default: simulated; see `wale devices`)");
-  verb->add_option("--hand", feeling.hand, "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
+  verb->add_option("--hand", feeling.hand,
+                   "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   verb->add_option("--seconds", feeling.seconds, "how long (default: 5)");
   verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
   verb->add_option("--record", feeling.record, "writes every tick to a CSV file");
@@ -373,7 +398,8 @@ int main(int argc, char** argv) {
   with_settings(verb, settings);
   auto* places = verb->add_option_group("hands", "where the hand is")->require_option(1);
   places->add_option("--at", at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
-  places->add_option("--trace", trace, "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick");
+  places->add_option("--trace", trace,
+                     "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick");
   verb->add_option("-o,--output", out, "where to write (default: standard output)");
   verb->add_flag("--json", json, "a JSON array instead of CSV");
   verb->callback([&] { status = sample(choice, settings, at, trace, out.empty() ? "-" : out, json); });

@@ -1,10 +1,10 @@
 #include "calibration/felt_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace wale {
@@ -13,7 +13,9 @@ namespace {
 
 constexpr double settling_seconds = 0.5;  // forces slew in and the hand comes up to speed; half a run at most
 
-std::string force_text(const ForceSize& size) { return fmt::format("P99 {:.3f} N, maximum {:.3f} N, RMS {:.3f} N", size.p99, size.maximum, size.rms); }
+std::string force_text(const ForceSize& size) {
+  return fmt::format("P99 {:.3f} N, maximum {:.3f} N, RMS {:.3f} N", size.p99, size.maximum, size.rms);
+}
 
 nlohmann::ordered_json force_json(const ForceSize& size) {
   return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
@@ -44,23 +46,28 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
 
 std::string felt_text(const FeltReport& report) {
   const Felt& felt = report.felt;
-  std::string text = fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device, report.device.name,
-                                 report.manner.hand, report.seconds, report.manner.virtual_time ? " of virtual time" : "");
-  text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed, report.device.rate);
+  std::string text =
+      fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device, report.device.name,
+                  report.manner.hand, report.seconds, report.manner.virtual_time ? " of virtual time" : "");
+  text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed,
+                      report.device.rate);
   if (report.manner.virtual_time)
     text += "  lateness     none: virtual time\n";
   else
-    text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50, 1e6 * report.lateness.p99,
-                        1e6 * report.lateness.maximum);
+    text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50,
+                        1e6 * report.lateness.p99, 1e6 * report.lateness.maximum);
   if (!report.scheduling.empty()) text += fmt::format("  scheduling   {}\n", report.scheduling);
-  text += fmt::format("  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
-                      felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
-  if (report.predicted_amplitude > 0) text += fmt::format("  predicted    amplitude {:.3f} N\n", report.predicted_amplitude);
+  text += fmt::format(
+      "  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
+      felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
+  if (report.predicted_amplitude > 0)
+    text += fmt::format("  predicted    amplitude {:.3f} N\n", report.predicted_amplitude);
   if (felt.interaction)
-    text += fmt::format("  interaction  {} (hand on handle, with inertia and friction)\n",
-                        force_text(felt.interaction_rubbing && felt.ticks_rubbing > 0 ? *felt.interaction_rubbing : *felt.interaction));
-  text += fmt::format("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n", felt.crossings, 100 * felt.stuck,
-                      1e3 * felt.position_range);
+    text += fmt::format(
+        "  interaction  {} (hand on handle, with inertia and friction)\n",
+        force_text(felt.interaction_rubbing && felt.ticks_rubbing > 0 ? *felt.interaction_rubbing : *felt.interaction));
+  text += fmt::format("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
+                      felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const auto& level = report.levels[i];
     if (const auto* back = std::get_if<Prediction>(&level.back))
@@ -70,8 +77,8 @@ std::string felt_text(const FeltReport& report) {
       text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
   }
   if (report.levels.empty()) text += "  percepts     none to read back: nothing in its force is a texture\n";
-  text += fmt::format("  guards       slew {}, device limit {}, not-a-number {} (ticks)\n", report.guards.slew, report.guards.device_limit,
-                      report.guards.not_a_number);
+  text += fmt::format("  guards       slew {}, device limit {}, not-a-number {} (ticks)\n", report.guards.slew,
+                      report.guards.device_limit, report.guards.not_a_number);
   return text;
 }
 
@@ -85,7 +92,8 @@ std::string felt_json(const FeltReport& report) {
   json["virtual_time"] = report.manner.virtual_time;
   json["seconds"] = report.seconds;
   json["ticks"] = {{"run", report.ticks_run}, {"missed", report.ticks_missed}, {"rubbing", felt.ticks_rubbing}};
-  json["lateness"] = {{"p50_s", report.lateness.p50}, {"p99_s", report.lateness.p99}, {"max_s", report.lateness.maximum}};
+  json["lateness"] = {
+      {"p50_s", report.lateness.p50}, {"p99_s", report.lateness.p99}, {"max_s", report.lateness.maximum}};
   json["scheduling"] = report.scheduling;
   json["actuator"] = force_json(felt.force);
   json["actuator_rubbing"] = force_json(felt.force_rubbing);
@@ -105,14 +113,16 @@ std::string felt_json(const FeltReport& report) {
       entry = {{"refused", std::get<Refusal>(report.levels[i].back).reason}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
-  json["guards"] = {{"slew", report.guards.slew}, {"device_limit", report.guards.device_limit}, {"not_a_number", report.guards.not_a_number}};
+  json["guards"] = {{"slew", report.guards.slew},
+                    {"device_limit", report.guards.device_limit},
+                    {"not_a_number", report.guards.not_a_number}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string progress_line(const Progress& now) {
-  return fmt::format("{:7.1f} s  x {:6.1f} mm  y {:6.1f} mm  {:5.0f} mm/s  {:5.2f} N  {} ticks, {} missed{}\033[K", now.time, 1e3 * now.position.x,
-                     1e3 * now.position.y, 1e3 * glm::length(now.velocity), glm::length(now.force), now.ticks_run, now.ticks_missed,
-                     now.inside ? "" : "  (off the patch)");
+  return fmt::format("{:7.1f} s  x {:6.1f} mm  y {:6.1f} mm  {:5.0f} mm/s  {:5.2f} N  {} ticks, {} missed{}\033[K",
+                     now.time, 1e3 * now.position.x, 1e3 * now.position.y, 1e3 * glm::length(now.velocity),
+                     glm::length(now.force), now.ticks_run, now.ticks_missed, now.inside ? "" : "  (off the patch)");
 }
 
 }  // namespace wale

@@ -28,7 +28,7 @@ struct FeltReport {
   Felt felt;
   float predicted_amplitude = 0;  ///< N; 0 when no percept of the program says
   std::vector<LevelBack> levels;
-  std::vector<double> asked;      ///< beside `levels`: the level asked for, negative where none was
+  std::vector<double> asked;  ///< beside `levels`: the level asked for, negative where none was
 };
 
 /// Crossings below which a texture is not read back.

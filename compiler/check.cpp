@@ -1,9 +1,9 @@
 #include "compiler/check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "compiler/check_expression.hpp"
 #include "compiler/spelling.hpp"
@@ -30,7 +30,8 @@ class MaterialChecker {
     material_.name = declaration_.name.text;
     material_.span = declaration_.name.span;
     if (declaration_.derived_from)
-      not_built(tree_.span(*declaration_.derived_from), "materials made from other materials (`= …`)", "write out the physical block");
+      not_built(tree_.span(*declaration_.derived_from), "materials made from other materials (`= …`)",
+                "write out the physical block");
     check_representative();
     for (const auto& percept : declaration_.perceptual) check_percept(percept);
     for (const auto& statement : declaration_.physical) {
@@ -52,12 +53,14 @@ class MaterialChecker {
     const Value value = checker_.check(tree_, node.value, scope_);
     if (value.failed() || lacks_its_unit(node, value)) return declare_failed(node.name);
     if (value.type != Value::Type::number) {
-      report(Code::wrong_type, value.span, fmt::format("a parameter is a number, not {}", type_words(value.type)), "use one `param` for each part");
+      report(Code::wrong_type, value.span, fmt::format("a parameter is a number, not {}", type_words(value.type)),
+             "use one `param` for each part");
       return declare_failed(node.name);
     }
     const auto number = checker_.constant(tree_, node.value, scope_, value.dimension);
     if (!number) return declare_failed(node.name);
-    Parameter parameter{.name = node.name.text, .description = node.description.empty() ? node.documentation : node.description};
+    Parameter parameter{.name = node.name.text,
+                        .description = node.description.empty() ? node.documentation : node.description};
     parameter.value = static_cast<float>(*number);
     double low = *number, high = *number;
     if (node.range) {
@@ -66,9 +69,11 @@ class MaterialChecker {
       if (!from || !to) return declare_failed(node.name);
       low = *from, high = *to;
       if (low > high)
-        report(Code::value_out_of_range, tree_.span(node.range->low), "the range runs from high to low", "exchange its ends");
+        report(Code::value_out_of_range, tree_.span(node.range->low), "the range runs from high to low",
+               "exchange its ends");
       else if (!(*number >= low && *number <= high))
-        report(Code::value_out_of_range, tree_.span(node.value), fmt::format("the default of `{}` lies outside its range", node.name.text),
+        report(Code::value_out_of_range, tree_.span(node.value),
+               fmt::format("the default of `{}` lies outside its range", node.name.text),
                "widen the range or change the default");
     }
     parameter.low = static_cast<float>(low);
@@ -76,7 +81,10 @@ class MaterialChecker {
     std::tie(parameter.unit, parameter.unit_in_si) = written_unit(node, value.dimension);
     parameter.si_unit = surroundings_.declarations.names.unit(value.dimension);
     const auto index = static_cast<std::uint32_t>(material_.parameters.size());
-    declare(node.name, {.type = Value::Type::number, .x = material_.terms.parameter(index, node.name.span), .dimension = value.dimension, .span = node.name.span});
+    declare(node.name, {.type = Value::Type::number,
+                        .x = material_.terms.parameter(index, node.name.span),
+                        .dimension = value.dimension,
+                        .span = node.name.span});
     for (const auto& other : material_.parameters)
       if (other.name == parameter.name) return;  // reported as declared twice
     material_.parameters.push_back(std::move(parameter));
@@ -88,25 +96,29 @@ class MaterialChecker {
     Value value = checker_.check(tree_, node.value, scope_);
     if (value.failed()) return declare_failed(node.name);
     if (value.type != Value::Type::number) {
-      report(Code::wrong_type, value.span, fmt::format("a height is a number at each place, not {}", type_words(value.type)),
+      report(Code::wrong_type, value.span,
+             fmt::format("a height is a number at each place, not {}", type_words(value.type)),
              "give it by `x` and `y`, as in `grating(x, period: 2.5 mm)`");
       return declare_failed(node.name);
     }
     if (!value.dimension.plain() && value.dimension != surroundings_.declarations.dimension("length")) {
-      const auto sides = surroundings_.declarations.names.side_by_side(surroundings_.declarations.dimension("length"), value.dimension);
-      surroundings_.diagnostics.report({.code = Code::wrong_dimension,
-                                        .span = value.span,
-                                        .message = fmt::format("a height is a length or a plain number, found {}",
-                                                               surroundings_.declarations.names.words(value.dimension)),
-                                        .label = surroundings_.declarations.names.unit(value.dimension),
-                                        .expected = sides[0],
-                                        .found = sides[1],
-                                        .help = fmt::format("only its shape matters to `lateral`: make it plain, as in `/ 1 {}`",
-                                                            customary_unit(surroundings_.declarations, value.dimension))});
+      const auto sides = surroundings_.declarations.names.side_by_side(surroundings_.declarations.dimension("length"),
+                                                                       value.dimension);
+      surroundings_.diagnostics.report(
+          {.code = Code::wrong_dimension,
+           .span = value.span,
+           .message = fmt::format("a height is a length or a plain number, found {}",
+                                  surroundings_.declarations.names.words(value.dimension)),
+           .label = surroundings_.declarations.names.unit(value.dimension),
+           .expected = sides[0],
+           .found = sides[1],
+           .help = fmt::format("only its shape matters to `lateral`: make it plain, as in `/ 1 {}`",
+                               customary_unit(surroundings_.declarations, value.dimension))});
       return declare_failed(node.name);
     }
     if (material_.terms.dependence(value.x).velocity) {
-      report(Code::wrong_rate, value.span, "a height is a matter of place, and this changes with velocity", "use `x` and `y` only; add velocity to the force");
+      report(Code::wrong_rate, value.span, "a height is a matter of place, and this changes with velocity",
+             "use `x` and `y` only; add velocity to the force");
       return declare_failed(node.name);
     }
     last_height_ = value.x;
@@ -118,20 +130,27 @@ class MaterialChecker {
       report(Code::declared_twice, statement_span_, "a material has one force", "add the terms up in one `force = …`");
     force_seen_ = true;
     material_.force_span = tree_.span(node.value);
-    const Value value = checker_.check_as(tree_, node.value, scope_, Value::Type::vector, surroundings_.declarations.dimension("force"));
+    const Value value = checker_.check_as(tree_, node.value, scope_, Value::Type::vector,
+                                          surroundings_.declarations.dimension("force"));
     if (!value.failed()) material_.force = {value.x, value.y};
   }
 
   void operator()(const PatchStatement& node) {
-    if (node.sizes.size() != 2) return report(Code::wrong_type, statement_span_, "a patch has a width and a height", "write, for example, `patch 95 mm, 95 mm`");
+    if (node.sizes.size() != 2)
+      return report(Code::wrong_type, statement_span_, "a patch has a width and a height",
+                    "write, for example, `patch 95 mm, 95 mm`");
     std::array<double, 2> sizes{};
     for (int side = 0; side < 2; ++side) {
-      const auto size = checker_.constant(tree_, node.sizes[side], scope_, surroundings_.declarations.dimension("length"));
+      const auto size =
+          checker_.constant(tree_, node.sizes[side], scope_, surroundings_.declarations.dimension("length"));
       if (!size) return;
-      if (!(*size > 0)) return report(Code::value_out_of_range, tree_.span(node.sizes[side]), "a patch must be larger than nothing", "write, for example, `patch 95 mm, 95 mm`");
+      if (!(*size > 0))
+        return report(Code::value_out_of_range, tree_.span(node.sizes[side]), "a patch must be larger than nothing",
+                      "write, for example, `patch 95 mm, 95 mm`");
       sizes[side] = *size;
     }
-    if (material_.patch) return report(Code::declared_twice, statement_span_, "a material has one patch", "keep one of them");
+    if (material_.patch)
+      return report(Code::declared_twice, statement_span_, "a material has one patch", "keep one of them");
     material_.patch = sizes;
     material_.patch_span = statement_span_;
   }
@@ -140,8 +159,12 @@ class MaterialChecker {
     not_built(statement_span_, "`state`", "forces may depend on place, velocity and parameters");
     declare_failed(node.name);
   }
-  void operator()(const UpdateStatement&) { not_built(statement_span_, "updates of a state", "forces may depend on place, velocity and parameters"); }
-  void operator()(const ShowStatement&) { not_built(statement_span_, "`show`", "a preview shows the material's heights"); }
+  void operator()(const UpdateStatement&) {
+    not_built(statement_span_, "updates of a state", "forces may depend on place, velocity and parameters");
+  }
+  void operator()(const ShowStatement&) {
+    not_built(statement_span_, "`show`", "a preview shows the material's heights");
+  }
 
  private:
   void check_representative() {
@@ -165,11 +188,13 @@ class MaterialChecker {
         else if (key != "kind" && literal)
           texts.push_back(literal->text);
         else
-          report(Code::wrong_type, item.span, fmt::format("`{}` takes {}", key, key == "kind" ? "a word" : "texts in quotes"),
+          report(Code::wrong_type, item.span,
+                 fmt::format("`{}` takes {}", key, key == "kind" ? "a word" : "texts in quotes"),
                  key == "kind" ? "write, for example, `kind fabric.woven`" : fmt::format("write `{} \"…\"`", key));
       }
       for (const auto& [other, values] : material_.layers.representative)
-        if (other == key) report(Code::declared_twice, setting.key.span, fmt::format("`{}` is set twice", key), "put all into one");
+        if (other == key)
+          report(Code::declared_twice, setting.key.span, fmt::format("`{}` is set twice", key), "put all into one");
       material_.layers.representative.emplace_back(key, std::move(texts));
     }
   }
@@ -181,12 +206,14 @@ class MaterialChecker {
       for (const auto& [name, percept] : declarations.percepts) candidates.push_back(name);
       const auto near = nearest_spelling(node.name.text, candidates);
       return report(Code::unknown_name, node.name.span, fmt::format("nothing declares a percept `{}`", node.name.text),
-                    near ? fmt::format("did you mean `{}`?", *near) : fmt::format("known: {}", candidates.empty() ? "none" : candidates.front()));
+                    near ? fmt::format("did you mean `{}`?", *near)
+                         : fmt::format("known: {}", candidates.empty() ? "none" : candidates.front()));
     }
     if (node.tolerance) not_built(tree_.span(*node.tolerance), "a percept's tolerance", "give the level alone");
     for (const auto& other : material_.percepts)
       if (other.name == node.name.text)
-        return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text), "keep one of them");
+        return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text),
+                      "keep one of them");
     double level = 0;
     Span span = node.span;
     if (node.level_name) {
@@ -205,8 +232,10 @@ class MaterialChecker {
     }
     if (!(level >= 0 && level <= 1))
       return report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", level),
-                    level > 1 && level <= 100 ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text, level, level / 100)
-                                              : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text));
+                    level > 1 && level <= 100
+                        ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`",
+                                      node.name.text, level, level / 100)
+                        : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text));
     material_.percepts.push_back({node.name.text, level, span});
   }
 
@@ -223,7 +252,8 @@ class MaterialChecker {
     std::string known;
     for (const auto& candidate : candidates) known += (known.empty() ? "" : ", ") + candidate;
     report(Code::unknown_name, word.span, fmt::format("no level of {} is called `{}`", percept, word.text),
-           near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}; or give a number from 0 to 1", known.empty() ? "none" : known));
+           near ? fmt::format("did you mean `{}`?", *near)
+                : fmt::format("there are: {}; or give a number from 0 to 1", known.empty() ? "none" : known));
     return std::nullopt;
   }
 
@@ -239,7 +269,8 @@ class MaterialChecker {
     const std::string text(surroundings_.sources.text(value.span));
     surroundings_.diagnostics.report({.code = Code::wrong_dimension,
                                       .span = value.span,
-                                      .message = fmt::format("`{}` is {}, and its default has no unit", node.name.text, with_article(names.words(low.dimension))),
+                                      .message = fmt::format("`{}` is {}, and its default has no unit", node.name.text,
+                                                             with_article(names.words(low.dimension))),
                                       .expected = sides[0],
                                       .found = sides[1],
                                       .help = fmt::format("write `{} {}`", text, unit)});
@@ -274,10 +305,13 @@ class MaterialChecker {
 
   void declare(const Word& name, Value value) {
     if (names_hand_or_patch(name.text) || name.text == "open")
-      return report(Code::declared_twice, name.span, fmt::format("`{}` already means the hand's or the patch's own", name.text), "give it another name");
+      return report(Code::declared_twice, name.span,
+                    fmt::format("`{}` already means the hand's or the patch's own", name.text), "give it another name");
     if (const auto* other = scope_.find(name.text)) {
       const unsigned line = surroundings_.sources.place(other->declared).line;
-      return report(Code::declared_twice, name.span, fmt::format("`{}` is declared already, on line {}", name.text, line), "give one of them another name");
+      return report(Code::declared_twice, name.span,
+                    fmt::format("`{}` is declared already, on line {}", name.text, line),
+                    "give one of them another name");
     }
     scope_.names[name.text] = {.value = std::move(value), .declared = name.span};
   }
@@ -294,7 +328,8 @@ class MaterialChecker {
       if (!binding.used && !binding.value.failed()) unused.emplace_back(name, binding.declared);
     std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
     for (const auto& [name, span] : unused) {
-      const bool parameter = std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
+      const bool parameter =
+          std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
       report(Code::unused_name, span,
              parameter ? fmt::format("the parameter `{}` does nothing: no height and no force depends on it", name)
                        : fmt::format("nothing uses `{}`", name),
@@ -306,7 +341,8 @@ class MaterialChecker {
   void find_relief() {
     for (const auto& carrier : material_.carriers) {
       if (!carrier.relief) continue;
-      material_.relief = material_.relief ? material_.terms.apply(Operation::add, *material_.relief, *carrier.relief) : *carrier.relief;
+      material_.relief = material_.relief ? material_.terms.apply(Operation::add, *material_.relief, *carrier.relief)
+                                          : *carrier.relief;
     }
     if (!material_.relief) material_.relief = last_height_;
   }
@@ -316,7 +352,8 @@ class MaterialChecker {
   }
 
   void report(Code code, Span span, std::string message, std::string help) {
-    surroundings_.diagnostics.report({.code = code, .span = span, .message = std::move(message), .help = std::move(help)});
+    surroundings_.diagnostics.report(
+        {.code = code, .span = span, .message = std::move(message), .help = std::move(help)});
   }
 
   const SyntaxTree& tree_;

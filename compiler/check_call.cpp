@@ -1,9 +1,9 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "compiler/check_expression.hpp"
 #include "compiler/image.hpp"
@@ -25,13 +25,25 @@ struct Builtin {
 
 const std::vector<Builtin>& builtins() {
   static const std::vector<Builtin> table{
-      {"abs", {"value"}, 1},          {"floor", {"value"}, 1},   {"sqrt", {"value"}, 1},
-      {"sin", {"angle"}, 1},          {"cos", {"angle"}, 1},     {"exp", {"value"}, 1},
-      {"log", {"value"}, 1},          {"log2", {"value"}, 1},    {"log10", {"value"}, 1},
-      {"normal", {"value"}, 1},       {"min", {"a", "b"}, 2},    {"max", {"a", "b"}, 2},
-      {"vector", {"x", "y"}, 2},      {"length", {"vector"}, 1}, {"dot", {"a", "b"}, 2},
+      {"abs", {"value"}, 1},
+      {"floor", {"value"}, 1},
+      {"sqrt", {"value"}, 1},
+      {"sin", {"angle"}, 1},
+      {"cos", {"angle"}, 1},
+      {"exp", {"value"}, 1},
+      {"log", {"value"}, 1},
+      {"log2", {"value"}, 1},
+      {"log10", {"value"}, 1},
+      {"normal", {"value"}, 1},
+      {"min", {"a", "b"}, 2},
+      {"max", {"a", "b"}, 2},
+      {"vector", {"x", "y"}, 2},
+      {"length", {"vector"}, 1},
+      {"dot", {"a", "b"}, 2},
       {"within", {"value", "low", "high"}, 3},
-      {"grad", {"height"}, 1},        {"peak", {"value"}, 1},    {"hold", {"value", "ceiling"}, 2},
+      {"grad", {"height"}, 1},
+      {"peak", {"value"}, 1},
+      {"hold", {"value", "ceiling"}, 2},
       {"image", {"file", "scale", "height", "smooth"}, 3},
   };
   return table;
@@ -41,7 +53,9 @@ constexpr double log2_e = 1.4426950408889634, log10_2 = 0.30102999566398120, ln_
 
 }  // namespace
 
-bool is_builtin_function(const std::string& name) { return std::ranges::find(builtins(), name, &Builtin::name) != builtins().end(); }
+bool is_builtin_function(const std::string& name) {
+  return std::ranges::find(builtins(), name, &Builtin::name) != builtins().end();
+}
 
 /// The meaning of each function that the compiler knows; a member a function, so that each reads on its own.
 struct BuiltinFunctions {
@@ -55,7 +69,8 @@ struct BuiltinFunctions {
 
   bool number(std::size_t i) const {
     if (value(i).type == Value::Type::number) return true;
-    checker.report(Code::wrong_type, actuals[i].span, fmt::format("a number is due here, not {}", type_words(value(i).type)), "",
+    checker.report(Code::wrong_type, actuals[i].span,
+                   fmt::format("a number is due here, not {}", type_words(value(i).type)), "",
                    value(i).type == Value::Type::vector ? "take its `length(…)`, or work with `x` and `y`"
                                                         : "give a number, with its unit if it has one");
     return false;
@@ -65,7 +80,8 @@ struct BuiltinFunctions {
     if (value(i).dimension.plain()) return true;
     const auto& dimension = value(i).dimension;
     checker.report(Code::wrong_dimension, actuals[i].span,
-                   fmt::format("a plain number is due here, not {}", checker.names().words(dimension)), checker.names().unit(dimension),
+                   fmt::format("a plain number is due here, not {}", checker.names().words(dimension)),
+                   checker.names().unit(dimension),
                    fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
                                customary_unit(checker.surroundings_.declarations, dimension)));
     return false;
@@ -74,7 +90,9 @@ struct BuiltinFunctions {
   Value scalar(TermId x, Dimension dimension = {}) const {
     return {.type = Value::Type::number, .x = x, .dimension = dimension, .span = span};
   }
-  TermId scaled(TermId x, double factor) const { return terms().apply(Operation::multiply, x, terms().literal(factor, span), span); }
+  TermId scaled(TermId x, double factor) const {
+    return terms().apply(Operation::multiply, x, terms().literal(factor, span), span);
+  }
 
   Value of_plain(Operation operation, double before = 1, double after = 1) const {
     if (!plain(0)) return failed();
@@ -93,8 +111,8 @@ struct BuiltinFunctions {
     const auto root = power(value(0).dimension, 1, 2);
     if (!root)
       return checker.report(Code::wrong_dimension, actuals[0].span,
-                            fmt::format("the root of {} has no dimension", checker.names().words(value(0).dimension)), "",
-                            "divide it by a quantity of its own dimension first");
+                            fmt::format("the root of {} has no dimension", checker.names().words(value(0).dimension)),
+                            "", "divide it by a quantity of its own dimension first");
     return scalar(terms().apply(Operation::square_root, value(0).x, span), *root);
   }
 
@@ -121,12 +139,14 @@ struct BuiltinFunctions {
   Value vector() const {
     if (!number(0) || !number(1)) return failed();
     if (value(0).dimension != value(1).dimension) return mismatched(0, 1);
-    return {.type = Value::Type::vector, .x = value(0).x, .y = value(1).x, .dimension = value(0).dimension, .span = span};
+    return {
+        .type = Value::Type::vector, .x = value(0).x, .y = value(1).x, .dimension = value(0).dimension, .span = span};
   }
 
   bool is_vector(std::size_t i) const {
     if (value(i).type == Value::Type::vector) return true;
-    checker.report(Code::wrong_type, actuals[i].span, fmt::format("a vector is due here, not {}", type_words(value(i).type)), "",
+    checker.report(Code::wrong_type, actuals[i].span,
+                   fmt::format("a vector is due here, not {}", type_words(value(i).type)), "",
                    "give both parts, as in `vector(a, b)`");
     return false;
   }
@@ -156,10 +176,12 @@ struct BuiltinFunctions {
     if (known && low && high && !(*known >= *low && *known <= *high)) {
       const std::string unit = checker.names().unit(value(0).dimension);
       const std::string suffix = unit.empty() ? "" : " " + unit;
-      return checker.report(Code::value_out_of_range, terms()[value(0).x].span, fmt::format("{:.4g}{} is out of range", *known, suffix), "",
+      return checker.report(Code::value_out_of_range, terms()[value(0).x].span,
+                            fmt::format("{:.4g}{} is out of range", *known, suffix), "",
                             fmt::format("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
     }
-    return scalar(terms().apply(Operation::maximum, terms().apply(Operation::minimum, value(0).x, value(2).x, span), value(1).x, span),
+    return scalar(terms().apply(Operation::maximum, terms().apply(Operation::minimum, value(0).x, value(2).x, span),
+                                value(1).x, span),
                   value(0).dimension);
   }
 
@@ -169,13 +191,18 @@ struct BuiltinFunctions {
       return terms().add({.kind = TermKind::gradient, .a = value(0).x, .index = axis, .span = span});
     };
     const auto length_dimension = checker.surroundings_.declarations.dimension("length");
-    return {.type = Value::Type::vector, .x = along(0), .y = along(1), .dimension = value(0).dimension / length_dimension, .span = span};
+    return {.type = Value::Type::vector,
+            .x = along(0),
+            .y = along(1),
+            .dimension = value(0).dimension / length_dimension,
+            .span = span};
   }
 
   Value peak() const {
     if (!number(0)) return failed();
     if (terms().dependence(value(0).x).velocity)
-      return checker.report(Code::wrong_rate, actuals[0].span, "a peak is taken over places, and this changes with velocity", "",
+      return checker.report(Code::wrong_rate, actuals[0].span,
+                            "a peak is taken over places, and this changes with velocity", "",
                             "let the height depend on `x` and `y` only");
     return scalar(terms().add({.kind = TermKind::peak, .a = value(0).x, .span = span}), value(0).dimension);
   }
@@ -194,8 +221,10 @@ struct BuiltinFunctions {
     const TermId size = terms().apply(Operation::square_root, dot_product(value(0), value(0)), span);
     const TermId factor = terms().apply(Operation::minimum, terms().literal(1, span),
                                         terms().apply(Operation::divide, ceiling, size, span), span);
-    result.x = terms().apply(Operation::limit, terms().apply(Operation::multiply, value(0).x, factor, span), ceiling, span);
-    result.y = terms().apply(Operation::limit, terms().apply(Operation::multiply, value(0).y, factor, span), ceiling, span);
+    result.x =
+        terms().apply(Operation::limit, terms().apply(Operation::multiply, value(0).x, factor, span), ceiling, span);
+    result.y =
+        terms().apply(Operation::limit, terms().apply(Operation::multiply, value(0).y, factor, span), ceiling, span);
     return result;
   }
 
@@ -203,19 +232,21 @@ struct BuiltinFunctions {
     if (!number(i)) return std::nullopt;
     if (value(i).dimension != dimension) {
       const auto sides = checker.names().side_by_side(dimension, value(i).dimension);
-      checker.surroundings_.diagnostics.report({.code = Code::wrong_dimension,
-                                                .span = checker.blame(actuals[i].span),
-                                                .message = fmt::format("{} expected, found {}", checker.names().words(dimension),
-                                                                       checker.names().words(value(i).dimension)),
-                                                .label = checker.names().unit_beside(dimension, value(i).dimension),
-                                                .expected = sides[0],
-                                                .found = sides[1],
-                                                .help = fmt::format("write something like `{}`", example)});
+      checker.surroundings_.diagnostics.report(
+          {.code = Code::wrong_dimension,
+           .span = checker.blame(actuals[i].span),
+           .message = fmt::format("{} expected, found {}", checker.names().words(dimension),
+                                  checker.names().words(value(i).dimension)),
+           .label = checker.names().unit_beside(dimension, value(i).dimension),
+           .expected = sides[0],
+           .found = sides[1],
+           .help = fmt::format("write something like `{}`", example)});
       return std::nullopt;
     }
     const auto known = constant_value(terms(), value(i).x);
-    if (!known) checker.report(Code::not_constant, actuals[i].span, "a value known at compile time is due here", "it may change",
-                               "use numbers, units and constants; no parameters and no places");
+    if (!known)
+      checker.report(Code::not_constant, actuals[i].span, "a value known at compile time is due here", "it may change",
+                     "use numbers, units and constants; no parameters and no places");
     return known;
   }
 
@@ -223,31 +254,39 @@ struct BuiltinFunctions {
   Value image() const {
     const auto& declarations = checker.surroundings_.declarations;
     if (value(0).type != Value::Type::text)
-      return checker.report(Code::wrong_type, actuals[0].span, fmt::format("the name of a file is due here, not {}", type_words(value(0).type)),
-                            "", "write it in quotes, as in `image(\"slate.tif\", …)`");
+      return checker.report(Code::wrong_type, actuals[0].span,
+                            fmt::format("the name of a file is due here, not {}", type_words(value(0).type)), "",
+                            "write it in quotes, as in `image(\"slate.tif\", …)`");
     const auto scale = constant_argument(1, declarations.dimension("scale"), "0.1 mm/px");
     const auto height = constant_argument(2, declarations.dimension("length"), "0.8 mm");
-    const auto smooth = actuals[3].given ? constant_argument(3, declarations.dimension("length"), "0.2 mm") : std::optional<double>(0.0);
+    const auto smooth = actuals[3].given ? constant_argument(3, declarations.dimension("length"), "0.2 mm")
+                                         : std::optional<double>(0.0);
     if (!scale || !height || !smooth) return failed();
     if (!(*scale > 0))
-      return checker.report(Code::value_out_of_range, actuals[1].span, "the scale must be more than nothing", "", "write something like `0.1 mm/px`");
+      return checker.report(Code::value_out_of_range, actuals[1].span, "the scale must be more than nothing", "",
+                            "write something like `0.1 mm/px`");
     if (!(*smooth >= 0))
-      return checker.report(Code::value_out_of_range, actuals[3].span, "smoothing cannot be negative", "", "write something like `0.2 mm`");
+      return checker.report(Code::value_out_of_range, actuals[3].span, "smoothing cannot be negative", "",
+                            "write something like `0.2 mm`");
     if (!checker.surroundings_.resolver)
-      return checker.report(Code::not_constant, span, "no image can be read here", "", "use images in a material's physical block");
+      return checker.report(Code::not_constant, span, "no image can be read here", "",
+                            "use images in a material's physical block");
 
     const Source& source = checker.surroundings_.sources[span.source];
     auto resolved = checker.surroundings_.resolver->file(value(0).text, source.name);
     if (const auto* problem = std::get_if<ResolveProblem>(&resolved))
-      return checker.report(Code::unreadable_file, actuals[0].span, fmt::format("`{}` cannot be read: {}", value(0).text, problem->reason), "",
+      return checker.report(Code::unreadable_file, actuals[0].span,
+                            fmt::format("`{}` cannot be read: {}", value(0).text, problem->reason), "",
                             "give the path from the folder of this file");
     const auto& file = std::get<ResolvedFile>(resolved);
     auto read = read_height_image(std::as_bytes(std::span(file.bytes)), file.name, *smooth / *scale);
     if (const auto* problem = std::get_if<ImageProblem>(&read))
       return checker.report(problem->size ? Code::image_size : Code::unreadable_image, actuals[0].span,
                             fmt::format("`{}` {}", value(0).text, problem->reason), "",
-                            problem->size ? fmt::format("make its sides {} to {} pixels long", smallest_image_side, largest_image_side)
-                                          : "any picture that OpenImageIO reads will do: PNG, TIFF, JPEG, EXR and their like");
+                            problem->size
+                                ? fmt::format("give it at least {0} x {0} pixels, and at most {1} million in all",
+                                              smallest_image_side, most_image_pixels / 1'000'000)
+                                : "any picture that OpenImageIO reads will do: PNG, TIFF, JPEG, EXR and their like");
     auto& picture = std::get<HeightImage>(read);
 
     const double column = *scale * picture.pixels_per_column, row = *scale * picture.pixels_per_row;
@@ -258,8 +297,8 @@ struct BuiltinFunctions {
     const auto existing = std::ranges::find(checker.tables_, picture.table);
     const auto table = static_cast<std::uint32_t>(existing - checker.tables_.begin());
     if (existing == checker.tables_.end()) checker.tables_.push_back(std::move(picture.table));
-    const TermId sampled =
-        terms().add({.kind = TermKind::operation, .operation = Operation::sample, .a = u, .b = v, .index = table, .span = span});
+    const TermId sampled = terms().add(
+        {.kind = TermKind::operation, .operation = Operation::sample, .a = u, .b = v, .index = table, .span = span});
     const TermId code = terms().add({.kind = TermKind::component, .a = sampled, .index = 0, .span = span});
     return scalar(scaled(code, *height), declarations.dimension("length"));
   }
@@ -288,7 +327,8 @@ struct BuiltinFunctions {
   }
 };
 
-std::optional<std::string> ExpressionChecker::spelling_help(const std::string& word, const Scope* scope, bool functions) const {
+std::optional<std::string> ExpressionChecker::spelling_help(const std::string& word, const Scope* scope,
+                                                            bool functions) const {
   std::vector<std::string> candidates;
   if (functions) {
     for (const auto& [name, declared] : surroundings_.declarations.functions) candidates.push_back(name);
@@ -304,7 +344,8 @@ std::optional<std::string> ExpressionChecker::spelling_help(const std::string& w
   return fmt::format("did you mean `{}`?", *near);
 }
 
-bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string>& formals, Scope& scope,
+bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
+                                       const std::vector<std::string>& formals, Scope& scope,
                                        std::vector<Actual>& actuals) {
   actuals.assign(formals.size(), {});
   bool good = true;
@@ -317,7 +358,8 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
       index = static_cast<std::size_t>(std::ranges::find(formals, argument.name->text) - formals.begin());
       if (index == formals.size()) {
         const auto near = nearest_spelling(argument.name->text, formals);
-        report(Code::unknown_argument, argument.name->span, fmt::format("`{}` takes no argument `{}`", call.callee.text, argument.name->text), "",
+        report(Code::unknown_argument, argument.name->span,
+               fmt::format("`{}` takes no argument `{}`", call.callee.text, argument.name->text), "",
                near ? fmt::format("did you mean `{}`?", *near) : fmt::format("it takes: {}", fmt::join(formals, ", ")));
         good = false;
         continue;
@@ -325,15 +367,18 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
     } else {
       ++position;
       if (index >= formals.size()) {
-        report(Code::unknown_argument, span, fmt::format("`{}` takes {} argument{}, and this is one more", call.callee.text,
-                                                         formals.size(), formals.size() == 1 ? "" : "s"),
-               "", formals.empty() ? "write it without arguments" : fmt::format("it takes: {}", fmt::join(formals, ", ")));
+        report(Code::unknown_argument, span,
+               fmt::format("`{}` takes {} argument{}, and this is one more", call.callee.text, formals.size(),
+                           formals.size() == 1 ? "" : "s"),
+               "",
+               formals.empty() ? "write it without arguments" : fmt::format("it takes: {}", fmt::join(formals, ", ")));
         good = false;
         continue;
       }
     }
     if (actuals[index].given) {
-      report(Code::declared_twice, span, fmt::format("the argument `{}` is given twice", formals[index]), "", "give it once");
+      report(Code::declared_twice, span, fmt::format("the argument `{}` is given twice", formals[index]), "",
+             "give it once");
       good = false;
       continue;
     }
@@ -352,39 +397,45 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
   if (builtin == builtins().end()) {
     for (const auto& argument : call.arguments) check(tree, argument.value, scope);  // they have errors of their own
     return report(Code::unknown_name, call.callee.span, fmt::format("no function is called `{}`", call.callee.text), "",
-                  spelling_help(call.callee.text, nullptr, true).value_or("schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
+                  spelling_help(call.callee.text, nullptr, true)
+                      .value_or("schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
   }
   std::vector<Actual> actuals;
   if (!bind_arguments(tree, call, builtin->formals, scope, actuals)) return failed(span);
   for (std::size_t i = 0; i < builtin->needed; ++i)
     if (!actuals[i].given)
-      return report(Code::missing_argument, span, fmt::format("`{}` needs its argument `{}`", call.callee.text, builtin->formals[i]), "",
+      return report(Code::missing_argument, span,
+                    fmt::format("`{}` needs its argument `{}`", call.callee.text, builtin->formals[i]), "",
                     fmt::format("it takes: {}", fmt::join(builtin->formals, ", ")));
   for (const auto& actual : actuals)
     if (actual.given && actual.value.type == Value::Type::open)
-      return report(Code::wrong_type, actual.span, "`open` is the default of a function's argument, not a value", "", "leave the argument out");
+      return report(Code::wrong_type, actual.span, "`open` is the default of a function's argument, not a value", "",
+                    "leave the argument out");
   if ((builtin->name == "grad" || builtin->name == "peak" || builtin->name == "image") && !scope.hand)
-    return report(Code::not_constant, span, fmt::format("`{}` is of places on a patch, and a constant is due here", builtin->name), "",
+    return report(Code::not_constant, span,
+                  fmt::format("`{}` is of places on a patch, and a constant is due here", builtin->name), "",
                   "use it in a material's physical block");
   return BuiltinFunctions{*this, actuals, span}.dispatch(builtin->name);
 }
 
-Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, const Call& call, const Declared<FunctionDecl>& function,
-                                       Scope& scope) {
+Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, const Call& call,
+                                       const Declared<FunctionDecl>& function, Scope& scope) {
   const Span span = tree.span(expr);
   const auto& declaration = *function.node;
   if (std::ranges::find(callees_, call.callee.text) != callees_.end())
-    return report(Code::recursive_definition, call.callee.span, fmt::format("`{}` would call itself", call.callee.text), "",
-                  "functions are written out where they are called, so none may lead back to itself");
+    return report(Code::recursive_definition, call.callee.span, fmt::format("`{}` would call itself", call.callee.text),
+                  "", "functions are written out where they are called, so none may lead back to itself");
   if (callees_.size() >= deepest_call)
-    return report(Code::nested_too_deep, call.callee.span, fmt::format("more than {} definitions lead to one another here", deepest_call), "",
+    return report(Code::nested_too_deep, call.callee.span,
+                  fmt::format("more than {} definitions lead to one another here", deepest_call), "",
                   "write some of them out");
   if (terms_.size() > most_terms) {
     if (!std::exchange(too_large_, true))
-      surroundings_.diagnostics.report({.code = Code::program_too_large,
-                                        .span = call_sites_.empty() ? span : call_sites_.front(),
-                                        .message = fmt::format("written out, this comes to more than {} operations", most_terms),
-                                        .help = "functions are written out at every call; let them call each other less often"});
+      surroundings_.diagnostics.report(
+          {.code = Code::program_too_large,
+           .span = call_sites_.empty() ? span : call_sites_.front(),
+           .message = fmt::format("written out, this comes to more than {} operations", most_terms),
+           .help = "functions are written out at every call; let them call each other less often"});
     return failed(span);
   }
   std::vector<std::string> formals;
@@ -398,8 +449,9 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   for (std::size_t i = 0; i < formals.size(); ++i) {
     const auto& formal = declaration.parameters[i];
     if (!actuals[i].given && !formal.default_value) {
-      if (bound) report(Code::missing_argument, span, fmt::format("`{}` needs its argument `{}`", call.callee.text, formals[i]), "",
-             fmt::format("it takes: {}", fmt::join(formals, ", ")));
+      if (bound)
+        report(Code::missing_argument, span, fmt::format("`{}` needs its argument `{}`", call.callee.text, formals[i]),
+               "", fmt::format("it takes: {}", fmt::join(formals, ", ")));
       good = false;
       continue;
     }
@@ -417,7 +469,8 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
     }
     if (value.type == Value::Type::open && good) {
       value = {.type = Value::Type::number,
-               .x = terms_.add({.kind = TermKind::open, .index = static_cast<std::uint32_t>(open_spans_.size()), .span = span}),
+               .x = terms_.add(
+                   {.kind = TermKind::open, .index = static_cast<std::uint32_t>(open_spans_.size()), .span = span}),
                .dimension = dimension.value_or(Dimension{}),
                .span = span};
       open_spans_.push_back(blame(span));
@@ -425,7 +478,8 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
     const bool measurable = value.type == Value::Type::number || value.type == Value::Type::vector;
     if (dimension && measurable && value.dimension != *dimension) {
       for (std::size_t a = 0; a < call.arguments.size(); ++a)
-        if (tree.span(call.arguments[a].value) == actuals[i].span) report_dimension(tree, call.arguments[a].value, scope, value, *dimension);
+        if (tree.span(call.arguments[a].value) == actuals[i].span)
+          report_dimension(tree, call.arguments[a].value, scope, value, *dimension);
       good = false;
     }
     inner.names[formals[i]] = {.value = value, .declared = formal.name.span};
@@ -442,7 +496,8 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   return result;
 }
 
-void ExpressionChecker::record_carrier(const Call& call, const FunctionDecl& function, Scope& formals, const Value& result, Span span) {
+void ExpressionChecker::record_carrier(const Call& call, const FunctionDecl& function, Scope& formals,
+                                       const Value& result, Span span) {
   // A function with an argument that may be left open renders a percept: that argument is the carrier's size.
   for (const auto& formal : function.parameters) {
     if (!formal.default_value || result.type != Value::Type::vector) continue;

@@ -1,9 +1,9 @@
 #include "compiler/check_expression.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <unordered_map>
-
-#include <fmt/format.h>
 
 #include "compiler/spelling.hpp"
 
@@ -93,8 +93,8 @@ std::optional<double> constant_value(const Terms& terms, TermId id) {
 }
 
 bool names_hand_or_patch(std::string_view name) {
-  return name == "x" || name == "y" || name == "hand" || name == "velocity" || name == "patch_half_width" || name == "patch_half_height" ||
-         name == "patch_rim";
+  return name == "x" || name == "y" || name == "hand" || name == "velocity" || name == "patch_half_width" ||
+         name == "patch_half_height" || name == "patch_rim";
 }
 
 std::string customary_unit(const Declarations& declarations, const Dimension& dimension) {
@@ -130,20 +130,21 @@ const Unit* ExpressionChecker::unit(const std::string& name) const {
 
 Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope) {
   const Span span = tree.span(expr);
-  Value value = std::visit(
-      Overloaded{
-          [&](const NumberLiteral& literal) { return number(tree, expr, literal, scope); },
-          [&](const TextLiteral& literal) {
-            return Value{.type = Value::Type::text, .text = literal.text, .span = span};
-          },
-          [&](const NameUse& use) { return name({use.name, span}, scope); },
-          [&](const Unary& node) { return unary(tree, expr, node, scope); },
-          [&](const Binary& node) { return binary(tree, expr, node, scope); },
-          [&](const Call& node) { return call(tree, expr, node, scope); },
-          [&](const Conditional& node) { return conditional(tree, expr, node, scope); },
-          [&](const Erroneous&) { return failed(span); },
-      },
-      tree.expr(expr));
+  Value value = std::visit(Overloaded{
+                               [&](const NumberLiteral& literal) { return number(tree, expr, literal, scope); },
+                               [&](const TextLiteral& literal) {
+                                 return Value{.type = Value::Type::text, .text = literal.text, .span = span};
+                               },
+                               [&](const NameUse& use) {
+                                 return name({use.name, span}, scope);
+                               },
+                               [&](const Unary& node) { return unary(tree, expr, node, scope); },
+                               [&](const Binary& node) { return binary(tree, expr, node, scope); },
+                               [&](const Call& node) { return call(tree, expr, node, scope); },
+                               [&](const Conditional& node) { return conditional(tree, expr, node, scope); },
+                               [&](const Erroneous&) { return failed(span); },
+                           },
+                           tree.expr(expr));
   value.span = span;
   return value;
 }
@@ -158,9 +159,10 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
     const Unit* found = unit(part.name.text);
     if (!found) break;
     if (scope.find(part.name.text))
-      return report(Code::ambiguous_name, part.name.span,
-                    fmt::format("`{}` is a unit and a name of this material", part.name.text), "which of them?",
-                    fmt::format("give the name another spelling, or write `* {}` when the name is meant", part.name.text));
+      return report(
+          Code::ambiguous_name, part.name.span,
+          fmt::format("`{}` is a unit and a name of this material", part.name.text), "which of them?",
+          fmt::format("give the name another spelling, or write `* {}` when the name is meant", part.name.text));
     const int exponent = part.divides ? -part.exponent : part.exponent;
     const auto scaled = power(found->dimension, exponent);
     if (!scaled)
@@ -190,7 +192,8 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
     }
     Value factor_value = name(part.name, scope);
     if (part.exponent != 1) {
-      const Value exponent{.type = Value::Type::number, .x = terms_.literal(part.exponent, part.name.span), .span = part.name.span};
+      const Value exponent{
+          .type = Value::Type::number, .x = terms_.literal(part.exponent, part.name.span), .span = part.name.span};
       factor_value = raise(factor_value, exponent, part.name.span);
     }
     value = part.divides ? divide(value, factor_value, span) : multiply(value, factor_value, span);
@@ -238,7 +241,8 @@ Value ExpressionChecker::name(const Word& word, Scope& scope) {
     const auto known = constants_.find(found->second.node);
     if (known == constants_.end()) {
       if (callees_.size() >= deepest_call)
-        return report(Code::nested_too_deep, word.span, fmt::format("more than {} definitions lead to one another here", deepest_call), "",
+        return report(Code::nested_too_deep, word.span,
+                      fmt::format("more than {} definitions lead to one another here", deepest_call), "",
                       "write some of them out");
       callees_.push_back(guard);
       call_sites_.push_back(word.span);
@@ -254,25 +258,27 @@ Value ExpressionChecker::name(const Word& word, Scope& scope) {
   }
   const Unit* as_unit = unit(word.text);
   if (as_unit)
-    return report(Code::unknown_name, word.span, fmt::format("`{}` is a unit, and a unit follows a number", word.text), "",
-                  fmt::format("write `1 {}`", word.text));
+    return report(Code::unknown_name, word.span, fmt::format("`{}` is a unit, and a unit follows a number", word.text),
+                  "", fmt::format("write `1 {}`", word.text));
   if (surroundings_.declarations.functions.contains(word.text))
-    return report(Code::unknown_name, word.span, fmt::format("`{}` is a function and needs its arguments", word.text), "",
-                  fmt::format("write `{}(…)`", word.text));
+    return report(Code::unknown_name, word.span, fmt::format("`{}` is a function and needs its arguments", word.text),
+                  "", fmt::format("write `{}(…)`", word.text));
   const bool place = word.text == "hand" || word.text == "velocity" || word.text == "x" || word.text == "y";
   if (place)
-    return report(Code::not_constant, word.span, fmt::format("`{}` changes as the hand moves, and a constant is due here", word.text),
-                  "", "use numbers, units and other constants");
-  return report(Code::unknown_name, word.span, fmt::format("nothing here is called `{}`", word.text), "",
-                spelling_help(word.text, &scope, false)
-                    .value_or(fmt::format("declare it above, as in `let {} = …`", word.text)));
+    return report(Code::not_constant, word.span,
+                  fmt::format("`{}` changes as the hand moves, and a constant is due here", word.text), "",
+                  "use numbers, units and other constants");
+  return report(
+      Code::unknown_name, word.span, fmt::format("nothing here is called `{}`", word.text), "",
+      spelling_help(word.text, &scope, false).value_or(fmt::format("declare it above, as in `let {} = …`", word.text)));
 }
 
 Value ExpressionChecker::unary(const SyntaxTree& tree, ExprId, const Unary& node, Scope& scope) {
   Value value = check(tree, node.operand, scope);
   if (value.failed() || node.op == UnaryOperator::plus) return value;
   if (value.type != Value::Type::number && value.type != Value::Type::vector)
-    return report(Code::wrong_type, value.span, fmt::format("{} cannot be negated", type_words(value.type)), "", calculable(value.type));
+    return report(Code::wrong_type, value.span, fmt::format("{} cannot be negated", type_words(value.type)), "",
+                  calculable(value.type));
   value.x = terms_.apply(Operation::negate, value.x, value.span);
   if (value.type == Value::Type::vector) value.y = terms_.apply(Operation::negate, value.y, value.span);
   return value;
@@ -285,7 +291,8 @@ Value ExpressionChecker::binary(const SyntaxTree& tree, ExprId expr, const Binar
   if (left.failed() || right.failed()) return failed(span);
   for (const auto* side : {&left, &right})
     if (side->type != Value::Type::number && side->type != Value::Type::vector)
-      return report(Code::wrong_type, side->span, fmt::format("{} cannot be calculated with", type_words(side->type)), "", calculable(side->type));
+      return report(Code::wrong_type, side->span, fmt::format("{} cannot be calculated with", type_words(side->type)),
+                    "", calculable(side->type));
   switch (node.op) {
     case BinaryOperator::multiply: return multiply(left, right, span);
     case BinaryOperator::divide: return divide(left, right, span);
@@ -294,12 +301,13 @@ Value ExpressionChecker::binary(const SyntaxTree& tree, ExprId expr, const Binar
   }
 }
 
-Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
-                                        Span span) {
+Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left,
+                                        const Value& right, Scope& scope, Span span) {
   const BinaryOperator op = node.op;
   if (left.type != right.type)
-    return report(Code::wrong_type, span, fmt::format("{} and {} cannot be {}", type_words(left.type), type_words(right.type), verb(op)),
-                  "", "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
+    return report(Code::wrong_type, span,
+                  fmt::format("{} and {} cannot be {}", type_words(left.type), type_words(right.type), verb(op)), "",
+                  "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
   if (left.dimension != right.dimension) {
     auto sides = names().side_by_side(left.dimension, right.dimension);
     std::string help;
@@ -307,8 +315,8 @@ Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& no
       help = "to fit the left side: " + dimension_mend(tree, node.right, scope, left.dimension, right.dimension);
     for (const auto& [bare, other] : {std::pair{&left, &right}, std::pair{&right, &left}})
       if (bare->dimension.plain() && !other->dimension.plain())
-        help = fmt::format("a plain number needs a unit here, such as `{} {}`",
-                           surroundings_.sources.text(bare->span), customary_unit(surroundings_.declarations, other->dimension));
+        help = fmt::format("a plain number needs a unit here, such as `{} {}`", surroundings_.sources.text(bare->span),
+                           customary_unit(surroundings_.declarations, other->dimension));
     surroundings_.diagnostics.report({.code = Code::mismatched_dimensions,
                                       .span = blame(span),
                                       .message = fmt::format("{} and {} cannot be {}{}", names().words(left.dimension),
@@ -332,15 +340,18 @@ Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& no
   result.dimension = {};
   const bool swapped = op == BinaryOperator::greater || op == BinaryOperator::less_equal;
   const bool negated = op == BinaryOperator::less_equal || op == BinaryOperator::greater_equal;
-  result.x = swapped ? terms_.apply(Operation::less, right.x, left.x, span) : terms_.apply(Operation::less, left.x, right.x, span);
-  if (negated) result.x = terms_.apply(Operation::select, result.x, terms_.literal(0, span), terms_.literal(1, span), span);
+  result.x = swapped ? terms_.apply(Operation::less, right.x, left.x, span)
+                     : terms_.apply(Operation::less, left.x, right.x, span);
+  if (negated)
+    result.x = terms_.apply(Operation::select, result.x, terms_.literal(0, span), terms_.literal(1, span), span);
   return result;
 }
 
 Value ExpressionChecker::multiply(const Value& left, const Value& right, Span span) {
   if (left.failed() || right.failed()) return failed(span);
   if (left.type == Value::Type::vector && right.type == Value::Type::vector)
-    return report(Code::wrong_type, span, "two vectors have no single product", "", "use `dot(a, b)`, or multiply their parts");
+    return report(Code::wrong_type, span, "two vectors have no single product", "",
+                  "use `dot(a, b)`, or multiply their parts");
   Value result{.type = Value::Type::number, .dimension = left.dimension * right.dimension, .span = span};
   const Value& vector = left.type == Value::Type::vector ? left : right;
   if (vector.type == Value::Type::vector) {
@@ -369,8 +380,8 @@ Value ExpressionChecker::raise(const Value& base, const Value& exponent, Span sp
   if (base.type != Value::Type::number || exponent.type != Value::Type::number)
     return report(Code::wrong_type, span, "powers are of numbers", "", "use `dot(a, a)` for the square of a vector");
   if (!exponent.dimension.plain())
-    return report(Code::wrong_dimension, exponent.span, "an exponent is a plain number", names().unit(exponent.dimension),
-                  "divide it by a quantity of its own dimension");
+    return report(Code::wrong_dimension, exponent.span, "an exponent is a plain number",
+                  names().unit(exponent.dimension), "divide it by a quantity of its own dimension");
   Value result{.type = Value::Type::number, .span = span};
   const auto value = constant_value(terms_, exponent.x);
   constexpr int largest_whole = 16;
@@ -392,14 +403,16 @@ Value ExpressionChecker::raise(const Value& base, const Value& exponent, Span sp
         bool started = false;
         TermId square = base.x;
         for (int left = whole; left > 0; left >>= 1) {
-          if (left & 1) product = started ? terms_.apply(Operation::multiply, product, square, span) : square, started = true;
+          if (left & 1)
+            product = started ? terms_.apply(Operation::multiply, product, square, span) : square, started = true;
           if (left > 1) square = terms_.apply(Operation::multiply, square, square, span);
         }
         result.x = *value < 0 ? terms_.apply(Operation::divide, terms_.literal(1, span), product, span) : product;
         return result;
       }
-      result.x = terms_.apply(Operation::exp2,
-                              terms_.apply(Operation::multiply, exponent.x, terms_.apply(Operation::log2, base.x, span), span), span);
+      result.x = terms_.apply(
+          Operation::exp2,
+          terms_.apply(Operation::multiply, exponent.x, terms_.apply(Operation::log2, base.x, span), span), span);
       return result;
     }
   }
@@ -407,9 +420,11 @@ Value ExpressionChecker::raise(const Value& base, const Value& exponent, Span sp
     return report(Code::wrong_dimension, base.span,
                   value ? fmt::format("this power of {} is no dimension", names().words(base.dimension))
                         : fmt::format("{} to a power that may change has no dimension", names().words(base.dimension)),
-                  names().unit(base.dimension), "divide the base by a quantity of its own dimension, as in `(x / 1 mm)^1.3`");
-  result.x = terms_.apply(Operation::exp2,
-                          terms_.apply(Operation::multiply, exponent.x, terms_.apply(Operation::log2, base.x, span), span), span);
+                  names().unit(base.dimension),
+                  "divide the base by a quantity of its own dimension, as in `(x / 1 mm)^1.3`");
+  result.x = terms_.apply(
+      Operation::exp2, terms_.apply(Operation::multiply, exponent.x, terms_.apply(Operation::log2, base.x, span), span),
+      span);
   return result;
 }
 
@@ -420,21 +435,24 @@ Value ExpressionChecker::conditional(const SyntaxTree& tree, ExprId expr, const 
   const Value no = check(tree, node.no, scope);
   if (condition.failed() || yes.failed() || no.failed()) return failed(span);
   if (condition.type != Value::Type::boolean)
-    return report(Code::wrong_type, condition.span, fmt::format("a condition is due here, not {}", type_words(condition.type)), "",
+    return report(Code::wrong_type, condition.span,
+                  fmt::format("a condition is due here, not {}", type_words(condition.type)), "",
                   "compare it with something, as in `x < 5 mm`");
   if (yes.type != no.type || (yes.type != Value::Type::number && yes.type != Value::Type::vector))
-    return report(Code::wrong_type, span, fmt::format("`then` gives {} and `else` gives {}", type_words(yes.type), type_words(no.type)), "",
+    return report(Code::wrong_type, span,
+                  fmt::format("`then` gives {} and `else` gives {}", type_words(yes.type), type_words(no.type)), "",
                   "let both give a number, or both a vector");
   if (yes.dimension != no.dimension) {
     const auto sides = names().side_by_side(yes.dimension, no.dimension);
-    surroundings_.diagnostics.report({.code = Code::mismatched_dimensions,
-                                      .span = blame(span),
-                                      .message = fmt::format("`then` gives {}, `else` gives {}{}", names().words(yes.dimension),
-                                                             names().words(no.dimension), inside(span)),
-                                      .label = called_from(span),
-                                      .expected = sides[0] + "   (then)",
-                                      .found = sides[1] + "   (else)",
-                                      .help = "both must have one dimension"});
+    surroundings_.diagnostics.report(
+        {.code = Code::mismatched_dimensions,
+         .span = blame(span),
+         .message = fmt::format("`then` gives {}, `else` gives {}{}", names().words(yes.dimension),
+                                names().words(no.dimension), inside(span)),
+         .label = called_from(span),
+         .expected = sides[0] + "   (then)",
+         .found = sides[1] + "   (else)",
+         .help = "both must have one dimension"});
     return failed(span);
   }
   Value result = yes;
@@ -444,7 +462,8 @@ Value ExpressionChecker::conditional(const SyntaxTree& tree, ExprId expr, const 
   return result;
 }
 
-Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type, const Dimension& dimension) {
+Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type,
+                                  const Dimension& dimension) {
   Value value = check(tree, expr, scope);
   if (value.failed()) return value;
   const bool measurable = value.type == Value::Type::number || value.type == Value::Type::vector;
@@ -455,16 +474,18 @@ Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& sc
   if (value.type != type) {
     const std::string text(surroundings_.sources.text(value.span));
     const std::string zero = "0 " + names().unit(dimension);
-    return report(Code::wrong_type, value.span, fmt::format("{} is due here, not {}", type_words(type), type_words(value.type)), "",
-                  type == Value::Type::vector && measurable
-                      ? fmt::format("give both parts, as in `vector({}, {})`", text, zero)
-                  : value.type == Value::Type::vector ? fmt::format("take its `length({})`, or work with `x` and `y`", text)
-                                                      : calculable(value.type));
+    return report(
+        Code::wrong_type, value.span, fmt::format("{} is due here, not {}", type_words(type), type_words(value.type)),
+        "",
+        type == Value::Type::vector && measurable ? fmt::format("give both parts, as in `vector({}, {})`", text, zero)
+        : value.type == Value::Type::vector       ? fmt::format("take its `length({})`, or work with `x` and `y`", text)
+                                                  : calculable(value.type));
   }
   return value;
 }
 
-std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& dimension) {
+std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                                  const Dimension& dimension) {
   const Value value = check_as(tree, expr, scope, Value::Type::number, dimension);
   if (value.failed()) return std::nullopt;
   const auto known = constant_value(terms_, value.x);

@@ -68,14 +68,16 @@ class ExpressionChecker {
                       std::vector<Actual>& actuals);
   void record_carrier(const Call& call, const FunctionDecl& function, Scope& formals, const Value& result, Span span);
 
-  Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope, Span span);
+  Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
+                       Span span);
   Value multiply(const Value& left, const Value& right, Span span);
   Value divide(const Value& left, const Value& right, Span span);
   Value raise(const Value& base, const Value& exponent, Span span);
 
   Value failed(Span span) const;
   Value report(Code code, Span span, std::string message, std::string label = {}, std::string help = {});
-  void report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value, const Dimension& expected);
+  void report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value,
+                        const Dimension& expected);
   std::string dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
                              const Dimension& found);
   std::optional<std::string> spelling_help(const std::string& word, const Scope* scope, bool functions) const;
@@ -104,7 +106,8 @@ inline constexpr std::size_t deepest_call = 64;
 /// Whether the compiler itself defines a function of that name.
 bool is_builtin_function(const std::string& name);
 
-/// Whether the language itself gives this name a meaning on a patch: the hand's place and velocity, the patch's extents.
+/// Whether the language itself gives this name a meaning on a patch: the hand's place and velocity, the patch's
+/// extents.
 bool names_hand_or_patch(std::string_view name);
 
 /// The value of a term that depends on nothing, in double precision, or nothing.

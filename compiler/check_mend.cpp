@@ -1,8 +1,8 @@
 // What to write instead, when a dimension is wrong.
 
-#include <cstdlib>
-
 #include <fmt/format.h>
+
+#include <cstdlib>
 
 #include "compiler/check_expression.hpp"
 
@@ -43,7 +43,8 @@ bool base(const Dimension& dimension) {
 /// "one length too many", "one mass too few"; empty when no name fits the ratio.
 std::string surplus(const DimensionNames& names, const Dimension& ratio) {
   // "One time too few" says more than "one frequency too many".
-  if (const auto name = names.name(Dimension{} / ratio); name && base(Dimension{} / ratio)) return fmt::format("one {} too few", *name);
+  if (const auto name = names.name(Dimension{} / ratio); name && base(Dimension{} / ratio))
+    return fmt::format("one {} too few", *name);
   if (const auto name = names.name(ratio)) return fmt::format("one {} too many", *name);
   if (const auto name = names.name(Dimension{} / ratio)) return fmt::format("one {} too few", *name);
   return {};
@@ -51,8 +52,8 @@ std::string surplus(const DimensionNames& names, const Dimension& ratio) {
 
 }  // namespace
 
-std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
-                                              const Dimension& found) {
+std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope,
+                                              const Dimension& expected, const Dimension& found) {
   const std::string unit = customary_unit(surroundings_.declarations, expected);
   const auto text = [&](Span span) { return std::string(surroundings_.sources.text(span)); };
   if (found.plain()) {
@@ -60,7 +61,9 @@ std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId exp
       return fmt::format("a plain number needs its unit: write `{} {}`", text(tree.span(expr)), unit);
     return fmt::format("give it a unit, as in `({}) * 1 {}`", text(tree.span(expr)), unit);
   }
-  if (expected.plain()) return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`", customary_unit(surroundings_.declarations, found));
+  if (expected.plain())
+    return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
+                       customary_unit(surroundings_.declarations, found));
 
   ExprId bare = expr;
   while (const auto* unary = std::get_if<Unary>(&tree.expr(bare))) bare = unary->operand;
@@ -72,8 +75,8 @@ std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId exp
   std::vector<ProductName> factors;
   collect_names(tree, expr, false, factors);
 
-  // Of three factors or more, one that is exactly the surplus is the likeliest slip; then comes a name that would fit if
-  // it were declared in another unit.
+  // Of three factors or more, one that is exactly the surplus is the likeliest slip; then comes a name that would fit
+  // if it were declared in another unit.
   for (const auto& factor : factors) {
     const auto* binding = scope.find(factor.name);
     if (!binding || factor.divides || factors.size() < 3 || binding->value.dimension != ratio) continue;
@@ -87,26 +90,28 @@ std::string ExpressionChecker::dimension_mend(const SyntaxTree& tree, ExprId exp
     const Dimension needed = factor.divides ? binding->value.dimension * ratio : binding->value.dimension / ratio;
     if (const auto name = names().name(needed); name && !needed.plain()) {
       const unsigned line = surroundings_.sources.place(binding->declared).line;
-      return fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ", factor.name, line,
-                         with_article(*name), customary_unit(surroundings_.declarations, needed));
+      return fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ",
+                         factor.name, line, with_article(*name), customary_unit(surroundings_.declarations, needed));
     }
   }
   const auto inverse = names().name(Dimension{} / ratio);
-  if (const auto name = names().name(ratio); name && !(inverse && base(Dimension{} / ratio))) return fmt::format("{}; divide by {}", count, with_article(*name));
+  if (const auto name = names().name(ratio); name && !(inverse && base(Dimension{} / ratio)))
+    return fmt::format("{}; divide by {}", count, with_article(*name));
   if (inverse) return fmt::format("{}; multiply by {}", count, with_article(*inverse));
   return fmt::format("{} is due here, in {}", with_article(names().words(expected)), unit);
 }
 
-void ExpressionChecker::report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value, const Dimension& expected) {
+void ExpressionChecker::report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value,
+                                         const Dimension& expected) {
   const auto sides = names().side_by_side(expected, value.dimension);
-  surroundings_.diagnostics.report(
-      {.code = Code::wrong_dimension,
-       .span = blame(tree.span(expr)),
-       .message = fmt::format("{} expected, found {}{}", names().words(expected), names().words(value.dimension), inside(tree.span(expr))),
-       .label = names().unit_beside(expected, value.dimension),
-       .expected = sides[0],
-       .found = sides[1],
-       .help = dimension_mend(tree, expr, scope, expected, value.dimension)});
+  surroundings_.diagnostics.report({.code = Code::wrong_dimension,
+                                    .span = blame(tree.span(expr)),
+                                    .message = fmt::format("{} expected, found {}{}", names().words(expected),
+                                                           names().words(value.dimension), inside(tree.span(expr))),
+                                    .label = names().unit_beside(expected, value.dimension),
+                                    .expected = sides[0],
+                                    .found = sides[1],
+                                    .help = dimension_mend(tree, expr, scope, expected, value.dimension)});
 }
 
 }  // namespace wale

@@ -26,9 +26,9 @@ struct CheckedMaterial {
   std::vector<Parameter> parameters;
   std::vector<AskedPercept> percepts;
   std::vector<Carrier> carriers;
-  std::vector<Span> open_spans;           ///< one for each open quantity: the call that leaves it open
+  std::vector<Span> open_spans;  ///< one for each open quantity: the call that leaves it open
   std::optional<std::array<TermId, 2>> force;
-  std::optional<TermId> relief;           ///< the surface as it looks, when it has one
+  std::optional<TermId> relief;  ///< the surface as it looks, when it has one
   Span force_span;
   std::optional<std::array<double, 2>> patch;  ///< width and height in m, when the material says
   Span patch_span;

@@ -20,18 +20,20 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
 }
 
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& name, const std::string& device,
-                                        const SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
+                                        const SourceSet& sources, SourceId source, Resolver& resolver,
+                                        Diagnostics& diagnostics) {
   const CheckedMaterial* material = module.material(name);
   if (!material) {
     std::vector<std::string> candidates;
     for (const auto& other : module.materials) candidates.push_back(other.name);
     const auto near = nearest_spelling(name, candidates);
-    diagnostics.report({.code = Code::unknown_material,
-                        .span = {source, 0, 0},
-                        .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
-                        .help = near                 ? fmt::format("did you mean `{}`?", *near)
-                                : candidates.empty() ? "add one, as in `material corduroy { … }`"
-                                                     : fmt::format("it has `{}`", candidates.front())});
+    diagnostics.report(
+        {.code = Code::unknown_material,
+         .span = {source, 0, 0},
+         .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
+         .help = near                 ? fmt::format("did you mean `{}`?", *near)
+                 : candidates.empty() ? "add one, as in `material corduroy { … }`"
+                                      : fmt::format("it has `{}`", candidates.front())});
     return std::nullopt;
   }
   SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
@@ -42,10 +44,11 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
 
   auto loaded = Program::load(std::move(*program));
   if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
-    diagnostics.report({.code = Code::program_too_large,
-                        .span = solved.span,
-                        .message = fmt::format("the machine refuses `{}`: {}", solved.name, refusal->reason),
-                        .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
+    diagnostics.report(
+        {.code = Code::program_too_large,
+         .span = solved.span,
+         .message = fmt::format("the machine refuses `{}`: {}", solved.name, refusal->reason),
+         .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
   if (measure(Bank(std::get<Program>(loaded))).flat) {
@@ -58,8 +61,8 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   return std::get<Program>(std::move(loaded));
 }
 
-std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material, const std::string& device, Resolver& resolver,
-                               Diagnostics& diagnostics) {
+std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,
+                               const std::string& device, Resolver& resolver, Diagnostics& diagnostics) {
   const CheckedModule module = check_source(sources, source, resolver, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return compile_material(module, material, device, sources, source, resolver, diagnostics);

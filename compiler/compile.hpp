@@ -18,11 +18,12 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
 
 /// One material of a checked module to a program that runs: solve, lower, emit, verify, measure. None when there were
 /// errors. Without a name, the file's only or first material.
-std::optional<Program> compile_material(const CheckedModule& module, const std::string& material, const std::string& device,
-                                        const SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics);
+std::optional<Program> compile_material(const CheckedModule& module, const std::string& material,
+                                        const std::string& device, const SourceSet& sources, SourceId source,
+                                        Resolver& resolver, Diagnostics& diagnostics);
 
 /// A program from a text, all stages.
-std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material, const std::string& device,
-                               Resolver& resolver, Diagnostics& diagnostics);
+std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,
+                               const std::string& device, Resolver& resolver, Diagnostics& diagnostics);
 
 }  // namespace wale

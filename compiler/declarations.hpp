@@ -30,9 +30,9 @@ struct Percept {
   std::string name;
   std::string carrier;  ///< "lateral amplitude": the argument `amplitude` of the function `lateral`
   Dimension carrier_dimension;
-  double one = 0;                  ///< the carrier's size at level 1, SI
-  std::string reference_device;    ///< on which the reference stimulus was felt
-  double near_threshold = 0;       ///< level below which the percept is near or below threshold
+  double one = 0;                ///< the carrier's size at level 1, SI
+  std::string reference_device;  ///< on which the reference stimulus was felt
+  double near_threshold = 0;     ///< level below which the percept is near or below threshold
   std::string documentation;
   Span span;
 };
@@ -56,7 +56,7 @@ struct DeviceDeclaration {
   DeviceProfile profile;
   std::string source;
   std::string documentation;
-  std::vector<std::string> assumed;                                   ///< settings that nobody measured
+  std::vector<std::string> assumed;                                     ///< settings that nobody measured
   std::map<std::string, std::pair<const SyntaxTree*, ExprId>> realise;  ///< a force for a percept alone
   Span span;
 };

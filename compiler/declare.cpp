@@ -1,8 +1,8 @@
 #include "compiler/declare.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "compiler/declare_records.hpp"
 #include "compiler/spelling.hpp"
@@ -29,7 +29,8 @@ class Declarer {
       dimension = *known;
     } else {
       if (names.base_units.size() == Dimension::capacity)
-        return report(Code::number_out_of_range, node.name.span, fmt::format("more than {} base dimensions", Dimension::capacity),
+        return report(Code::number_out_of_range, node.name.span,
+                      fmt::format("more than {} base dimensions", Dimension::capacity),
                       "define it by others, as in `dimension area = length^2`");
       dimension.twelfths[names.base_units.size()] = Dimension::unit_exponent;
       names.base_units.push_back(node.name.text);  // until its unit is declared
@@ -59,11 +60,13 @@ class Declarer {
       if (value.failed()) return;
       const auto factor = value.type == Value::Type::number ? constant_value(terms, value.x) : std::nullopt;
       if (!factor || !std::isfinite(*factor) || *factor <= 0)
-        return report(Code::not_constant, value.span, "a unit is a positive quantity known at compile time", "write, for example, `unit thou = 25.4 um`");
+        return report(Code::not_constant, value.span, "a unit is a positive quantity known at compile time",
+                      "write, for example, `unit thou = 25.4 um`");
       unit = {*factor, value.dimension};
     }
     declarations_.units[node.name.text] = unit;
-    if (unit.factor == 1 && !unit.dimension.plain()) declarations_.names.units.push_back({node.name.text, unit.dimension});
+    if (unit.factor == 1 && !unit.dimension.plain())
+      declarations_.names.units.push_back({node.name.text, unit.dimension});
   }
 
   void operator()(const Constant& node) {
@@ -72,14 +75,17 @@ class Declarer {
   }
 
   void operator()(const FunctionDecl& node) {
-    if (declarations_.functions.contains(node.name.text) || is_builtin_function(node.name.text)) return twice(node.name, "function");
+    if (declarations_.functions.contains(node.name.text) || is_builtin_function(node.name.text))
+      return twice(node.name, "function");
     for (std::size_t i = 0; i < node.parameters.size(); ++i)
       for (std::size_t before = 0; before < i; ++before)
         if (node.parameters[i].name.text == node.parameters[before].name.text)
-          report(Code::declared_twice, node.parameters[i].name.span, fmt::format("`{}` has two arguments `{}`", node.name.text, node.parameters[i].name.text),
+          report(Code::declared_twice, node.parameters[i].name.span,
+                 fmt::format("`{}` has two arguments `{}`", node.name.text, node.parameters[i].name.text),
                  "give one of them another name");
     for (const auto& parameter : node.parameters)
-      if (parameter.dimension && !declarations_.dimensions.contains(parameter.dimension->text)) unknown_dimension(*parameter.dimension);
+      if (parameter.dimension && !declarations_.dimensions.contains(parameter.dimension->text))
+        unknown_dimension(*parameter.dimension);
     declarations_.functions[node.name.text] = {&tree_, &node};
   }
 
@@ -109,8 +115,9 @@ class Declarer {
       Dimension dimension;
       for (const auto& part : number->suffix) {
         const auto found = declarations_.dimensions.find(part.name.text);
-        const auto raised =
-            found == declarations_.dimensions.end() ? std::nullopt : power(found->second, part.divides ? -part.exponent : part.exponent);
+        const auto raised = found == declarations_.dimensions.end()
+                                ? std::nullopt
+                                : power(found->second, part.divides ? -part.exponent : part.exponent);
         if (!raised) {
           unknown_dimension(part.name);
           return std::nullopt;
@@ -130,7 +137,8 @@ class Declarer {
       if (!left) return std::nullopt;
       if (binary->op == BinaryOperator::power) {
         const auto* exponent = std::get_if<NumberLiteral>(&tree_.expr(binary->right));
-        if (exponent && exponent->suffix.empty() && std::abs(exponent->value) <= 32 && exponent->value == std::floor(exponent->value))
+        if (exponent && exponent->suffix.empty() && std::abs(exponent->value) <= 32 &&
+            exponent->value == std::floor(exponent->value))
           if (const auto raised = power(*left, static_cast<int>(exponent->value))) return raised;
       } else if (binary->op == BinaryOperator::multiply || binary->op == BinaryOperator::divide) {
         const auto right = dimension_of(binary->right);
@@ -138,7 +146,8 @@ class Declarer {
         return binary->op == BinaryOperator::multiply ? *left * *right : *left / *right;
       }
     }
-    report(Code::wrong_type, tree_.span(expr), "a dimension is a product of dimensions", "write, for example, `dimension force = mass * length / time^2`");
+    report(Code::wrong_type, tree_.span(expr), "a dimension is a product of dimensions",
+           "write, for example, `dimension force = mass * length / time^2`");
     return std::nullopt;
   }
 
@@ -147,11 +156,13 @@ class Declarer {
     for (const auto& [name, dimension] : declarations_.dimensions) candidates.push_back(name);
     const auto near = nearest_spelling(word.text, candidates);
     report(Code::unknown_name, word.span, fmt::format("nothing declares a dimension `{}`", word.text),
-           near ? fmt::format("did you mean `{}`?", *near) : fmt::format("declare it, as in `dimension {} = …`", word.text));
+           near ? fmt::format("did you mean `{}`?", *near)
+                : fmt::format("declare it, as in `dimension {} = …`", word.text));
   }
 
   void twice(const Word& word, const char* kind) {
-    report(Code::declared_twice, word.span, fmt::format("a {} `{}` is declared already", kind, word.text), "give one of them another name");
+    report(Code::declared_twice, word.span, fmt::format("a {} `{}` is declared already", kind, word.text),
+           "give one of them another name");
   }
 
   void report(Code code, Span span, std::string message, std::string help) {
@@ -173,7 +184,8 @@ void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& dec
     if (!std::holds_alternative<RecordDecl>(declaration)) std::visit(declarer, declaration);
   for (const char* keyword : {"percept", "map", "device", "levels", "hand"})
     for (const auto& declaration : tree.declarations)
-      if (const auto* record = std::get_if<RecordDecl>(&declaration); record && record->keyword.text == keyword) declarer(*record);
+      if (const auto* record = std::get_if<RecordDecl>(&declaration); record && record->keyword.text == keyword)
+        declarer(*record);
 }
 
 }  // namespace wale

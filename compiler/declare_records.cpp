@@ -1,10 +1,10 @@
 #include "compiler/declare_records.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "compiler/spelling.hpp"
 
@@ -36,14 +36,16 @@ std::optional<Dimension> carrier_dimension(const Declarations& declarations, con
   if (function == declarations.functions.end()) return std::nullopt;
   for (const auto& formal : function->second.node->parameters)
     if (formal.name.text == item.words[1].text && formal.dimension)
-      if (const auto known = declarations.dimensions.find(formal.dimension->text); known != declarations.dimensions.end()) return known->second;
+      if (const auto known = declarations.dimensions.find(formal.dimension->text);
+          known != declarations.dimensions.end())
+        return known->second;
   return std::nullopt;
 }
 
 }  // namespace
 
-RecordReader::RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources, const Declarations& declarations,
-                           Diagnostics& diagnostics)
+RecordReader::RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources,
+                           const Declarations& declarations, Diagnostics& diagnostics)
     : tree(tree), record(record), sources(sources), declarations(declarations), diagnostics(diagnostics) {}
 
 void RecordReader::report(Code code, Span span, std::string message, std::string help) {
@@ -69,7 +71,8 @@ const Setting* RecordReader::setting(const std::string& key) {
 const Setting* RecordReader::required(const std::string& key, const std::string& example) {
   const Setting* found = setting(key);
   if (!found)
-    report(Code::missing_setting, record.name.span, fmt::format("the {} `{}` lacks `{}`", record.keyword.text, record.name.text, key),
+    report(Code::missing_setting, record.name.span,
+           fmt::format("the {} `{}` lacks `{}`", record.keyword.text, record.name.text, key),
            fmt::format("add `{} {}`", key, example));
   return found;
 }
@@ -84,19 +87,22 @@ std::optional<double> RecordReader::value(ExprId expr, const Dimension& dimensio
 
 std::optional<double> RecordReader::quantity(const Setting& setting, std::size_t index, const std::string& dimension) {
   if (index >= setting.items.size() || !setting.items[index].value) {
-    report(Code::missing_setting, setting.span, fmt::format("`{}` needs {} value{}", setting.key.text, index + 1, index == 0 ? "" : "s"),
+    report(Code::missing_setting, setting.span,
+           fmt::format("`{}` needs {} value{}", setting.key.text, index + 1, index == 0 ? "" : "s"),
            "separate them by commas");
     return std::nullopt;
   }
   return value(*setting.items[index].value, dimension == "number" ? Dimension{} : declarations.dimension(dimension));
 }
 
-double RecordReader::positive(const std::string& key, std::size_t index, const std::string& dimension, const std::string& example) {
+double RecordReader::positive(const std::string& key, std::size_t index, const std::string& dimension,
+                              const std::string& example) {
   const Setting* found = index == 0 ? required(key, example) : setting(key);
   if (!found) return 0;
   const auto known = quantity(*found, index, dimension);
   if (known && !(*known > 0)) {
-    report(Code::value_out_of_range, found->items[index].span, fmt::format("`{}` must be more than nothing", key), fmt::format("write, for example, `{} {}`", key, example));
+    report(Code::value_out_of_range, found->items[index].span, fmt::format("`{}` must be more than nothing", key),
+           fmt::format("write, for example, `{} {}`", key, example));
     return 0;
   }
   return known.value_or(0);
@@ -121,7 +127,8 @@ void RecordReader::report_unknown_settings() {
   for (const auto& setting : record.settings) {
     if (read_.contains(&setting)) continue;
     const auto near = nearest_spelling(setting.key.text, {asked_.begin(), asked_.end()});
-    report(Code::unknown_setting, setting.key.span, fmt::format("a {} has no setting `{}`", record.keyword.text, setting.key.text),
+    report(Code::unknown_setting, setting.key.span,
+           fmt::format("a {} has no setting `{}`", record.keyword.text, setting.key.text),
            near ? fmt::format("did you mean `{}`?", *near) : fmt::format("it has: {}", fmt::join(asked_, ", ")));
   }
 }
@@ -130,25 +137,31 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   Percept percept{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
   if (declarations.percepts.contains(percept.name))
-    return reader.reject(Code::declared_twice, record.name.span, fmt::format("a percept `{}` is declared already", percept.name), "give one of them another name");
+    return reader.reject(Code::declared_twice, record.name.span,
+                         fmt::format("a percept `{}` is declared already", percept.name),
+                         "give one of them another name");
   if (const auto* one = reader.required("one", "lateral amplitude 194 pu on sandpaper"); one && !one->items.empty()) {
     const SettingItem& item = one->items.front();
     percept.carrier = joined(item.words);
     if (one->on) percept.reference_device = one->on->text;
     const auto dimension = carrier_dimension(declarations, item);
     if (!dimension) {
-      reader.report(Code::unknown_name, item.span, fmt::format("`{}` is not an argument of a force function", percept.carrier),
+      reader.report(Code::unknown_name, item.span,
+                    fmt::format("`{}` is not an argument of a force function", percept.carrier),
                     "name the function and its argument, as in `lateral amplitude`");
     } else {
       percept.carrier_dimension = *dimension;
       const auto size = item.value ? reader.value(*item.value, *dimension) : std::optional<double>(0.0);
       percept.one = size.value_or(0);
-      if (size && !(*size > 0)) reader.report(Code::value_out_of_range, item.span, "the reference stimulus has no size", "give it one, as in `lateral amplitude 194 pu`");
+      if (size && !(*size > 0))
+        reader.report(Code::value_out_of_range, item.span, "the reference stimulus has no size",
+                      "give it one, as in `lateral amplitude 194 pu`");
     }
   }
   reader.setting("zero");
   reader.setting("words");
-  if (const auto* threshold = reader.setting("near_threshold")) percept.near_threshold = reader.quantity(*threshold, 0, "number").value_or(0);
+  if (const auto* threshold = reader.setting("near_threshold"))
+    percept.near_threshold = reader.quantity(*threshold, 0, "number").value_or(0);
   declarations.percepts[percept.name] = percept;
 }
 
@@ -156,13 +169,16 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   const auto percept = declarations.percepts.find(record.name.text);
   if (percept == declarations.percepts.end())
-    return reader.reject(Code::unknown_name, record.name.span, fmt::format("nothing declares a percept `{}`", record.name.text),
+    return reader.reject(Code::unknown_name, record.name.span,
+                         fmt::format("nothing declares a percept `{}`", record.name.text),
                          "declare it, as in schema/percepts.wale");
   Map map{.percept = record.name.text, .from = record.from ? record.from->text : "", .span = record.name.span};
   if (!percept->second.carrier.ends_with(" " + map.from))
-    reader.report(Code::unknown_name, record.from ? record.from->span : record.name.span,
-                  fmt::format("`{}` is carried by its `{}`, not by `{}`", map.percept, percept->second.carrier, map.from),
-                  fmt::format("write `map {} from {}`", map.percept, percept->second.carrier.substr(percept->second.carrier.find(' ') + 1)));
+    reader.report(
+        Code::unknown_name, record.from ? record.from->span : record.name.span,
+        fmt::format("`{}` is carried by its `{}`, not by `{}`", map.percept, percept->second.carrier, map.from),
+        fmt::format("write `map {} from {}`", map.percept,
+                    percept->second.carrier.substr(percept->second.carrier.find(' ') + 1)));
 
   const auto* law = reader.required("law", "log10(magnitude) = …");
   const SettingItem* equation = law && law->items.size() == 1 && law->items[0].equals ? &law->items[0] : nullptr;
@@ -173,9 +189,12 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
     const std::size_t errors_before = reader.diagnostics.error_count();
     ExpressionChecker checker({reader.sources, declarations, reader.diagnostics}, map.terms, tables);
     Scope scope;
-    scope.names["magnitude"] = {{.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::magnitude})}, law->span};
-    scope.names[map.from] = {
-        {.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::carrier}), .dimension = percept->second.carrier_dimension}, law->span};
+    scope.names["magnitude"] = {{.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::magnitude})},
+                                law->span};
+    scope.names[map.from] = {{.type = Value::Type::number,
+                              .x = map.terms.add({.kind = TermKind::carrier}),
+                              .dimension = percept->second.carrier_dimension},
+                             law->span};
     const Value left = lone ? checker.named(*lone, scope) : checker.check(reader.tree, *equation->value, scope);
     if (!left.failed()) {
       const Value right = checker.check_as(reader.tree, *equation->equals, scope, Value::Type::number, left.dimension);
@@ -184,9 +203,12 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
     }
     const bool read = reader.diagnostics.error_count() == errors_before;
     for (const auto& [name, binding] : scope.names)
-      if (read && !binding.used) reader.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name), "tie the magnitude to the carrier");
+      if (read && !binding.used)
+        reader.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name),
+                      "tie the magnitude to the carrier");
   } else if (law) {
-    reader.report(Code::wrong_type, law->span, "a law is an equation", fmt::format("write `law log10(magnitude) = …` in `magnitude` and `{}`", map.from));
+    reader.report(Code::wrong_type, law->span, "a law is an equation",
+                  fmt::format("write `law log10(magnitude) = …` in `magnitude` and `{}`", map.from));
   }
 
   if (const auto* valid = reader.required("valid", map.from + " … .. …")) {
@@ -197,32 +219,41 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
       if (item.range_end) map.valid_high = reader.value(*item.range_end, percept->second.carrier_dimension).value_or(0);
     }
     if (!(map.valid_low > 0 && map.valid_high > map.valid_low))
-      reader.report(Code::value_out_of_range, valid->span, fmt::format("the range of `{}` is empty or missing", map.from),
+      reader.report(Code::value_out_of_range, valid->span,
+                    fmt::format("the range of `{}` is empty or missing", map.from),
                     fmt::format("write, for example, `valid {} 9 pu .. 194 pu`", map.from));
   }
-  if (const auto* scatter = reader.required("scatter", "0.05")) map.scatter = reader.quantity(*scatter, 0, "number").value_or(0);
+  if (const auto* scatter = reader.required("scatter", "0.05"))
+    map.scatter = reader.quantity(*scatter, 0, "number").value_or(0);
   if (const auto* evidence = reader.required("evidence", "slope measured, anchor measured, handle measured")) {
     for (const auto& item : evidence->items) {
-      const auto grade = item.words.size() == 2 ? std::ranges::find(evidence_words, item.words[1].text, [](auto& entry) { return std::string(entry.first); })
-                                                : std::end(evidence_words);
-      Evidence* part = item.words.empty() ? nullptr
+      const auto grade = item.words.size() == 2
+                             ? std::ranges::find(evidence_words, item.words[1].text,
+                                                 [](auto& entry) { return std::string(entry.first); })
+                             : std::end(evidence_words);
+      Evidence* part = item.words.empty()               ? nullptr
                        : item.words[0].text == "slope"  ? &map.slope
                        : item.words[0].text == "anchor" ? &map.anchor
                        : item.words[0].text == "handle" ? &map.handle
                                                         : nullptr;
       if (grade == std::end(evidence_words) || !part)
         reader.report(Code::wrong_type, item.span, "evidence is graded apart for slope, anchor and handle",
-                      "write `slope`, `anchor` or `handle`, then `measured`, `published`, `estimated`, `recalled` or `transferred`");
+                      "write `slope`, `anchor` or `handle`, then `measured`, `published`, `estimated`, `recalled` or "
+                      "`transferred`");
       else
         *part = grade->second;
     }
   }
   if (const auto* on = reader.required("on", "sandpaper")) {
-    if (on->on) map.device = on->on->text;
-    else if (on->items.size() == 1) map.device = joined(on->items[0].words);
+    if (on->on)
+      map.device = on->on->text;
+    else if (on->items.size() == 1)
+      map.device = joined(on->items[0].words);
   }
   map.source = reader.text("source");
-  if (!reader.setting("source")) reader.report(Code::missing_setting, record.name.span, "a map without a source is a rumour", "add `source \"author, year, figure\"`");
+  if (!reader.setting("source"))
+    reader.report(Code::missing_setting, record.name.span, "a map without a source is a rumour",
+                  "add `source \"author, year, figure\"`");
   declarations.maps.push_back(std::move(map));
 }
 
@@ -232,18 +263,23 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   DeviceProfile& profile = device.profile;
   profile.name = record.name.text;
   if (declarations.devices.contains(profile.name))
-    return reader.reject(Code::declared_twice, record.name.span, fmt::format("a device `{}` is declared already", profile.name), "give one of them another name");
+    return reader.reject(Code::declared_twice, record.name.span,
+                         fmt::format("a device `{}` is declared already", profile.name),
+                         "give one of them another name");
 
   if (const auto* workspace = reader.required("workspace", "disc(228.6 mm)"); workspace && !workspace->items.empty()) {
-    const auto* call = workspace->items[0].value ? std::get_if<Call>(&reader.tree.expr(*workspace->items[0].value)) : nullptr;
+    const auto* call =
+        workspace->items[0].value ? std::get_if<Call>(&reader.tree.expr(*workspace->items[0].value)) : nullptr;
     if (call && call->callee.text == "disc" && call->arguments.size() == 1)
       profile.workspace_diameter = reader.value(call->arguments[0].value, declarations.dimension("length")).value_or(0);
     if (!(profile.workspace_diameter > 0))
-      reader.report(Code::wrong_type, workspace->span, "a workspace is a disc of some diameter", "write, for example, `workspace disc(228.6 mm)`");
+      reader.report(Code::wrong_type, workspace->span, "a workspace is a disc of some diameter",
+                    "write, for example, `workspace disc(228.6 mm)`");
   }
   profile.position_counts = reader.positive("position", 0, "number", "4096 counts");
   profile.force_newton = reader.positive("force", 0, "force", "10 N, 2048 counts");
-  if (const auto* force = reader.setting("force")) profile.force_counts = reader.quantity(*force, 1, "number").value_or(0);
+  if (const auto* force = reader.setting("force"))
+    profile.force_counts = reader.quantity(*force, 1, "number").value_or(0);
   profile.rate = reader.positive("rate", 0, "frequency", "900 Hz");
   profile.speed_limit = reader.positive("speed", 0, "velocity", "1 m/s");
   profile.slew = reader.positive("slew", 0, "slew", "200 N/s");
@@ -280,13 +316,16 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
 void declare_levels(RecordReader& reader, Declarations& declarations) {
   Levels levels{.percept = reader.record.name.text, .levels = {}, .span = reader.record.name.span};
   if (!declarations.percepts.contains(levels.percept))
-    reader.report(Code::unknown_name, levels.span, fmt::format("nothing declares a percept `{}`", levels.percept), "declare it, as in schema/percepts.wale");
+    reader.report(Code::unknown_name, levels.span, fmt::format("nothing declares a percept `{}`", levels.percept),
+                  "declare it, as in schema/percepts.wale");
   for (const auto& setting : reader.record.settings) {
     reader.setting(setting.key.text);  // every key is a name of the author's
     const auto value = reader.quantity(setting, 0, "number");
     if (!value) continue;
     if (!(*value >= 0 && *value <= 1))
-      reader.report(Code::level_out_of_range, setting.span, fmt::format("the level `{}` is outside 0 .. 1", setting.key.text), "1 is the percept's reference stimulus");
+      reader.report(Code::level_out_of_range, setting.span,
+                    fmt::format("the level `{}` is outside 0 .. 1", setting.key.text),
+                    "1 is the percept's reference stimulus");
     else
       levels.levels.push_back({setting.key.text, *value, setting.key.span});
   }
@@ -297,7 +336,8 @@ void declare_hand(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   HandDeclaration hand{.name = record.name.text, .span = record.name.span};
   if (declarations.hands.contains(hand.name))
-    return reader.reject(Code::declared_twice, record.name.span, fmt::format("a hand `{}` is declared already", hand.name), "give one of them another name");
+    return reader.reject(Code::declared_twice, record.name.span,
+                         fmt::format("a hand `{}` is declared already", hand.name), "give one of them another name");
   hand.mass = reader.positive("mass", 0, "mass", "0.55 kg");
   hand.damping = reader.positive("damping", 0, "viscosity", "6.5 N s/m");
   hand.stiffness = reader.positive("stiffness", 0, "stiffness", "135 N/m");

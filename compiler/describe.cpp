@@ -1,10 +1,10 @@
 #include "compiler/describe.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace wale {
@@ -61,14 +61,16 @@ void write_percepts(std::string& text, const Description& description) {
     return;
   }
   for (const auto& percept : description.percepts) {
-    text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name, percept.level, percept.low,
-                        percept.high, percept.magnitude);
-    text += fmt::format("  {:<12} {} {:.3f} N{}\n", "", percept.carrier, percept.amplitude,
-                        percept.asked ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked) : ", fixed by the author");
-    if (percept.saturated) text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
+    text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
+                        percept.level, percept.low, percept.high, percept.magnitude);
+    text += fmt::format(
+        "  {:<12} {} {:.3f} N{}\n", "", percept.carrier, percept.amplitude,
+        percept.asked ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked) : ", fixed by the author");
+    if (percept.saturated)
+      text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
     if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
-    text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope), evidence_word(percept.anchor),
-                        evidence_word(percept.handle));
+    text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
+                        evidence_word(percept.anchor), evidence_word(percept.handle));
     text += fmt::format("  {:<12} {} ({}, on {})\n", "", percept.source, percept.map, percept.device);
   }
 }
@@ -97,7 +99,9 @@ nlohmann::ordered_json to_json(const Description& description) {
     entry["saturated"] = percept.saturated;
     entry["outside_validity"] = percept.outside_validity;
     entry["evidence"] = evidence_word(percept.worst);
-    entry["evidence_of"] = {{"slope", evidence_word(percept.slope)}, {"anchor", evidence_word(percept.anchor)}, {"handle", evidence_word(percept.handle)}};
+    entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
+                            {"anchor", evidence_word(percept.anchor)},
+                            {"handle", evidence_word(percept.handle)}};
     entry["map"] = percept.map;
     entry["measured_on"] = percept.device;
     entry["source"] = percept.source;
@@ -113,12 +117,15 @@ nlohmann::ordered_json to_json(const Description& description) {
                           {"min", shown(parameter.low, parameter.unit_in_si)},
                           {"max", shown(parameter.high, parameter.unit_in_si)},
                           {"description", parameter.description}});
-  json["patch"] = {{"width_m", figure(description.patch.width)}, {"height_m", figure(description.patch.height)}, {"rim_m", figure(description.patch.rim)}};
+  json["patch"] = {{"width_m", figure(description.patch.width)},
+                   {"height_m", figure(description.patch.height)},
+                   {"rim_m", figure(description.patch.rim)}};
   json["instructions"] = description.code.tick;
-  json["sections"] = {{"setup", {{"instructions", description.code.setup}, {"cost", description.code.setup_cost}}},
-                      {"peak", {{"instructions", description.code.peaks}, {"cost", description.code.peak_cost}}},
-                      {"tick", {{"instructions", description.code.tick}, {"cost", description.code.tick_cost}}},
-                      {"picture", {{"instructions", description.code.picture}, {"cost", description.code.picture_cost}}}};
+  json["sections"] = {
+      {"setup", {{"instructions", description.code.setup}, {"cost", description.code.setup_cost}}},
+      {"peak", {{"instructions", description.code.peaks}, {"cost", description.code.peak_cost}}},
+      {"tick", {{"instructions", description.code.tick}, {"cost", description.code.tick_cost}}},
+      {"picture", {{"instructions", description.code.picture}, {"cost", description.code.picture_cost}}}};
   json["bytes"] = description.bytes;
   return json;
 }
@@ -138,7 +145,8 @@ std::string evidence_word(Evidence evidence) {
 
 Description describe(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
-  Description description{.material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
+  Description description{
+      .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
   for (std::size_t i = 0; i < program.percepts.size(); ++i) description.percepts.push_back(describe_percept(bank, i));
   description.force = measure(bank);
   description.parameters = program.parameters;
@@ -157,26 +165,29 @@ Description describe(const Bank& bank) {
 }
 
 std::string description_text(const Description& description) {
-  std::string text = fmt::format("{}\n  built for {}, {:.3g} N at {:.4g} Hz\n", heading(description), description.device.name,
-                                 description.device.force_newton, description.device.rate);
+  std::string text = fmt::format("{}\n  built for {}, {:.3g} N at {:.4g} Hz\n", heading(description),
+                                 description.device.name, description.device.force_newton, description.device.rate);
   for (const auto& [key, values] : description.layers.representative)
     if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
   write_percepts(text, description);
-  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n", description.force.max_newton,
-                      description.force.p99_newton, description.force.rms_newton);
+  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
+                      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
   text += "\nparameters\n";
   if (description.parameters.empty()) text += "  none\n";
   for (const auto& parameter : description.parameters)
     text += fmt::format("  {:<12} {:<12} {:<20} {}\n", parameter.name,
                         fmt::format("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
-                        fmt::format("{} .. {} {}", shown(parameter.low, parameter.unit_in_si), shown(parameter.high, parameter.unit_in_si), parameter.unit),
+                        fmt::format("{} .. {} {}", shown(parameter.low, parameter.unit_in_si),
+                                    shown(parameter.high, parameter.unit_in_si), parameter.unit),
                         parameter.description);
   const auto& code = description.code;
-  text += fmt::format("\npatch\n  {:.4g} mm x {:.4g} mm, fading over {:.3g} mm at its edge\n", 1e3 * description.patch.width, 1e3 * description.patch.height,
-                      1e3 * description.patch.rim);
+  text += fmt::format("\npatch\n  {:.4g} mm x {:.4g} mm, fading over {:.3g} mm at its edge\n",
+                      1e3 * description.patch.width, 1e3 * description.patch.height, 1e3 * description.patch.rim);
   text += fmt::format(
-      "\nprogram\n  tick {} instructions (cost {}), setup {} ({}), peaks {} ({:.2g} with all points), picture {} ({}); {} bytes\n", code.tick,
-      code.tick_cost, code.setup, code.setup_cost, code.peaks, static_cast<double>(code.peak_cost), code.picture, code.picture_cost, description.bytes);
+      "\nprogram\n  tick {} instructions (cost {}), setup {} ({}), peaks {} ({:.2g} with all points), picture {} ({}); "
+      "{} bytes\n",
+      code.tick, code.tick_cost, code.setup, code.setup_cost, code.peaks, static_cast<double>(code.peak_cost),
+      code.picture, code.picture_cost, description.bytes);
   return text;
 }
 
@@ -184,7 +195,9 @@ std::string descriptions_json(const std::vector<Description>& descriptions) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& description : descriptions) json.push_back(to_json(description));
   // Names may hold any text a file brought along; what is no UTF-8 is replaced rather than thrown about.
-  return (descriptions.size() == 1 ? json.front() : json).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return (descriptions.size() == 1 ? json.front() : json)
+             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+         "\n";
 }
 
 }  // namespace wale

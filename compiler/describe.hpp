@@ -16,8 +16,8 @@ struct DescribedPercept {
   std::optional<double> asked;  ///< the level asked for, when the author asked
   double amplitude = 0;         ///< the carrier's size, N
   double level = 0, magnitude = 0;
-  double low = 0, high = 0;     ///< level within which 95 % of such means lie, by the map's scatter
-  bool saturated = false;       ///< the device pushes less than the percept needs; level is what comes out
+  double low = 0, high = 0;  ///< level within which 95 % of such means lie, by the map's scatter
+  bool saturated = false;    ///< the device pushes less than the percept needs; level is what comes out
   bool outside_validity = false;
   Evidence slope, anchor, handle, worst;
   std::string map, device, source;
@@ -33,8 +33,9 @@ struct Description {
   std::vector<Parameter> parameters;  ///< with the values described
   PatchSize patch;
   struct Code {
-    std::size_t setup = 0, peaks = 0, tick = 0, picture = 0;            ///< instructions
-    long setup_cost = 0, peak_cost = 0, tick_cost = 0, picture_cost = 0;  ///< in units of one addition; peaks over all points
+    std::size_t setup = 0, peaks = 0, tick = 0, picture = 0;  ///< instructions
+    long setup_cost = 0, peak_cost = 0, tick_cost = 0,
+         picture_cost = 0;  ///< in units of one addition; peaks over all points
   } code;
   std::size_t bytes = 0;  ///< of the `.wpp` file
 };

@@ -1,9 +1,9 @@
 #include "compiler/diagnostic.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
-
-#include <fmt/format.h>
 
 namespace wale {
 namespace {
@@ -42,7 +42,8 @@ void Diagnostics::report(Diagnostic diagnostic) {
 }
 
 void Diagnostics::sort() {
-  std::ranges::stable_sort(all_, {}, [](const Diagnostic& each) { return std::pair(each.span.source, each.span.begin); });
+  std::ranges::stable_sort(all_, {},
+                           [](const Diagnostic& each) { return std::pair(each.span.source, each.span.begin); });
 }
 
 }  // namespace wale

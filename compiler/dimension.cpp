@@ -1,8 +1,8 @@
 #include "compiler/dimension.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace wale {
 
@@ -72,10 +72,13 @@ std::string DimensionNames::factors(const Dimension& dimension) const {
 
 std::string DimensionNames::unit(const Dimension& dimension) const {
   if (dimension.plain()) return {};
-  if (const auto found = std::ranges::find(units, dimension, &Named::dimension); found != units.end()) return found->name;
+  if (const auto found = std::ranges::find(units, dimension, &Named::dimension); found != units.end())
+    return found->name;
   // N/m, N s/m and their like read better than their base units: one named unit times or over a base unit or two. Units
   // made of several come first, N s/m before kg/s, and nothing is told per kg, m/s^2 least of all.
-  const auto single = [&](const Named& named) { return std::ranges::count(named.dimension.twelfths, 0) >= std::ptrdiff_t{Dimension::capacity} - 1; };
+  const auto single = [&](const Named& named) {
+    return std::ranges::count(named.dimension.twelfths, 0) >= std::ptrdiff_t{Dimension::capacity} - 1;
+  };
   for (const bool single_too : {false, true}) {
     for (const auto& named : units)
       for (std::size_t i = 0; i < base_units.size(); ++i) {
@@ -91,7 +94,8 @@ std::string DimensionNames::unit(const Dimension& dimension) const {
           Dimension ratio;
           ratio.twelfths[times] += Dimension::unit_exponent;
           ratio.twelfths[over] -= Dimension::unit_exponent;
-          if (times != over && base_units[over] != "kg" && base_units[times] != "kg" && (single_too || !single(named)) && named.dimension * ratio == dimension)
+          if (times != over && base_units[over] != "kg" && base_units[times] != "kg" &&
+              (single_too || !single(named)) && named.dimension * ratio == dimension)
             return fmt::format("{} {}/{}", named.name, base_units[times], base_units[over]);
         }
   }
@@ -99,14 +103,16 @@ std::string DimensionNames::unit(const Dimension& dimension) const {
   for (const std::size_t i : writing_order(base_units)) {
     const int exponent = dimension.twelfths[i];
     auto& side = exponent > 0 ? above : below;
-    if (const auto f = factor(base_units[i], std::abs(exponent)); !f.empty()) side += (exponent > 0 ? (above.empty() ? "" : " ") : "/") + f;
+    if (const auto f = factor(base_units[i], std::abs(exponent)); !f.empty())
+      side += (exponent > 0 ? (above.empty() ? "" : " ") : "/") + f;
   }
   return (above.empty() ? "1" : above) + below;
 }
 
 std::string DimensionNames::unit_beside(const Dimension& expected, const Dimension& found) const {
   const std::string known = unit(expected);
-  const bool derived = std::ranges::find(base_units, known) == base_units.end() && known.find_first_of(" /") == std::string::npos;
+  const bool derived =
+      std::ranges::find(base_units, known) == base_units.end() && known.find_first_of(" /") == std::string::npos;
   if (expected.plain() || found.plain() || !derived) return unit(found);  // "m m" and "N/m m" would say less
   for (std::size_t i = 0; i < base_units.size(); ++i) {
     Dimension base;

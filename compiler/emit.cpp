@@ -1,10 +1,10 @@
 #include "compiler/emit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <map>
-
-#include <fmt/format.h>
 
 namespace wale {
 
@@ -27,7 +27,9 @@ class TemporaryAllocator {
     std::fill_n(used_.begin() + static_cast<std::ptrdiff_t>(first), count, true);
     return first;
   }
-  void give_back(std::size_t first, std::size_t count) { std::fill_n(used_.begin() + static_cast<std::ptrdiff_t>(first), count, false); }
+  void give_back(std::size_t first, std::size_t count) {
+    std::fill_n(used_.begin() + static_cast<std::ptrdiff_t>(first), count, false);
+  }
   std::size_t most() const { return used_.size(); }
 
  private:
@@ -36,7 +38,8 @@ class TemporaryAllocator {
 
 class Emitter {
  public:
-  Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material) : graph_(lowered.graph), lowered_(lowered), material_(material) {}
+  Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material)
+      : graph_(lowered.graph), lowered_(lowered), material_(material) {}
 
   PatchProgram emit() {
     program_.material = material_.name;
@@ -78,7 +81,8 @@ class Emitter {
   void plan() {
     std::vector<NodeId> roots{lowered_.force[0], lowered_.force[1], lowered_.ceiling};
     if (lowered_.relief) roots.push_back(*lowered_.relief);
-    for (const auto& percept : lowered_.percepts) roots.insert(roots.end(), {percept.amplitude, percept.magnitude, percept.level});
+    for (const auto& percept : lowered_.percepts)
+      roots.insert(roots.end(), {percept.amplitude, percept.magnitude, percept.level});
     needed_.assign(graph_.size(), false);
     for (const NodeId root : roots) needed_[root] = true;
     for (NodeId id = static_cast<NodeId>(graph_.size()); id-- > 0;)
@@ -88,7 +92,8 @@ class Emitter {
 
     std::map<std::uint32_t, RegisterNumber> pool;
     const auto pooled = [&](float value) {
-      const auto [entry, added] = pool.try_emplace(std::bit_cast<std::uint32_t>(value), first_constant + program_.constants.size());
+      const auto [entry, added] =
+          pool.try_emplace(std::bit_cast<std::uint32_t>(value), first_constant + program_.constants.size());
       if (added) program_.constants.push_back(value);
       return entry->second;
     };
@@ -102,7 +107,8 @@ class Emitter {
       const Node& node = graph_[id];
       if (!needed_[id]) continue;
       if (node.kind == Node::Kind::input) registers_[id] = static_cast<RegisterNumber>(node.index);
-      if (node.kind == Node::Kind::parameter) registers_[id] = static_cast<RegisterNumber>(first_parameter + node.index);
+      if (node.kind == Node::Kind::parameter)
+        registers_[id] = static_cast<RegisterNumber>(first_parameter + node.index);
       if (node.rate == Rate::setup && in_code(node)) registers_[id] = static_cast<RegisterNumber>(next++);
     }
     const std::size_t setup_registers = next - first_parameter - program_.parameters.size();
@@ -154,11 +160,13 @@ class Emitter {
     for (const NodeId root : roots) wanted[root] = graph_[root].rate == Rate::tick;
     for (NodeId id = static_cast<NodeId>(graph_.size()); id-- > 0;)
       if (wanted[id])
-        for (const NodeId operand : graph_.operands(id)) wanted[operand] = wanted[operand] || graph_[operand].rate == Rate::tick;
+        for (const NodeId operand : graph_.operands(id))
+          wanted[operand] = wanted[operand] || graph_[operand].rate == Rate::tick;
 
     std::vector<NodeId> order;
     for (NodeId id = 0; id < graph_.size(); ++id)
-      if (wanted[id] && (graph_[id].kind == Node::Kind::operation || graph_[id].kind == Node::Kind::component)) order.push_back(id);
+      if (wanted[id] && (graph_[id].kind == Node::Kind::operation || graph_[id].kind == Node::Kind::component))
+        order.push_back(id);
 
     // A component is a register of its sample: using it uses the sample.
     const auto owner = [&](NodeId id) { return graph_[id].kind == Node::Kind::component ? graph_[id].a : id; };
@@ -206,14 +214,15 @@ class Emitter {
 
 }  // namespace
 
-std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material, Diagnostics& diagnostics) {
+std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material,
+                                 Diagnostics& diagnostics) {
   Emitter emitter(lowered, material);
   PatchProgram program = emitter.emit();
   if (emitter.registers_needed() > register_limit) {
     diagnostics.report({.code = Code::program_too_large,
                         .span = material.span,
-                        .message = fmt::format("`{}` needs {} registers, and a patch program has {}", material.name, emitter.registers_needed(),
-                                               register_limit),
+                        .message = fmt::format("`{}` needs {} registers, and a patch program has {}", material.name,
+                                               emitter.registers_needed(), register_limit),
                         .help = "split the material, or let fewer values live at once"});
     return std::nullopt;
   }

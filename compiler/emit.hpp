@@ -12,6 +12,7 @@ namespace wale {
 ///
 /// The same material gives the same program, byte for byte. Nothing, with a diagnostic, when the program has more
 /// registers than the format can name.
-std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material, Diagnostics& diagnostics);
+std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material,
+                                 Diagnostics& diagnostics);
 
 }  // namespace wale

@@ -6,8 +6,8 @@ namespace wale {
 
 namespace {
 
-/// A node that can be calculated with, so that the derivative column of the instruction table reads as mathematics. What
-/// is known to be zero stays zero and vanishes from sums: a derivative has no term where nothing changes.
+/// A node that can be calculated with, so that the derivative column of the instruction table reads as mathematics.
+/// What is known to be zero stays zero and vanishes from sums: a derivative has no term where nothing changes.
 struct Expression {
   Graph* graph;
   NodeId id;
@@ -17,12 +17,18 @@ struct Expression {
 };
 
 Expression apply(Operation operation, Expression a) { return {a.graph, a.graph->apply(operation, a.id)}; }
-Expression apply(Operation operation, Expression a, Expression b) { return {a.graph, a.graph->apply(operation, a.id, b.id)}; }
+Expression apply(Operation operation, Expression a, Expression b) {
+  return {a.graph, a.graph->apply(operation, a.id, b.id)};
+}
 
 Expression operator+(Expression a, Expression b) { return a.zero() ? b : b.zero() ? a : apply(Operation::add, a, b); }
 Expression operator-(Expression a) { return a.zero() ? a : apply(Operation::negate, a); }
-Expression operator-(Expression a, Expression b) { return b.zero() ? a : a.zero() ? -b : apply(Operation::subtract, a, b); }
-Expression operator*(Expression a, Expression b) { return a.zero() ? a : b.zero() ? b : apply(Operation::multiply, a, b); }
+Expression operator-(Expression a, Expression b) {
+  return b.zero() ? a : a.zero() ? -b : apply(Operation::subtract, a, b);
+}
+Expression operator*(Expression a, Expression b) {
+  return a.zero() ? a : b.zero() ? b : apply(Operation::multiply, a, b);
+}
 Expression operator/(Expression a, Expression b) { return a.zero() ? a : apply(Operation::divide, a, b); }
 
 [[maybe_unused]] Expression sine(Expression a) { return apply(Operation::sine, a); }
@@ -36,8 +42,12 @@ Expression operator/(Expression a, Expression b) { return a.zero() ? a : apply(O
 }
 
 /// The derivative of the result r of an operation of a, b, c, whose derivatives are da, db, dc.
-Expression derivative_of(Operation operation, Graph& graph, Expression r, Expression a, Expression b, Expression c, Expression da, Expression db, Expression dc) {
-  [[maybe_unused]] const auto number = [&](double value) { return Expression{&graph, graph.constant(static_cast<float>(value))}; };
+Expression derivative_of(Operation operation, Graph& graph, Expression r, Expression a, Expression b, Expression c,
+                         Expression da, Expression db, Expression dc) {
+  [[maybe_unused]] const auto number = [&](double value) {
+    return Expression{&graph, graph.constant(static_cast<float>(value))};
+  };
+  // clang-format off
   switch (operation) {
 #define INSTRUCTION(number_, name, fields, results, cost, meaning, derivative) \
   case Operation::name: return derivative;
@@ -45,6 +55,7 @@ Expression derivative_of(Operation operation, Graph& graph, Expression r, Expres
   case Operation::name: break;
 #include "schema/instruction.def"
   }
+  // clang-format on
   (void)r, (void)a, (void)b, (void)c, (void)da, (void)db, (void)dc;
   return number(0);
 }
@@ -71,7 +82,8 @@ NodeId derivative(Graph& graph, NodeId of, int axis) {
         break;
       }
       case Node::Kind::component: {
-        // The spline's own partial derivatives, chained to those of its coordinates. A table gives no second derivatives.
+        // The spline's own partial derivatives, chained to those of its coordinates. A table gives no second
+        // derivatives.
         const Node sample = graph[node.a];
         if (node.index != 0) break;
         const Expression du{&graph, graph.component(node.a, 1)}, dv{&graph, graph.component(node.a, 2)};
@@ -81,8 +93,8 @@ NodeId derivative(Graph& graph, NodeId of, int axis) {
       case Node::Kind::operation: {
         const auto term = [&](NodeId operand) { return Expression{&graph, operand}; };
         if (node.operation != Operation::sample)
-          known[id] = derivative_of(node.operation, graph, term(id), term(node.a), term(node.b), term(node.c), term(known[node.a]),
-                                    term(known[node.b]), term(known[node.c]))
+          known[id] = derivative_of(node.operation, graph, term(id), term(node.a), term(node.b), term(node.c),
+                                    term(known[node.a]), term(known[node.b]), term(known[node.c]))
                           .id;
         break;
       }

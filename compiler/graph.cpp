@@ -13,6 +13,7 @@ namespace {
 
 // Not inlined: the compiler does not know that arithmetic depends on the mode in which it runs.
 [[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
+  // clang-format off
   switch (operation) {
 #define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
   case Operation::name: return Meaning<Operation::name>::of(a, b, c);
@@ -20,6 +21,7 @@ namespace {
   case Operation::name: break;
 #include "schema/instruction.def"
   }
+  // clang-format on
   return 0;
 }
 
@@ -38,9 +40,10 @@ std::size_t Graph::Hash::operator()(const std::vector<std::uint64_t>& key) const
 }
 
 NodeId Graph::add(Node node) {
-  const std::vector<std::uint64_t> key{static_cast<std::uint64_t>(node.kind) << 8 | static_cast<std::uint64_t>(node.operation),
-                                       std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index,
-                                       std::bit_cast<std::uint32_t>(node.value)};
+  const std::vector<std::uint64_t> key{
+      static_cast<std::uint64_t>(node.kind) << 8 | static_cast<std::uint64_t>(node.operation),
+      std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index,
+      std::bit_cast<std::uint32_t>(node.value)};
   const auto [entry, added] = known_.try_emplace(key, static_cast<NodeId>(nodes_.size()));
   if (added) nodes_.push_back(node);
   return entry->second;
@@ -50,7 +53,10 @@ NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, 
 
 NodeId Graph::input(Input input, Span span) {
   const bool patch = input == Input::patch_half_width || input == Input::patch_half_height || input == Input::patch_rim;
-  return add({.kind = Node::Kind::input, .index = static_cast<std::uint32_t>(input), .rate = patch ? Rate::setup : Rate::tick, .span = span});
+  return add({.kind = Node::Kind::input,
+              .index = static_cast<std::uint32_t>(input),
+              .rate = patch ? Rate::setup : Rate::tick,
+              .span = span});
 }
 
 NodeId Graph::parameter(std::uint32_t index, Span span) {
@@ -58,7 +64,8 @@ NodeId Graph::parameter(std::uint32_t index, Span span) {
 }
 
 bool Graph::is_constant(NodeId id, float value) const {
-  return nodes_[id].kind == Node::Kind::constant && std::bit_cast<std::uint32_t>(nodes_[id].value) == std::bit_cast<std::uint32_t>(value);
+  return nodes_[id].kind == Node::Kind::constant &&
+         std::bit_cast<std::uint32_t>(nodes_[id].value) == std::bit_cast<std::uint32_t>(value);
 }
 
 std::vector<NodeId> Graph::operands(NodeId id) const {
@@ -92,7 +99,9 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
   if (operation == Operation::multiply && is_constant(a, 1)) return b;
   if (operation == Operation::divide && is_constant(b, 1)) return a;
   if (operation == Operation::subtract && is_constant(b, 0)) return a;
-  if (operation == Operation::negate && nodes_[a].kind == Node::Kind::operation && nodes_[a].operation == Operation::negate) return nodes_[a].a;
+  if (operation == Operation::negate && nodes_[a].kind == Node::Kind::operation &&
+      nodes_[a].operation == Operation::negate)
+    return nodes_[a].a;
   if (operation == Operation::select && nodes_[a].kind == Node::Kind::constant) return nodes_[a].value != 0 ? b : c;
   return add({.kind = Node::Kind::operation,
               .operation = operation,
@@ -110,11 +119,17 @@ NodeId Graph::component(NodeId sample, std::uint32_t index, Span span) {
 
 NodeId Graph::peak(NodeId value, NodeId half_width, NodeId half_height, Span span) {
   if (nodes_[value].rate != Rate::tick) return value;  // the same everywhere on the patch
-  return add({.kind = Node::Kind::peak, .a = value, .b = half_width, .c = half_height, .rate = Rate::setup, .span = span});
+  return add(
+      {.kind = Node::Kind::peak, .a = value, .b = half_width, .c = half_height, .rate = Rate::setup, .span = span});
 }
 
 NodeId Graph::output_limit(NodeId value, NodeId ceiling, Span span) {
-  nodes_.push_back({.kind = Node::Kind::operation, .operation = Operation::limit, .a = value, .b = ceiling, .rate = Rate::tick, .span = span});
+  nodes_.push_back({.kind = Node::Kind::operation,
+                    .operation = Operation::limit,
+                    .a = value,
+                    .b = ceiling,
+                    .rate = Rate::tick,
+                    .span = span});
   return static_cast<NodeId>(nodes_.size() - 1);
 }
 

@@ -64,7 +64,8 @@ class Graph {
   std::unordered_map<std::vector<std::uint64_t>, NodeId, Hash> known_;
 };
 
-/// The derivative of a node along x (axis 0) or y (axis 1), by the rules of the instruction table: exact but for rounding.
+/// The derivative of a node along x (axis 0) or y (axis 1), by the rules of the instruction table: exact but for
+/// rounding.
 NodeId derivative(Graph& graph, NodeId of, int axis);
 
 }  // namespace wale

@@ -16,7 +16,8 @@ std::vector<int> occurrences(const Terms& terms, TermId last, TermId unknown) {
       counts[id] = 1;
     } else if (term.kind == TermKind::operation) {
       const TermId operands[] = {term.a, term.b, term.c};
-      for (int i = 0; i < operand_count(term.operation); ++i) counts[id] = std::min(2, counts[id] + counts[operands[i]]);
+      for (int i = 0; i < operand_count(term.operation); ++i)
+        counts[id] = std::min(2, counts[id] + counts[operands[i]]);
     }
   }
   return counts;
@@ -33,15 +34,11 @@ std::optional<TermId> isolate(Terms& terms, TermId left, TermId right, TermId un
     const Term term = terms[side];
     const bool in_a = counts[term.a] == 1;
     switch (term.operation) {
-      case Operation::add:
-        other = terms.apply(Operation::subtract, other, in_a ? term.b : term.a);
-        break;
+      case Operation::add: other = terms.apply(Operation::subtract, other, in_a ? term.b : term.a); break;
       case Operation::subtract:
         other = in_a ? terms.apply(Operation::add, other, term.b) : terms.apply(Operation::subtract, term.a, other);
         break;
-      case Operation::multiply:
-        other = terms.apply(Operation::divide, other, in_a ? term.b : term.a);
-        break;
+      case Operation::multiply: other = terms.apply(Operation::divide, other, in_a ? term.b : term.a); break;
       case Operation::divide:
         other = in_a ? terms.apply(Operation::multiply, other, term.b) : terms.apply(Operation::divide, term.a, other);
         break;

@@ -1,6 +1,6 @@
-#include <set>
-
 #include <fmt/format.h>
+
+#include <set>
 
 #include "compiler/check.hpp"
 #include "compiler/declare.hpp"

@@ -27,7 +27,8 @@ LoweredMaterial lower(const SolvedMaterial& material) {
   const Terms& terms = material.terms;
   std::vector<TermId> roots{material.force[0], material.force[1]};
   if (material.relief) roots.push_back(*material.relief);
-  for (const auto& percept : material.percepts) roots.insert(roots.end(), {percept.amplitude, percept.magnitude, percept.level});
+  for (const auto& percept : material.percepts)
+    roots.insert(roots.end(), {percept.amplitude, percept.magnitude, percept.level});
   const auto needed = reachable(terms, roots);
 
   LoweredMaterial lowered;

@@ -15,10 +15,10 @@ struct LoweredMaterial {
     NodeId amplitude, magnitude, level;
   };
   Graph graph;
-  std::array<NodeId, 2> force{};          ///< each a final limit at the device's force
-  NodeId ceiling = 0;                     ///< of both
+  std::array<NodeId, 2> force{};  ///< each a final limit at the device's force
+  NodeId ceiling = 0;             ///< of both
   std::optional<NodeId> relief;
-  std::vector<Percept> percepts;          ///< beside `SolvedMaterial::percepts`
+  std::vector<Percept> percepts;  ///< beside `SolvedMaterial::percepts`
 };
 
 /// Turns terms into single-assignment values: constants folded, equal values shared, gradients written out.

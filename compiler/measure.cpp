@@ -43,7 +43,8 @@ Measured measure(const Bank& bank) {
   // Corners are where fields that grow outward are strongest, and full speed where those of motion are.
   for (std::size_t i = 0; i < 16; ++i) {
     const auto sign = [&](unsigned bit) { return i >> bit & 1u ? 1.0f : -1.0f; };
-    moving[i] = {glm::vec2(sign(0), sign(1)) * glm::vec2(size.width, size.height) / 2.0f, speed * glm::vec2(sign(2), sign(3))};
+    moving[i] = {glm::vec2(sign(0), sign(1)) * glm::vec2(size.width, size.height) / 2.0f,
+                 speed * glm::vec2(sign(2), sign(3))};
   }
 
   std::vector<Force> forces(hands);
@@ -63,7 +64,9 @@ Measured measure(const Bank& bank) {
   measured.rms_newton = static_cast<float>(std::sqrt(squares / hands));
   measured.max_newton = std::max(measured.max_newton, *std::ranges::max_element(sizes));
   for (const auto& instruction : program.setup)
-    if (instruction.operation == static_cast<std::uint8_t>(Operation::peak) && !(bank.registers()[instruction.destination] > 0)) measured.flat = true;
+    if (instruction.operation == static_cast<std::uint8_t>(Operation::peak) &&
+        !(bank.registers()[instruction.destination] > 0))
+      measured.flat = true;
   return measured;
 }
 

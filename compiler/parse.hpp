@@ -15,6 +15,7 @@ SyntaxTree parse(const SourceSet& sources, SourceId source, Diagnostics& diagnos
 
 /// Reads a list of expressions separated by commas, as a command line gives it: "10 mm, 5 mm".
 /// The tree has no declarations; the result names its expressions, or is empty when there were errors.
-std::vector<ExprId> parse_expressions(const SourceSet& sources, SourceId source, SyntaxTree& tree, Diagnostics& diagnostics);
+std::vector<ExprId> parse_expressions(const SourceSet& sources, SourceId source, SyntaxTree& tree,
+                                      Diagnostics& diagnostics);
 
 }  // namespace wale

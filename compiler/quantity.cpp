@@ -1,8 +1,8 @@
 #include "compiler/quantity.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "compiler/check_expression.hpp"
 #include "compiler/parse.hpp"
@@ -23,12 +23,14 @@ std::optional<std::vector<double>> QuantityReader::list(const std::string& optio
   if (diagnostics_.has_errors()) return std::nullopt;
   const Span whole{source, 0, static_cast<std::uint32_t>(text.size())};
   if (expressions.size() != needed && expressions.size() != dimensions.size()) {
-    diagnostics_.report({.code = Code::missing_argument,
-                         .span = whole,
-                         .message = needed == dimensions.size()
-                                        ? fmt::format("{} value{} due here, not {}", needed, needed == 1 ? " is" : "s are", expressions.size())
-                                        : fmt::format("{} or {} values are due here, not {}", needed, dimensions.size(), expressions.size()),
-                         .help = fmt::format("write, for example, `{}`", example)});
+    diagnostics_.report(
+        {.code = Code::missing_argument,
+         .span = whole,
+         .message =
+             needed == dimensions.size()
+                 ? fmt::format("{} value{} due here, not {}", needed, needed == 1 ? " is" : "s are", expressions.size())
+                 : fmt::format("{} or {} values are due here, not {}", needed, dimensions.size(), expressions.size()),
+         .help = fmt::format("write, for example, `{}`", example)});
     return std::nullopt;
   }
   Terms terms;
@@ -43,7 +45,8 @@ std::optional<std::vector<double>> QuantityReader::list(const std::string& optio
 }
 
 std::optional<Hand> QuantityReader::hand(const std::string& option, const std::string& text) {
-  const Dimension length = modules_.declarations.dimension("length"), velocity = modules_.declarations.dimension("velocity");
+  const Dimension length = modules_.declarations.dimension("length"),
+                  velocity = modules_.declarations.dimension("velocity");
   const auto values = list(option, text, {length, length, velocity, velocity}, 2, "10 mm, 5 mm");
   if (!values) return std::nullopt;
   Hand hand;
@@ -52,7 +55,8 @@ std::optional<Hand> QuantityReader::hand(const std::string& option, const std::s
   return hand;
 }
 
-std::optional<float> QuantityReader::parameter(const std::string& option, const Parameter& parameter, const std::string& text) {
+std::optional<float> QuantityReader::parameter(const std::string& option, const Parameter& parameter,
+                                               const std::string& text) {
   Dimension dimension;
   if (!parameter.si_unit.empty()) {
     const SourceId source = sources_.add("the unit of " + parameter.name, "1 " + parameter.si_unit);
@@ -68,17 +72,19 @@ std::optional<float> QuantityReader::parameter(const std::string& option, const 
   }
   // A unit that only the material's own file declares travels with the parameter.
   modules_.declarations.units.try_emplace(parameter.unit, Unit{parameter.unit_in_si, dimension});
-  const std::string example = parameter.unit.empty() ? "0.5" : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit);
+  const std::string example =
+      parameter.unit.empty() ? "0.5" : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit);
   const auto values = list(option, text, {dimension}, 1, example);
   if (!values) return std::nullopt;
   const float value = static_cast<float>(values->front());
   if (!(value >= parameter.low && value <= parameter.high)) {
     const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-    diagnostics_.report({.code = Code::value_out_of_range,
-                         .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
-                         .message = fmt::format("`{}` is out of its range", parameter.name),
-                         .help = fmt::format("give a value from {:.6g}{} to {:.6g}{}", parameter.low / parameter.unit_in_si, unit,
-                                             parameter.high / parameter.unit_in_si, unit)});
+    diagnostics_.report(
+        {.code = Code::value_out_of_range,
+         .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
+         .message = fmt::format("`{}` is out of its range", parameter.name),
+         .help = fmt::format("give a value from {:.6g}{} to {:.6g}{}", parameter.low / parameter.unit_in_si, unit,
+                             parameter.high / parameter.unit_in_si, unit)});
     return std::nullopt;
   }
   return value;

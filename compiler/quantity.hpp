@@ -21,16 +21,17 @@ class QuantityReader {
   /// A hand: position, and velocity where it is given: "10 mm, 5 mm[, 0.1 m/s, 0 m/s]".
   std::optional<Hand> hand(const std::string& option, const std::string& text);
 
-  /// A value for a parameter, in SI and in its range: "5mm" for one in mm. Its own unit is known even where nothing else
-  /// declares it.
+  /// A value for a parameter, in SI and in its range: "5mm" for one in mm. Its own unit is known even where nothing
+  /// else declares it.
   std::optional<float> parameter(const std::string& option, const Parameter& parameter, const std::string& text);
 
   const SourceSet& sources() const { return sources_; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
 
  private:
-  std::optional<std::vector<double>> list(const std::string& option, const std::string& text, const std::vector<Dimension>& dimensions,
-                                          std::size_t needed, const std::string& example);
+  std::optional<std::vector<double>> list(const std::string& option, const std::string& text,
+                                          const std::vector<Dimension>& dimensions, std::size_t needed,
+                                          const std::string& example);
 
   SourceSet sources_;
   Diagnostics diagnostics_;

@@ -1,8 +1,8 @@
 #include "compiler/sample.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace wale {
@@ -20,7 +20,8 @@ std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
 std::string samples_csv(const std::vector<SampledHand>& samples) {
   std::string text = "t (s),x (m),y (m),vx (m/s),vy (m/s),fx (N),fy (N)\n";
   for (const auto& [time, hand, force] : samples)
-    text += fmt::format("{},{},{},{},{},{},{}\n", time, hand.position.x, hand.position.y, hand.velocity.x, hand.velocity.y, force.x, force.y);
+    text += fmt::format("{},{},{},{},{},{},{}\n", time, hand.position.x, hand.position.y, hand.velocity.x,
+                        hand.velocity.y, force.x, force.y);
   return text;
 }
 

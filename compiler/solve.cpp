@@ -1,11 +1,11 @@
 #include "compiler/solve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-
-#include <fmt/format.h>
 
 #include "compiler/check_expression.hpp"
 #include "compiler/spelling.hpp"
@@ -87,9 +87,15 @@ class Law {
   }
 
   /// The same as numbers.
-  double level_of(double carrier) const { return number([&](Terms& terms) { return level(terms, terms.literal(carrier)); }); }
-  double magnitude_of(double carrier) const { return number([&](Terms& terms) { return magnitude(terms, terms.literal(carrier)); }); }
-  double carrier_of(double level) const { return number([&](Terms& terms) { return this->carrier(terms, terms.literal(level)); }); }
+  double level_of(double carrier) const {
+    return number([&](Terms& terms) { return level(terms, terms.literal(carrier)); });
+  }
+  double magnitude_of(double carrier) const {
+    return number([&](Terms& terms) { return magnitude(terms, terms.literal(carrier)); });
+  }
+  double carrier_of(double level) const {
+    return number([&](Terms& terms) { return this->carrier(terms, terms.literal(level)); });
+  }
 
  private:
   std::pair<TermId, TermId> copy(Terms& terms, TermId magnitude, TermId carrier) const {
@@ -117,7 +123,11 @@ class Solver {
  public:
   Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
          Diagnostics& diagnostics)
-      : material_(material), declarations_(module.declarations), sources_(sources), resolver_(resolver), diagnostics_(diagnostics) {}
+      : material_(material),
+        declarations_(module.declarations),
+        sources_(sources),
+        resolver_(resolver),
+        diagnostics_(diagnostics) {}
 
   SolvedMaterial solve(const std::string& device_name) {
     solved_.name = material_.name;
@@ -139,12 +149,14 @@ class Solver {
     solved_.layers = material_.layers;
     solved_.patch_width = material_.patch ? (*material_.patch)[0] : device_->profile.patch_width;
     solved_.patch_height = material_.patch ? (*material_.patch)[1] : device_->profile.patch_height;
-    solved_.patch_rim = std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
+    solved_.patch_rim =
+        std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
 
     const double workspace = device_->profile.workspace_diameter;
     if (std::max(solved_.patch_width, solved_.patch_height) > workspace)
       report(Code::value_out_of_range, material_.patch ? material_.patch_span : material_.span,
-             fmt::format("a patch of {:.4g} mm x {:.4g} mm does not fit `{}`", 1e3 * solved_.patch_width, 1e3 * solved_.patch_height, device_name),
+             fmt::format("a patch of {:.4g} mm x {:.4g} mm does not fit `{}`", 1e3 * solved_.patch_width,
+                         1e3 * solved_.patch_height, device_name),
              fmt::format("its workspace is {:.4g} mm across", 1e3 * workspace));
 
     open_terms_ = material_.terms;
@@ -160,7 +172,9 @@ class Solver {
     for (std::size_t i = 0; i < open_spans_.size(); ++i)
       if (!solutions_.contains(static_cast<std::uint32_t>(i)) && !complained_.contains(static_cast<std::uint32_t>(i)))
         report(Code::open_amplitude, open_spans_[i], "nothing says how hard this pushes",
-               fmt::format("say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give the amplitude: `amplitude: 1.2 N`", percept_of(i)));
+               fmt::format(
+                   "say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give the amplitude: `amplitude: 1.2 N`",
+                   percept_of(i)));
     if (diagnostics_.has_errors()) return std::move(solved_);
     substitute();
     describe_percepts();
@@ -171,14 +185,16 @@ class Solver {
   /// A material without a force takes the device's own realisation of its percept.
   bool realise_percepts() {
     if (material_.percepts.empty()) {
-      report(Code::no_force, material_.span, fmt::format("`{}` says neither how it pushes nor how it feels", material_.name),
+      report(Code::no_force, material_.span,
+             fmt::format("`{}` says neither how it pushes nor how it feels", material_.name),
              "add `physical { force = … }` or `perceptual { roughness … }`");
       return false;
     }
     const auto& asked = material_.percepts.front();
     const auto realisation = device_->realise.find(asked.name);
     if (realisation == device_->realise.end()) {
-      report(Code::percept_unrealised, asked.span, fmt::format("`{}` has no realisation of {} of its own", device_->profile.name, asked.name),
+      report(Code::percept_unrealised, asked.span,
+             fmt::format("`{}` has no realisation of {} of its own", device_->profile.name, asked.name),
              "write the physics: `physical { force = … }`");
       return false;
     }
@@ -206,16 +222,19 @@ class Solver {
       for (const auto& map : declarations_.maps) {
         if (map.percept != percept.name || map.device != device) continue;
         if (found) {
-          if (span) report(Code::no_map, *span, fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map.source),
-                 "keep one of them");
+          if (span)
+            report(Code::no_map, *span,
+                   fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map.source),
+                   "keep one of them");
           return nullptr;
         }
         found = &map;
       }
       if (found) return found;
     }
-    if (span) report(Code::no_map, *span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_->profile.name),
-           "declare one, as in calibration/minsky1995.wale");
+    if (span)
+      report(Code::no_map, *span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_->profile.name),
+             "declare one, as in calibration/minsky1995.wale");
     return nullptr;
   }
 
@@ -234,7 +253,8 @@ class Solver {
     }
     if (open.size() > 1) {
       for (const auto* carrier : open) complained_.insert(open_terms_[carrier->size].index);
-      report(Code::several_open, open[1]->span, fmt::format("{} sizes are left open for one {}", open.size(), asked.name),
+      report(Code::several_open, open[1]->span,
+             fmt::format("{} sizes are left open for one {}", open.size(), asked.name),
              "add the heights up in one `lateral(a + b)`, or give all but one an amplitude");
       return;
     }
@@ -249,23 +269,27 @@ class Solver {
     const double size = law.carrier_of(asked.level);
     if (std::isnan(size)) {
       complained_.insert(open_terms_[open[0]->size].index);
-      report(Code::unsolvable_law, map->span, fmt::format("the law of {} from {} cannot be solved for `{}`", map->percept, map->from, map->from),
+      report(Code::unsolvable_law, map->span,
+             fmt::format("the law of {} from {} cannot be solved for `{}`", map->percept, map->from, map->from),
              "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can");
       return;
     }
     warn_of_range(asked, *map, percept, law, size);
     for (const auto& parameter : solved_.parameters)
       if (parameter.name == asked.name)
-        report(Code::declared_twice, material_.span, fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
+        report(Code::declared_twice, material_.span,
+               fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
                "give the parameter another name");
-    solutions_[open_terms_[open[0]->size].index] = {&percept, map, static_cast<std::uint32_t>(solved_.parameters.size())};
-    solved_.parameters.push_back({.name = asked.name,
-                                  .unit = "",
-                                  .unit_in_si = 1,
-                                  .value = static_cast<float>(asked.level),
-                                  .low = 0,
-                                  .high = 1,
-                                  .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", asked.name)});
+    solutions_[open_terms_[open[0]->size].index] = {&percept, map,
+                                                    static_cast<std::uint32_t>(solved_.parameters.size())};
+    solved_.parameters.push_back(
+        {.name = asked.name,
+         .unit = "",
+         .unit_in_si = 1,
+         .value = static_cast<float>(asked.level),
+         .low = 0,
+         .high = 1,
+         .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", asked.name)});
   }
 
   void warn_of_range(const AskedPercept& asked, const Map& map, const Percept& percept, const Law& law, double size) {
@@ -274,16 +298,17 @@ class Solver {
     constexpr double rounding = 1e-6;  // a reference stimulus at the very end of the range is inside it
     if (size > device_->profile.force_newton)
       report(Code::saturates, asked.span,
-             fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` pushes {:.3g} {} at most", asked.name, asked.level, size, unit, device_->profile.name,
-                         device_->profile.force_newton, unit),
+             fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` pushes {:.3g} {} at most", asked.name, asked.level, size,
+                         unit, device_->profile.name, device_->profile.force_newton, unit),
              fmt::format("the most it can render is {:.2g}", law.level_of(device_->profile.force_newton)));
-    if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) || size > map.valid_high * (1 + rounding))
+    if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) ||
+        size > map.valid_high * (1 + rounding))
       report(Code::beyond_validity, asked.span,
              asked.level < percept.near_threshold
                  ? fmt::format("{} {:.3g} is near or below threshold", asked.name, asked.level)
                  : fmt::format("{} {:.3g} lies outside what was measured ({})", asked.name, asked.level, map.source),
-             fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low), law.level_of(map.valid_high),
-                         map.valid_low, map.valid_high, unit));
+             fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
+                         law.level_of(map.valid_high), map.valid_low, map.valid_high, unit));
   }
 
   /// Percept and physics both given: they must agree within the scatter of the map.
@@ -293,12 +318,15 @@ class Solver {
     const double level = law.level_of(*size);
     const double difference = std::abs(std::log10(level) - std::log10(asked.level));
     if (difference <= map.scatter) return;
-    diagnostics_.report({.code = Code::percept_conflict,
-                         .span = asked.span,
-                         .message = fmt::format("{} {:.3g} is asked for, and the amplitude given makes it {:.2g}", asked.name, asked.level, level),
-                         .expected = fmt::format("an amplitude of {:.3g} {}", law.carrier_of(asked.level), declarations_.names.unit(carrier.dimension)),
-                         .found = fmt::format("{:.3g} {}", *size, declarations_.names.unit(carrier.dimension)),
-                         .help = "leave out the amplitude, and it is solved from the percept; or leave out the percept"});
+    diagnostics_.report(
+        {.code = Code::percept_conflict,
+         .span = asked.span,
+         .message = fmt::format("{} {:.3g} is asked for, and the amplitude given makes it {:.2g}", asked.name,
+                                asked.level, level),
+         .expected = fmt::format("an amplitude of {:.3g} {}", law.carrier_of(asked.level),
+                                 declarations_.names.unit(carrier.dimension)),
+         .found = fmt::format("{:.3g} {}", *size, declarations_.names.unit(carrier.dimension)),
+         .help = "leave out the amplitude, and it is solved from the percept; or leave out the percept"});
   }
 
   /// Copies everything, the solved expressions in place of what was open.
@@ -355,7 +383,8 @@ class Solver {
       PerceptRecord& record = solved.record;
       record.name = name;
       record.carrier = percept.carrier;
-      if (carrier.open) record.parameter = static_cast<std::uint16_t>(solutions_.at(open_terms_[carrier.size].index).parameter);
+      if (carrier.open)
+        record.parameter = static_cast<std::uint16_t>(solutions_.at(open_terms_[carrier.size].index).parameter);
       record.alone = force_ && (*force_)[0] == carrier.force_x && (*force_)[1] == carrier.force_y;
       record.valid_low = static_cast<float>(map->valid_low);
       record.valid_high = static_cast<float>(map->valid_high);
@@ -409,8 +438,8 @@ class Solver {
 
 }  // namespace
 
-SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device, const SourceSet& sources,
-                     Resolver& resolver, Diagnostics& diagnostics) {
+SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
   return Solver(material, module, sources, resolver, diagnostics).solve(device);
 }
 

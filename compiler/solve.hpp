@@ -36,8 +36,8 @@ struct SolvedMaterial {
 };
 
 /// Chooses maps for the device and puts their inverse laws, as expressions in a live level, where quantities were left
-/// open; a material that says only what it feels like gets the device's own realisation. Purely symbolic but for warnings
-/// about the level asked for. The result is fit for `lower` only when no error was reported.
+/// open; a material that says only what it feels like gets the device's own realisation. Purely symbolic but for
+/// warnings about the level asked for. The result is fit for `lower` only when no error was reported.
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
                      const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
 

@@ -36,8 +36,8 @@ class SourceSet {
   std::size_t size() const { return sources_.size(); }
 
   std::string_view text(Span span) const;
-  Place place(Span span) const;              ///< of the span's first character
-  std::string_view line(Span span) const;    ///< the whole first line of the span, without its newline
+  Place place(Span span) const;            ///< of the span's first character
+  std::string_view line(Span span) const;  ///< the whole first line of the span, without its newline
 
  private:
   std::size_t line_index(Span span) const;  ///< which line the span begins in, from 0

@@ -11,8 +11,8 @@ char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<ch
 
 bool same(char a, char b) { return lower(a) == lower(b); }
 
-/// How many slips make `b` of `a`, capitals aside: a letter inserted, dropped or replaced, or two neighbours that changed places, each
-/// letter touched once (the optimal string alignment distance).
+/// How many slips make `b` of `a`, capitals aside: a letter inserted, dropped or replaced, or two neighbours that
+/// changed places, each letter touched once (the optimal string alignment distance).
 std::size_t letters_changed(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});
@@ -20,7 +20,8 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same(a[i - 1], b[j - 1])});
-      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]))
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, row);

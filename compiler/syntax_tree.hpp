@@ -26,28 +26,52 @@ struct SuffixFactor {
   int exponent = 1;
 };
 
-struct NumberLiteral { double value = 0; std::vector<SuffixFactor> suffix; };
-struct TextLiteral   { std::string text; };
-struct NameUse       { std::string name; };
+struct NumberLiteral {
+  double value = 0;
+  std::vector<SuffixFactor> suffix;
+};
+struct TextLiteral {
+  std::string text;
+};
+struct NameUse {
+  std::string name;
+};
 
 enum class UnaryOperator { negate, plus };
 enum class BinaryOperator { add, subtract, multiply, divide, power, less, less_equal, greater, greater_equal };
 
-struct Unary       { UnaryOperator op; ExprId operand; };
-struct Binary      { BinaryOperator op; ExprId left, right; };
-struct Argument    { std::optional<Word> name; ExprId value; };
-struct Call        { Word callee; std::vector<Argument> arguments; };
-struct Conditional { ExprId condition, yes, no; };
+struct Unary {
+  UnaryOperator op;
+  ExprId operand;
+};
+struct Binary {
+  BinaryOperator op;
+  ExprId left, right;
+};
+struct Argument {
+  std::optional<Word> name;
+  ExprId value;
+};
+struct Call {
+  Word callee;
+  std::vector<Argument> arguments;
+};
+struct Conditional {
+  ExprId condition, yes, no;
+};
 /// What stands where an expression was expected and none could be read; already reported.
-struct Erroneous   {};
+struct Erroneous {};
 
 using Expr = std::variant<NumberLiteral, TextLiteral, NameUse, Unary, Binary, Call, Conditional, Erroneous>;
 
 /// `a .. b`.
-struct Range { ExprId low, high; };
+struct Range {
+  ExprId low, high;
+};
 
 /// One item of a setting: leading words, then perhaps a value, a range or an equation, as in
-/// `slope measured` | `10 N` | `amplitude 9 pu .. 194 pu` | `log10(magnitude) = 0.76 * ...` | `roughness = lateral(...)`.
+/// `slope measured` | `10 N` | `amplitude 9 pu .. 194 pu` | `log10(magnitude) = 0.76 * ...` | `roughness =
+/// lateral(...)`.
 struct SettingItem {
   std::vector<Word> words;
   std::optional<ExprId> value;
@@ -75,13 +99,36 @@ struct RecordDecl {
   Span span;
 };
 
-struct Import       { Word module; };
-struct DimensionDecl{ Word name; std::optional<ExprId> definition; };   ///< none: a base dimension
+struct Import {
+  Word module;
+};
+struct DimensionDecl {
+  Word name;
+  std::optional<ExprId> definition;
+};  ///< none: a base dimension
 /// `unit m : length` (a base unit) or `unit N = 1 kg m/s^2`.
-struct UnitDecl     { Word name; std::optional<Word> dimension; std::optional<ExprId> definition; std::string documentation; };
-struct Constant     { Word name; ExprId value; std::string documentation; };   ///< `let` outside a material
-struct FormalParameter { Word name; std::optional<Word> dimension; std::optional<ExprId> default_value; };
-struct FunctionDecl { Word name; std::vector<FormalParameter> parameters; ExprId body; std::string documentation; };
+struct UnitDecl {
+  Word name;
+  std::optional<Word> dimension;
+  std::optional<ExprId> definition;
+  std::string documentation;
+};
+struct Constant {
+  Word name;
+  ExprId value;
+  std::string documentation;
+};  ///< `let` outside a material
+struct FormalParameter {
+  Word name;
+  std::optional<Word> dimension;
+  std::optional<ExprId> default_value;
+};
+struct FunctionDecl {
+  Word name;
+  std::vector<FormalParameter> parameters;
+  ExprId body;
+  std::string documentation;
+};
 
 /// `roughness 0.6`, `essential softness 0.8 ± 0.1`, `roughness coarse`.
 struct PerceptStatement {
@@ -93,19 +140,47 @@ struct PerceptStatement {
   Span span;
 };
 
-struct ParamStatement  { Word name; ExprId value; std::optional<Range> range; std::string description; std::string documentation; };
-struct LetStatement    { Word name; ExprId value; };
-struct HeightStatement { Word name; ExprId value; };
-struct ForceStatement  { ExprId value; };
+struct ParamStatement {
+  Word name;
+  ExprId value;
+  std::optional<Range> range;
+  std::string description;
+  std::string documentation;
+};
+struct LetStatement {
+  Word name;
+  ExprId value;
+};
+struct HeightStatement {
+  Word name;
+  ExprId value;
+};
+struct ForceStatement {
+  ExprId value;
+};
 /// `patch 95 mm, 95 mm`: the patch's width and height.
-struct PatchStatement  { std::vector<ExprId> sizes; };
-struct StateStatement  { Word name; std::optional<Word> dimension; ExprId value; std::optional<Range> range; };
-struct UpdateStatement { Word name; bool derivative; ExprId value; };   ///< `x' = …` or `next x = …`
-struct ShowStatement   { ExprId value; };
+struct PatchStatement {
+  std::vector<ExprId> sizes;
+};
+struct StateStatement {
+  Word name;
+  std::optional<Word> dimension;
+  ExprId value;
+  std::optional<Range> range;
+};
+struct UpdateStatement {
+  Word name;
+  bool derivative;
+  ExprId value;
+};  ///< `x' = …` or `next x = …`
+struct ShowStatement {
+  ExprId value;
+};
 
 struct PhysicalStatement {
   std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, StateStatement,
-               UpdateStatement, ShowStatement> what;
+               UpdateStatement, ShowStatement>
+      what;
   Span span;
 };
 

@@ -4,9 +4,7 @@
 
 namespace wale {
 
-int operand_count(Operation operation) {
-  return static_cast<int>(std::ranges::count(facts(operation).fields, 'r'));
-}
+int operand_count(Operation operation) { return static_cast<int>(std::ranges::count(facts(operation).fields, 'r')); }
 
 namespace {
 
@@ -49,7 +47,9 @@ TermId Terms::add(const Term& term) {
   return static_cast<TermId>(terms_.size() - 1);
 }
 
-TermId Terms::literal(double value, Span span) { return add({.kind = TermKind::literal, .value = value, .span = span}); }
+TermId Terms::literal(double value, Span span) {
+  return add({.kind = TermKind::literal, .value = value, .span = span});
+}
 
 TermId Terms::input(Input input, Span span) {
   return add({.kind = TermKind::input, .index = static_cast<std::uint32_t>(input), .span = span});

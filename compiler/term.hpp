@@ -13,16 +13,16 @@ namespace wale {
 using TermId = std::uint32_t;
 
 enum class TermKind : std::uint8_t {
-  literal,       ///< `value`
-  input,         ///< `input`
-  parameter,     ///< parameter number `index`
-  open,          ///< a quantity left open, number `index`; `solve` replaces it
-  magnitude,     ///< in a map's law: the perceived magnitude
-  carrier,       ///< in a map's law: the size of the carrier
-  operation,     ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`
-  component,     ///< result `index` of the sample `a`
-  gradient,      ///< derivative of `a` along axis `index` (0 x, 1 y)
-  peak,          ///< 99th percentile of `a` over the patch less its rim
+  literal,    ///< `value`
+  input,      ///< `input`
+  parameter,  ///< parameter number `index`
+  open,       ///< a quantity left open, number `index`; `solve` replaces it
+  magnitude,  ///< in a map's law: the perceived magnitude
+  carrier,    ///< in a map's law: the size of the carrier
+  operation,  ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`
+  component,  ///< result `index` of the sample `a`
+  gradient,   ///< derivative of `a` along axis `index` (0 x, 1 y)
+  peak,       ///< 99th percentile of `a` over the patch less its rim
 };
 
 struct Term {

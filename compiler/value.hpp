@@ -17,8 +17,8 @@ struct Value {
     vector,   ///< `x` and `y`, of one dimension
     boolean,  ///< `x`, 1 or 0
     text,
-    open,     ///< the word `open`: to be solved
-    failed,   ///< already reported
+    open,    ///< the word `open`: to be solved
+    failed,  ///< already reported
   };
   Type type = Type::failed;
   TermId x = 0, y = 0;
@@ -60,13 +60,13 @@ struct Scope {
 
 /// A force algorithm's size, fixed or left open, at one of its calls: "lateral amplitude".
 struct Carrier {
-  std::string name;       ///< function and argument
-  TermId size = 0;        ///< the argument's term
+  std::string name;  ///< function and argument
+  TermId size = 0;   ///< the argument's term
   bool open = false;
   Dimension dimension;
-  TermId force_x = 0, force_y = 0;   ///< the call's result
-  std::optional<TermId> relief;      ///< its argument `height`
-  Span span;                         ///< of the call
+  TermId force_x = 0, force_y = 0;  ///< the call's result
+  std::optional<TermId> relief;     ///< its argument `height`
+  Span span;                        ///< of the call
 };
 
 }  // namespace wale

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include <nlohmann/json.hpp>
 
 namespace wale {
@@ -12,9 +13,11 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
       "  USB joysticks are not driven by this version.\n\nto build for (wale build --device NAME)\n";
   for (const auto& [profile, source, assumed] : devices) {
-    text += fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n", profile.name, profile.force_newton,
-                        profile.force_counts, 1e3 * profile.workspace_diameter, profile.position_counts, profile.rate);
-    text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass, profile.damping, profile.friction);
+    text += fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
+                        profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
+                        profile.position_counts, profile.rate);
+    text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
+                        profile.damping, profile.friction);
     if (!assumed.empty()) text += fmt::format("  {:<12} assumed, not measured: {}\n", "", fmt::join(assumed, ", "));
     if (!source.empty()) text += fmt::format("  {:<12} {}\n", "", source);
   }

@@ -17,7 +17,8 @@ std::string rendered(const Diagnostics& diagnostics, const SourceSet& sources) {
   return text;
 }
 
-std::variant<Program, Unavailable> compile_text(std::string name, std::string text, const std::string& material, const std::string& device) {
+std::variant<Program, Unavailable> compile_text(std::string name, std::string text, const std::string& material,
+                                                const std::string& device) {
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver({});
@@ -29,7 +30,8 @@ std::variant<Program, Unavailable> compile_text(std::string name, std::string te
 
 /// A word of Wale or a number: nothing that could end the statement it is put into.
 bool is_level(const std::string& text) {
-  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
+  return !text.empty() &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
 }
 
 }  // namespace
@@ -48,20 +50,26 @@ Library::Library() : parts_(std::make_unique<Parts>()) {
 
 Library::~Library() = default;
 
-std::variant<Program, Unavailable> Library::level(const std::string& percept, const std::string& level, const std::string& device) const {
-  if (!is_level(percept) || !is_level(level)) return Unavailable{"a percept is a word, and a level is a word or a number\n"};
-  return compile_text("level", "wale 1\nmaterial " + percept + "_level { perceptual { " + percept + " " + level + " } }\n", "", device);
+std::variant<Program, Unavailable> Library::level(const std::string& percept, const std::string& level,
+                                                  const std::string& device) const {
+  if (!is_level(percept) || !is_level(level))
+    return Unavailable{"a percept is a word, and a level is a word or a number\n"};
+  return compile_text(
+      "level", "wale 1\nmaterial " + percept + "_level { perceptual { " + percept + " " + level + " } }\n", "", device);
 }
 
-std::variant<Program, Unavailable> Library::material(const std::string& file, const std::string& name, const std::string& device) const {
+std::variant<Program, Unavailable> Library::material(const std::string& file, const std::string& name,
+                                                     const std::string& device) const {
   auto read = read_file(file);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read)) return Unavailable{file + ": " + problem->reason + "\n"};
+  if (const auto* problem = std::get_if<ResolveProblem>(&read))
+    return Unavailable{file + ": " + problem->reason + "\n"};
   return compile_text(file, std::move(std::get<ResolvedFile>(read).bytes), name, device);
 }
 
 std::vector<DescribedDevice> Library::devices() const {
   std::vector<DescribedDevice> devices;
-  for (const auto& [name, device] : parts_->modules.declarations.devices) devices.push_back({device.profile, device.source, device.assumed});
+  for (const auto& [name, device] : parts_->modules.declarations.devices)
+    devices.push_back({device.profile, device.source, device.assumed});
   return devices;
 }
 
@@ -79,7 +87,8 @@ std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& na
 std::unique_ptr<SimulatedJoystick> Library::simulated_joystick() const {
   const auto person = std::get<SimulatedPerson>(this->person());
   for (const auto& device : devices())
-    if (device.profile.name == default_device) return std::make_unique<SimulatedJoystick>(device.profile, person.hand, person.lateral);
+    if (device.profile.name == default_device)
+      return std::make_unique<SimulatedJoystick>(device.profile, person.hand, person.lateral);
   return nullptr;
 }
 

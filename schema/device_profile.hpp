@@ -8,21 +8,21 @@ namespace wale {
 /// where a zero makes no sense.
 struct DeviceProfile {
   std::string name;
-  double workspace_diameter = 0;   ///< m
-  double position_counts = 0;      ///< encoder counts over the workspace's diameter, per axis
-  double force_newton = 0;         ///< peak force per axis, N
-  double force_counts = 0;         ///< command steps from zero to peak force
-  double rate = 0;                 ///< control ticks per second, Hz
-  double speed_limit = 0;          ///< m/s; what the runtime clamps velocity to and measuring explores up to
-  double slew = 0;                 ///< N/s; how fast the force may move after a change of program, bank or patch
-  double velocity_window = 0;      ///< ticks; the longest window of the velocity filter
-  double velocity_noise_counts = 0;///< counts; the band the velocity filter takes for noise
-  double patch_width = 0;          ///< m; the patch a material gets that does not say
-  double patch_height = 0;         ///< m
-  double patch_rim = 0;            ///< m; over which a patch fades at its edge
-  double mass = 0;                 ///< kg, moving mass at the handle
-  double damping = 0;              ///< N s/m
-  double friction = 0;             ///< N, Coulomb
+  double workspace_diameter = 0;     ///< m
+  double position_counts = 0;        ///< encoder counts over the workspace's diameter, per axis
+  double force_newton = 0;           ///< peak force per axis, N
+  double force_counts = 0;           ///< command steps from zero to peak force
+  double rate = 0;                   ///< control ticks per second, Hz
+  double speed_limit = 0;            ///< m/s; what the runtime clamps velocity to and measuring explores up to
+  double slew = 0;                   ///< N/s; how fast the force may move after a change of program, bank or patch
+  double velocity_window = 0;        ///< ticks; the longest window of the velocity filter
+  double velocity_noise_counts = 0;  ///< counts; the band the velocity filter takes for noise
+  double patch_width = 0;            ///< m; the patch a material gets that does not say
+  double patch_height = 0;           ///< m
+  double patch_rim = 0;              ///< m; over which a patch fades at its edge
+  double mass = 0;                   ///< kg, moving mass at the handle
+  double damping = 0;                ///< N s/m
+  double friction = 0;               ///< N, Coulomb
 
   /// Metres per encoder count.
   double position_step() const { return workspace_diameter / position_counts; }

@@ -24,6 +24,7 @@ struct OperationFacts {
 
 /// The facts of an operation number, or nothing when no instruction has that number.
 constexpr std::optional<OperationFacts> operation_facts(unsigned number) {
+  // clang-format off
   switch (number) {
 #define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
   case number: return OperationFacts{#name, fields, results, cost};
@@ -32,6 +33,7 @@ constexpr std::optional<OperationFacts> operation_facts(unsigned number) {
 #include "schema/instruction.def"
     default: return std::nullopt;
   }
+  // clang-format on
 }
 
 constexpr OperationFacts facts(Operation operation) { return *operation_facts(static_cast<unsigned>(operation)); }
@@ -68,8 +70,13 @@ constexpr Instruction decode(std::uint64_t word) {
 /// Position and velocity are the hand's, from the patch's centre, in m and m/s. `probe` is what a percept's
 /// prediction is asked about (for roughness, a lateral amplitude in N).
 enum class Input : RegisterNumber {
-  x = 0, y = 1, velocity_x = 2, velocity_y = 3,
-  patch_half_width = 4, patch_half_height = 5, patch_rim = 6,
+  x = 0,
+  y = 1,
+  velocity_x = 2,
+  velocity_y = 3,
+  patch_half_width = 4,
+  patch_half_height = 5,
+  patch_rim = 6,
   probe = 7,
 };
 

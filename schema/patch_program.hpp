@@ -18,12 +18,12 @@ namespace wale {
 /// showing and typing them: shown = value / unit_in_si.
 struct Parameter {
   std::string name;
-  std::string unit;         ///< as the author wrote it, "mm"; empty for a plain number
+  std::string unit;  ///< as the author wrote it, "mm"; empty for a plain number
   double unit_in_si = 1;
   float value = 0;          ///< the default
   float low = 0, high = 0;  ///< hard range, low <= value <= high
   std::string description;
-  std::string si_unit;      ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
+  std::string si_unit;  ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
 
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };
@@ -85,10 +85,10 @@ struct PerceptRecord {
   bool alone = false;                      ///< nothing but this carrier pushes, so total force reads it
   std::vector<Instruction> prediction;
   RegisterNumber magnitude = 0, level = 0;
-  float valid_low = 0, valid_high = 0;     ///< of the carrier's size
-  float scatter = 0;                       ///< standard deviation of log10 magnitude
+  float valid_low = 0, valid_high = 0;  ///< of the carrier's size
+  float scatter = 0;                    ///< standard deviation of log10 magnitude
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
-  std::string map, device, source;         ///< the map's name, the device it was measured on, the citation
+  std::string map, device, source;  ///< the map's name, the device it was measured on, the citation
 
   friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
 };
@@ -96,8 +96,8 @@ struct PerceptRecord {
 /// The layers as their author wrote them: kept for people and catalogues, never executed.
 struct Layers {
   std::vector<std::pair<std::string, std::vector<std::string>>> representative;  ///< ("called", {"corduroy", ...})
-  std::string perceptual;  ///< source text
-  std::string physical;    ///< source text
+  std::string perceptual;                                                        ///< source text
+  std::string physical;                                                          ///< source text
 
   friend bool operator==(const Layers&, const Layers&) = default;
 };

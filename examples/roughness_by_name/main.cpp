@@ -29,5 +29,6 @@ int main(int argc, char** argv) {
                                    .settling = 0.5});
   for (const auto& level : wale::levels_back(*stage.bank(), felt))
     if (const auto* back = std::get_if<wale::Prediction>(&level.back))
-      std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99, back->level);
+      std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99,
+                  back->level);
 }

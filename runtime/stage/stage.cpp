@@ -57,6 +57,8 @@ std::variant<long, Refusal> ticks_of(double seconds, double rate) {
 bool is_set(const std::atomic<bool>* flag) noexcept { return flag != nullptr && flag->load(std::memory_order_relaxed); }
 
 /// What the control side was asked for.
+}  // namespace
+
 struct Placement {
   Program program;
   glm::vec2 position;
@@ -65,8 +67,6 @@ struct Placement {
 
   PlacedPatch build() const { return {Bank(program, parameters, size), position}; }
 };
-
-}  // namespace
 
 struct Stage::Parts {
   Device& device;

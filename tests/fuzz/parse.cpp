@@ -1,5 +1,5 @@
 // A libFuzzer target for the front end: any bytes at all are read, printed and reported on without a crash.
-//     clang++ -std=c++20 -fsanitize=fuzzer,address,undefined -I. tests/fuzz/parse.cpp compiler/{source,…}.cpp -lfmt
+// cmake --preset fuzz && cmake --build --preset fuzz && build-fuzz/tests/fuzz_parse library/
 
 #include "compiler/parse.hpp"
 

@@ -39,10 +39,12 @@ class Library {
   ~Library();
 
   /// A surface of that much of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6").
-  std::variant<Program, Unavailable> level(const std::string& percept, const std::string& level, const std::string& device = "sandpaper") const;
+  std::variant<Program, Unavailable> level(const std::string& percept, const std::string& level,
+                                           const std::string& device = "sandpaper") const;
 
   /// A material of a Wale file; without a name the file's only or first one.
-  std::variant<Program, Unavailable> material(const std::string& file, const std::string& name = {}, const std::string& device = "sandpaper") const;
+  std::variant<Program, Unavailable> material(const std::string& file, const std::string& name = {},
+                                              const std::string& device = "sandpaper") const;
 
   std::vector<DescribedDevice> devices() const;
   std::variant<SimulatedPerson, Unavailable> person(const std::string& name = "normal") const;

@@ -1,0 +1,33 @@
+// A libFuzzer target for the loader: any bytes at all are refused with a reason, or make a program that runs and pushes
+// no harder than its device. The checksum is mended first, so that the fuzzer reaches what stands behind it.
+
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include "schema/patch_program_format.hpp"
+#include "wale/program.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  std::vector<std::byte> bytes(reinterpret_cast<const std::byte*>(data),
+                               reinterpret_cast<const std::byte*>(data) + size);
+  using namespace wale::patch_program_format;
+  if (bytes.size() >= header_size) {
+    const std::uint32_t crc = checksum(bytes);
+    for (std::size_t i = 0; i < 4; ++i) bytes[checksum_offset + i] = static_cast<std::byte>(crc >> 8 * i & 0xff);
+  }
+  const auto loaded = wale::Program::load(bytes);
+  if (const auto* refusal = std::get_if<wale::Refusal>(&loaded)) return refusal->reason.empty() ? (std::abort(), 0) : 0;
+  const auto& program = std::get<wale::Program>(loaded);
+  long points = 0;
+  for (const auto& peak : program.description().peaks) points += peak.points * static_cast<long>(peak.code.size());
+  if (points > 1'000'000) return 0;  // accepted, but too slow to fuzz
+  wale::Bank bank(program);
+  const float most = static_cast<float>(program.description().device.force_newton);
+  for (const float place : {0.0f, 0.013f, -1e30f, std::nanf("")}) {
+    const wale::Force force = tick(bank, {{place, -place}, {place, 1.0f}});
+    if (!(std::abs(force.x) <= most && std::abs(force.y) <= most)) std::abort();
+  }
+  return 0;
+}
