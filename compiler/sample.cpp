@@ -7,6 +7,13 @@
 
 namespace wale {
 
+namespace {
+
+/// The number that a single-precision value is short for: 0.0006, not 0.00060000002849.
+double shortest(float value) { return std::stod(fmt::format("{}", value)); }
+
+}  // namespace
+
 std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
   const glm::vec2 extent = glm::vec2(bank.size().width, bank.size().height) / 2.0f;
   for (auto& sampled : hands) {
@@ -29,12 +36,12 @@ std::string samples_json(const std::vector<SampledHand>& samples) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& [time, hand, force] : samples)
     json.push_back({{"t", time},
-                    {"x", hand.position.x},
-                    {"y", hand.position.y},
-                    {"vx", hand.velocity.x},
-                    {"vy", hand.velocity.y},
-                    {"fx", force.x},
-                    {"fy", force.y}});
+                    {"x", shortest(hand.position.x)},
+                    {"y", shortest(hand.position.y)},
+                    {"vx", shortest(hand.velocity.x)},
+                    {"vy", shortest(hand.velocity.y)},
+                    {"fx", shortest(force.x)},
+                    {"fy", shortest(force.y)}});
   return json.dump(2) + "\n";
 }
 

@@ -56,9 +56,9 @@ std::variant<long, Refusal> ticks_of(double seconds, double rate) {
 
 bool is_set(const std::atomic<bool>* flag) noexcept { return flag != nullptr && flag->load(std::memory_order_relaxed); }
 
-/// What the control side was asked for.
 }  // namespace
 
+/// What the control side was asked for.
 struct Placement {
   Program program;
   glm::vec2 position;
