@@ -286,7 +286,7 @@ struct BuiltinFunctions {
                             problem->size
                                 ? fmt::format("give it at least {0} x {0} pixels, and at most {1} million in all",
                                               smallest_image_side, most_image_pixels / 1'000'000)
-                                : "any picture that OpenImageIO reads will do: PNG, TIFF, JPEG, EXR and their like");
+                                : "save it as PNG, TIFF, JPEG or EXR");
     auto& picture = std::get<HeightImage>(read);
 
     const double column = *scale * picture.pixels_per_column, row = *scale * picture.pixels_per_row;

@@ -25,8 +25,10 @@ std::string joined(const std::vector<Word>& words) {
   return text;
 }
 
+/// Whether an item holds a word, before its value or behind it.
 bool has_word(const SettingItem& item, std::string_view word) {
-  return std::ranges::find(item.words, word, &Word::text) != item.words.end();
+  return std::ranges::find(item.words, word, &Word::text) != item.words.end() ||
+         std::ranges::find(item.trailing, word, &Word::text) != item.trailing.end();
 }
 
 /// The dimension of a carrier, "lateral amplitude", from the declaration of the function's argument.
