@@ -17,7 +17,7 @@ enum class Operation : std::uint8_t {
 /// What one row of `instruction.def` says of an operation.
 struct OperationFacts {
   std::string_view name;
-  std::string_view fields;  ///< of a, b, c: r register, t table, p peak, - must be zero
+  std::string_view fields;  ///< of a, b, c: r register, t table, g grid, p peak, - must be zero
   int results;              ///< consecutive registers written
   int cost;                 ///< in units of one addition
 };
@@ -67,8 +67,11 @@ constexpr Instruction decode(std::uint64_t word) {
 
 /// The registers that the runtime fills before a section runs; numbers never change.
 ///
-/// Position and velocity are the hand's, from the patch's centre, in m and m/s. `probe` is what a percept's
-/// prediction is asked about (for roughness, a lateral amplitude in N).
+/// Position, velocity and acceleration are the hand's, from the patch's centre, in m, m/s and m/s^2, through the device's
+/// filter; the raw ones are plain differences of positions. `workspace_x` and `workspace_y` are the hand's position from
+/// the workspace's centre. `time` is in s since the stage began to run, `seconds_per_tick` the device's period, `button`
+/// 1 while it is pressed and else 0. `probe` is what a percept's prediction is asked about (for roughness, a lateral
+/// amplitude in N).
 enum class Input : RegisterNumber {
   x = 0,
   y = 1,
@@ -78,9 +81,20 @@ enum class Input : RegisterNumber {
   patch_half_height = 5,
   patch_rim = 6,
   probe = 7,
+  acceleration_x = 8,
+  acceleration_y = 9,
+  raw_velocity_x = 10,
+  raw_velocity_y = 11,
+  raw_acceleration_x = 12,
+  raw_acceleration_y = 13,
+  workspace_x = 14,
+  workspace_y = 15,
+  time = 16,
+  button = 17,
+  seconds_per_tick = 18,
 };
 
-/// Registers 0 .. 15 are inputs, named or reserved; constants begin at 16.
-inline constexpr RegisterNumber first_constant = 16;
+/// Registers 0 .. 31 are inputs, named or reserved; constants begin at 32.
+inline constexpr RegisterNumber first_constant = 32;
 
 }  // namespace wale

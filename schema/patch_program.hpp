@@ -22,6 +22,7 @@ struct Parameter {
   double unit_in_si = 1;
   float value = 0;          ///< the default
   float low = 0, high = 0;  ///< hard range, low <= value <= high
+  float soft_low = 0, soft_high = 0;  ///< the usual range, for a slider; low <= soft_low <= soft_high <= high
   std::string description;
   std::string si_unit;  ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
 
@@ -63,10 +64,79 @@ struct Output {
   friend bool operator==(const Output&, const Output&) = default;
 };
 
-/// What the picture section leaves: the height of the surface at (x, y), in m or as a plain number.
+/// A quantity that a program remembers from tick to tick: one register, read by tick, frame and picture code as it was
+/// when the tick began.
+///
+/// It begins at `initial` (a register of the `enter` section) when the hand enters the patch, becomes `next` (a register
+/// of the tick) at the end of each tick, and is held in low .. high; not-a-number gives the initial value again.
+struct State {
+  std::string name;
+  float low = 0, high = 0;
+  RegisterNumber initial = 0, next = 0;
+
+  friend bool operator==(const State&, const State&) = default;
+};
+
+/// A field over the patch that a program remembers: `columns` by `rows` cells, the first at the lower left. Every cell
+/// begins at `initial` when the program is placed and is held in low .. high.
+struct Grid {
+  std::string name;
+  std::uint32_t columns = 0, rows = 0;
+  float initial = 0, low = 0, high = 0;
+
+  friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+/// At the end of a tick the cell nearest to (u, v), in cells from the centre of the first one, becomes `value`; nothing
+/// is written when one of the three is not a number. Registers of the tick.
+struct GridWrite {
+  std::uint16_t grid = 0;
+  RegisterNumber u = 0, v = 0, value = 0;
+
+  friend bool operator==(const GridWrite&, const GridWrite&) = default;
+};
+
+/// Shapes that a picture shows besides its surface. Places and lengths in m, angles in rad, on the patch.
+enum class MarkKind : std::uint8_t {
+  point = 1,       ///< place x y, diameter
+  circle = 2,      ///< place x y, radius
+  box = 3,         ///< place x y, width, height, angle
+  line = 4,        ///< from x y, to x y
+  spring = 5,      ///< from x y, to x y, width
+  trajectory = 6,  ///< place x y, seconds for which its path stays visible
+};
+
+/// How many registers a mark of a kind has.
+constexpr std::size_t mark_operands(MarkKind kind) {
+  switch (kind) {
+    case MarkKind::point:
+    case MarkKind::circle:
+    case MarkKind::trajectory: return 3;
+    case MarkKind::line: return 4;
+    case MarkKind::box:
+    case MarkKind::spring: return 5;
+  }
+  return 0;
+}
+
+/// One shape: what `MarkKind` says of its registers, which the frame section leaves.
+struct Mark {
+  MarkKind kind = MarkKind::point;
+  std::array<RegisterNumber, 5> operands{};  ///< those beyond the kind's own are 0
+  std::uint32_t colour = 0;                  ///< 0xRRGGBB
+
+  friend bool operator==(const Mark&, const Mark&) = default;
+};
+
+/// How a program looks. `code` runs for each point that is drawn and reads place, patch and states; `frame` runs once a
+/// picture and reads what the tick reads.
 struct Picture {
   std::vector<Instruction> code;
-  RegisterNumber relief = 0;
+  RegisterNumber relief = 0;                            ///< the surface's height
+  bool relief_is_length = false;                        ///< in m; otherwise a plain number
+  std::optional<std::array<RegisterNumber, 3>> colour;  ///< red, green, blue in 0 .. 1, where the author says
+  std::vector<Instruction> frame;
+  std::vector<Mark> marks;  ///< in the order of drawing
 
   friend bool operator==(const Picture&, const Picture&) = default;
 };
@@ -98,13 +168,14 @@ struct Layers {
   std::vector<std::pair<std::string, std::vector<std::string>>> representative;  ///< ("called", {"corduroy", ...})
   std::string perceptual;                                                        ///< source text
   std::string physical;                                                          ///< source text
+  std::string documentation;                                                     ///< the comment above the material
 
   friend bool operator==(const Layers&, const Layers&) = default;
 };
 
 /// A compiled material: everything a `.wpp` file holds. Plain data; `verify` says whether it may be run.
 ///
-/// Registers lie in this order: 16 inputs, constants, parameters, `setup_registers` results of setup, then
+/// Registers lie in this order: 32 inputs, constants, parameters, `setup_registers` results of setup, states, then
 /// `temporaries` that each run of a section may use from scratch.
 struct PatchProgram {
   std::string material;
@@ -114,8 +185,12 @@ struct PatchProgram {
   std::uint16_t temporaries = 0;
   std::vector<Instruction> setup;
   std::vector<Peak> peaks;
+  std::vector<State> states;
+  std::vector<Instruction> enter;  ///< what the states begin with: reads what the tick reads, besides states and grids
+  std::vector<Grid> grids;
   std::vector<Instruction> tick;
   std::vector<Output> outputs;
+  std::vector<GridWrite> writes;  ///< in the order in which they happen
   Picture picture;
   std::vector<HeightTable> tables;
   float patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m; default size of the patch
@@ -125,9 +200,10 @@ struct PatchProgram {
 
   RegisterNumber first_parameter() const { return static_cast<RegisterNumber>(first_constant + constants.size()); }
   RegisterNumber first_setup() const { return static_cast<RegisterNumber>(first_parameter() + parameters.size()); }
-  RegisterNumber first_temporary() const { return static_cast<RegisterNumber>(first_setup() + setup_registers); }
+  RegisterNumber first_state() const { return static_cast<RegisterNumber>(first_setup() + setup_registers); }
+  RegisterNumber first_temporary() const { return static_cast<RegisterNumber>(first_state() + states.size()); }
   std::size_t register_count() const {
-    return first_constant + constants.size() + parameters.size() + setup_registers + temporaries;
+    return first_constant + constants.size() + parameters.size() + setup_registers + states.size() + temporaries;
   }
 
   friend bool operator==(const PatchProgram&, const PatchProgram&) = default;

@@ -30,24 +30,28 @@ inline constexpr std::uint32_t longest_text = 1u << 20;
 
 struct SectionKind {
   std::string_view name;  ///< four characters
-  bool required;          ///< always there; the others are left out when they would be empty
+  bool required;          ///< its flag: without knowing it nobody may run the program
+  bool always;            ///< always there; the others are left out when they would be empty
 };
 
 /// Known sections in the order in which they stand in a file.
-inline constexpr std::array<SectionKind, 14> section_kinds = {{{"NAME", true},
-                                                               {"REGS", true},
-                                                               {"CONS", true},
-                                                               {"PARM", true},
-                                                               {"SETU", true},
-                                                               {"PEAK", true},
-                                                               {"TICK", true},
-                                                               {"OUTP", true},
-                                                               {"PICT", true},
-                                                               {"TABL", true},
-                                                               {"PTCH", true},
-                                                               {"DEVI", true},
-                                                               {"PERC", false},
-                                                               {"LAYR", false}}};
+inline constexpr std::array<SectionKind, 17> section_kinds = {{{"NAME", true, true},
+                                                               {"REGS", true, true},
+                                                               {"CONS", true, true},
+                                                               {"PARM", true, true},
+                                                               {"SETU", true, true},
+                                                               {"PEAK", true, true},
+                                                               {"STAT", true, false},
+                                                               {"GRID", true, false},
+                                                               {"TICK", true, true},
+                                                               {"OUTP", true, true},
+                                                               {"PICT", true, true},
+                                                               {"FRAM", false, false},
+                                                               {"TABL", true, true},
+                                                               {"PTCH", true, true},
+                                                               {"DEVI", true, true},
+                                                               {"PERC", false, false},
+                                                               {"LAYR", false, false}}};
 
 constexpr std::size_t align(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
 

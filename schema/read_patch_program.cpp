@@ -101,7 +101,7 @@ std::vector<float> read_constants(ByteReader& in) {
 }
 
 std::vector<Parameter> read_parameters(ByteReader& in) {
-  std::vector<Parameter> parameters(in.count(36, "parameters"));
+  std::vector<Parameter> parameters(in.count(44, "parameters"));
   for (Parameter& parameter : parameters) {
     parameter.name = in.text("a parameter's name");
     parameter.unit = in.text("a parameter's unit");
@@ -110,6 +110,8 @@ std::vector<Parameter> read_parameters(ByteReader& in) {
     parameter.value = in.finite_f32("a parameter's default");
     parameter.low = in.finite_f32("a parameter's range");
     parameter.high = in.finite_f32("a parameter's range");
+    parameter.soft_low = in.finite_f32("a parameter's usual range");
+    parameter.soft_high = in.finite_f32("a parameter's usual range");
     parameter.description = in.text("a parameter's description");
   }
   return parameters;
@@ -126,6 +128,73 @@ std::vector<Peak> read_peaks(ByteReader& in) {
     peak.code = in.code();
   }
   return peaks;
+}
+
+void read_states(ByteReader& in, PatchProgram& program) {
+  program.states.resize(in.count(16, "states"));
+  for (State& state : program.states) {
+    state.name = in.text("a state's name");
+    state.low = in.finite_f32("a state's range");
+    state.high = in.finite_f32("a state's range");
+    state.initial = in.u16();
+    state.next = in.u16();
+  }
+  program.enter = in.code();
+  if (program.states.empty() && program.enter.empty()) {
+    refuse(in.name(), " is there and empty; a file without states leaves it out");
+  }
+}
+
+void read_grids(ByteReader& in, PatchProgram& program) {
+  program.grids.resize(in.count(24, "grids"));
+  for (Grid& grid : program.grids) {
+    grid.name = in.text("a grid's name");
+    grid.columns = in.u32();
+    grid.rows = in.u32();
+    grid.initial = in.finite_f32("a grid's initial value");
+    grid.low = in.finite_f32("a grid's range");
+    grid.high = in.finite_f32("a grid's range");
+  }
+  program.writes.resize(in.count(8, "writes"));
+  for (GridWrite& write : program.writes) {
+    write.grid = in.u16();
+    write.u = in.u16();
+    write.v = in.u16();
+    write.value = in.u16();
+  }
+  if (program.grids.empty() && program.writes.empty()) {
+    refuse(in.name(), " is there and empty; a file without grids leaves it out");
+  }
+}
+
+void read_picture(ByteReader& in, Picture& picture) {
+  picture.relief = in.u16();
+  picture.relief_is_length = in.boolean("the relief's being a length");
+  const bool coloured = in.boolean("the surface's being coloured");
+  std::array<RegisterNumber, 3> colour{};
+  for (RegisterNumber& number : colour) number = in.u16();
+  if (coloured) picture.colour = colour;
+  if (!coloured && colour != std::array<RegisterNumber, 3>{}) {
+    refuse(in.name(), " names registers for a colour that it does not have");
+  }
+  picture.code = in.code();
+}
+
+void read_frame(ByteReader& in, Picture& picture) {
+  picture.frame = in.code();
+  picture.marks.resize(in.count(11, "marks"));
+  for (Mark& mark : picture.marks) {
+    const std::uint8_t kind = in.u8();
+    mark.kind = static_cast<MarkKind>(kind);
+    if (mark_operands(mark.kind) == 0) {
+      refuse(in.name(), " has a mark of kind ", int{kind}, ", which this Wale does not know");
+    }
+    mark.colour = in.u32();
+    for (std::size_t i = 0; i < mark_operands(mark.kind); ++i) mark.operands[i] = in.u16();
+  }
+  if (picture.frame.empty() && picture.marks.empty()) {
+    refuse(in.name(), " is there and empty; a file without marks leaves it out");
+  }
 }
 
 std::vector<Output> read_outputs(ByteReader& in) {
@@ -231,6 +300,7 @@ Layers read_layers(ByteReader& in) {
   }
   layers.perceptual = in.text("the perceptual layer");
   layers.physical = in.text("the physical layer");
+  layers.documentation = in.text("the documentation");
   if (layers == Layers{}) refuse(in.name(), " is there and empty; a file without layers leaves it out");
   return layers;
 }
@@ -245,12 +315,12 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
   if (kind == "PARM") program.parameters = read_parameters(in);
   if (kind == "SETU") program.setup = in.code();
   if (kind == "PEAK") program.peaks = read_peaks(in);
+  if (kind == "STAT") read_states(in, program);
+  if (kind == "GRID") read_grids(in, program);
   if (kind == "TICK") program.tick = in.code();
   if (kind == "OUTP") program.outputs = read_outputs(in);
-  if (kind == "PICT") {
-    program.picture.relief = in.u16();
-    program.picture.code = in.code();
-  }
+  if (kind == "PICT") read_picture(in, program.picture);
+  if (kind == "FRAM") read_frame(in, program.picture);
   if (kind == "TABL") program.tables = read_tables(in);
   if (kind == "PTCH") {
     program.patch_width = in.finite_f32("the patch's width");
@@ -360,7 +430,7 @@ PatchProgram read(std::span<const std::byte> bytes) {
     refuse("the file has ", bytes.size() - expected_offset, " bytes after its last section");
   }
   for (std::size_t i = 0; i < section_kinds.size(); ++i) {
-    if (section_kinds[i].required && !seen[i]) refuse("section ", section_kinds[i].name, " is missing");
+    if (section_kinds[i].always && !seen[i]) refuse("section ", section_kinds[i].name, " is missing");
   }
   return program;
 }

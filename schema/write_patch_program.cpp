@@ -50,6 +50,8 @@ void write_parameters(ByteWriter& out, std::span<const Parameter> parameters) {
     out.f32(parameter.value);
     out.f32(parameter.low);
     out.f32(parameter.high);
+    out.f32(parameter.soft_low);
+    out.f32(parameter.soft_high);
     out.text(parameter.description);
   }
 }
@@ -63,6 +65,55 @@ void write_peaks(ByteWriter& out, std::span<const Peak> peaks) {
     out.u32(peak.points);
     out.f32(peak.percentile);
     out.code(peak.code);
+  }
+}
+
+void write_states(ByteWriter& out, const PatchProgram& program) {
+  out.u32(program.states.size());
+  for (const State& state : program.states) {
+    out.text(state.name);
+    out.f32(state.low);
+    out.f32(state.high);
+    out.u16(state.initial);
+    out.u16(state.next);
+  }
+  out.code(program.enter);
+}
+
+void write_grids(ByteWriter& out, const PatchProgram& program) {
+  out.u32(program.grids.size());
+  for (const Grid& grid : program.grids) {
+    out.text(grid.name);
+    out.u32(grid.columns);
+    out.u32(grid.rows);
+    out.f32(grid.initial);
+    out.f32(grid.low);
+    out.f32(grid.high);
+  }
+  out.u32(program.writes.size());
+  for (const GridWrite& write : program.writes) {
+    out.u16(write.grid);
+    out.u16(write.u);
+    out.u16(write.v);
+    out.u16(write.value);
+  }
+}
+
+void write_picture(ByteWriter& out, const Picture& picture) {
+  out.u16(picture.relief);
+  out.u8(picture.relief_is_length);
+  out.u8(picture.colour.has_value());
+  for (const RegisterNumber number : picture.colour.value_or(std::array<RegisterNumber, 3>{})) out.u16(number);
+  out.code(picture.code);
+}
+
+void write_frame(ByteWriter& out, const Picture& picture) {
+  out.code(picture.frame);
+  out.u32(picture.marks.size());
+  for (const Mark& mark : picture.marks) {
+    out.u8(static_cast<std::uint8_t>(mark.kind));
+    out.u32(mark.colour);
+    for (std::size_t i = 0; i < mark_operands(mark.kind); ++i) out.u16(mark.operands[i]);
   }
 }
 
@@ -129,9 +180,10 @@ void write_layers(ByteWriter& out, const Layers& layers) {
   }
   out.text(layers.perceptual);
   out.text(layers.physical);
+  out.text(layers.documentation);
 }
 
-/// The bytes of one section; nothing for a skippable section that would be empty.
+/// The bytes of one section; nothing for one that may be left out and would be empty.
 std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& program) {
   ByteWriter out;
   if (kind == "NAME") out.text(program.material);
@@ -146,11 +198,13 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
   if (kind == "PARM") write_parameters(out, program.parameters);
   if (kind == "SETU") out.code(program.setup);
   if (kind == "PEAK") write_peaks(out, program.peaks);
+  if (kind == "STAT" && !(program.states.empty() && program.enter.empty())) write_states(out, program);
+  if (kind == "GRID" && !(program.grids.empty() && program.writes.empty())) write_grids(out, program);
   if (kind == "TICK") out.code(program.tick);
   if (kind == "OUTP") write_outputs(out, program.outputs);
-  if (kind == "PICT") {
-    out.u16(program.picture.relief);
-    out.code(program.picture.code);
+  if (kind == "PICT") write_picture(out, program.picture);
+  if (kind == "FRAM" && !(program.picture.frame.empty() && program.picture.marks.empty())) {
+    write_frame(out, program.picture);
   }
   if (kind == "TABL") write_tables(out, program.tables);
   if (kind == "PTCH") {
@@ -174,7 +228,7 @@ std::vector<std::byte> write_patch_program(const PatchProgram& program) {
   std::vector<Section> sections;
   for (const SectionKind& kind : section_kinds) {
     std::vector<std::byte> bytes = write_section(kind.name, program);
-    if (kind.required || !bytes.empty()) sections.push_back({kind, std::move(bytes)});
+    if (kind.always || !bytes.empty()) sections.push_back({kind, std::move(bytes)});
   }
   std::size_t total = header_size + sections.size() * section_entry_size;
   for (const Section& section : sections) total += align(section.bytes.size());

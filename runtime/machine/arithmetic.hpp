@@ -155,4 +155,62 @@ inline float limited(float a, float ceiling) {
   return a == a ? usable : 0.0f;
 }
 
+/// The angle of the vector (`b`, `a`) within [-pi, pi]; absolute error below 2.5e-7. Of (0, 0) it is 0, and signed zeros
+/// count as 0: of (-1, -0) it is pi. Infinities are taken at their word: of (infinity, infinity) it is pi / 4.
+///
+/// The quotient of the smaller side by the larger, then an odd polynomial on [0, 1] (minimax, 7.4e-9), then the octant.
+inline float arctangent_of(float a, float b) {
+  using namespace arithmetic;
+  const float y = absolute(a), x = absolute(b);
+  const bool steep = y > x;
+  const float smaller = steep ? x : y, larger = steep ? y : x;
+  const float quotient = smaller == larger ? 1.0f : smaller / larger;
+  const float t = larger == 0.0f ? 0.0f : quotient;
+  const float z = t * t;
+  const float p = (((((((2.6222448e-3f * z - 1.5132537e-2f) * z + 4.1121862e-2f) * z - 7.3667063e-2f) * z +
+                      1.0573932e-1f) *
+                         z -
+                     1.4185975e-1f) *
+                        z +
+                    1.9990397e-1f) *
+                       z -
+                   3.3332987e-1f) *
+                      z * t +
+                  t;
+  // A quarter and half a turn in two parts, or their own rounding would be most of the error.
+  const float eighth = steep ? (1.57079637f - p) - 4.37113883e-8f : p;
+  const float half = b < 0.0f ? (3.14159274f - eighth) - 8.74227766e-8f : eighth;
+  return a < 0.0f ? -half : half;
+}
+
+namespace arithmetic {
+
+/// floor(a) as a 32-bit integer: held within +-(2^31 - 128), and 0 for not-a-number.
+inline std::uint32_t lattice_index(float a) {
+  const float whole = floor_of(a);
+  const float number = whole >= -2147483520.0f ? whole : (whole < 0.0f ? -2147483520.0f : 0.0f);
+  const float held = number < 2147483520.0f ? number : 2147483520.0f;
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(held));
+}
+
+/// A permutation of the 32-bit integers in which each bit of the argument turns each bit of the result with a chance
+/// near a half (C. Wellons' lowbias32).
+inline std::uint32_t mixed(std::uint32_t h) {
+  h = (h ^ h >> 16) * 0x7feb352du;
+  h = (h ^ h >> 15) * 0x846ca68bu;
+  return h ^ h >> 16;
+}
+
+}  // namespace arithmetic
+
+/// A number in [0, 1), always the same for the same floor(a), floor(b) and floor(c), with 24 bits that neither
+/// neighbours nor orders of the three share. Not-a-number counts as 0; beyond 2^31 all are one.
+inline float hash_of(float a, float b, float c) {
+  using namespace arithmetic;
+  const std::uint32_t first = mixed(lattice_index(a) + 0x9e3779b9u);
+  const std::uint32_t second = mixed(first + lattice_index(b));
+  const std::uint32_t third = mixed(second + lattice_index(c));
+  return static_cast<float>(static_cast<std::int32_t>(third >> 8)) * 0x1p-24f;
+}
+
 }  // namespace wale

@@ -25,7 +25,8 @@ float lane_of(const float* operand, std::size_t lane, float shared) {
 
 /// One operation over a block, for one choice of uniform operands.
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
-void kernel(float* destination, const float* as, const float* bs, const float* cs, const Spline*) {
+void kernel(float* destination, const float* as, const float* bs, const float* cs, const Lookup&,
+            const float*) {
   const float shared_a = *as, shared_b = *bs, shared_c = *cs;
   WALE_LANES_ARE_INDEPENDENT
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -36,19 +37,48 @@ void kernel(float* destination, const float* as, const float* bs, const float* c
 }
 
 template <bool uniform_a, bool uniform_b>
-void sample_kernel(float* destination, const float* as, const float* bs, const float*, const Spline* spline) {
+void sample_kernel(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
+                   const float*) {
   const float shared_a = *as, shared_b = *bs;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const SplineSample sample =
-        sample_of(*spline, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
+        sample_of(*lookup.spline, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
     destination[lane] = sample.value;
     destination[row_stride + lane] = sample.along_a;
     destination[2 * row_stride + lane] = sample.along_b;
   }
 }
 
+template <bool uniform_a, bool uniform_b>
+void recall_kernel(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
+                   const float* cells) {
+  const float shared_a = *as, shared_b = *bs;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const GridSample sample = recall_of(*lookup.grid, cells, lane_of<uniform_a>(as, lane, shared_a),
+                                        lane_of<uniform_b>(bs, lane, shared_b));
+    destination[lane] = sample.value;
+    destination[row_stride + lane] = sample.along_a;
+    destination[2 * row_stride + lane] = sample.along_b;
+  }
+}
+
+template <bool uniform_a, bool uniform_b>
+void cell_kernel(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
+                 const float* cells) {
+  const float shared_a = *as, shared_b = *bs;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    destination[lane] = cells[cell_at(*lookup.grid, lane_of<uniform_a>(as, lane, shared_a),
+                                      lane_of<uniform_b>(bs, lane, shared_b))];
+  }
+}
+
 /// Kernels of one operation, by which operands are uniform: a counts 1, b 2, c 4.
 using Variants = std::array<Kernel, 8>;
+
+/// Of an operation that reads a and b only.
+Variants with_two_operands(const std::array<Kernel, 4>& all) {
+  return {all[0], all[1], all[2], all[3], all[0], all[1], all[2], all[3]};
+}
 
 /// An operand that an operation does not read is uniform in all its variants, which are then made once.
 template <Operation operation>
@@ -59,9 +89,14 @@ Variants variants() {
   if constexpr (operation == Operation::peak) {
     return {};  // only setup runs peaks, and it has one lane
   } else if constexpr (operation == Operation::sample) {
-    return {sample_kernel<false, false>, sample_kernel<true, false>,  sample_kernel<false, true>,
-            sample_kernel<true, true>,   sample_kernel<false, false>, sample_kernel<true, false>,
-            sample_kernel<false, true>,  sample_kernel<true, true>};
+    return with_two_operands({sample_kernel<false, false>, sample_kernel<true, false>, sample_kernel<false, true>,
+                              sample_kernel<true, true>});
+  } else if constexpr (operation == Operation::recall) {
+    return with_two_operands({recall_kernel<false, false>, recall_kernel<true, false>, recall_kernel<false, true>,
+                              recall_kernel<true, true>});
+  } else if constexpr (operation == Operation::cell) {
+    return with_two_operands(
+        {cell_kernel<false, false>, cell_kernel<true, false>, cell_kernel<false, true>, cell_kernel<true, true>});
   } else {
     return {kernel<operation, a, b, c>,       kernel<operation, true, b, c>,      kernel<operation, a, true, c>,
             kernel<operation, true, true, c>, kernel<operation, a, b, true>,      kernel<operation, true, b, true>,
@@ -85,12 +120,17 @@ Variants variants_of(Operation operation) {
 }  // namespace
 
 BlockOperand block_operand(const PatchProgram& program, RegisterNumber number) {
-  if (number <= static_cast<RegisterNumber>(Input::velocity_y)) return {number, false};
-  if (number < program.first_temporary()) return {number, true};
-  return {static_cast<std::uint16_t>(first_temporary_row + number - program.first_temporary()), false};
+  constexpr auto first_four = static_cast<RegisterNumber>(Input::velocity_y);
+  constexpr auto others = static_cast<RegisterNumber>(Input::acceleration_x);
+  constexpr auto last = static_cast<RegisterNumber>(Input::button);
+  static_assert(first_four + 1 + last - others + 1 == input_rows);
+  if (number <= first_four) return {number, false};
+  if (number >= others && number <= last) return {static_cast<std::uint16_t>(number - others + first_four + 1), false};
+  if (number < program.first_state()) return {number, true};
+  return {static_cast<std::uint16_t>(input_rows + number - program.first_state()), false};
 }
 
-BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines,
+BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const GridShape> grids,
                        std::span<const Instruction> code) {
   BlockCode decoded;
   decoded.reserve(code.size());
@@ -103,7 +143,8 @@ BlockCode decode_block(const PatchProgram& program, std::span<const Spline> spli
     unsigned variant = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       if (fields[i] == 'r') operands[i] = block_operand(program, numbers[i]);
-      if (fields[i] == 't') block.spline = &splines[numbers[i]];
+      if (fields[i] == 't') block.lookup.spline = &splines[numbers[i]];
+      if (fields[i] == 'g') block.lookup.grid = &grids[numbers[i]];
       if (operands[i].uniform) variant |= 1u << i;
     }
     block.kernel = variants_of(operation)[variant];
@@ -117,18 +158,18 @@ BlockCode decode_block(const PatchProgram& program, std::span<const Spline> spli
 }
 
 Block::Block(const PatchProgram& program)
-    : rows_((first_temporary_row + std::size_t{program.temporaries}) * row_stride) {}
+    : rows_((input_rows + program.states.size() + program.temporaries) * row_stride) {}
 
 #if defined(__GNUC__)
 __attribute__((noinline))  // see FloatingPointMode
 #endif
-void Block::run(const BlockCode& code, const float* registers) {
+void Block::run(const BlockCode& code, const float* registers, const float* cells) {
   float* rows = rows_.data();
   const auto place = [rows, registers](BlockOperand operand) {
     return operand.uniform ? registers + operand.index : rows + operand.index * row_stride;
   };
   for (const BlockInstruction& i : code) {
-    i.kernel(rows + i.destination * row_stride, place(i.a), place(i.b), place(i.c), i.spline);
+    i.kernel(rows + i.destination * row_stride, place(i.a), place(i.b), place(i.c), i.lookup, cells);
   }
 }
 

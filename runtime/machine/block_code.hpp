@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/machine/grid.hpp"
 #include "runtime/machine/spline.hpp"
 #include "schema/patch_program.hpp"
 
@@ -14,8 +15,16 @@ inline constexpr std::size_t lanes = 128;
 /// Floats from one row of lanes to the next: a cache line more than the lanes, so that rows do not collide in cache.
 inline constexpr std::size_t row_stride = lanes + 16;
 
+/// What an instruction looks into besides its registers.
+struct Lookup {
+  const Spline* spline = nullptr;
+  const GridShape* grid = nullptr;
+};
+
 /// Applies an operation to a block. An operand is a row of lanes or, for the variants made so, one uniform float.
-using Kernel = void (*)(float* destination, const float* a, const float* b, const float* c, const Spline* spline);
+/// `cells` are those of all grids.
+using Kernel = void (*)(float* destination, const float* a, const float* b, const float* c, const Lookup& lookup,
+                        const float* cells);
 
 /// Where a block finds an operand: a row of lanes, or a register of the bank that is the same for all.
 struct BlockOperand {
@@ -27,19 +36,21 @@ struct BlockInstruction {
   Kernel kernel = nullptr;
   std::uint16_t destination = 0;  ///< row
   BlockOperand a, b, c;
-  const Spline* spline = nullptr;
+  Lookup lookup;
 };
 
 using BlockCode = std::vector<BlockInstruction>;
 
-/// Rows of lanes stand for position, velocity and the temporaries, in this order; all else is uniform.
-inline constexpr std::uint16_t first_temporary_row = 4;
+/// Rows of lanes stand for the inputs that change from tick to tick, the states and the temporaries, in this order; all
+/// else is uniform.
+inline constexpr std::uint16_t input_rows = 14;
 
 /// Where a register of the program is found by a block.
 BlockOperand block_operand(const PatchProgram& program, RegisterNumber number);
 
-/// Code of a tick, picture or peak section for blocks. It points into `splines`.
-BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const Instruction> code);
+/// Code of a section other than setup for blocks. It points into `splines` and `grids`.
+BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const GridShape> grids,
+                       std::span<const Instruction> code);
 
 /// The rows of one block at work.
 class Block {
@@ -47,10 +58,11 @@ class Block {
   /// Room for the program's rows, all zero. Allocates.
   explicit Block(const PatchProgram& program);
 
-  /// `lanes` floats: the row of a position or velocity input.
-  float* row(Input input) { return rows_.data() + static_cast<std::size_t>(input) * row_stride; }
-  /// Runs code over all lanes, with uniform operands out of `registers`. The caller holds a `FloatingPointMode`.
-  void run(const BlockCode& code, const float* registers);
+  /// `lanes` floats: the row of an operand that is not uniform.
+  float* row(BlockOperand operand) { return rows_.data() + operand.index * row_stride; }
+  /// Runs code over all lanes, with uniform operands out of `registers` and grids out of `cells`, which code that looks
+  /// at no grid does without. The caller holds a `FloatingPointMode`.
+  void run(const BlockCode& code, const float* registers, const float* cells);
   /// The value of an operand in a lane.
   float value(BlockOperand operand, std::size_t lane, const float* registers) const {
     return operand.uniform ? registers[operand.index] : rows_[operand.index * row_stride + lane];

@@ -16,9 +16,7 @@ float lattice_coordinate(std::uint32_t i, std::uint32_t step) {
 #if defined(__GNUC__)
 __attribute__((noinline))  // see FloatingPointMode
 #endif
-void place_lanes(Block& block, std::uint32_t first, float half_width, float half_height) {
-  float* x = block.row(Input::x);
-  float* y = block.row(Input::y);
+void place_lanes(float* x, float* y, std::uint32_t first, float half_width, float half_height) {
   for (std::uint32_t lane = 0; lane < lanes; ++lane) {
     x[lane] = lattice_coordinate(first + lane, 3242174889u) * half_width;
     y[lane] = lattice_coordinate(first + lane, 2447445414u) * half_height;
@@ -31,10 +29,12 @@ float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<
   const Peak& peak = program.description.peaks[index];
   const BlockOperand value = block_operand(program.description, peak.value);
   Block block(program.description);
+  float* x = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::x)));
+  float* y = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::y)));
   std::vector<float> values(peak.points);
   for (std::uint32_t first = 0; first < peak.points; first += lanes) {
-    place_lanes(block, first, registers[peak.half_width], registers[peak.half_height]);
-    block.run(program.peaks[index], registers.data());
+    place_lanes(x, y, first, registers[peak.half_width], registers[peak.half_height]);
+    block.run(program.peaks[index], registers.data(), nullptr);
     const std::size_t count = std::min<std::size_t>(lanes, peak.points - first);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const float v = block.value(value, lane, registers.data());

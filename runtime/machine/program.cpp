@@ -13,19 +13,6 @@ namespace {
 
 float& at(float* registers, Input input) { return registers[static_cast<std::size_t>(input)]; }
 
-/// `value` held within +-`bound`; not-a-number gives 0.
-float envelope(float value, float bound) {
-  return value >= -bound ? (value <= bound ? value : bound) : (value < 0 ? -bound : 0.0f);
-}
-
-/// The hand within what the device can do: a position relative to a patch's centre reaches one workspace at most.
-Hand within_envelope(const Hand& hand, const DeviceProfile& device) {
-  const auto reach = static_cast<float>(device.workspace_diameter);
-  const auto speed = static_cast<float>(device.speed_limit);
-  return {{envelope(hand.position.x, reach), envelope(hand.position.y, reach)},
-          {envelope(hand.velocity.x, speed), envelope(hand.velocity.y, speed)}};
-}
-
 /// The size asked for where it makes sense. A rim that leaves no middle is cut to a quarter of the smaller side.
 PatchSize sensible(PatchSize size, PatchSize fallback) {
   const auto usable = [](float side) { return std::isfinite(side) && side > 0; };
@@ -78,6 +65,7 @@ Bank::Bank(const Program& program, std::span<const float> parameters, PatchSize 
   at(registers, Input::patch_half_width) = 0.5f * size_.width;
   at(registers, Input::patch_half_height) = 0.5f * size_.height;
   at(registers, Input::patch_rim) = size_.rim;
+  at(registers, Input::seconds_per_tick) = static_cast<float>(1 / description.device.rate);
   std::copy(description.constants.begin(), description.constants.end(), registers + first_constant);
   for (std::size_t i = 0; i < description.parameters.size(); ++i) {
     const Parameter& parameter = description.parameters[i];
@@ -85,68 +73,10 @@ Bank::Bank(const Program& program, std::span<const float> parameters, PatchSize 
     registers[description.first_parameter() + i] = std::clamp(asked, parameter.low, parameter.high);
   }
   const FloatingPointMode mode;
-  run_lane(program_.decoded(), description.setup, registers);
+  run_lane(program_.decoded(), description.setup, registers, nullptr);
 }
 
 Bank::Bank(const Program& program) : Bank(program, program.default_parameters(), program.default_size()) {}
-
-Force tick(Bank& bank, const Hand& hand) noexcept {
-  const DecodedProgram& program = bank.program().decoded();
-  const Hand held = within_envelope(hand, program.description.device);
-  float* registers = bank.registers().data();
-  at(registers, Input::x) = held.position.x;
-  at(registers, Input::y) = held.position.y;
-  at(registers, Input::velocity_x) = held.velocity.x;
-  at(registers, Input::velocity_y) = held.velocity.y;
-  {
-    const FloatingPointMode mode;
-    run_lane(program, program.description.tick, registers);
-  }
-  return {registers[program.force_x], registers[program.force_y]};
-}
-
-void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
-  const DecodedProgram& program = bank.program().decoded();
-  const PatchProgram& description = program.description;
-  const float* registers = bank.registers().data();
-  const BlockOperand force_x = block_operand(description, program.force_x);
-  const BlockOperand force_y = block_operand(description, program.force_y);
-  Block block(description);
-  for (std::size_t first = 0; first < hands.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, hands.size() - first);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const Hand held = within_envelope(hands[first + lane], description.device);
-      block.row(Input::x)[lane] = held.position.x;
-      block.row(Input::y)[lane] = held.position.y;
-      block.row(Input::velocity_x)[lane] = held.velocity.x;
-      block.row(Input::velocity_y)[lane] = held.velocity.y;
-    }
-    const FloatingPointMode mode;
-    block.run(program.tick, registers);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      forces[first + lane] = {block.value(force_x, lane, registers), block.value(force_y, lane, registers)};
-    }
-  }
-}
-
-void relief_all(const Bank& bank, std::span<const glm::vec2> positions, std::span<float> heights) {
-  const DecodedProgram& program = bank.program().decoded();
-  const PatchProgram& description = program.description;
-  const float* registers = bank.registers().data();
-  const BlockOperand relief = block_operand(description, description.picture.relief);
-  Block block(description);
-  for (std::size_t first = 0; first < positions.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, positions.size() - first);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const Hand held = within_envelope({positions[first + lane], {}}, description.device);
-      block.row(Input::x)[lane] = held.position.x;
-      block.row(Input::y)[lane] = held.position.y;
-    }
-    const FloatingPointMode mode;
-    block.run(program.picture, registers);
-    for (std::size_t lane = 0; lane < count; ++lane) heights[first + lane] = block.value(relief, lane, registers);
-  }
-}
 
 Prediction predict(const Bank& bank, std::size_t index, float amplitude) {
   const DecodedProgram& program = bank.program().decoded();
@@ -155,7 +85,7 @@ Prediction predict(const Bank& bank, std::size_t index, float amplitude) {
   at(registers.data(), Input::probe) = amplitude;
   {
     const FloatingPointMode mode;
-    run_lane(program, percept.prediction, registers.data());
+    run_lane(program, percept.prediction, registers.data(), nullptr);
   }
   return {registers[percept.magnitude], registers[percept.level]};
 }

@@ -19,19 +19,35 @@ struct Section {
   RegisterNumber first_destination = 0;  ///< it writes from here
   std::size_t destination_count = 0;     ///< on, so many registers
   bool peaks = false;                    ///< it may hold `peak` instructions
+  bool grids = false;                    ///< it may hold `recall` and `cell` instructions
 };
 
 using Registers = std::bitset<register_limit>;
 
 constexpr std::initializer_list<Input> patch_inputs = {Input::patch_half_width, Input::patch_half_height,
-                                                       Input::patch_rim};
-constexpr std::initializer_list<Input> picture_inputs = {Input::x, Input::y, Input::patch_half_width,
-                                                         Input::patch_half_height, Input::patch_rim};
-constexpr std::initializer_list<Input> tick_inputs = {
-    Input::x,        Input::y, Input::velocity_x, Input::velocity_y, Input::patch_half_width, Input::patch_half_height,
-    Input::patch_rim};
-constexpr std::initializer_list<Input> prediction_inputs = {Input::patch_half_width, Input::patch_half_height,
-                                                            Input::patch_rim, Input::probe};
+                                                       Input::patch_rim, Input::seconds_per_tick};
+constexpr std::initializer_list<Input> picture_inputs = {
+    Input::x, Input::y, Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::seconds_per_tick};
+constexpr std::initializer_list<Input> tick_inputs = {Input::x,
+                                                      Input::y,
+                                                      Input::velocity_x,
+                                                      Input::velocity_y,
+                                                      Input::patch_half_width,
+                                                      Input::patch_half_height,
+                                                      Input::patch_rim,
+                                                      Input::acceleration_x,
+                                                      Input::acceleration_y,
+                                                      Input::raw_velocity_x,
+                                                      Input::raw_velocity_y,
+                                                      Input::raw_acceleration_x,
+                                                      Input::raw_acceleration_y,
+                                                      Input::workspace_x,
+                                                      Input::workspace_y,
+                                                      Input::time,
+                                                      Input::button,
+                                                      Input::seconds_per_tick};
+constexpr std::initializer_list<Input> prediction_inputs = {
+    Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::probe, Input::seconds_per_tick};
 
 /// Follows code in order and refuses the first instruction that breaks a rule.
 class Verifier {
@@ -43,17 +59,19 @@ class Verifier {
   void verify_program() {
     verify_setup();
     const Registers after_setup = defined_;
-    run(temporary_section("tick", tick_inputs), program_.tick, after_setup);
-    const Section picture = temporary_section("picture", picture_inputs);
-    require_result(picture, run(picture, program_.picture.code, after_setup), program_.picture.relief, "relief");
+    verify_enter(after_setup);
+    Registers with_states = after_setup;
+    for (std::size_t i = 0; i < program_.states.size(); ++i) with_states[program_.first_state() + i] = true;
+    verify_tick(with_states);
+    verify_picture(with_states);
     for (std::size_t i = 0; i < program_.percepts.size(); ++i) verify_percept(i, after_setup);
     verify_outputs();
     verify_costs();
   }
 
  private:
-  Section temporary_section(std::string name, std::initializer_list<Input> inputs) const {
-    return {std::move(name), inputs, program_.first_temporary(), program_.temporaries, false};
+  Section temporary_section(std::string name, std::initializer_list<Input> inputs, bool grids = false) const {
+    return {std::move(name), inputs, program_.first_temporary(), program_.temporaries, false, grids};
   }
 
   void verify_setup() {
@@ -92,6 +110,52 @@ class Verifier {
     require_result(section, run(section, peak.code, defined_), peak.value, "value");
   }
 
+  /// States begin with what `enter` leaves, which knows of no states.
+  void verify_enter(const Registers& after_setup) const {
+    const Section section = temporary_section("enter", tick_inputs);
+    const Registers after = run(section, program_.enter, after_setup);
+    for (const State& state : program_.states) {
+      require_result(section, after, state.initial, "initial value of state " + state.name);
+    }
+  }
+
+  void verify_tick(const Registers& with_states) const {
+    const Section section = temporary_section("tick", tick_inputs, true);
+    const Registers after = run(section, program_.tick, with_states);
+    for (const State& state : program_.states) {
+      require_result(section, after, state.next, "next value of state " + state.name);
+    }
+    for (std::size_t i = 0; i < program_.writes.size(); ++i) {
+      const GridWrite& write = program_.writes[i];
+      const std::string name = "write " + std::to_string(i);
+      if (write.grid >= program_.grids.size()) {
+        refuse(name, " goes to grid ", write.grid, " of ", program_.grids.size());
+      }
+      require_result(section, after, write.u, "column of " + name);
+      require_result(section, after, write.v, "row of " + name);
+      require_result(section, after, write.value, "value of " + name);
+    }
+  }
+
+  void verify_picture(const Registers& with_states) const {
+    const Picture& picture = program_.picture;
+    const Section section = temporary_section("picture", picture_inputs, true);
+    const Registers after = run(section, picture.code, with_states);
+    require_result(section, after, picture.relief, "relief");
+    if (picture.colour) {
+      for (const RegisterNumber number : *picture.colour) require_result(section, after, number, "colour");
+    }
+    const Section frame = temporary_section("frame", tick_inputs, true);
+    const Registers shown = run(frame, picture.frame, with_states);
+    for (std::size_t i = 0; i < picture.marks.size(); ++i) {
+      const Mark& mark = picture.marks[i];
+      for (std::size_t operand = 0; operand < mark_operands(mark.kind); ++operand) {
+        require_result(frame, shown, mark.operands[operand],
+                       "operand " + std::to_string(operand) + " of mark " + std::to_string(i));
+      }
+    }
+  }
+
   void verify_percept(std::size_t index, const Registers& after_setup) {
     const PerceptRecord& percept = program_.percepts[index];
     const Section section = temporary_section("percept " + std::to_string(index), prediction_inputs);
@@ -125,6 +189,9 @@ class Verifier {
     if (instruction.operation == static_cast<std::uint8_t>(Operation::peak) && !section.peaks) {
       refuse(here(), " runs a peak, which only setup may");
     }
+    if (known->fields[2] == 'g' && !section.grids) {
+      refuse(here(), " looks into a grid, which only tick, picture and frame may");
+    }
     const std::array<RegisterNumber, 3> operands = {instruction.a, instruction.b, instruction.c};
     for (std::size_t i = 0; i < operands.size(); ++i) {
       const RegisterNumber operand = operands[i];
@@ -136,6 +203,11 @@ class Verifier {
         case 't':
           if (operand >= program_.tables.size()) {
             refuse(here(), " looks into table ", operand, " of ", program_.tables.size());
+          }
+          break;
+        case 'g':
+          if (operand >= program_.grids.size()) {
+            refuse(here(), " looks into grid ", operand, " of ", program_.grids.size());
           }
           break;
         case 'p':
@@ -192,7 +264,7 @@ class Verifier {
     }
   }
 
-  bool is_uniform(RegisterNumber number) const { return number < program_.first_temporary(); }
+  bool is_uniform(RegisterNumber number) const { return number < program_.first_state(); }
 
   bool is_ceiling_constant(RegisterNumber number) const {
     if (number < first_constant || number >= program_.first_parameter()) return false;
@@ -246,7 +318,9 @@ class Verifier {
       }
     };
     check("tick", program_.tick);
+    check("enter", program_.enter);
     check("picture", program_.picture.code);
+    check("frame", program_.picture.frame);
     for (std::size_t i = 0; i < program_.percepts.size(); ++i) {
       check("percept " + std::to_string(i), program_.percepts[i].prediction);
     }

@@ -15,10 +15,16 @@ inline constexpr double setup_cost_limit = 1e9;
 inline constexpr std::uint32_t peak_points_limit = 1u << 20;
 /// Samples a side of a table.
 inline constexpr std::uint32_t table_side_least = 2, table_side_most = 16384;
+/// Most that a program may remember: states, grids, cells a side of a grid and in all grids together.
+inline constexpr std::size_t states_limit = 512, grids_limit = 16;
+inline constexpr std::uint32_t grid_side_limit = 1024;
+inline constexpr std::size_t cells_limit = std::size_t{1} << 20;
+/// Most grid writes of a tick and marks of a picture.
+inline constexpr std::size_t writes_limit = 16, marks_limit = 1024;
 
 /// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md.
 ///
-/// A program that passes stops in time, reads nothing that is not defined, and commands no force beyond its
+/// A program that passes stops in time, reads nothing that is not defined, remembers a bounded amount, and commands no force beyond its
 /// ceilings, whatever its registers hold.
 std::optional<Refusal> verify(const PatchProgram& program);
 

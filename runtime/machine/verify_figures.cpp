@@ -32,9 +32,64 @@ void verify_parameters(const PatchProgram& program) {
       refuse("parameter ", parameter.name, " has the value ", parameter.value, " and the range ", parameter.low, " .. ",
              parameter.high);
     }
+    if (!(parameter.low <= parameter.soft_low && parameter.soft_low <= parameter.soft_high &&
+          parameter.soft_high <= parameter.high)) {
+      refuse("parameter ", parameter.name, " has the usual range ", parameter.soft_low, " .. ", parameter.soft_high,
+             ", which is not one within ", parameter.low, " .. ", parameter.high);
+    }
     if (!std::isfinite(parameter.unit_in_si) || !(parameter.unit_in_si > 0)) {
       refuse("parameter ", parameter.name, " has a unit of ", parameter.unit_in_si);
     }
+  }
+}
+
+void require_at_most(std::size_t count, std::size_t most, std::string_view what) {
+  if (count > most) refuse("the program has ", count, " ", what, " and may have ", most);
+}
+
+void verify_states(const PatchProgram& program) {
+  require_at_most(program.states.size(), states_limit, "states");
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < program.states.size(); ++i) {
+    const State& state = program.states[i];
+    if (state.name.empty()) refuse("state ", i, " has no name");
+    if (!names.insert(state.name).second) refuse("state ", i, " is the second of the name ", state.name);
+    if (!std::isfinite(state.low) || !std::isfinite(state.high) || !(state.low <= state.high)) {
+      refuse("state ", state.name, " has the range ", state.low, " .. ", state.high);
+    }
+  }
+}
+
+void verify_grids(const PatchProgram& program) {
+  require_at_most(program.grids.size(), grids_limit, "grids");
+  require_at_most(program.writes.size(), writes_limit, "writes to grids");
+  std::set<std::string_view> names;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < program.grids.size(); ++i) {
+    const Grid& grid = program.grids[i];
+    if (grid.name.empty()) refuse("grid ", i, " has no name");
+    if (!names.insert(grid.name).second) refuse("grid ", i, " is the second of the name ", grid.name);
+    require_within(grid.columns, 1, grid_side_limit, "grid " + grid.name + "'s number of columns");
+    require_within(grid.rows, 1, grid_side_limit, "grid " + grid.name + "'s number of rows");
+    cells += std::size_t{grid.columns} * grid.rows;
+    if (!std::isfinite(grid.low) || !std::isfinite(grid.high) ||
+        !(grid.low <= grid.initial && grid.initial <= grid.high)) {
+      refuse("grid ", grid.name, " begins at ", grid.initial, " and has the range ", grid.low, " .. ", grid.high);
+    }
+  }
+  require_at_most(cells, cells_limit, "cells in its grids");
+}
+
+void verify_marks(const PatchProgram& program) {
+  const std::vector<Mark>& marks = program.picture.marks;
+  require_at_most(marks.size(), marks_limit, "marks");
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const std::size_t operands = mark_operands(marks[i].kind);
+    if (operands == 0) refuse("mark ", i, " is of a kind that this Wale does not know");
+    for (std::size_t beyond = operands; beyond < marks[i].operands.size(); ++beyond) {
+      if (marks[i].operands[beyond] != 0) refuse("mark ", i, " has ", operands, " operands and more that are not zero");
+    }
+    if (marks[i].colour > 0xffffff) refuse("mark ", i, " has a colour beyond red, green and blue");
   }
 }
 
@@ -122,6 +177,9 @@ void verify_figures(const PatchProgram& program) {
   verify_device(program.device);
   verify_patch(program);
   verify_parameters(program);
+  verify_states(program);
+  verify_grids(program);
+  verify_marks(program);
   verify_tables(program);
   verify_lattices(program);
   verify_percepts(program);

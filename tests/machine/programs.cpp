@@ -24,9 +24,9 @@ Program one_operation(Operation operation) {
   p.constants = {0.0f, 10.0f};
   p.temporaries = 2;
   const auto fields = facts(operation).fields;
-  p.tick = {instruction(operation, 18, 0, fields[1] == 'r' ? 1 : 0, fields[2] == 'r' ? 2 : 0),
-            instruction(limit, 19, 18, 17), instruction(limit, 18, 16, 17)};
-  p.outputs = {{OutputQuantity::force, 0, 19, 17}, {OutputQuantity::force, 1, 18, 17}};
+  p.tick = {instruction(operation, 34, 0, fields[1] == 'r' ? 1 : 0, fields[2] == 'r' ? 2 : 0),
+            instruction(limit, 35, 34, 33), instruction(limit, 34, 32, 33)};
+  p.outputs = {{OutputQuantity::force, 0, 35, 33}, {OutputQuantity::force, 1, 34, 33}};
   return loaded(p);
 }
 
@@ -82,7 +82,7 @@ TEST(Machine, PeakKeepsTheAmplitudeWhenTheParameterMoves) {
   for (const float period : {0.001f, 0.003f, 0.01f}) {
     const Bank bank(program, std::vector<float>{period, 1.5f}, program.default_size());
     const double slope = 2 * std::numbers::pi / period;  // of sin(2 pi x / period), at most
-    EXPECT_NEAR(bank.registers()[23] / (slope * std::cos(std::numbers::pi / 200)), 1, 3e-4) << period;
+    EXPECT_NEAR(bank.registers()[39] / (slope * std::cos(std::numbers::pi / 200)), 1, 3e-4) << period;
     EXPECT_EQ(amplitude(bank, 0), 1.5f);
   }
 }
@@ -122,8 +122,8 @@ TEST(Machine, HandIsHeldInTheEnvelope) {
   PatchProgram p = example::least();
   p.constants = {0.0f, 10.0f};
   p.temporaries = 2;
-  p.tick = {instruction(limit, 18, 0, 17), instruction(limit, 19, 3, 17)};
-  p.outputs = {{OutputQuantity::force, 0, 18, 17}, {OutputQuantity::force, 1, 19, 17}};
+  p.tick = {instruction(limit, 34, 0, 33), instruction(limit, 35, 3, 33)};
+  p.outputs = {{OutputQuantity::force, 0, 34, 33}, {OutputQuantity::force, 1, 35, 33}};
   Bank bank(loaded(p));
   const float reach = 0.2286f, speed = 2.0f;
   EXPECT_EQ(tick(bank, {{0.01f, 0}, {0, -0.5f}}), Force(0.01f, -0.5f));
@@ -147,12 +147,12 @@ float peak_of(std::vector<Instruction> code, RegisterNumber value, std::uint32_t
   PatchProgram p = example::least();
   p.constants = {0.0f, 1.0f, 0.0f, 10.0f};
   p.setup_registers = 1;
-  p.temporaries = 4;  // 21 ..
-  p.setup = {instruction(peak, 20, 0)};
-  p.peaks = {{std::move(code), value, 17, 17, points, percentile}};
-  p.tick = {instruction(limit, 21, 16, 17)};
-  p.outputs = {{OutputQuantity::force, 0, 21, 17}, {OutputQuantity::force, 1, 21, 17}};
-  return Bank(loaded(p)).registers()[20];
+  p.temporaries = 4;  // 37 ..
+  p.setup = {instruction(peak, 36, 0)};
+  p.peaks = {{std::move(code), value, 33, 33, points, percentile}};
+  p.tick = {instruction(limit, 37, 32, 33)};
+  p.outputs = {{OutputQuantity::force, 0, 37, 33}, {OutputQuantity::force, 1, 37, 33}};
+  return Bank(loaded(p)).registers()[36];
 }
 
 // x and y are uniform in -1 .. 1, so their percentile q is 2 q - 1 within the lattice's discrepancy.
@@ -162,9 +162,9 @@ TEST(Machine, PeakIsThePercentileOfAUniformDistribution) {
     EXPECT_NEAR(peak_of({}, 1, 10000, q), 2 * q - 1, 1e-3) << q;
   }
   // x^2 + y^2 <= r^2 covers pi r^2 / 4 of the square.
-  const std::vector<Instruction> radius = {instruction(multiply, 21, 0, 0), instruction(multiply, 22, 1, 1),
-                                           instruction(add, 23, 21, 22), instruction(square_root, 24, 23)};
-  EXPECT_NEAR(peak_of(radius, 24, 20000, 0.5f), std::sqrt(2 / std::numbers::pi), 2e-3);
+  const std::vector<Instruction> radius = {instruction(multiply, 37, 0, 0), instruction(multiply, 38, 1, 1),
+                                           instruction(add, 39, 37, 38), instruction(square_root, 40, 39)};
+  EXPECT_NEAR(peak_of(radius, 40, 20000, 0.5f), std::sqrt(2 / std::numbers::pi), 2e-3);
 }
 
 // The lattice by its definition, in double, and the order statistic by sorting.
@@ -191,11 +191,11 @@ TEST(Machine, PeakSortsTheDocumentedLattice) {
 
 TEST(Machine, PeakTakesNoFigureForZero) {
   // 1 / 0 and 0 / 0 everywhere.
-  EXPECT_EQ(peak_of({instruction(divide, 21, 17, 16)}, 21, 1000, 0.99f), 0.0f);
-  EXPECT_EQ(peak_of({instruction(divide, 21, 16, 16)}, 21, 1000, 0.5f), 0.0f);
+  EXPECT_EQ(peak_of({instruction(divide, 37, 33, 32)}, 37, 1000, 0.99f), 0.0f);
+  EXPECT_EQ(peak_of({instruction(divide, 37, 32, 32)}, 37, 1000, 0.5f), 0.0f);
   // The square root of x is none on half of the points: the median is 0, the third quartile sqrt(0.5).
-  EXPECT_NEAR(peak_of({instruction(square_root, 21, 0)}, 21, 10000, 0.75f), std::sqrt(0.5), 2e-3);
-  EXPECT_NEAR(peak_of({instruction(square_root, 21, 0)}, 21, 10000, 0.49f), 0.0, 1e-9);
+  EXPECT_NEAR(peak_of({instruction(square_root, 37, 0)}, 37, 10000, 0.75f), std::sqrt(0.5), 2e-3);
+  EXPECT_NEAR(peak_of({instruction(square_root, 37, 0)}, 37, 10000, 0.49f), 0.0, 1e-9);
 }
 
 TEST(Machine, ReliefIsThePicture) {
@@ -217,8 +217,8 @@ TEST(Machine, LoadSaysWhyNot) {
   EXPECT_EQ(std::get<Refusal>(Program::load(bytes)).reason,
             "the file is damaged: its checksum does not match its bytes");
   PatchProgram unsafe = example::program();
-  unsafe.outputs[0].ceiling = 21;
-  unsafe.tick[5].b = 21;
+  unsafe.outputs[0].ceiling = 37;
+  unsafe.tick[5].b = 37;
   EXPECT_TRUE(std::holds_alternative<Refusal>(Program::load(write_patch_program(unsafe))));
 }
 

@@ -61,7 +61,7 @@ inline Program oil(float damping, float ceiling = 9) {
 
 /// force = -k x on both axes; k is the parameter `stiffness` (N/m).
 inline Program spring(float stiffness, float ceiling = 9) {
-  Assembly a({ceiling}, {{"stiffness", "N/m", 1, stiffness, 0, 10000, ""}});
+  Assembly a({ceiling}, {{"stiffness", "N/m", 1, stiffness, 0, 10000, 0, 10000, ""}});
   for (const std::uint8_t axis : {0, 1}) {
     const Input position = axis == 0 ? Input::x : Input::y;
     const RegisterNumber pull = a.tick(Operation::multiply, a.parameter(0), a.input(position));
@@ -72,7 +72,7 @@ inline Program spring(float stiffness, float ceiling = 9) {
 
 /// A constant force along x: the parameter `push` (N).
 inline Program push(float force, float ceiling = 9) {
-  Assembly a({ceiling, 0}, {{"push", "mN", 1e-3, force, -20, 20, ""}});
+  Assembly a({ceiling, 0}, {{"push", "mN", 1e-3, force, -20, 20, -20, 20, ""}});
   a.push(0, a.parameter(0), a.constant(0));
   a.push(1, a.constant(1), a.constant(0));
   return a.load();
@@ -85,7 +85,7 @@ inline Program corduroy(float amplitude, float wale = 0.0025f) {
   const float width = 24.0f / 128.0f;  // standard deviation in half wales
   const float exponent = 0.759593f, reference = 194 * 10.0f / 512;
   Assembly a({2, 0.5f, 1, -std::log2(std::exp(1.0f)) / (2 * width * width), amplitude, 1 / reference, exponent, 0},
-             {{"wale", "mm", 1e-3, wale, 0.001f, 0.005f, "distance between ribs"}});
+             {{"wale", "mm", 1e-3, wale, 0.001f, 0.005f, 0.001f, 0.005f, "distance between ribs"}});
   const RegisterNumber two = a.constant(0), half = a.constant(1), one = a.constant(2);
   const auto pulse = [&](RegisterNumber distance) {
     const RegisterNumber square = a.tick(Operation::multiply, distance, distance);

@@ -31,39 +31,49 @@ inline DeviceProfile device() {
   return device;
 }
 
-/// A sinusoidal grating of a live period whose force has a live amplitude, with a table, a percept and layers: a
-/// program in which no part of the format is empty.
+/// A sinusoidal grating of a live period whose force has a live amplitude, with a table, a state, grids, marks, a percept
+/// and layers: a program in which no part of the format is empty.
 ///
 ///   height = sine(2 pi x / period);  force x = -amplitude * slope / peak(|slope|), limited;  force y = 0, limited
 inline PatchProgram program() {
   using enum Operation;
   PatchProgram p;
   p.material = "bench grating";
-  // Registers: 16 2 pi, 17 device ceiling 5 N, 18 zero, 19 one half; 20 period, 21 amplitude;
-  // setup 22 wave number, 23 peak, 24 ceiling, 25 gain; temporaries 26 ..
+  // Registers: 32 2 pi, 33 device ceiling 5 N, 34 zero, 35 one half; 36 period, 37 amplitude;
+  // setup 38 wave number, 39 peak, 40 ceiling, 41 gain; state 42; temporaries 43 ..
   p.constants = {6.2831853f, 5.0f, 0.0f, 0.5f};
-  p.parameters = {{"period", "mm", 1e-3, 0.002f, 0.001f, 0.01f, "distance between ribs", "m"},
-                  {"amplitude", "N", 1, 2.0f, 0.0f, 4.0f, ""}};
+  p.parameters = {{"period", "mm", 1e-3, 0.002f, 0.001f, 0.01f, 0.0015f, 0.005f, "distance between ribs", "m"},
+                  {"amplitude", "N", 1, 2.0f, 0.0f, 4.0f, 0.0f, 4.0f, ""}};
   p.setup_registers = 4;
   p.temporaries = 6;
-  p.setup = {instruction(divide, 22, 16, 20), instruction(peak, 23, 0), instruction(limit, 24, 21, 17),
-             instruction(divide, 25, 24, 23)};
+  p.setup = {instruction(divide, 38, 32, 36), instruction(peak, 39, 0), instruction(limit, 40, 37, 33),
+             instruction(divide, 41, 40, 39)};
   Peak lattice;
-  lattice.code = {instruction(multiply, 26, 0, 22), instruction(cosine, 27, 26), instruction(multiply, 28, 27, 22),
-                  instruction(absolute, 29, 28)};
-  lattice.value = 29;
+  lattice.code = {instruction(multiply, 43, 0, 38), instruction(cosine, 44, 43), instruction(multiply, 45, 44, 38),
+                  instruction(absolute, 46, 45)};
+  lattice.value = 46;
   lattice.half_width = 4;
   lattice.half_height = 5;
   lattice.points = 4096;
   lattice.percentile = 0.99f;
   p.peaks = {lattice};
-  p.tick = {instruction(multiply, 26, 0, 22),  instruction(cosine, 27, 26),       instruction(multiply, 28, 27, 22),
-            instruction(multiply, 28, 28, 25), instruction(subtract, 28, 18, 28), instruction(limit, 30, 28, 24),
-            instruction(limit, 31, 18, 17)};
-  p.outputs = {{OutputQuantity::force, 0, 30, 24}, {OutputQuantity::force, 1, 31, 17}};
-  p.picture.code = {instruction(multiply, 26, 0, 22), instruction(sine, 27, 26), instruction(sample, 28, 0, 1, 0),
-                    instruction(add, 31, 27, 28)};
-  p.picture.relief = 31;
+  p.tick = {instruction(multiply, 43, 0, 38),  instruction(cosine, 44, 43),       instruction(multiply, 45, 44, 38),
+            instruction(multiply, 45, 45, 41), instruction(subtract, 45, 34, 45), instruction(limit, 47, 45, 40),
+            instruction(limit, 48, 34, 33)};
+  p.outputs = {{OutputQuantity::force, 0, 47, 40}, {OutputQuantity::force, 1, 48, 33}};
+  p.picture.code = {instruction(multiply, 43, 0, 38), instruction(sine, 44, 43), instruction(sample, 45, 0, 1, 0),
+                    instruction(add, 48, 44, 45)};
+  p.picture.relief = 48;
+  p.picture.relief_is_length = true;
+  p.picture.colour = std::array<RegisterNumber, 3>{48, 42, 34};
+  p.picture.frame = {instruction(add, 46, 16, 42), instruction(recall, 43, 0, 46, 0)};
+  p.picture.marks = {{MarkKind::point, {0, 1, 46}, 0xff8000},
+                     {MarkKind::spring, {0, 1, 34, 34, 35}, 0x102030},
+                     {MarkKind::line, {0, 1, 34, 34}, 0}};
+  p.states = {{"wear", -1.0f, 1.0f, 43, 44}};
+  p.enter = {instruction(multiply, 43, 16, 35)};
+  p.grids = {{"trace", 4, 3, 0.25f, 0.0f, 1.0f}, {"dot", 1, 1, -1.0f, -2.0f, 2.0f}};
+  p.writes = {{0, 43, 1, 44}, {1, 34, 34, 42}};
   p.tables = {{3, 2, {0, 65535, 100, 7, 8, 9}}};
   p.patch_width = 0.1f;
   p.patch_height = 0.08f;
@@ -73,11 +83,11 @@ inline PatchProgram program() {
   percept.name = "roughness";
   percept.carrier = "lateral amplitude";
   percept.parameter = 1;
-  percept.amplitude = 24;
+  percept.amplitude = 40;
   percept.alone = true;
-  percept.prediction = {instruction(multiply, 26, 7, 19), instruction(add, 27, 26, 19)};
-  percept.magnitude = 26;
-  percept.level = 27;
+  percept.prediction = {instruction(multiply, 43, 7, 35), instruction(add, 44, 43, 35)};
+  percept.magnitude = 43;
+  percept.level = 44;
   percept.valid_low = 0.1f;
   percept.valid_high = 4.0f;
   percept.scatter = 0.05f;
@@ -91,6 +101,7 @@ inline PatchProgram program() {
   p.layers.representative = {{"title", {"Bench grating"}}, {"called", {"grating", "r\xc3\xa4ndel"}}, {"kind", {}}};
   p.layers.perceptual = "roughness 0.6";
   p.layers.physical = "force = lateral(sin(x))";
+  p.layers.documentation = "A grating for the bench.";
   return p;
 }
 
@@ -100,9 +111,9 @@ inline PatchProgram least() {
   p.material = "nothing";
   p.constants = {0.0f, 1.0f};
   p.temporaries = 1;
-  p.tick = {instruction(Operation::limit, 18, 16, 17)};
-  p.outputs = {{OutputQuantity::force, 0, 18, 17}, {OutputQuantity::force, 1, 18, 17}};
-  p.picture.relief = 16;
+  p.tick = {instruction(Operation::limit, 34, 32, 33)};
+  p.outputs = {{OutputQuantity::force, 0, 34, 33}, {OutputQuantity::force, 1, 34, 33}};
+  p.picture.relief = 32;
   p.patch_width = 0.1f;
   p.patch_height = 0.08f;
   p.device = device();

@@ -49,13 +49,64 @@ TEST(PatchProgram, FileIsLaidOutAsDocumented) {
   EXPECT_EQ(wpp::get(bytes, 16, 8), bytes.size());
   std::string kinds;
   for (const auto& section : wpp::sections_of(bytes)) kinds += section.kind + (section.flags != 0 ? "! " : "? ");
-  EXPECT_EQ(kinds, "NAME! REGS! CONS! PARM! SETU! PEAK! TICK! OUTP! PICT! TABL! PTCH! DEVI! PERC? LAYR? ");
+  EXPECT_EQ(kinds, "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? LAYR? ");
 }
 
-TEST(PatchProgram, LayersAndPerceptsAreLeftOutWhenThereAreNone) {
-  std::string last;
-  for (const auto& section : wpp::sections_of(write_patch_program(example::least()))) last = section.kind;
-  EXPECT_EQ(last, "DEVI");
+TEST(PatchProgram, WhatIsNotThereIsLeftOut) {
+  std::string kinds;
+  for (const auto& section : wpp::sections_of(write_patch_program(example::least()))) kinds += section.kind + " ";
+  EXPECT_EQ(kinds, "NAME REGS CONS PARM SETU PEAK TICK OUTP PICT TABL PTCH DEVI ");
+}
+
+// The content of the sections of what a program remembers and shows, byte for byte by hand.
+TEST(PatchProgram, StatesGridsAndMarksAreLaidOutAsDocumented) {
+  const Bytes bytes = write_patch_program(example::program());
+  const auto content = [&](std::string_view kind) {
+    for (const auto& section : wpp::sections_of(bytes)) {
+      if (section.kind == kind) return section.content;
+    }
+    return Bytes{};
+  };
+  Bytes states;
+  wpp::append(states, 1, 4);
+  wpp::append_text(states, "wear");
+  wpp::append(states, 0xbf800000, 4);  // -1
+  wpp::append(states, 0x3f800000, 4);
+  wpp::append(states, 43, 2);
+  wpp::append(states, 44, 2);
+  wpp::append(states, 1, 4);
+  wpp::append(states, 3u + (43ull << 8) + (16ull << 22) + (35ull << 36), 8);
+  EXPECT_EQ(content("STAT"), states);
+
+  Bytes grids;
+  wpp::append(grids, 2, 4);
+  wpp::append_text(grids, "trace");
+  wpp::append(grids, 4, 4);
+  wpp::append(grids, 3, 4);
+  for (const std::uint32_t figure : {0x3e800000u, 0u, 0x3f800000u}) wpp::append(grids, figure, 4);  // 0.25, 0, 1
+  wpp::append_text(grids, "dot");
+  wpp::append(grids, 1, 4);
+  wpp::append(grids, 1, 4);
+  for (const std::uint32_t figure : {0xbf800000u, 0xc0000000u, 0x40000000u}) wpp::append(grids, figure, 4);  // -1, -2, 2
+  wpp::append(grids, 2, 4);
+  for (const int number : {0, 43, 1, 44, 1, 34, 34, 42}) wpp::append(grids, number, 2);
+  EXPECT_EQ(content("GRID"), grids);
+
+  Bytes frame;
+  wpp::append(frame, 2, 4);
+  wpp::append(frame, 1u + (46ull << 8) + (16ull << 22) + (42ull << 36), 8);
+  wpp::append(frame, 23u + (43ull << 8) + (46ull << 36), 8);
+  wpp::append(frame, 3, 4);
+  wpp::append(frame, 1, 1);
+  wpp::append(frame, 0xff8000, 4);
+  for (const int number : {0, 1, 46}) wpp::append(frame, number, 2);
+  wpp::append(frame, 5, 1);
+  wpp::append(frame, 0x102030, 4);
+  for (const int number : {0, 1, 34, 34, 35}) wpp::append(frame, number, 2);
+  wpp::append(frame, 4, 1);
+  wpp::append(frame, 0, 4);
+  for (const int number : {0, 1, 34, 34}) wpp::append(frame, number, 2);
+  EXPECT_EQ(content("FRAM"), frame);
 }
 
 // Fields by hand: operation 3 (multiply) in bits 0-7, then 14 bits each of destination, a, b, c.
@@ -76,7 +127,7 @@ TEST(PatchProgram, ChecksumIsCrc32) {
 }
 
 TEST(PatchProgram, UnknownSkippableSectionsAreSkipped) {
-  for (const std::size_t place : {0u, 5u, 14u}) {
+  for (const std::size_t place : {0u, 5u, 17u}) {
     auto sections = wpp::sections_of(write_patch_program(example::program()));
     sections.insert(sections.begin() + place, {"XTRA", 0, Bytes(13, std::byte{0xee})});
     EXPECT_EQ(read(wpp::file_of(sections)), example::program());

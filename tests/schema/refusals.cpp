@@ -117,29 +117,29 @@ TEST(Refusals, HeaderFields) {
 
 TEST(Refusals, SectionsOutOfPlace) {
   const auto size = std::to_string(example_bytes().size());
-  EXPECT_EQ(refusal_with(entry(6) + 16, 1u << 20, 8).substr(0, 34), "section TICK claims 1048576 bytes ");
-  EXPECT_EQ(refusal_with(entry(6) + 8, ~0ull, 8),
+  EXPECT_EQ(refusal_with(entry(8) + 16, 1u << 20, 8).substr(0, 34), "section TICK claims 1048576 bytes ");
+  EXPECT_EQ(refusal_with(entry(8) + 8, ~0ull, 8),
             "section TICK claims 60 bytes at 18446744073709551615, the file has " + size);
-  const auto offset = wpp::get(example_bytes(), entry(6) + 8, 8);
-  EXPECT_EQ(refusal_with(entry(6) + 8, offset - 8, 8),
+  const auto offset = wpp::get(example_bytes(), entry(8) + 8, 8);
+  EXPECT_EQ(refusal_with(entry(8) + 8, offset - 8, 8),
             "section TICK at " + std::to_string(offset - 8) + " overlaps what is before it");
-  EXPECT_EQ(refusal_with(entry(6) + 8, offset + 8, 8),
+  EXPECT_EQ(refusal_with(entry(8) + 8, offset + 8, 8),
             "section TICK at " + std::to_string(offset + 8) + " leaves 8 bytes unaccounted for");
   EXPECT_EQ(refusal_with(offset + 60, 1, 1), "section TICK is followed by bytes that are not zero");
 }
 
 TEST(Refusals, SectionKindsAndFlags) {
   EXPECT_EQ(refusal_of_sections([](auto& s) {
-              s.insert(s.begin() + 3, {"GRID", 1, {}});
+              s.insert(s.begin() + 3, {"XTRA", 1, {}});
             }),
-            "section GRID is required to run this program and this Wale does not know it: update Wale");
+            "section XTRA is required to run this program and this Wale does not know it: update Wale");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.insert(s.begin() + 3, s[2]); }), "section CONS is there twice");
   EXPECT_EQ(refusal_of_sections([](auto& s) { std::swap(s[2], s[3]); }), "section CONS stands after PARM");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s.erase(s.begin() + 6); }), "section TICK is missing");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s.erase(s.begin() + 8); }), "section TICK is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.clear(); }), "section NAME is missing");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[6].flags = 0; }), "section TICK is marked skippable and is not");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[13].flags = 1; }), "section LAYR is marked required and is not");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[6].flags = 3; }),
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }), "section TICK is marked skippable and is not");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[16].flags = 1; }), "section LAYR is marked required and is not");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 3; }),
             "section TICK has flags that this Wale does not know");
 }
 
@@ -150,7 +150,7 @@ TEST(Refusals, ContentThatEndsEarlyOrLate) {
 }
 
 TEST(Refusals, CountsBeyondTheFile) {
-  for (const std::string kind : {"CONS", "PARM", "SETU", "PEAK", "TICK", "OUTP", "TABL", "PERC", "LAYR"}) {
+  for (const std::string kind : {"CONS", "PARM", "SETU", "PEAK", "STAT", "GRID", "TICK", "OUTP", "FRAM", "TABL", "PERC", "LAYR"}) {
     for (const std::uint32_t count : {0xffffffffu, 0x20000000u, 100000u}) {
       const std::string reason = refusal_of_content(kind, [count](Bytes& b) { wpp::put(b, 0, count, 4); });
       EXPECT_EQ(reason.substr(0, 20), "section " + kind + " claims ") << reason;
@@ -173,6 +173,10 @@ TEST(Refusals, FiguresThatAreNone) {
   constexpr std::uint64_t nan32 = 0x7fc00000, inf64 = 0x7ff0000000000000;
   EXPECT_EQ(refusal_of_content("PTCH", [](Bytes& b) { wpp::put(b, 4, nan32, 4); }),
             "section PTCH holds nan for the patch's height, which is no figure");
+  EXPECT_EQ(refusal_of_content("STAT", [](Bytes& b) { wpp::put(b, 4 + (4 + 4) + 4, nan32, 4); }),
+            "section STAT holds nan for a state's range, which is no figure");
+  EXPECT_EQ(refusal_of_content("GRID", [](Bytes& b) { wpp::put(b, 4 + (4 + 5) + 8, nan32, 4); }),
+            "section GRID holds nan for a grid's initial value, which is no figure");
   EXPECT_EQ(refusal_of_content("DEVI", [](Bytes& b) { wpp::put(b, 4 + 5 + 8 * 4, inf64, 8); }),
             "section DEVI holds inf for the rate, which is no figure");
 }
@@ -192,6 +196,12 @@ TEST(Refusals, Tables) {
 TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
   EXPECT_EQ(refusal_of_content("OUTP", [](Bytes& b) { b[4] = std::byte{9}; }),
             "section OUTP names quantity 9, which this Wale does not know");
+  EXPECT_EQ(refusal_of_content("FRAM", [](Bytes& b) { b[4 + 2 * 8 + 4] = std::byte{7}; }),
+            "section FRAM has a mark of kind 7, which this Wale does not know");
+  EXPECT_EQ(refusal_of_content("PICT", [](Bytes& b) { b[2] = std::byte{2}; }),
+            "section PICT holds 2 for the relief's being a length, which is 0 or 1");
+  EXPECT_EQ(refusal_of_content("PICT", [](Bytes& b) { b[3] = std::byte{0}; }),
+            "section PICT names registers for a colour that it does not have");
   const std::size_t live = 4 + (4 + 9) + (4 + 17);  // after the count, "roughness" and "lateral amplitude"
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{2}; }),
             "section PERC holds 2 for a percept's being live, which is 0 or 1");
@@ -202,10 +212,16 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
             "section PERC grades the evidence of a slope 6, which this Wale does not know");
 }
 
-TEST(Refusals, EmptySkippableSections) {
+TEST(Refusals, EmptySectionsThatAreLeftOut) {
+  EXPECT_EQ(refusal_of_content("STAT", [](Bytes& b) { b = Bytes(8); }),
+            "section STAT is there and empty; a file without states leaves it out");
+  EXPECT_EQ(refusal_of_content("GRID", [](Bytes& b) { b = Bytes(8); }),
+            "section GRID is there and empty; a file without grids leaves it out");
+  EXPECT_EQ(refusal_of_content("FRAM", [](Bytes& b) { b = Bytes(8); }),
+            "section FRAM is there and empty; a file without marks leaves it out");
   EXPECT_EQ(refusal_of_content("PERC", [](Bytes& b) { b = Bytes(4); }),
             "section PERC is there and empty; a file without percepts leaves it out");
-  EXPECT_EQ(refusal_of_content("LAYR", [](Bytes& b) { b = Bytes(12); }),
+  EXPECT_EQ(refusal_of_content("LAYR", [](Bytes& b) { b = Bytes(16); }),
             "section LAYR is there and empty; a file without layers leaves it out");
 }
 
@@ -222,7 +238,7 @@ TEST(Refusals, WhateverIsAcceptedIsCanonical) {
       const auto* program = std::get_if<PatchProgram>(&result);
       if (program == nullptr) continue;
       ++accepted;
-      const bool unknown_section = at >= 32 && at < 32 + 24 * 14;
+      const bool unknown_section = at >= 32 && at < 32 + 24 * 17;
       if (unknown_section) continue;  // one that lost its name is skipped
       ASSERT_EQ(write_patch_program(*program), wpp::sealed(bytes)) << "byte " << at;
     }

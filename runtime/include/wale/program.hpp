@@ -12,10 +12,18 @@
 
 namespace wale {
 
-/// The hand as a patch program sees it: m from the patch's centre, and m/s.
+/// The hand as a patch program sees it, in m, m/s and m/s^2. Whatever stands here, a program sees finite numbers: position
+/// and workspace within plus and minus the workspace's diameter, velocities within the device's speed limit,
+/// accelerations within that speed in one tick, time from 0 on, and 0 for not-a-number.
 struct Hand {
-  glm::vec2 position{0.0f};
-  glm::vec2 velocity{0.0f};
+  glm::vec2 position{0.0f};  ///< from the patch's centre
+  glm::vec2 velocity{0.0f};  ///< filtered
+  glm::vec2 acceleration{0.0f};      ///< filtered
+  glm::vec2 raw_velocity{0.0f};      ///< plain differences of positions
+  glm::vec2 raw_acceleration{0.0f};  ///< plain differences of those
+  glm::vec2 workspace{0.0f};         ///< position from the workspace's centre
+  double time = 0;                   ///< s since the stage began to run
+  bool button = false;               ///< is pressed
 };
 
 /// Newtons along x and y, as commanded.
@@ -72,15 +80,16 @@ class Bank {
   std::vector<float> registers_;
 };
 
-/// The program's force on a hand, in N. Outside the patch's rectangle the caller decides; position is clamped to the
-/// device's workspace and velocity to its envelope, not-a-number to zero.
+/// The program's force on a hand that has just entered, in N: states are at their initial values and grids as at the
+/// beginning, and nothing is remembered (`Memory` is what remembers). Outside the patch's rectangle the caller decides.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 Force tick(Bank& bank, const Hand& hand) noexcept;
 
 /// The same for many hands, in blocks of lanes; bit-identical to `tick`. `forces` is as long as `hands`.
 void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces);
 
-/// The height of the surface (the picture section) at many positions, in m or as a plain number.
+/// The height of the surface (the picture section) at many positions, in m or as a plain number, with states as after
+/// entering at the patch's centre at rest. `surface_all` of wale/picture.hpp gives colours, and knows of memories.
 void relief_all(const Bank& bank, std::span<const glm::vec2> positions, std::span<float> heights);
 
 /// What a carrier of a given size feels like, by the map that the program carries.

@@ -1,0 +1,61 @@
+#include <algorithm>
+
+#include "runtime/machine/decoded_program.hpp"
+#include "runtime/machine/floating_point_mode.hpp"
+#include "runtime/machine/inputs.hpp"
+#include "runtime/machine/lane.hpp"
+#include "runtime/machine/states.hpp"
+#include "wale/memory.hpp"
+#include "wale/program.hpp"
+
+namespace wale {
+
+Force tick(Bank& bank, const Hand& hand) noexcept {
+  const DecodedProgram& program = bank.program().decoded();
+  float* registers = bank.registers().data();
+  place_hand(program.tick_inputs, hand, program.description.device, registers);
+  {
+    const FloatingPointMode mode;
+    if (!program.description.states.empty()) enter_lane(program, registers);
+    run_lane(program, program.description.tick, registers, program.initial_cells.data());
+  }
+  return {registers[program.force_x], registers[program.force_y]};
+}
+
+Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept {
+  const DecodedProgram& program = bank.program().decoded();
+  if (&program != &memory.program_.decoded()) return tick(bank, hand);
+  float* registers = bank.registers().data();
+  place_hand(program.tick_inputs, hand, program.description.device, registers);
+  std::copy(memory.states_.begin(), memory.states_.end(), registers + program.description.first_state());
+  {
+    const FloatingPointMode mode;
+    run_lane(program, program.description.tick, registers, memory.cells_.data());
+    memory.remember(registers);
+  }
+  return {registers[program.force_x], registers[program.force_y]};
+}
+
+void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
+  const DecodedProgram& program = bank.program().decoded();
+  const PatchProgram& description = program.description;
+  const float* registers = bank.registers().data();
+  const BlockOperand force_x = block_operand(description, program.force_x);
+  const BlockOperand force_y = block_operand(description, program.force_y);
+  Block block(description);
+  for (std::size_t first = 0; first < hands.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, hands.size() - first);
+    for (const Input input : program.tick_inputs) {
+      float* row = block.row(block_operand(description, static_cast<RegisterNumber>(input)));
+      place_input(input, hands.subspan(first, count), description.device, row);
+    }
+    const FloatingPointMode mode;
+    if (!description.states.empty()) enter_block(program, block, registers);
+    block.run(program.tick, registers, program.initial_cells.data());
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      forces[first + lane] = {block.value(force_x, lane, registers), block.value(force_y, lane, registers)};
+    }
+  }
+}
+
+}  // namespace wale
