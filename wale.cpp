@@ -21,15 +21,23 @@
 #include <vector>
 
 #include "calibration/felt_report.hpp"
+#include "compiler/apply_fixes.hpp"
+#include "compiler/build_all.hpp"
+#include "compiler/check_files.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/describe.hpp"
+#include "compiler/describe_module.hpp"
+#include "compiler/explain.hpp"
+#include "compiler/format.hpp"
+#include "compiler/library_folders.hpp"
+#include "compiler/open_file.hpp"
 #include "compiler/preview.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/render.hpp"
+#include "compiler/replace_file.hpp"
 #include "compiler/sample.hpp"
 #include "compiler/spelling.hpp"
 #include "library/device_report.hpp"
-#include "schema/patch_program_format.hpp"
 #include "wale/felt.hpp"
 #include "wale/library.hpp"
 #include "wale/stage.hpp"
@@ -73,52 +81,50 @@ std::optional<std::string> write_file(const std::string& path, std::string_view 
 /// A material named on the command line: a Wale file to compile, or a patch program to load.
 struct Choice {
   std::string file, material, device = default_device;
+  std::vector<std::string> folders;
 
   void offer(CLI::App& verb, const char* device_option = "--device") {
     verb.add_option("FILE", file, "a Wale file, or a patch program (.wpp)")->required();
     verb.add_option("--material", material, "which material of the file (default: its first)");
     verb.add_option(device_option, device, "the device to build for (default: sandpaper; see `wale devices`)");
+    offer_library(verb);
   }
+  void offer_library(CLI::App& verb) {
+    verb.add_option("--library", folders, "a folder to look for imports in, after the file's own; may be repeated")
+        ->type_name("DIR")
+        ->expected(1)
+        ->take_all();
+  }
+  FileRequest request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
 };
 
-/// The programs of a file: one, or all of its materials; what is wrong has been printed when there is none.
-std::vector<Program> load_programs(const Choice& choice, bool all) {
-  auto read = read_file(choice.file);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
-    refuse(fmt::format("`{}` cannot be read: {}", choice.file, problem->reason));
-    return {};
-  }
-  auto& bytes = std::get<ResolvedFile>(read).bytes;
-  const bool patch_program =
-      std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
-                         [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
-  if (patch_program || choice.file.ends_with(".wpp")) {
-    auto loaded = Program::load(std::as_bytes(std::span(bytes)));
-    if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
-      refuse(fmt::format("`{}` is refused: {}", choice.file, refusal->reason));
-      return {};
-    }
-    return {std::get<Program>(loaded)};
-  }
-  SourceSet sources;
-  Diagnostics diagnostics;
-  const auto resolver = file_resolver({});
-  const SourceId source = sources.add(choice.file, std::move(bytes));
-  const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+/// Opens a file; nothing when it cannot be read or its text is wrong, which has been said.
+std::optional<OpenedFile> open(const Choice& choice) {
+  OpenedFile opened = open_file(choice.request());
+  if (!opened.refusal.empty()) return refuse(opened.refusal), std::nullopt;
+  if (!opened.diagnostics.has_errors()) return opened;
+  print_diagnostics(stderr, opened.diagnostics, opened.sources);
+  return std::nullopt;
+}
+
+/// The programs of an opened file: one, or all of its materials; what is wrong has been printed when there is none.
+std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all) {
+  if (opened.program) return {*opened.program};
   std::vector<std::string> names{choice.material};
-  if (all && choice.material.empty() && module.materials.size() > 1) {
-    names.clear();
-    for (const auto& material : module.materials) names.push_back(material.name);
-  }
+  if (all && choice.material.empty() && opened.module->materials.size() > 1) names = materials_of(opened);
   std::vector<Program> programs;
   for (const auto& name : names) {
-    if (diagnostics.has_errors()) break;
-    if (auto program = compile_material(module, name, choice.device, sources, source, *resolver, diagnostics))
-      programs.push_back(*program);
+    if (opened.diagnostics.has_errors()) break;
+    if (auto program = compile_opened(opened, choice.request(), name, opened.diagnostics)) programs.push_back(*program);
   }
-  print_diagnostics(stderr, diagnostics, sources);
-  if (diagnostics.has_errors()) programs.clear();
+  print_diagnostics(stderr, opened.diagnostics, opened.sources);
+  if (opened.diagnostics.has_errors()) programs.clear();
   return programs;
+}
+
+std::vector<Program> load_programs(const Choice& choice, bool all) {
+  auto opened = open(choice);
+  return opened ? programs_of(*opened, choice, all) : std::vector<Program>{};
 }
 
 /// The program's parameters with the `--set` options applied, or nothing, when what is wrong has been printed.
@@ -147,6 +153,7 @@ std::optional<std::vector<float>> chosen_parameters(const Program& program, cons
     }
     values[*index] = *value;
   }
+  print_diagnostics(stderr, reader.diagnostics(), reader.sources());  // warnings
   return values;
 }
 
@@ -164,44 +171,75 @@ std::optional<Trace> load_trace(const std::string& path) {
   return std::get<Trace>(std::move(trace));
 }
 
-int check(const std::vector<std::string>& files, bool json) {
-  SourceSet sources;
-  Diagnostics all;
-  for (const auto& file : files) {
-    auto read = read_file(file);
-    Diagnostics diagnostics;
-    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
-      const SourceId source = sources.add(file, "");
-      diagnostics.report({.code = Code::unreadable_file,
-                          .span = {source, 0, 0},
-                          .message = fmt::format("`{}` cannot be read: {}", file, problem->reason),
-                          .help = "name a Wale file"});
-    } else {
-      const auto resolver = file_resolver({});
-      const SourceId source = sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
-      const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
-      if (!diagnostics.has_errors()) {
-        for (const auto& material : module.materials) {
-          Diagnostics of_material;
-          compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
-          for (const auto& diagnostic : of_material.all()) diagnostics.report(diagnostic);
-        }
-      }
-    }
-    for (const auto& diagnostic : diagnostics.all()) all.report(diagnostic);
+/// Mends files before they are checked, and says what was done on standard error, which leaves the output to the check.
+bool mend(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+  bool written = true;
+  for (const auto& file : mend_files(files, roots)) {
+    for (const auto& mend : file.mends)
+      fmt::print(stderr, "mended {}:{}:{}: {}\n", file.file, mend.place.line, mend.place.column, mend.title);
+    if (file.problem) refuse(fmt::format("cannot write `{}`: {}", file.file, *file.problem));
+    written = written && !file.problem;
   }
+  return written;
+}
+
+int check(const std::vector<std::string>& files, const std::vector<std::string>& folders, bool json, bool fix) {
+  const auto roots = library_folders(folders, std::getenv("WALE_LIBRARY"));
+  const bool mended = !fix || mend(files, roots);
+  const auto [sources, diagnostics] = check_files(files, roots);
   if (json) {
-    fmt::print("{}\n", render_json(all, sources));
+    fmt::print("{}\n", render_json(diagnostics, sources));
   } else {
-    print_diagnostics(stdout, all, sources);
-    const std::size_t warnings = all.all().size() - all.error_count();
+    print_diagnostics(stdout, diagnostics, sources);
+    const std::size_t warnings = diagnostics.all().size() - diagnostics.error_count();
+    const std::size_t mendable = safe_fixes(diagnostics.all()).size();
     const auto count = [](std::size_t n, const char* what) {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
-    fmt::print("{}: {}, {}\n", count(files.size(), "file"), count(all.error_count(), "error"),
-               count(warnings, "warning"));
+    fmt::print("{}: {}{}, {}{}\n", count(files.size(), "file"), count(diagnostics.error_count(), "error"),
+               diagnostics.is_full() ? " and more that are not listed" : "", count(warnings, "warning"),
+               mendable > 0 && !fix ? fmt::format("; `wale check --fix` mends {}", mendable) : "");
   }
-  return all.has_errors() ? refused : 0;
+  return diagnostics.has_errors() || !mended ? refused : 0;
+}
+
+int explain(const std::string& name) {
+  if (name.empty()) {
+    fmt::print("{}", codes_text());
+    return 0;
+  }
+  const auto code = code_named(name);
+  if (!code) return refuse(unknown_code_text(name));
+  fmt::print("{}", explanation_text(*code));
+  return 0;
+}
+
+/// "-" reads standard input and writes standard output. With `check_only` nothing is written but the names of the files
+/// that formatting would change.
+int format(const std::vector<std::string>& files, bool check_only) {
+  int status = 0;
+  for (const auto& file : files) {
+    const bool standard = file == "-";
+    auto read = read_file(standard ? "/dev/stdin" : file);
+    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+      status = refuse(fmt::format("`{}` cannot be read: {}", file, problem->reason));
+      continue;
+    }
+    SourceSet sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
+    const auto formatted = format(sources, source, diagnostics);
+    print_diagnostics(stderr, diagnostics, sources);
+    const bool changes = formatted && *formatted != sources[source].text;
+    if (!formatted || (check_only && changes)) status = refused;
+    if (check_only && changes) fmt::print("{}\n", file);
+    if (!formatted || check_only) continue;
+    std::optional<std::string> problem;
+    if (standard) problem = write_file("-", *formatted);
+    if (!standard && changes) problem = replace_file(file, *formatted);
+    if (problem) status = refuse(standard ? *problem : fmt::format("cannot write `{}`: {}", file, *problem));
+  }
+  return status;
 }
 
 int build(const Choice& choice, const std::string& out) {
@@ -213,8 +251,39 @@ int build(const Choice& choice, const std::string& out) {
   return 0;
 }
 
-int describe(const Choice& choice, const std::vector<std::string>& settings, bool json) {
-  const auto programs = load_programs(choice, true);
+/// Every material of a file to a program of its own; says of each what became of it.
+int build_collection(const Choice& choice, const std::string& folder) {
+  const auto opened = open(choice);
+  if (!opened) return refused;
+  if (opened->program) return refuse("--all builds the materials of a Wale file, and this is a program already");
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
+  const BuiltCollection collection = build_all(*opened, choice.request(), folder);
+  if (!collection.refusal.empty()) return refuse(collection.refusal);
+  for (const auto& built : collection.materials) {
+    print_diagnostics(stderr, built.diagnostics, opened->sources);
+    if (!built.problem.empty()) refuse(built.problem);
+    if (built.path.empty())
+      refuse(fmt::format("`{}` is not built", built.material));
+    else
+      fmt::print("{}  {} bytes\n", built.path, built.bytes);
+  }
+  const std::size_t all = collection.materials.size(), built = collection.built();
+  fmt::print("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");
+  return built == all ? 0 : refused;
+}
+
+int describe(const Choice& choice, const std::vector<std::string>& settings, bool exports, bool json) {
+  auto opened = open(choice);
+  if (!opened) return refused;
+  if (opened->module && choice.material.empty() && (exports || opened->module->materials.empty())) {
+    const ModuleDescription module = describe_module(*opened->module, opened->sources);
+    if (exports || !module.empty()) {
+      print_diagnostics(stderr, opened->diagnostics, opened->sources);
+      fmt::print("{}", json ? module_json(module) : module_text(module));
+      return 0;
+    }
+  }
+  const auto programs = programs_of(*opened, choice, true);
   if (programs.empty()) return refused;
   std::vector<Description> descriptions;
   for (const auto& program : programs) {
@@ -355,8 +424,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> files, settings;
   Choice choice;
   FeelOptions feeling;
-  std::string out, at, trace;
-  bool json = false;
+  std::string out, at, trace, code;
+  bool json = false, fix = false;
   const auto with_settings = [&](CLI::App* verb, std::vector<std::string>& into) {
     verb->add_option("--set", into, "a parameter's value, as in --set wale=5mm; may be repeated")
         ->type_name("NAME=VALUE")
@@ -366,20 +435,38 @@ int main(int argc, char** argv) {
 
   auto* verb = app.add_subcommand("check", "says what is wrong with Wale files, and where, and how to mend it");
   verb->add_option("FILE", files, "Wale files")->required();
+  choice.offer_library(*verb);
   verb->add_flag("--json", json, "diagnostics as a JSON array");
-  verb->callback([&] { status = check(files, json); });
+  verb->add_flag("--fix", fix, "first writes the mends that are beyond doubt into these files");
+  verb->callback([&] { status = check(files, choice.folders, json, fix); });
+
+  verb = app.add_subcommand("explain", "tells what a diagnostic's code means, with an example and its mend");
+  verb->add_option("CODE", code, "as in W0301 (default: lists all codes)");
+  verb->callback([&] { status = explain(code); });
+
+  verb = app.add_subcommand("format", "writes Wale files in the language's one style");
+  bool check_only = false;
+  verb->add_option("FILE", files, "Wale files; - for standard input to standard output")->required();
+  verb->add_flag("--check", check_only, "changes nothing; lists the files that would change and fails if there are any");
+  verb->callback([&] { status = format(files, check_only); });
 
   verb = app.add_subcommand("build", "compiles a material to a patch program");
   choice.offer(*verb);
-  verb->add_option("-o,--output", out, "the patch program to write (.wpp)")->required();
-  verb->callback([&] { status = build(choice, out); });
+  bool all = false, exports = false;
+  verb->add_option("-o,--output", out, "the patch program to write (.wpp); with --all, a folder for them")->required();
+  verb->add_flag("--all", all, "builds every material of the file, each to NAME.wpp in the folder")
+      ->excludes("--material");
+  verb->callback([&] { status = all ? build_collection(choice, out) : build(choice, out); });
 
   verb =
       app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
   choice.offer(*verb);
   with_settings(verb, settings);
+  verb->add_flag("--exports", exports,
+                 "what the file offers to those that import it (default where it has no material)")
+      ->excludes("--material");
   verb->add_flag("--json", json, "an object for one material, an array for several");
-  verb->callback([&] { status = describe(choice, settings, json); });
+  verb->callback([&] { status = describe(choice, settings, exports, json); });
 
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
   feeling.choice.offer(*verb, "--built-for");

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <unordered_map>
-
-#include "compiler/spelling.hpp"
 
 namespace wale {
 
@@ -28,6 +26,17 @@ std::string_view verb(BinaryOperator op) {
   }
 }
 
+std::string_view sign(BinaryOperator op) {
+  switch (op) {
+    case BinaryOperator::add: return "+";
+    case BinaryOperator::subtract: return "-";
+    case BinaryOperator::less: return "<";
+    case BinaryOperator::less_equal: return "<=";
+    case BinaryOperator::greater: return ">";
+    default: return ">=";
+  }
+}
+
 /// What to do with a value that is neither number nor vector.
 std::string calculable(Value::Type type) {
   if (type == Value::Type::boolean) return "make a number of it, as in `if x < 5 mm then 1 else 0`";
@@ -35,72 +44,12 @@ std::string calculable(Value::Type type) {
   return "use numbers and vectors";
 }
 
-double evaluate(Operation operation, double a, double b, double c) {
-  switch (operation) {
-    case Operation::add: return a + b;
-    case Operation::subtract: return a - b;
-    case Operation::multiply: return a * b;
-    case Operation::divide: return a / b;
-    case Operation::negate: return -a;
-    case Operation::absolute: return std::abs(a);
-    case Operation::minimum: return b < a ? b : a;
-    case Operation::maximum: return a < b ? b : a;
-    case Operation::floor: return std::floor(a);
-    case Operation::square_root: return std::sqrt(a);
-    case Operation::less: return a < b ? 1 : 0;
-    case Operation::select: return a != 0 ? b : c;
-    case Operation::sine: return std::sin(a);
-    case Operation::cosine: return std::cos(a);
-    case Operation::exp2: return std::exp2(a);
-    case Operation::log2: return std::log2(a);
-    case Operation::normal: return 0.5 * std::erfc(-a * M_SQRT1_2);
-    case Operation::limit: return std::isnan(a) || !(b >= 0) ? 0 : std::min(std::max(a, -b), b);
-    case Operation::sample:
-    case Operation::peak: break;
-  }
-  return std::nan("");
-}
-
 }  // namespace
 
-std::optional<double> constant_value(const Terms& terms, TermId id) {
-  if (!terms.dependence(id).constant()) return std::nullopt;
-  // A term may be used many times over: each is evaluated once, operands first, without recursion.
-  std::unordered_map<TermId, double> known;
-  std::vector<TermId> waiting{id};
-  while (!waiting.empty()) {
-    const TermId current = waiting.back();
-    const Term& term = terms[current];
-    if (known.contains(current)) {
-      waiting.pop_back();
-      continue;
-    }
-    if (term.kind == TermKind::literal) {
-      known[current] = term.value;
-      continue;
-    }
-    if (term.kind != TermKind::operation || term.operation == Operation::sample) return std::nullopt;
-    const TermId operands[] = {term.a, term.b, term.c};
-    const int count = operand_count(term.operation);
-    bool ready = true;
-    for (int i = 0; i < count; ++i)
-      if (!known.contains(operands[i])) waiting.push_back(operands[i]), ready = false;
-    if (!ready) continue;
-    const auto value = [&](int i) { return i < count ? known[operands[i]] : 0.0; };
-    known[current] = evaluate(term.operation, value(0), value(1), value(2));
-  }
-  return known[id];
-}
-
-bool names_hand_or_patch(std::string_view name) {
-  return name == "x" || name == "y" || name == "hand" || name == "velocity" || name == "patch_half_width" ||
-         name == "patch_half_height" || name == "patch_rim";
-}
-
 std::string customary_unit(const Declarations& declarations, const Dimension& dimension) {
-  const auto millimetre = declarations.units.find("mm");
-  if (millimetre != declarations.units.end() && millimetre->second.dimension == dimension) return "mm";
-  return declarations.names.unit(dimension);
+  const Unit* millimetre = declarations.units.find("mm");
+  if (millimetre && millimetre->dimension == dimension) return "mm";
+  return declarations.names().unit(dimension);
 }
 
 Value ExpressionChecker::failed(Span span) const { return {.type = Value::Type::failed, .span = span}; }
@@ -114,18 +63,21 @@ std::string ExpressionChecker::called_from(Span span) const {
   return fmt::format("called on line {}", surroundings_.sources.place(call_sites_.front()).line);
 }
 
-Value ExpressionChecker::report(Code code, Span span, std::string message, std::string label, std::string help) {
-  surroundings_.diagnostics.report({.code = code,
-                                    .span = blame(span),
-                                    .message = message + inside(span),
-                                    .label = label.empty() ? called_from(span) : std::move(label),
-                                    .help = std::move(help)});
+Value ExpressionChecker::report(Code code, Span span, std::string message, std::string label, Advice advice) {
+  Diagnostic diagnostic = std::move(advice).about(code, span, std::move(message));
+  diagnostic.label = std::move(label);
+  say(std::move(diagnostic));
   return failed(span);
 }
 
-const Unit* ExpressionChecker::unit(const std::string& name) const {
-  const auto found = surroundings_.declarations.units.find(name);
-  return found == surroundings_.declarations.units.end() ? nullptr : &found->second;
+/// Reports it where it is to be blamed.
+void ExpressionChecker::say(Diagnostic diagnostic) {
+  const Span span = diagnostic.span;
+  diagnostic.span = blame(span);
+  diagnostic.message += inside(span);
+  if (diagnostic.label.empty()) diagnostic.label = called_from(span);
+  if (diagnostic.span != span) diagnostic.fixes.clear();  // they are of the other file
+  surroundings_.diagnostics.report(std::move(diagnostic));
 }
 
 Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope) {
@@ -142,6 +94,7 @@ Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope
                                [&](const Binary& node) { return binary(tree, expr, node, scope); },
                                [&](const Call& node) { return call(tree, expr, node, scope); },
                                [&](const Conditional& node) { return conditional(tree, expr, node, scope); },
+                               [&](const Part& node) { return part(tree, node, scope); },
                                [&](const Erroneous&) { return failed(span); },
                            },
                            tree.expr(expr));
@@ -158,11 +111,9 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
     const auto& part = literal.suffix[next];
     const Unit* found = unit(part.name.text);
     if (!found) break;
-    if (scope.find(part.name.text))
-      return report(
-          Code::ambiguous_name, part.name.span,
-          fmt::format("`{}` is a unit and a name of this material", part.name.text), "which of them?",
-          fmt::format("give the name another spelling, or write `* {}` when the name is meant", part.name.text));
+    if (const auto* binding = scope.find(part.name.text)) return ambiguous_unit(part.name, binding->declared);
+    if (const auto* constant = declarations_->constants.entry(part.name.text))
+      return ambiguous_unit(part.name, constant->declared);
     const int exponent = part.divides ? -part.exponent : part.exponent;
     const auto scaled = power(found->dimension, exponent);
     if (!scaled)
@@ -180,15 +131,10 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
   // What follows the units is a product or quotient with names: 0.3 denim, 5 N / mass.
   for (; next < literal.suffix.size(); ++next) {
     const auto& part = literal.suffix[next];
-    const bool known = scope.find(part.name.text) || surroundings_.declarations.constants.contains(part.name.text) ||
-                       names_hand_or_patch(part.name.text);
-    if (!known) {
-      std::vector<std::string> candidates;
-      for (const auto& [name, definition] : surroundings_.declarations.units) candidates.push_back(name);
-      const auto near = nearest_spelling(part.name.text, candidates);
+    if (!has_meaning(part.name.text, scope)) {
+      if (const auto hidden = private_name(part.name)) return *hidden;
       return report(Code::unknown_unit, part.name.span, fmt::format("nothing declares a unit `{}`", part.name.text), "",
-                    near ? fmt::format("did you mean `{}`?", *near)
-                         : "declare it, as in `unit thou = 25.4 um`, or use one of schema/units.wale");
+                    surroundings_.diagnostics.is_full() ? "" : unit_mend(part.name, *declarations_));
     }
     Value factor_value = name(part.name, scope);
     if (part.exponent != 1) {
@@ -201,81 +147,28 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
   return value;
 }
 
-Value ExpressionChecker::name(const Word& word, Scope& scope) {
-  const auto vector_of = [&](Input x, Input y, const char* dimension) {
-    return Value{.type = Value::Type::vector,
-                 .x = terms_.input(x, word.span),
-                 .y = terms_.input(y, word.span),
-                 .dimension = surroundings_.declarations.dimension(dimension),
-                 .span = word.span};
-  };
-  const auto scalar_of = [&](Input input) {
-    return Value{.type = Value::Type::number,
-                 .x = terms_.input(input, word.span),
-                 .dimension = surroundings_.declarations.dimension("length"),
-                 .span = word.span};
-  };
-  if (auto* binding = scope.find(word.text)) {
-    binding->used = true;
-    Value value = binding->value;
-    value.span = word.span;
-    return value;
-  }
-  if (scope.hand) {
-    if (word.text == "hand") return vector_of(Input::x, Input::y, "length");
-    if (word.text == "velocity") return vector_of(Input::velocity_x, Input::velocity_y, "velocity");
-    if (word.text == "x") return scalar_of(Input::x);
-    if (word.text == "y") return scalar_of(Input::y);
-    if (word.text == "patch_half_width") return scalar_of(Input::patch_half_width);
-    if (word.text == "patch_half_height") return scalar_of(Input::patch_half_height);
-    if (word.text == "patch_rim") return scalar_of(Input::patch_rim);
-  }
-  if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
-  if (const auto found = surroundings_.declarations.constants.find(word.text);
-      found != surroundings_.declarations.constants.end()) {
-    const std::string guard = "let " + word.text;
-    for (const auto& callee : callees_)
-      if (callee == guard)
-        return report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
-                      "a `let` may use only what does not need it");
-    const auto known = constants_.find(found->second.node);
-    if (known == constants_.end()) {
-      if (callees_.size() >= deepest_call)
-        return report(Code::nested_too_deep, word.span,
-                      fmt::format("more than {} definitions lead to one another here", deepest_call), "",
-                      "write some of them out");
-      callees_.push_back(guard);
-      call_sites_.push_back(word.span);
-      Scope outside;
-      const Value value = check(*found->second.tree, found->second.node->value, outside);
-      call_sites_.pop_back();
-      callees_.pop_back();
-      constants_[found->second.node] = value;
-    }
-    Value value = constants_.at(found->second.node);
-    value.span = word.span;
-    return value;
-  }
-  const Unit* as_unit = unit(word.text);
-  if (as_unit)
-    return report(Code::unknown_name, word.span, fmt::format("`{}` is a unit, and a unit follows a number", word.text),
-                  "", fmt::format("write `1 {}`", word.text));
-  if (surroundings_.declarations.functions.contains(word.text))
-    return report(Code::unknown_name, word.span, fmt::format("`{}` is a function and needs its arguments", word.text),
-                  "", fmt::format("write `{}(…)`", word.text));
-  const bool place = word.text == "hand" || word.text == "velocity" || word.text == "x" || word.text == "y";
-  if (place)
-    return report(Code::not_constant, word.span,
-                  fmt::format("`{}` changes as the hand moves, and a constant is due here", word.text), "",
-                  "use numbers, units and other constants");
+/// A name that is also a unit is one mistake, however often it is met.
+Value ExpressionChecker::ambiguous_unit(const Word& word, Span declared) {
+  if (std::ranges::find(ambiguous_, declared) != ambiguous_.end()) return failed(word.span);
+  ambiguous_.push_back(declared);
   return report(
-      Code::unknown_name, word.span, fmt::format("nothing here is called `{}`", word.text), "",
-      spelling_help(word.text, &scope, false).value_or(fmt::format("declare it above, as in `let {} = …`", word.text)));
+      Code::ambiguous_name, word.span, fmt::format("`{}` is a unit and also a name", word.text),
+      "which of them?",
+      Advice(fmt::format("give the name another spelling, or write `* {}` when the name is meant", word.text))
+          .see(declared, "the name is declared here"));
 }
 
 Value ExpressionChecker::unary(const SyntaxTree& tree, ExprId, const Unary& node, Scope& scope) {
   Value value = check(tree, node.operand, scope);
   if (value.failed() || node.op == UnaryOperator::plus) return value;
+  if (node.op == UnaryOperator::complement) {
+    if (value.type != Value::Type::boolean)
+      return report(Code::wrong_type, value.span,
+                    fmt::format("`not` is of a condition, not of {}", type_words(value.type)), "",
+                    "compare it with something, as in `not x < 5 mm`");
+    value.x = terms_.apply(Operation::select, value.x, terms_.literal(0), terms_.literal(1), value.span);
+    return value;
+  }
   if (value.type != Value::Type::number && value.type != Value::Type::vector)
     return report(Code::wrong_type, value.span, fmt::format("{} cannot be negated", type_words(value.type)), "",
                   calculable(value.type));
@@ -284,11 +177,32 @@ Value ExpressionChecker::unary(const SyntaxTree& tree, ExprId, const Unary& node
   return value;
 }
 
+Value ExpressionChecker::part(const SyntaxTree& tree, const Part& node, Scope& scope) {
+  Value value = check(tree, node.whole, scope);
+  if (value.failed()) return value;
+  if (value.type != Value::Type::vector)
+    return report(Code::wrong_type, value.span, fmt::format("{} has no parts", type_words(value.type)), "",
+                  fmt::format("leave out the `.{}`", node.part));
+  value.type = Value::Type::number;
+  if (node.part == 'y') value.x = value.y;
+  value.y = 0;
+  return value;
+}
+
 Value ExpressionChecker::binary(const SyntaxTree& tree, ExprId expr, const Binary& node, Scope& scope) {
   const Span span = tree.span(expr);
   const Value left = check(tree, node.left, scope);
   const Value right = check(tree, node.right, scope);
   if (left.failed() || right.failed()) return failed(span);
+  if (node.op == BinaryOperator::conjunction || node.op == BinaryOperator::disjunction) {
+    for (const auto* side : {&left, &right})
+      if (side->type != Value::Type::boolean)
+        return report(Code::wrong_type, side->span,
+                      fmt::format("a condition is due here, not {}", type_words(side->type)), "",
+                      "compare it with something, as in `x < 5 mm`");
+    const auto operation = node.op == BinaryOperator::conjunction ? Operation::minimum : Operation::maximum;
+    return {.type = Value::Type::boolean, .x = terms_.apply(operation, left.x, right.x, span), .span = span};
+  }
   for (const auto* side : {&left, &right})
     if (side->type != Value::Type::number && side->type != Value::Type::vector)
       return report(Code::wrong_type, side->span, fmt::format("{} cannot be calculated with", type_words(side->type)),
@@ -309,22 +223,7 @@ Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& no
                   fmt::format("{} and {} cannot be {}", type_words(left.type), type_words(right.type), verb(op)), "",
                   "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
   if (left.dimension != right.dimension) {
-    auto sides = names().side_by_side(left.dimension, right.dimension);
-    std::string help;
-    if (!left.dimension.plain() && !right.dimension.plain())
-      help = "to fit the left side: " + dimension_mend(tree, node.right, scope, left.dimension, right.dimension);
-    for (const auto& [bare, other] : {std::pair{&left, &right}, std::pair{&right, &left}})
-      if (bare->dimension.plain() && !other->dimension.plain())
-        help = fmt::format("a plain number needs a unit here, such as `{} {}`", surroundings_.sources.text(bare->span),
-                           customary_unit(surroundings_.declarations, other->dimension));
-    surroundings_.diagnostics.report({.code = Code::mismatched_dimensions,
-                                      .span = blame(span),
-                                      .message = fmt::format("{} and {} cannot be {}{}", names().words(left.dimension),
-                                                             names().words(right.dimension), verb(op), inside(span)),
-                                      .label = called_from(span),
-                                      .expected = sides[0] + "   (left)",
-                                      .found = sides[1] + "   (right)",
-                                      .help = help});
+    mismatched_sides(tree, node, left, right, scope, span);
     return failed(span);
   }
   Value result{.type = left.type, .dimension = left.dimension, .span = span};
@@ -345,6 +244,32 @@ Value ExpressionChecker::add_or_compare(const SyntaxTree& tree, const Binary& no
   if (negated)
     result.x = terms_.apply(Operation::select, result.x, terms_.literal(0, span), terms_.literal(1, span), span);
   return result;
+}
+
+void ExpressionChecker::mismatched_sides(const SyntaxTree& tree, const Binary& node, const Value& left,
+                                         const Value& right, Scope& scope, Span span) {
+  Advice advice = "";
+  if (!left.dimension.plain() && !right.dimension.plain())
+    advice = dimension_mend(tree, node.right, scope, left.dimension, right.dimension).behind("to fit the left side: ");
+  for (const bool is_left : {true, false}) {
+    const Value &bare = is_left ? left : right, &other = is_left ? right : left;
+    if (!bare.dimension.plain() || other.dimension.plain()) continue;
+    const std::string unit = customary_unit(*declarations_, other.dimension);
+    advice = Advice(fmt::format("a plain number needs a unit here, such as `{} {}`",
+                                surroundings_.sources.text(bare.span), unit))
+                 .fix(append_unit(tree, is_left ? node.left : node.right, unit, surroundings_.sources));
+  }
+  const std::string of_left = names().words(left.dimension), of_right = names().words(right.dimension);
+  Diagnostic diagnostic = std::move(advice)
+                              .fact("expected", of_left)
+                              .fact("found", of_right)
+                              .because(fmt::format("both sides of `{}` have one dimension", sign(node.op)))
+                              .about(Code::mismatched_dimensions, span,
+                                     fmt::format("{} and {} cannot be {}", of_left, of_right, verb(node.op)));
+  const auto sides = names().side_by_side(left.dimension, right.dimension);
+  diagnostic.expected = sides[0] + "   (left)";
+  diagnostic.found = sides[1] + "   (right)";
+  say(std::move(diagnostic));
 }
 
 Value ExpressionChecker::multiply(const Value& left, const Value& right, Span span) {
@@ -381,7 +306,10 @@ Value ExpressionChecker::raise(const Value& base, const Value& exponent, Span sp
     return report(Code::wrong_type, span, "powers are of numbers", "", "use `dot(a, a)` for the square of a vector");
   if (!exponent.dimension.plain())
     return report(Code::wrong_dimension, exponent.span, "an exponent is a plain number",
-                  names().unit(exponent.dimension), "divide it by a quantity of its own dimension");
+                  names().unit(exponent.dimension),
+                  Advice("divide it by a quantity of its own dimension")
+                      .fact("expected", names().words({}))
+                      .fact("found", names().words(exponent.dimension)));
   Value result{.type = Value::Type::number, .span = span};
   const auto value = constant_value(terms_, exponent.x);
   constexpr int largest_whole = 16;
@@ -438,21 +366,35 @@ Value ExpressionChecker::conditional(const SyntaxTree& tree, ExprId expr, const 
     return report(Code::wrong_type, condition.span,
                   fmt::format("a condition is due here, not {}", type_words(condition.type)), "",
                   "compare it with something, as in `x < 5 mm`");
+  if (callees_.empty() && constant_value(terms_, condition.x))
+    surroundings_.diagnostics.report(
+        {.code = Code::unreachable,
+         .span = *constant_value(terms_, condition.x) != 0 ? no.span : yes.span,
+         .message = fmt::format("this is never reached: the condition is always {}",
+                                *constant_value(terms_, condition.x) != 0 ? "true" : "false"),
+         .help = "leave the `if` out, or let its condition depend on the hand or on a parameter"});
+  if (yes.type == Value::Type::boolean && no.type == Value::Type::boolean)
+    return {.type = Value::Type::boolean,
+            .x = terms_.apply(Operation::select, condition.x, yes.x, no.x, span),
+            .span = span};
   if (yes.type != no.type || (yes.type != Value::Type::number && yes.type != Value::Type::vector))
     return report(Code::wrong_type, span,
                   fmt::format("`then` gives {} and `else` gives {}", type_words(yes.type), type_words(no.type)), "",
                   "let both give a number, or both a vector");
   if (yes.dimension != no.dimension) {
     const auto sides = names().side_by_side(yes.dimension, no.dimension);
-    surroundings_.diagnostics.report(
-        {.code = Code::mismatched_dimensions,
-         .span = blame(span),
-         .message = fmt::format("`then` gives {}, `else` gives {}{}", names().words(yes.dimension),
-                                names().words(no.dimension), inside(span)),
-         .label = called_from(span),
-         .expected = sides[0] + "   (then)",
-         .found = sides[1] + "   (else)",
-         .help = "both must have one dimension"});
+    const std::string of_yes = names().words(yes.dimension), of_no = names().words(no.dimension);
+    Diagnostic diagnostic =
+        Advice("both must have one dimension")
+            .see(yes.span, of_yes)
+            .see(no.span, of_no)
+            .because("whichever is chosen, the value has one dimension")
+            .fact("expected", of_yes)
+            .fact("found", of_no)
+            .about(Code::mismatched_dimensions, span, fmt::format("`then` gives {}, `else` gives {}", of_yes, of_no));
+    diagnostic.expected = sides[0] + "   (then)";
+    diagnostic.found = sides[1] + "   (else)";
+    say(std::move(diagnostic));
     return failed(span);
   }
   Value result = yes;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "compiler/emit.hpp"
+#include "compiler/follow_on.hpp"
 #include "compiler/lower.hpp"
 #include "compiler/measure.hpp"
 #include "compiler/parse.hpp"
@@ -15,6 +16,10 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
   SyntaxTree tree = parse(sources, source, diagnostics);
   ModuleSet modules = load_modules(std::move(tree), sources, resolver, diagnostics);
   CheckedModule checked = check(std::move(modules), sources, resolver, diagnostics);
+  std::vector<const SyntaxTree*> trees;
+  for (const auto& tree : checked.modules.common->trees) trees.push_back(tree.get());
+  for (const auto& module : checked.modules.modules) trees.push_back(&module->tree);
+  diagnostics = without_follow_ons(diagnostics, trees, sources, source);
   diagnostics.sort();
   return checked;
 }

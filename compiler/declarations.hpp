@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,11 +15,67 @@
 
 namespace wale {
 
-/// Where a declaration's syntax stands: its expressions are read in `tree`.
+struct Declarations;
+
+/// Where a declaration's syntax stands: its expressions are read in `tree`, with the names of `home`.
 template <typename Node>
 struct Declared {
   const SyntaxTree* tree = nullptr;
   const Node* node = nullptr;
+  const Declarations* home = nullptr;
+};
+
+/// The names of one kind that a file may use: its own and those it imports, and beneath them what every file knows.
+template <typename T>
+class Names {
+ public:
+  struct Entry {
+    T what;
+    Span declared;          ///< the name where it was declared
+    bool exported = false;  ///< whoever imports the file may use it
+    bool imported = false;  ///< it came with an import
+  };
+
+  /// What is found when nothing here has the name.
+  void stand_on(const Names& common) { common_ = &common; }
+
+  const Entry* entry(const std::string& name) const {
+    const auto found = own_.find(name);
+    if (found != own_.end()) return &found->second;
+    return common_ ? common_->entry(name) : nullptr;
+  }
+  const T* find(const std::string& name) const {
+    const Entry* found = entry(name);
+    return found ? &found->what : nullptr;
+  }
+  bool contains(const std::string& name) const { return entry(name) != nullptr; }
+
+  /// Enters a name that is not there yet.
+  void add(const std::string& name, Entry entry) { own_.emplace(name, std::move(entry)); }
+
+  /// What the file itself has or imports, by name.
+  const std::map<std::string, Entry>& own() const { return own_; }
+
+  /// Everything, what every file knows first.
+  void each(const std::function<void(const std::string&, const T&)>& visit) const {
+    if (common_) common_->each(visit);
+    for (const auto& [name, entry] : own_) visit(name, entry.what);
+  }
+  std::vector<std::string> spellings() const {
+    std::vector<std::string> all;
+    each([&](const std::string& name, const T&) { all.push_back(name); });
+    return all;
+  }
+
+ private:
+  std::map<std::string, Entry> own_;
+  const Names* common_ = nullptr;
+};
+
+/// The bounds of a dimension's states, where its declaration gives them.
+struct DimensionBounds {
+  const SyntaxTree* tree = nullptr;
+  std::optional<Range> range;
 };
 
 struct Unit {
@@ -50,14 +108,20 @@ struct Map {
   std::string source;
   std::vector<std::string> validity;  ///< the conditions as written, "period 0.7 mm .. 10 mm"
   Span span;
+  bool exported = false;
 };
 
 struct DeviceDeclaration {
   DeviceProfile profile;
   std::string source;
   std::string documentation;
-  std::vector<std::string> assumed;                                     ///< settings that nobody measured
-  std::map<std::string, std::pair<const SyntaxTree*, ExprId>> realise;  ///< a force for a percept alone
+  std::vector<std::string> assumed;  ///< settings that nobody measured
+  struct Realisation {
+    const SyntaxTree* tree = nullptr;
+    ExprId force = 0;
+    const Declarations* home = nullptr;
+  };
+  std::map<std::string, Realisation> realise;  ///< a force for a percept alone
   Span span;
 };
 
@@ -71,6 +135,7 @@ struct Levels {
   std::string percept;
   std::vector<Level> levels;
   Span span;
+  bool exported = false;
 };
 
 /// A simulated hand and how it explores; SI units.
@@ -83,25 +148,57 @@ struct HandDeclaration {
   Span span;
 };
 
-/// Everything that a file may refer to by name: what the embedded files, its imports and it itself declare.
+/// Everything that one file may refer to by name. What every file knows (the embedded files) lies beneath, in `common`.
 struct Declarations {
-  DimensionNames names;
-  std::map<std::string, Dimension> dimensions;
-  std::map<std::string, Unit> units;
-  std::map<std::string, Declared<Constant>> constants;
-  std::map<std::string, Declared<FunctionDecl>> functions;
-  std::map<std::string, Percept> percepts;
-  std::vector<Map> maps;
-  std::map<std::string, DeviceDeclaration> devices;
-  std::vector<Levels> levels;
-  std::map<std::string, HandDeclaration> hands;
-  std::vector<Declared<MaterialDecl>> materials;  ///< of the file itself and its imports, in order
+  /// Of the whole compilation, so that a base dimension has one place in every file.
+  std::shared_ptr<DimensionNames> shared_names = std::make_shared<DimensionNames>();
+  const Declarations* common = nullptr;
+  Names<Dimension> dimensions;
+  Names<DimensionBounds> dimension_bounds;
+  Names<Unit> units;
+  Names<Declared<Constant>> constants;
+  Names<Declared<FunctionDecl>> functions;
+  Names<Percept> percepts;
+  Names<DeviceDeclaration> devices;
+  Names<HandDeclaration> hands;
+  Names<Declared<MaterialDecl>> materials;
+  /// What imported files keep to themselves, and where: to tell it from what is unknown.
+  std::map<std::string, Span> private_names;
+  std::vector<Map> own_maps;
+  std::vector<Levels> own_levels;
+
+  Declarations() = default;
+  /// A file's own names over those that every file knows.
+  explicit Declarations(const Declarations& beneath);
+  Declarations& operator=(const Declarations&) = delete;
+
+  DimensionNames& names() { return *shared_names; }
+  const DimensionNames& names() const { return *shared_names; }
+
+  /// Maps and levels have no names of their own; what every file knows comes first.
+  std::vector<const Map*> maps() const;
+  std::vector<const Levels*> levels() const;
 
   /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
   Dimension dimension(const std::string& name) const {
-    const auto found = dimensions.find(name);
-    return found == dimensions.end() ? Dimension{} : found->second;
+    const auto* found = dimensions.find(name);
+    return found ? *found : Dimension{};
   }
+};
+
+/// A file and what it declares and imports.
+struct Module {
+  SyntaxTree tree;
+  Declarations declarations;
+  std::string name;  ///< as diagnostics show it
+
+  Module(SyntaxTree syntax, const Declarations& common) : tree(std::move(syntax)), declarations(common) {}
+};
+
+/// What every file knows: the embedded files, one list of names for all of them.
+struct CommonModules {
+  std::vector<std::unique_ptr<SyntaxTree>> trees;
+  Declarations declarations;
 };
 
 }  // namespace wale

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "compiler/declare_records.hpp"
-#include "compiler/spelling.hpp"
 
 namespace wale {
 
@@ -20,8 +19,8 @@ class Declarer {
   void operator()(const Import&) {}
 
   void operator()(const DimensionDecl& node) {
-    auto& names = declarations_.names;
-    if (declarations_.dimensions.contains(node.name.text)) return twice(node.name, "dimension");
+    auto& names = declarations_.names();
+    if (twice(declarations_.dimensions, node.name, "dimension")) return;
     Dimension dimension;
     if (node.definition) {
       const auto known = dimension_of(*node.definition);
@@ -35,21 +34,22 @@ class Declarer {
       dimension.twelfths[names.base_units.size()] = Dimension::unit_exponent;
       names.base_units.push_back(node.name.text);  // until its unit is declared
     }
-    declarations_.dimensions[node.name.text] = dimension;
+    enter(declarations_.dimensions, node, dimension);
+    enter(declarations_.dimension_bounds, node, DimensionBounds{&tree_, node.range});
     names.dimensions.push_back({node.name.text, dimension});
   }
 
   void operator()(const UnitDecl& node) {
-    if (declarations_.units.contains(node.name.text)) return twice(node.name, "unit");
+    if (twice(declarations_.units, node.name, "unit")) return;
     Unit unit;
     if (node.dimension) {
-      const auto found = declarations_.dimensions.find(node.dimension->text);
-      if (found == declarations_.dimensions.end()) return unknown_dimension(*node.dimension);
-      unit.dimension = found->second;
-      for (std::size_t i = 0; i < declarations_.names.base_units.size(); ++i) {
+      const auto* found = declarations_.dimensions.find(node.dimension->text);
+      if (!found) return unknown_dimension(*node.dimension);
+      unit.dimension = *found;
+      for (std::size_t i = 0; i < declarations_.names().base_units.size(); ++i) {
         Dimension base;
         base.twelfths[i] = Dimension::unit_exponent;
-        if (unit.dimension == base) declarations_.names.base_units[i] = node.name.text;
+        if (unit.dimension == base) declarations_.names().base_units[i] = node.name.text;
       }
     } else {
       Terms terms;
@@ -64,29 +64,42 @@ class Declarer {
                       "write, for example, `unit thou = 25.4 um`");
       unit = {*factor, value.dimension};
     }
-    declarations_.units[node.name.text] = unit;
+    enter(declarations_.units, node, unit);
     if (unit.factor == 1 && !unit.dimension.plain())
-      declarations_.names.units.push_back({node.name.text, unit.dimension});
+      declarations_.names().units.push_back({node.name.text, unit.dimension});
   }
 
   void operator()(const Constant& node) {
-    if (declarations_.constants.contains(node.name.text)) return twice(node.name, "constant");
-    declarations_.constants[node.name.text] = {&tree_, &node};
+    if (names_hand_or_patch(node.name.text))
+      return report(Code::declared_twice, node.name.span,
+                    fmt::format("`{}` already means the hand's or the patch's own", node.name.text),
+                    "give it another name");
+    if (!twice(declarations_.constants, node.name, "constant"))
+      enter(declarations_.constants, node, Declared<Constant>{&tree_, &node, &declarations_});
   }
 
   void operator()(const FunctionDecl& node) {
-    if (declarations_.functions.contains(node.name.text) || is_builtin_function(node.name.text))
-      return twice(node.name, "function");
+    if (is_builtin_function(node.name.text))
+      return report(Code::declared_twice, node.name.span,
+                    fmt::format("`{}` is a function of the compiler's own", node.name.text), "give yours another name");
+    if (twice(declarations_.functions, node.name, "function")) return;
     for (std::size_t i = 0; i < node.parameters.size(); ++i)
       for (std::size_t before = 0; before < i; ++before)
         if (node.parameters[i].name.text == node.parameters[before].name.text)
           report(Code::declared_twice, node.parameters[i].name.span,
                  fmt::format("`{}` has two arguments `{}`", node.name.text, node.parameters[i].name.text),
-                 "give one of them another name");
+                 Advice("give one of them another name").see(node.parameters[before].name.span, "the first one"));
     for (const auto& parameter : node.parameters)
       if (parameter.dimension && !declarations_.dimensions.contains(parameter.dimension->text))
         unknown_dimension(*parameter.dimension);
-    declarations_.functions[node.name.text] = {&tree_, &node};
+    for (const auto& parameter : node.parameters)
+      if (const auto* hidden = declarations_.constants.entry(parameter.name.text))
+        report(Code::shadowed_name, parameter.name.span,
+               fmt::format("the argument `{}` hides the constant of that name", parameter.name.text),
+               Advice(fmt::format("give it another name, or leave it if it is meant; the constant is {}",
+                                  whereabouts(hidden->declared)))
+                   .see(hidden->declared, "the constant that it hides"));
+    enter(declarations_.functions, node, Declared<FunctionDecl>{&tree_, &node, &declarations_});
   }
 
   void operator()(const RecordDecl& node) {
@@ -101,9 +114,9 @@ class Declarer {
   }
 
   void operator()(const MaterialDecl& node) {
-    for (const auto& other : declarations_.materials)
-      if (other.node->name.text == node.name.text) return twice(node.name, "material");
-    declarations_.materials.push_back({&tree_, &node});
+    if (!twice(declarations_.materials, node.name, "material"))
+      declarations_.materials.add(
+          node.name.text, {.what = {&tree_, &node, &declarations_}, .declared = node.name.span, .exported = true});
   }
 
  private:
@@ -111,24 +124,9 @@ class Declarer {
   std::optional<Dimension> dimension_of(ExprId expr) {
     const Expr& node = tree_.expr(expr);
     // In `1 / time` the parser takes what follows the number for its unit.
-    if (const auto* number = std::get_if<NumberLiteral>(&node); number && number->value == 1) {
-      Dimension dimension;
-      for (const auto& part : number->suffix) {
-        const auto found = declarations_.dimensions.find(part.name.text);
-        const auto raised = found == declarations_.dimensions.end()
-                                ? std::nullopt
-                                : power(found->second, part.divides ? -part.exponent : part.exponent);
-        if (!raised) {
-          unknown_dimension(part.name);
-          return std::nullopt;
-        }
-        dimension = dimension * *raised;
-      }
-      return dimension;
-    }
+    if (const auto* number = std::get_if<NumberLiteral>(&node); number && number->value == 1) return suffix_of(*number);
     if (const auto* use = std::get_if<NameUse>(&node)) {
-      const auto found = declarations_.dimensions.find(use->name);
-      if (found != declarations_.dimensions.end()) return found->second;
+      if (const auto* found = declarations_.dimensions.find(use->name)) return *found;
       unknown_dimension({use->name, tree_.span(expr)});
       return std::nullopt;
     }
@@ -137,9 +135,13 @@ class Declarer {
       if (!left) return std::nullopt;
       if (binary->op == BinaryOperator::power) {
         const auto* exponent = std::get_if<NumberLiteral>(&tree_.expr(binary->right));
-        if (exponent && exponent->suffix.empty() && std::abs(exponent->value) <= 32 &&
-            exponent->value == std::floor(exponent->value))
-          if (const auto raised = power(*left, static_cast<int>(exponent->value))) return raised;
+        if (exponent && std::abs(exponent->value) <= 32 && exponent->value == std::floor(exponent->value)) {
+          // In `length^3 / time` the parser takes what follows the 3 for its unit.
+          const auto raised = power(*left, static_cast<int>(exponent->value));
+          const auto rest = suffix_of(*exponent);
+          if (!rest) return std::nullopt;
+          if (raised) return *raised * *rest;
+        }
       } else if (binary->op == BinaryOperator::multiply || binary->op == BinaryOperator::divide) {
         const auto right = dimension_of(binary->right);
         if (!right) return std::nullopt;
@@ -151,22 +153,56 @@ class Declarer {
     return std::nullopt;
   }
 
+  std::optional<Dimension> suffix_of(const NumberLiteral& number) {
+    Dimension dimension;
+    for (const auto& part : number.suffix) {
+      const auto* found = declarations_.dimensions.find(part.name.text);
+      const auto raised =
+          found ? power(*found, part.divides ? -part.exponent : part.exponent) : std::optional<Dimension>();
+      if (!raised) {
+        unknown_dimension(part.name);
+        return std::nullopt;
+      }
+      dimension = dimension * *raised;
+    }
+    return dimension;
+  }
+
   void unknown_dimension(const Word& word) {
-    std::vector<std::string> candidates;
-    for (const auto& [name, dimension] : declarations_.dimensions) candidates.push_back(name);
-    const auto near = nearest_spelling(word.text, candidates);
+    if (const auto hidden = declarations_.private_names.find(word.text); hidden != declarations_.private_names.end())
+      return report(Code::private_name, word.span,
+                    fmt::format("`{}` belongs to {} alone", word.text, sources_[hidden->second.source].name),
+                    fmt::format("write `export` before its declaration there (line {}), if others may use it",
+                                sources_.place(hidden->second).line));
+    if (diagnostics_.is_full()) return;
     report(Code::unknown_name, word.span, fmt::format("nothing declares a dimension `{}`", word.text),
-           near ? fmt::format("did you mean `{}`?", *near)
-                : fmt::format("declare it, as in `dimension {} = …`", word.text));
+           did_you_mean(word.span, word.text, declarations_.dimensions.spellings(),
+                        fmt::format("declare it, as in `dimension {} = …`", word.text)));
   }
 
-  void twice(const Word& word, const char* kind) {
-    report(Code::declared_twice, word.span, fmt::format("a {} `{}` is declared already", kind, word.text),
-           "give one of them another name");
+  std::string whereabouts(Span declared) const {
+    return declared.source == tree_.source ? fmt::format("on line {}", sources_.place(declared).line)
+                                           : fmt::format("in {}", sources_[declared.source].name);
   }
 
-  void report(Code code, Span span, std::string message, std::string help) {
-    diagnostics_.report({.code = code, .span = span, .message = std::move(message), .help = std::move(help)});
+  /// Whether the name is taken, reported.
+  template <typename T>
+  bool twice(const Names<T>& names, const Word& word, const char* kind) {
+    const auto* other = names.entry(word.text);
+    if (!other) return false;
+    report(Code::declared_twice, word.span,
+           fmt::format("a {} `{}` is declared already, {}", kind, word.text, whereabouts(other->declared)),
+           Advice("give one of them another name").see(other->declared, "declared here first"));
+    return true;
+  }
+
+  template <typename T, typename Node>
+  void enter(Names<T>& names, const Node& node, T what) {
+    names.add(node.name.text, {.what = std::move(what), .declared = node.name.span, .exported = node.exported});
+  }
+
+  void report(Code code, Span span, std::string message, Advice advice) {
+    diagnostics_.report(std::move(advice).about(code, span, std::move(message)));
   }
 
   const SyntaxTree& tree_;
@@ -175,7 +211,51 @@ class Declarer {
   Diagnostics& diagnostics_;
 };
 
+/// One kind of names from one file to another.
+template <typename T>
+void import_kind(const Names<T>& from, const Import& import, Names<T>& into, const char* kind,
+                 std::map<std::string, Span>& hidden, const SourceSet& sources, Diagnostics& diagnostics) {
+  for (const auto& [name, entry] : from.own()) {
+    if (entry.imported) continue;
+    if (!entry.exported) {
+      hidden.emplace(name, entry.declared);
+      continue;
+    }
+    if (const auto* other = into.entry(name)) {
+      if (other->declared == entry.declared) continue;
+      diagnostics.report(Advice("import one of the two, or let one of the files call it otherwise")
+                             .see(other->declared, "declared here first")
+                             .see(entry.declared, "and here")
+                             .about(Code::declared_twice, import.module.span,
+                                    fmt::format("`{}` brings a {} `{}`, and {} has brought one already",
+                                                import.module.text, kind, name, sources[other->declared.source].name)));
+      continue;
+    }
+    auto copy = entry;
+    copy.imported = true;
+    into.add(name, std::move(copy));
+  }
+}
+
 }  // namespace
+
+void import_names(const Declarations& from, const Import& import, Declarations& into, const SourceSet& sources,
+                  Diagnostics& diagnostics) {
+  import_kind(from.dimensions, import, into.dimensions, "dimension", into.private_names, sources, diagnostics);
+  import_kind(from.dimension_bounds, import, into.dimension_bounds, "dimension", into.private_names, sources,
+              diagnostics);
+  import_kind(from.units, import, into.units, "unit", into.private_names, sources, diagnostics);
+  import_kind(from.constants, import, into.constants, "constant", into.private_names, sources, diagnostics);
+  import_kind(from.functions, import, into.functions, "function", into.private_names, sources, diagnostics);
+  import_kind(from.percepts, import, into.percepts, "percept", into.private_names, sources, diagnostics);
+  import_kind(from.devices, import, into.devices, "device", into.private_names, sources, diagnostics);
+  import_kind(from.hands, import, into.hands, "hand", into.private_names, sources, diagnostics);
+  import_kind(from.materials, import, into.materials, "material", into.private_names, sources, diagnostics);
+  for (const auto& map : from.own_maps)
+    if (map.exported) into.own_maps.push_back(map), into.own_maps.back().exported = false;
+  for (const auto& levels : from.own_levels)
+    if (levels.exported) into.own_levels.push_back(levels), into.own_levels.back().exported = false;
+}
 
 void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& declarations, Diagnostics& diagnostics) {
   Declarer declarer(tree, sources, declarations, diagnostics);

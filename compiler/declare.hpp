@@ -1,14 +1,16 @@
 #pragma once
 
-#include "compiler/check_expression.hpp"
+#include "compiler/declarations.hpp"
+#include "compiler/diagnostic.hpp"
 
 namespace wale {
 
-/// Enters everything that one file declares: dimensions and units first, then constants and functions, then the records
-/// (percepts, maps, devices, levels, hands), whose figures are worked out here. Names declared twice, settings that a
-/// declaration lacks or does not have, wrong dimensions: all are reported.
-///
-/// `tree` must outlive `declarations`, which point into it.
+/// Enters what a file declares. Dimensions and units are worked out at once; constants and functions are entered as
+/// they stand and read where they are used.
 void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& declarations, Diagnostics& diagnostics);
+
+/// Enters what an imported file hands on: its materials, and whatever else stands behind `export`.
+void import_names(const Declarations& from, const Import& import, Declarations& into, const SourceSet& sources,
+                  Diagnostics& diagnostics);
 
 }  // namespace wale

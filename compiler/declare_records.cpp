@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/spelling.hpp"
-
 namespace wale {
 
 namespace {
@@ -34,14 +32,17 @@ bool has_word(const SettingItem& item, std::string_view word) {
 /// The dimension of a carrier, "lateral amplitude", from the declaration of the function's argument.
 std::optional<Dimension> carrier_dimension(const Declarations& declarations, const SettingItem& item) {
   if (item.words.size() != 2) return std::nullopt;
-  const auto function = declarations.functions.find(item.words[0].text);
-  if (function == declarations.functions.end()) return std::nullopt;
-  for (const auto& formal : function->second.node->parameters)
+  const auto* function = declarations.functions.find(item.words[0].text);
+  if (!function) return std::nullopt;
+  for (const auto& formal : function->node->parameters)
     if (formal.name.text == item.words[1].text && formal.dimension)
-      if (const auto known = declarations.dimensions.find(formal.dimension->text);
-          known != declarations.dimensions.end())
-        return known->second;
+      if (const auto* known = function->home->dimensions.find(formal.dimension->text)) return *known;
   return std::nullopt;
+}
+
+template <typename Entry>
+Advice another_name(const Entry& other) {
+  return Advice("give one of them another name").see(other.declared, "declared here first");
 }
 
 }  // namespace
@@ -50,8 +51,8 @@ RecordReader::RecordReader(const SyntaxTree& tree, const RecordDecl& record, con
                            const Declarations& declarations, Diagnostics& diagnostics)
     : tree(tree), record(record), sources(sources), declarations(declarations), diagnostics(diagnostics) {}
 
-void RecordReader::report(Code code, Span span, std::string message, std::string help) {
-  diagnostics.report({.code = code, .span = span, .message = std::move(message), .help = std::move(help)});
+void RecordReader::report(Code code, Span span, std::string message, Advice advice) {
+  diagnostics.report(std::move(advice).about(code, span, std::move(message)));
 }
 
 std::vector<const Setting*> RecordReader::settings(const std::string& key) {
@@ -66,7 +67,8 @@ const Setting* RecordReader::setting(const std::string& key) {
   const bool first_time = !asked_.contains(key);
   const auto found = settings(key);
   for (std::size_t i = 1; first_time && i < found.size(); ++i)
-    report(Code::declared_twice, found[i]->key.span, fmt::format("`{}` is set twice", key), "keep one of them");
+    report(Code::declared_twice, found[i]->key.span, fmt::format("`{}` is set twice", key),
+           Advice("keep one of them").see(found.front()->key.span, "set here first"));
   return found.empty() ? nullptr : found.front();
 }
 
@@ -119,8 +121,8 @@ std::string RecordReader::text(const std::string& key) {
   return {};
 }
 
-void RecordReader::reject(Code code, Span span, std::string message, std::string help) {
-  report(code, span, std::move(message), std::move(help));
+void RecordReader::reject(Code code, Span span, std::string message, Advice advice) {
+  report(code, span, std::move(message), std::move(advice));
   rejected_ = true;
 }
 
@@ -128,20 +130,19 @@ void RecordReader::report_unknown_settings() {
   if (rejected_) return;
   for (const auto& setting : record.settings) {
     if (read_.contains(&setting)) continue;
-    const auto near = nearest_spelling(setting.key.text, {asked_.begin(), asked_.end()});
     report(Code::unknown_setting, setting.key.span,
            fmt::format("a {} has no setting `{}`", record.keyword.text, setting.key.text),
-           near ? fmt::format("did you mean `{}`?", *near) : fmt::format("it has: {}", fmt::join(asked_, ", ")));
+           did_you_mean(setting.key.span, setting.key.text, {asked_.begin(), asked_.end()},
+                        fmt::format("it has: {}", fmt::join(asked_, ", "))));
   }
 }
 
 void declare_percept(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   Percept percept{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
-  if (declarations.percepts.contains(percept.name))
+  if (const auto* other = declarations.percepts.entry(percept.name))
     return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a percept `{}` is declared already", percept.name),
-                         "give one of them another name");
+                         fmt::format("a percept `{}` is declared already", percept.name), another_name(*other));
   if (const auto* one = reader.required("one", "lateral amplitude 194 pu on sandpaper"); one && !one->items.empty()) {
     const SettingItem& item = one->items.front();
     percept.carrier = joined(item.words);
@@ -164,23 +165,25 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
   reader.setting("words");
   if (const auto* threshold = reader.setting("near_threshold"))
     percept.near_threshold = reader.quantity(*threshold, 0, "number").value_or(0);
-  declarations.percepts[percept.name] = percept;
+  declarations.percepts.add(percept.name, {.what = percept, .declared = record.name.span, .exported = record.exported});
 }
 
 void declare_map(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  const auto percept = declarations.percepts.find(record.name.text);
-  if (percept == declarations.percepts.end())
+  const Percept* percept = declarations.percepts.find(record.name.text);
+  if (!percept)
     return reader.reject(Code::unknown_name, record.name.span,
                          fmt::format("nothing declares a percept `{}`", record.name.text),
-                         "declare it, as in schema/percepts.wale");
+                         did_you_mean(record.name.span, record.name.text, declarations.percepts.spellings(),
+                                      "declare it, as in schema/percepts.wale"));
   Map map{.percept = record.name.text, .from = record.from ? record.from->text : "", .span = record.name.span};
-  if (!percept->second.carrier.ends_with(" " + map.from))
-    reader.report(
-        Code::unknown_name, record.from ? record.from->span : record.name.span,
-        fmt::format("`{}` is carried by its `{}`, not by `{}`", map.percept, percept->second.carrier, map.from),
-        fmt::format("write `map {} from {}`", map.percept,
-                    percept->second.carrier.substr(percept->second.carrier.find(' ') + 1)));
+  map.exported = record.exported;
+  if (!percept->carrier.ends_with(" " + map.from))
+    reader.report(Code::unknown_name, record.from ? record.from->span : record.name.span,
+                  fmt::format("`{}` is carried by its `{}`, not by `{}`", map.percept, percept->carrier, map.from),
+                  Advice(fmt::format("write `map {} from {}`", map.percept,
+                                     percept->carrier.substr(percept->carrier.find(' ') + 1)))
+                      .see(percept->span, "declared here"));
 
   const auto* law = reader.required("law", "log10(magnitude) = …");
   const SettingItem* equation = law && law->items.size() == 1 && law->items[0].equals ? &law->items[0] : nullptr;
@@ -195,7 +198,7 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
                                 law->span};
     scope.names[map.from] = {{.type = Value::Type::number,
                               .x = map.terms.add({.kind = TermKind::carrier}),
-                              .dimension = percept->second.carrier_dimension},
+                              .dimension = percept->carrier_dimension},
                              law->span};
     const Value left = lone ? checker.named(*lone, scope) : checker.check(reader.tree, *equation->value, scope);
     if (!left.failed()) {
@@ -217,8 +220,8 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
     for (const auto& item : valid->items) {
       map.validity.emplace_back(reader.sources.text(item.span));
       if (joined(item.words) != map.from) continue;
-      if (item.value) map.valid_low = reader.value(*item.value, percept->second.carrier_dimension).value_or(0);
-      if (item.range_end) map.valid_high = reader.value(*item.range_end, percept->second.carrier_dimension).value_or(0);
+      if (item.value) map.valid_low = reader.value(*item.value, percept->carrier_dimension).value_or(0);
+      if (item.range_end) map.valid_high = reader.value(*item.range_end, percept->carrier_dimension).value_or(0);
     }
     if (!(map.valid_low > 0 && map.valid_high > map.valid_low))
       reader.report(Code::value_out_of_range, valid->span,
@@ -256,7 +259,7 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
   if (!reader.setting("source"))
     reader.report(Code::missing_setting, record.name.span, "a map without a source is a rumour",
                   "add `source \"author, year, figure\"`");
-  declarations.maps.push_back(std::move(map));
+  declarations.own_maps.push_back(std::move(map));
 }
 
 void declare_device(RecordReader& reader, Declarations& declarations) {
@@ -264,10 +267,9 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   DeviceDeclaration device{.documentation = record.documentation, .span = record.name.span};
   DeviceProfile& profile = device.profile;
   profile.name = record.name.text;
-  if (declarations.devices.contains(profile.name))
+  if (const auto* other = declarations.devices.entry(profile.name))
     return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a device `{}` is declared already", profile.name),
-                         "give one of them another name");
+                         fmt::format("a device `{}` is declared already", profile.name), another_name(*other));
 
   if (const auto* workspace = reader.required("workspace", "disc(228.6 mm)"); workspace && !workspace->items.empty()) {
     const auto* call =
@@ -306,20 +308,24 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   for (const Setting* setting : reader.settings("realise"))
     for (const auto& item : setting->items) {
       if (item.words.size() == 1 && item.equals)
-        device.realise[item.words[0].text] = {&reader.tree, *item.equals};
+        device.realise[item.words[0].text] = {&reader.tree, *item.equals, &declarations};
       else
         reader.report(Code::wrong_type, item.span, "a realisation is a force for a percept",
                       "write, for example, `realise roughness = lateral(grating(x, period: 2.5 mm))`");
     }
   device.source = reader.text("source");
-  declarations.devices[profile.name] = std::move(device);
+  const std::string name = profile.name;
+  declarations.devices.add(name,
+                           {.what = std::move(device), .declared = record.name.span, .exported = record.exported});
 }
 
 void declare_levels(RecordReader& reader, Declarations& declarations) {
   Levels levels{.percept = reader.record.name.text, .levels = {}, .span = reader.record.name.span};
+  levels.exported = reader.record.exported;
   if (!declarations.percepts.contains(levels.percept))
     reader.report(Code::unknown_name, levels.span, fmt::format("nothing declares a percept `{}`", levels.percept),
-                  "declare it, as in schema/percepts.wale");
+                  did_you_mean(levels.span, levels.percept, declarations.percepts.spellings(),
+                               "declare it, as in schema/percepts.wale"));
   for (const auto& setting : reader.record.settings) {
     reader.setting(setting.key.text);  // every key is a name of the author's
     const auto value = reader.quantity(setting, 0, "number");
@@ -327,19 +333,19 @@ void declare_levels(RecordReader& reader, Declarations& declarations) {
     if (!(*value >= 0 && *value <= 1))
       reader.report(Code::level_out_of_range, setting.span,
                     fmt::format("the level `{}` is outside 0 .. 1", setting.key.text),
-                    "1 is the percept's reference stimulus");
+                    Advice("1 is the percept's reference stimulus").fact("low", 0).fact("high", 1));
     else
       levels.levels.push_back({setting.key.text, *value, setting.key.span});
   }
-  declarations.levels.push_back(std::move(levels));
+  declarations.own_levels.push_back(std::move(levels));
 }
 
 void declare_hand(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   HandDeclaration hand{.name = record.name.text, .span = record.name.span};
-  if (declarations.hands.contains(hand.name))
+  if (const auto* other = declarations.hands.entry(hand.name))
     return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a hand `{}` is declared already", hand.name), "give one of them another name");
+                         fmt::format("a hand `{}` is declared already", hand.name), another_name(*other));
   hand.mass = reader.positive("mass", 0, "mass", "0.55 kg");
   hand.damping = reader.positive("damping", 0, "viscosity", "6.5 N s/m");
   hand.stiffness = reader.positive("stiffness", 0, "stiffness", "135 N/m");
@@ -352,7 +358,7 @@ void declare_hand(RecordReader& reader, Declarations& declarations) {
   motion("lateral", hand.lateral_amplitude, hand.lateral_frequency);
   motion("circular", hand.circular_radius, hand.circular_frequency);
   hand.source = reader.text("source");
-  declarations.hands[hand.name] = hand;
+  declarations.hands.add(hand.name, {.what = hand, .declared = record.name.span, .exported = record.exported});
 }
 
 }  // namespace wale

@@ -26,9 +26,9 @@ class RecordReader {
   /// An expression's value in SI, of the dimension.
   std::optional<double> value(ExprId expr, const Dimension& dimension);
 
-  void report(Code code, Span span, std::string message, std::string help);
+  void report(Code code, Span span, std::string message, Advice advice);
   /// The same about the record as a whole, whose settings then are not read.
-  void reject(Code code, Span span, std::string message, std::string help);
+  void reject(Code code, Span span, std::string message, Advice advice);
   void report_unknown_settings();
 
   const SyntaxTree& tree;

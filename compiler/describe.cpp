@@ -1,11 +1,15 @@
 #include "compiler/describe.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "compiler/preview/rehearsal.hpp"
 
 namespace wale {
 
@@ -13,18 +17,13 @@ namespace {
 
 constexpr double normal_95 = 1.96;  // standard deviations on either side that hold 95 % of a normal distribution
 
-/// A figure with the digits that single precision holds: 0.6, not 0.60000002384.
-double figure(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
-
-/// A parameter's value in its author's unit.
-double shown(float value, double unit_in_si) { return figure(value / unit_in_si); }
-
 DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   const PatchProgram& program = bank.program().description();
   const PerceptRecord& record = program.percepts[index];
   DescribedPercept percept{.name = record.name,
                            .carrier = record.carrier,
                            .asked = {},
+                           .alone = record.alone,
                            .slope = record.slope,
                            .anchor = record.anchor,
                            .handle = record.handle,
@@ -48,86 +47,50 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   return percept;
 }
 
-std::string heading(const Description& description) {
-  for (const auto& [key, values] : description.layers.representative)
-    if (key == "title" && !values.empty()) return fmt::format("{} ({})", values.front(), description.material);
-  return description.material;
+/// Whether code reads one of some registers.
+bool reads(std::span<const Instruction> code, RegisterNumber first, std::size_t count) {
+  return std::ranges::any_of(code, [&](const Instruction& instruction) {
+    const std::string_view fields = facts(static_cast<Operation>(instruction.operation)).fields;
+    const std::array operands = {instruction.a, instruction.b, instruction.c};
+    for (std::size_t i = 0; i < operands.size(); ++i)
+      if (fields[i] == 'r' && operands[i] >= first && operands[i] < first + count) return true;
+    return false;
+  });
 }
 
-void write_percepts(std::string& text, const Description& description) {
-  text += "\nfeels\n";
-  if (description.percepts.empty()) {
-    text += "  none that can be read: its force is not one texture\n";
-    return;
-  }
-  for (const auto& percept : description.percepts) {
-    text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
-                        percept.level, percept.low, percept.high, percept.magnitude);
-    text += fmt::format(
-        "  {:<12} {} {:.3f} N{}\n", "", percept.carrier, percept.amplitude,
-        percept.asked ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked) : ", fixed by the author");
-    if (percept.saturated)
-      text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
-    if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
-    text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
-                        evidence_word(percept.anchor), evidence_word(percept.handle));
-    text += fmt::format("  {:<12} {} ({}, on {})\n", "", percept.source, percept.map, percept.device);
-  }
+/// "its speed", "time", …: what the force depends on besides place, as its code reads it.
+std::vector<std::string> dependences(const PatchProgram& program) {
+  struct Dependence {
+    const char* words;
+    std::initializer_list<Input> inputs;
+  };
+  const auto any = [&](std::initializer_list<Input> inputs) {
+    return std::ranges::any_of(inputs,
+                               [&](Input input) { return reads(program.tick, static_cast<RegisterNumber>(input), 1); });
+  };
+  std::vector<std::string> found;
+  for (const Dependence& each : std::initializer_list<Dependence>{
+           {"the hand's velocity",
+            {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y}},
+           {"the hand's acceleration",
+            {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}},
+           {"time", {Input::time}},
+           {"the button", {Input::button}}})
+    if (any(each.inputs)) found.emplace_back(each.words);
+  if (!program.states.empty() || !program.grids.empty()) found.emplace_back("what it remembers");
+  return found;
 }
 
-nlohmann::ordered_json to_json(const Description& description) {
-  nlohmann::ordered_json json;
-  json["material"] = description.material;
-  json["device"] = description.device.name;
-  auto& representative = json["representative"] = nlohmann::ordered_json::object();
-  for (const auto& [key, values] : description.layers.representative) {
-    if (key == "called")
-      representative[key] = values;
-    else
-      representative[key] = values.empty() ? "" : values.front();
-  }
-  auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
-  for (const auto& percept : description.percepts) {
-    auto& entry = percepts[percept.name];
-    entry["level"] = figure(percept.level);
-    entry["magnitude"] = figure(percept.magnitude);
-    entry["low"] = figure(percept.low);
-    entry["high"] = figure(percept.high);
-    entry["carrier"] = percept.carrier;
-    entry["amplitude_newton"] = figure(percept.amplitude);
-    if (percept.asked) entry["asked"] = figure(*percept.asked);
-    entry["saturated"] = percept.saturated;
-    entry["outside_validity"] = percept.outside_validity;
-    entry["evidence"] = evidence_word(percept.worst);
-    entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
-                            {"anchor", evidence_word(percept.anchor)},
-                            {"handle", evidence_word(percept.handle)}};
-    entry["map"] = percept.map;
-    entry["measured_on"] = percept.device;
-    entry["source"] = percept.source;
-  }
-  json["force"] = {{"max_newton", figure(description.force.max_newton)},
-                   {"p99_newton", figure(description.force.p99_newton)},
-                   {"rms_newton", figure(description.force.rms_newton)}};
-  auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
-  for (const auto& parameter : description.parameters)
-    parameters.push_back({{"name", parameter.name},
-                          {"unit", parameter.unit},
-                          {"value", shown(parameter.value, parameter.unit_in_si)},
-                          {"min", shown(parameter.low, parameter.unit_in_si)},
-                          {"max", shown(parameter.high, parameter.unit_in_si)},
-                          {"description", parameter.description}});
-  json["patch"] = {{"width_m", figure(description.patch.width)},
-                   {"height_m", figure(description.patch.height)},
-                   {"rim_m", figure(description.patch.rim)}};
-  json["instructions"] = description.code.tick;
-  json["sections"] = {
-      {"setup", {{"instructions", description.code.setup}, {"cost", description.code.setup_cost}}},
-      {"peak", {{"instructions", description.code.peaks}, {"cost", description.code.peak_cost}}},
-      {"tick", {{"instructions", description.code.tick}, {"cost", description.code.tick_cost}}},
-      {"picture", {{"instructions", description.code.picture}, {"cost", description.code.picture_cost}}}};
-  json["bytes"] = description.bytes;
-  return json;
+/// Why no percept is told, in a line; empty where one is.
+std::string why_nothing(const PatchProgram& program, const Measured& force) {
+  if (!program.percepts.empty()) return {};
+  if (force.max_newton == 0) return "it pushes nowhere";
+  const auto found = dependences(program);
+  if (found.empty()) return "its force is a field of places, of no carrier that a percept's map knows";
+  std::string text;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
+  return fmt::format("its force depends on {}, so it is not one texture", text);
 }
 
 }  // namespace
@@ -143,17 +106,44 @@ std::string evidence_word(Evidence evidence) {
   return "unknown";
 }
 
+std::string mark_word(MarkKind kind) {
+  switch (kind) {
+    case MarkKind::point: return "point";
+    case MarkKind::circle: return "circle";
+    case MarkKind::box: return "box";
+    case MarkKind::line: return "line";
+    case MarkKind::spring: return "spring";
+    case MarkKind::trajectory: return "trajectory";
+  }
+  return "unknown";
+}
+
 Description describe(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
   for (std::size_t i = 0; i < program.percepts.size(); ++i) description.percepts.push_back(describe_percept(bank, i));
   description.force = measure(bank);
+  // What a program remembers pushes too, once it has something to remember.
+  if (remembers(program))
+    for (const Force force : rehearse(bank).forces)
+      if (const float size = std::hypot(force.x, force.y); size > description.force.max_newton)
+        description.force.max_newton = size;
+  description.no_percept = why_nothing(program, description.force);
   description.parameters = program.parameters;
+  description.states = program.states;
+  description.memories = program.grids;
+  // Without a surface of its own a program's relief is a constant.
+  const RegisterNumber relief = program.picture.relief;
+  description.shows_relief = relief < first_constant || relief >= program.first_parameter();
+  description.shows_colour = program.picture.colour.has_value();
+  description.marks = program.picture.marks;
   for (std::size_t i = 0; i < program.parameters.size(); ++i)
     description.parameters[i].value = bank.registers()[program.first_parameter() + i];
   auto& code = description.code;
   code.setup = program.setup.size(), code.setup_cost = cost_of(program.setup);
+  code.enter = program.enter.size(), code.enter_cost = cost_of(program.enter);
+  code.frame = program.picture.frame.size(), code.frame_cost = cost_of(program.picture.frame);
   code.tick = program.tick.size(), code.tick_cost = cost_of(program.tick);
   code.picture = program.picture.code.size(), code.picture_cost = cost_of(program.picture.code);
   for (const auto& peak : program.peaks) {
@@ -162,42 +152,6 @@ Description describe(const Bank& bank) {
   }
   description.bytes = write_patch_program(program).size();
   return description;
-}
-
-std::string description_text(const Description& description) {
-  std::string text = fmt::format("{}\n  built for {}, {:.3g} N at {:.4g} Hz\n", heading(description),
-                                 description.device.name, description.device.force_newton, description.device.rate);
-  for (const auto& [key, values] : description.layers.representative)
-    if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
-  write_percepts(text, description);
-  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
-                      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
-  text += "\nparameters\n";
-  if (description.parameters.empty()) text += "  none\n";
-  for (const auto& parameter : description.parameters)
-    text += fmt::format("  {:<12} {:<12} {:<20} {}\n", parameter.name,
-                        fmt::format("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
-                        fmt::format("{} .. {} {}", shown(parameter.low, parameter.unit_in_si),
-                                    shown(parameter.high, parameter.unit_in_si), parameter.unit),
-                        parameter.description);
-  const auto& code = description.code;
-  text += fmt::format("\npatch\n  {:.4g} mm x {:.4g} mm, fading over {:.3g} mm at its edge\n",
-                      1e3 * description.patch.width, 1e3 * description.patch.height, 1e3 * description.patch.rim);
-  text += fmt::format(
-      "\nprogram\n  tick {} instructions (cost {}), setup {} ({}), peaks {} ({:.2g} with all points), picture {} ({}); "
-      "{} bytes\n",
-      code.tick, code.tick_cost, code.setup, code.setup_cost, code.peaks, static_cast<double>(code.peak_cost),
-      code.picture, code.picture_cost, description.bytes);
-  return text;
-}
-
-std::string descriptions_json(const std::vector<Description>& descriptions) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const auto& description : descriptions) json.push_back(to_json(description));
-  // Names may hold any text a file brought along; what is no UTF-8 is replaced rather than thrown about.
-  return (descriptions.size() == 1 ? json.front() : json)
-             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-         "\n";
 }
 
 }  // namespace wale

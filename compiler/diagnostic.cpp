@@ -35,8 +35,11 @@ std::string code_title(Code code) { return entry(code).title; }
 Severity severity_of(Code code) { return entry(code).severity; }
 
 void Diagnostics::report(Diagnostic diagnostic) {
-  for (const Diagnostic& other : all_)
-    if (other.code == diagnostic.code && other.span == diagnostic.span && other.message == diagnostic.message) return;
+  if (is_full()) return;
+  const Key key(diagnostic.code, diagnostic.span.source, diagnostic.span.begin, diagnostic.span.end);
+  for (auto [said, end] = said_.equal_range(key); said != end; ++said)
+    if (said->second == diagnostic.message) return;
+  said_.emplace(key, diagnostic.message);
   if (severity_of(diagnostic.code) == Severity::error) ++errors_;
   all_.push_back(std::move(diagnostic));
 }

@@ -62,23 +62,29 @@ Expression derivative_of(Operation operation, Graph& graph, Expression r, Expres
 
 }  // namespace
 
-NodeId derivative(Graph& graph, NodeId of, int axis) {
+NodeId Derivatives::operator()(NodeId of, int axis) {
+  Graph& graph = graph_;
   const NodeId zero = graph.constant(0);
-  std::vector<bool> needed(of + 1, false);
-  needed[of] = true;
-  for (NodeId id = of + 1; id-- > 0;)
-    if (needed[id])
-      for (const NodeId operand : graph.operands(id)) needed[operand] = true;
-
-  std::vector<NodeId> known(of + 1, zero);
-  for (NodeId id = 0; id <= of; ++id) {
+  auto& known = known_[static_cast<std::size_t>(axis)];
+  if (known.size() <= of) known.resize(of + 1, none);
+  std::vector<char> needed(of + 1, false);  // as bool: bits are slower to look at one by one
+  needed[of] = known[of] == none;
+  for (NodeId id = of + 1; id-- > 0;) {
     if (!needed[id]) continue;
+    known[id] = zero;  // unless there is more to say, below
+    if (graph[id].rate != Rate::tick) continue;
+    for (const NodeId operand : graph.operands(id)) needed[operand] = known[operand] == none;
+  }
+
+  for (NodeId id = 0; id <= of; ++id) {
+    if (!needed[id] || graph[id].rate != Rate::tick) continue;
     const Node node = graph[id];  // a copy: the graph grows below
-    if (node.rate != Rate::tick) continue;
     switch (node.kind) {
       case Node::Kind::input: {
         const auto along = axis == 0 ? Input::x : Input::y;
-        if (node.index == static_cast<std::uint32_t>(along)) known[id] = graph.constant(1);
+        const auto on_workspace = axis == 0 ? Input::workspace_x : Input::workspace_y;
+        if (node.index == static_cast<std::uint32_t>(along) || node.index == static_cast<std::uint32_t>(on_workspace))
+          known[id] = graph.constant(1);
         break;
       }
       case Node::Kind::component: {
@@ -92,7 +98,9 @@ NodeId derivative(Graph& graph, NodeId of, int axis) {
       }
       case Node::Kind::operation: {
         const auto term = [&](NodeId operand) { return Expression{&graph, operand}; };
-        if (node.operation != Operation::sample)
+        const bool looks_up = node.operation == Operation::sample || node.operation == Operation::recall ||
+                              node.operation == Operation::cell;
+        if (!looks_up)
           known[id] = derivative_of(node.operation, graph, term(id), term(node.a), term(node.b), term(node.c),
                                     term(known[node.a]), term(known[node.b]), term(known[node.c]))
                           .id;

@@ -1,6 +1,7 @@
 #include "compiler/graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "compiler/term.hpp"
@@ -31,28 +32,56 @@ float fold(Operation operation, float a, float b, float c) {
   return evaluate(operation, a, b, c);
 }
 
-}  // namespace
+using Key = std::array<std::uint64_t, 3>;
 
-std::size_t Graph::Hash::operator()(const std::vector<std::uint64_t>& key) const {
+/// Whatever makes a value what it is; where it came from and how often it is worked out do not.
+Key key_of(const Node& node) {
+  return {static_cast<std::uint64_t>(node.kind) << 40 | static_cast<std::uint64_t>(node.operation) << 32 |
+              std::bit_cast<std::uint32_t>(node.value),
+          std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index};
+}
+
+std::size_t hash_of(const Key& key) {
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a, a word at a time
   for (const auto word : key) hash = (hash ^ word) * 1099511628211u, hash ^= hash >> 29;
   return hash;
 }
 
-NodeId Graph::add(Node node) {
-  const std::vector<std::uint64_t> key{
-      static_cast<std::uint64_t>(node.kind) << 8 | static_cast<std::uint64_t>(node.operation),
-      std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index,
-      std::bit_cast<std::uint32_t>(node.value)};
-  const auto [entry, added] = known_.try_emplace(key, static_cast<NodeId>(nodes_.size()));
-  if (added) nodes_.push_back(node);
-  return entry->second;
+}  // namespace
+
+void Graph::reserve(std::size_t nodes) {
+  nodes_.reserve(nodes);
+  if (2 * nodes > table_.size()) enlarge_table(std::bit_ceil(2 * nodes));
+}
+
+void Graph::enlarge_table(std::size_t slots) {
+  const std::vector<NodeId> entries = std::move(table_);
+  table_.assign(slots, none);
+  for (const NodeId id : entries) {
+    if (id == none) continue;
+    std::size_t slot = hash_of(key_of(nodes_[id])) & (table_.size() - 1);
+    while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
+    table_[slot] = id;
+  }
+}
+
+NodeId Graph::add(const Node& node) {
+  if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
+  const Key key = key_of(node);
+  std::size_t slot = hash_of(key) & (table_.size() - 1);
+  for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
+    if (key_of(nodes_[table_[slot]]) == key) return table_[slot];
+  table_[slot] = static_cast<NodeId>(nodes_.size());
+  ++in_table_;
+  nodes_.push_back(node);
+  return table_[slot];
 }
 
 NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }
 
 NodeId Graph::input(Input input, Span span) {
-  const bool patch = input == Input::patch_half_width || input == Input::patch_half_height || input == Input::patch_rim;
+  const bool patch = input == Input::patch_half_width || input == Input::patch_half_height ||
+                     input == Input::patch_rim || input == Input::seconds_per_tick;
   return add({.kind = Node::Kind::input,
               .index = static_cast<std::uint32_t>(input),
               .rate = patch ? Rate::setup : Rate::tick,
@@ -63,30 +92,16 @@ NodeId Graph::parameter(std::uint32_t index, Span span) {
   return add({.kind = Node::Kind::parameter, .index = index, .rate = Rate::setup, .span = span});
 }
 
-bool Graph::is_constant(NodeId id, float value) const {
-  return nodes_[id].kind == Node::Kind::constant &&
-         std::bit_cast<std::uint32_t>(nodes_[id].value) == std::bit_cast<std::uint32_t>(value);
-}
-
-std::vector<NodeId> Graph::operands(NodeId id) const {
-  const Node& node = nodes_[id];
-  switch (node.kind) {
-    case Node::Kind::operation: {
-      std::vector<NodeId> all{node.a, node.b, node.c};
-      all.resize(static_cast<std::size_t>(operand_count(node.operation)));
-      return all;
-    }
-    case Node::Kind::component: return {node.a};
-    case Node::Kind::peak: return {node.a, node.b, node.c};
-    default: return {};
-  }
+NodeId Graph::state(std::uint32_t index, Span span) {
+  return add({.kind = Node::Kind::state, .index = index, .rate = Rate::tick, .span = span});
 }
 
 NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, Span span) {
   const NodeId operands[] = {a, b, c};
-  const int count = operand_count(operation);
-  bool constants = operation != Operation::sample;
-  Rate rate = Rate::constant;
+  const int count = facts(operation).operands;
+  const bool recalls = operation == Operation::recall || operation == Operation::cell;
+  bool constants = operation != Operation::sample && !recalls;
+  Rate rate = recalls ? Rate::tick : Rate::constant;
   for (int i = 0; i < count; ++i) {
     constants = constants && nodes_[operands[i]].kind == Node::Kind::constant;
     rate = std::max(rate, nodes_[operands[i]].rate);

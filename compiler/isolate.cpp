@@ -6,27 +6,31 @@ namespace wale {
 
 namespace {
 
-/// How often the unknown stands in each term up to `last`: 0, 1, or 2 for more. One pass, since operands stand before
+/// How often the unknown stands in each term up to `last`. One pass from the unknown on, since operands stand before
 /// what uses them.
-std::vector<int> occurrences(const Terms& terms, TermId last, TermId unknown) {
-  std::vector<int> counts(last + 1, 0);
-  for (TermId id = 0; id <= last; ++id) {
-    const Term& term = terms[id];
-    if (id == unknown) {
-      counts[id] = 1;
-    } else if (term.kind == TermKind::operation) {
-      const TermId operands[] = {term.a, term.b, term.c};
-      for (int i = 0; i < operand_count(term.operation); ++i)
-        counts[id] = std::min(2, counts[id] + counts[operands[i]]);
-    }
+class Occurrences {
+ public:
+  Occurrences(const Terms& terms, TermId last, TermId unknown) : unknown_(unknown) {
+    counts_.assign(last >= unknown ? last - unknown + 1 : 1, 0);
+    counts_[0] = 1;
+    for (TermId id = unknown + 1; id <= last; ++id)
+      if (terms[id].kind == TermKind::operation)
+        for (const TermId operand : operands(terms[id]))
+          counts_[id - unknown] = std::min(2, counts_[id - unknown] + (*this)[operand]);
   }
-  return counts;
-}
+
+  /// 0, 1, or 2 for more.
+  int operator[](TermId id) const { return id < unknown_ ? 0 : counts_[id - unknown_]; }
+
+ private:
+  TermId unknown_;
+  std::vector<int> counts_;
+};
 
 }  // namespace
 
 std::optional<TermId> isolate(Terms& terms, TermId left, TermId right, TermId unknown) {
-  const auto counts = occurrences(terms, std::max(left, right), unknown);
+  const Occurrences counts(terms, std::max(left, right), unknown);
   if (counts[left] + counts[right] != 1) return std::nullopt;
   TermId side = counts[left] == 1 ? left : right;
   TermId other = side == left ? right : left;

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "compiler/characters.hpp"
+#include "compiler/fix.hpp"
 #include "compiler/lookalikes.hpp"
 #include "compiler/utf8.hpp"
 
@@ -29,6 +31,8 @@ constexpr Spelling reserved_words[] = {
 /// Longer spellings first, so that `<=` is not read as `<` and `=`.
 constexpr Spelling punctuation[] = {
     {"..", TokenKind::range},
+    {".x", TokenKind::part_x},
+    {".y", TokenKind::part_y},
     {"<=", TokenKind::less_equal},
     {">=", TokenKind::greater_equal},
     {"+-", TokenKind::plus_minus},
@@ -54,23 +58,18 @@ constexpr Spelling punctuation[] = {
     {"%", TokenKind::percent},
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool continues_name(char c) { return begins_name(c) || is_digit(c); }
-
-bool is_micro(char32_t code) { return code == 0xB5 || code == 0x3BC; }
-
-/// Letters of other alphabets, roughly: everything beyond Latin-1's signs but for the blocks of punctuation and
-/// symbols.
-bool is_foreign_letter(char32_t code) {
-  const bool sign = code == 0xD7 || code == 0xF7 || (code >= 0x2000 && code <= 0x2BFF) ||
-                    (code >= 0x3000 && code <= 0x303F) || (code >= 0xFE00 && code <= 0xFEFF) || code >= 0xFFF0;
-  return is_micro(code) || (code >= 0xC0 && !sign);
+/// A name of ASCII letters and Greek ones, which become `u`.
+std::string with_u(std::string_view name) {
+  std::string ascii;
+  for (std::size_t at = 0; at < name.size(); at += decode(name, at).bytes)
+    ascii += is_micro(decode(name, at).code) ? 'u' : name[at];
+  return ascii;
 }
 
-bool is_blank(char32_t code) {
-  return code == ' ' || code == '\t' || code == '\r' || code == '\f' || code == '\v' || code == 0xA0 ||
-         (code >= 0x2000 && code <= 0x200A) || code == 0x202F || code == 0x205F || code == 0x3000;
+/// What stands between the first two backticks: the token in "`^` for a power".
+std::string quoted_token(std::string_view text) {
+  const std::size_t begin = text.find('`') + 1;
+  return std::string(text.substr(begin, text.find('`', begin) - begin));
 }
 
 class Lexer {
@@ -80,6 +79,7 @@ class Lexer {
 
   Tokens run() {
     if (is_readable()) {
+      result_.tokens.reserve(text_.size() / 4);  // about as many as there are
       if (decode(text_, 0).code == 0xFEFF) at_ = 3;  // the byte order mark that some editors write
       while (at_ < text_.size() && diagnostics_.all().size() < error_limit) next();
     } else {
@@ -95,10 +95,16 @@ class Lexer {
       report(Code::too_long, 0, 0,
              fmt::format("this file has {:.1f} MB; Wale reads up to {} MB", text_.size() / 1048576.0,
                          largest_source >> 20),
-             "keep measurements in an image or a table of their own, or split the file and `import` its parts");
+             "keep measurements in an image or a table of their own, or split the file and `import` its parts", {},
+             {{"size", NumberWithUnit{text_.size() / 1048576.0, "MB"}},
+              {"limit", NumberWithUnit{largest_source / 1048576.0, "MB"}}});
       return false;
     }
     for (std::size_t at = 0; at < text_.size();) {
+      if (text_[at] > 0) {  // ASCII
+        ++at;
+        continue;
+      }
       const Character character = decode(text_, at);
       if (!character.valid || character.code == 0) {
         report(Code::invalid_encoding, at, at + 1,
@@ -131,12 +137,15 @@ class Lexer {
       name();
     } else if (c == '"') {
       text(1);
-    } else if (!quote() && !lookalike() && !symbol()) {
+    } else if (!(may_be_lookalike() && (quote() || lookalike())) && !symbol()) {
       unknown(character);
     }
   }
 
-  bool starts(std::string_view spelling) const { return text_.substr(at_).starts_with(spelling); }
+  bool starts(std::string_view spelling) const {
+    // Tables of spellings are tried one by one: most differ in their first byte.
+    return text_[at_] == spelling.front() && text_.substr(at_).starts_with(spelling);
+  }
 
   void line_comment() {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
@@ -144,7 +153,8 @@ class Lexer {
     if (comment.starts_with("///") && !comment.starts_with("////")) {
       std::string_view line = comment.substr(3);
       if (line.starts_with(' ')) line.remove_prefix(1);
-      while (!line.empty() && is_blank(static_cast<unsigned char>(line.back()))) line.remove_suffix(1);
+      // Only ASCII's blanks: the last byte of a letter may be that of another one.
+      while (!line.empty() && static_cast<unsigned char>(line.back()) <= ' ') line.remove_suffix(1);
       std::string& documentation = result_.documentation[result_.tokens.size()];
       if (!documentation.empty()) documentation += '\n';
       documentation += line;
@@ -175,11 +185,12 @@ class Lexer {
     } else if (at_ < text_.size() && text_[at_] == '.' && !starts("..")) {
       ++at_;
       report(Code::unexpected_character, begin, at_, "a number does not end in a point",
-             fmt::format("write `{0}` or `{0}.0`", text_.substr(begin, at_ - 1 - begin)));
+             fmt::format("write `{0}` or `{0}.0`", text_.substr(begin, at_ - 1 - begin)),
+             {replace(span(at_ - 1, at_), "")});
     }
     if (text_[begin] == '.') {
       report(Code::unexpected_character, begin, at_, "a number begins with a digit",
-             fmt::format("write `0{}`", text_.substr(begin, at_ - begin)));
+             fmt::format("write `0{}`", text_.substr(begin, at_ - begin)), leading_zero(begin));
     }
     exponent();
     const std::string_view digits = text_.substr(begin, at_ - begin);
@@ -187,6 +198,12 @@ class Lexer {
     const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc::result_out_of_range) return out_of_range(begin, digits);
     add(TokenKind::number, begin, add_number(value));
+  }
+
+  /// A `0` before the point, unless it would become part of the word that touches it.
+  std::vector<Fix> leading_zero(std::size_t begin) const {
+    if (begin > 0 && (continues_name(text_[begin - 1]) || text_[begin - 1] == '.')) return {};
+    return {insert_before(span(begin, at_), "0")};
   }
 
   void digits() {
@@ -209,7 +226,9 @@ class Lexer {
     const double size = std::strtod(std::string(digits).c_str(), nullptr);
     report(Code::number_out_of_range, begin, at_,
            std::isinf(size) ? "this number is too large to hold" : "this number is too close to zero to hold",
-           "numbers reach from 1e-300 to 1e300; use a unit of another size");
+           "use a unit of another size", {},
+           {{"least", NumberWithUnit{1e-300, ""}}, {"greatest", NumberWithUnit{1e300, ""}}},
+           "numbers reach from 1e-300 to 1e300");
     add(TokenKind::unreadable, begin);
   }
 
@@ -218,21 +237,22 @@ class Lexer {
     at_ += 2;
     while (at_ < text_.size() && std::isxdigit(static_cast<unsigned char>(text_[at_]))) ++at_;
     const double value = std::strtod(std::string(text_.substr(begin, at_ - begin)).c_str(), nullptr);
-    report(Code::unexpected_character, begin, at_, "numbers are written in decimal", fmt::format("write `{}`", value));
+    report(Code::unexpected_character, begin, at_, "numbers are written in decimal", fmt::format("write `{}`", value),
+           {replace(span(begin, at_), fmt::format("{}", value))});
     add(TokenKind::number, begin, add_number(value));
   }
 
   void name() {
     const std::size_t begin = at_;
-    std::string ascii;
     bool micro = false, foreign = false;
     while (at_ < text_.size()) {
-      const Character character = decode(text_, at_);
       if (continues_name(text_[at_]) || is_dot_in_name()) {
-        ascii += text_[at_];
-      } else if (is_micro(character.code)) {
+        ++at_;
+        continue;
+      }
+      const Character character = decode(text_, at_);
+      if (is_micro(character.code)) {
         micro = true;
-        ascii += 'u';
       } else if (is_foreign_letter(character.code)) {
         foreign = true;
       } else {
@@ -249,13 +269,14 @@ class Lexer {
                "rename it with a-z, A-Z, 0-9 and `_`; texts in quotes may hold any letter");
       }
     } else if (micro) {
+      const std::string ascii = with_u(word);
       report(Code::unexpected_character, begin, at_, fmt::format("`{}` is written without the Greek letter", word),
-             fmt::format("write `{}`", ascii));
+             fmt::format("write `{}`", ascii), {replace(span(begin, at_), ascii)});
       result_.texts.push_back(ascii);
       return add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
     }
     for (const Spelling& reserved : reserved_words) {
-      if (word == reserved.text) return add(reserved.kind, begin);
+      if (word.front() == reserved.text.front() && word == reserved.text) return add(reserved.kind, begin);
     }
     add(TokenKind::name, begin);
   }
@@ -263,16 +284,36 @@ class Lexer {
   /// `fabric.denim` is one name; the dots of `low..high` are none of it.
   bool is_dot_in_name() const { return text_[at_] == '.' && at_ + 1 < text_.size() && begins_name(text_[at_ + 1]); }
 
+  /// Lookalikes are not ASCII, or else doubled, or `!=`; the rest need not be held against all of them.
+  bool may_be_lookalike() const {
+    const char c = text_[at_], next = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
+    const bool ascii = static_cast<unsigned char>(c) < 0x80;
+    return !ascii || next == c || (c == '!' && next == '=');
+  }
+
   bool quote() {
     for (const std::string_view mark : typographic_quotes) {
       if (starts(mark)) {
-        report(Code::unexpected_character, at_, at_ + mark.size(), "a typographic quotation mark",
-               "texts stand between straight quotes: write `\"`");
+        const std::size_t begin = at_;
         text(mark.size());
+        report(Code::unexpected_character, begin, begin + mark.size(), "a typographic quotation mark",
+               "texts stand between straight quotes: write `\"`", quote_fixes(begin, begin + mark.size()));
         return true;
       }
     }
     return false;
+  }
+
+  /// Straight quotes for the text that has just been read, if it ends as it began. One that a straight quote ends may
+  /// hold that quote rather than end there.
+  std::vector<Fix> quote_fixes(std::size_t begin, std::size_t inside) const {
+    Fix fix = replace(span(begin, inside), "\"", "write straight quotes");
+    for (const std::string_view closing : typographic_quotes) {
+      if (!text_.substr(inside, at_ - inside).ends_with(closing)) continue;
+      fix.edits.push_back({span(at_ - closing.size(), at_), "\""});
+      return {fix};
+    }
+    return {};
   }
 
   /// A text whose opening quote is `quote_bytes` long; one that opens typographically may close so.
@@ -332,7 +373,7 @@ class Lexer {
       while (each.kind == TokenKind::range && at_ < text_.size() && text_[at_] == '.') ++at_;
       report(Code::unexpected_character, begin, at_,
              fmt::format("`{}` is {}", text_.substr(begin, at_ - begin), each.called),
-             fmt::format("write {}", each.meant));
+             fmt::format("write {}", each.meant), lookalike_fixes(each, begin));
       add(each.kind, begin);
       return true;
     }
@@ -341,7 +382,7 @@ class Lexer {
       const std::size_t begin = at_;
       at_ += each.text.size();
       report(Code::unexpected_character, begin, at_, fmt::format("`{}` is {}", each.text, each.called),
-             fmt::format("write `{}`", each.meant));
+             fmt::format("write `{}`", each.meant), {replace(span(begin, at_), std::string(each.meant))});
       if (each.meant.starts_with('^')) {
         add(TokenKind::caret, begin);
         add(TokenKind::number, begin, add_number(each.meant[1] - '0'));
@@ -354,9 +395,16 @@ class Lexer {
     return false;
   }
 
+  /// One that may mean several things is left to its author.
+  std::vector<Fix> lookalike_fixes(const Lookalike& each, std::size_t begin) const {
+    if (each.kind == TokenKind::unreadable) return {};
+    return {replace(span(begin, at_), quoted_token(each.meant))};
+  }
+
   bool symbol() {
     for (const Spelling& each : punctuation) {
       if (!starts(each.text)) continue;
+      if ((each.kind == TokenKind::part_x || each.kind == TokenKind::part_y) && !is_part()) continue;
       const std::size_t begin = at_;
       at_ += each.text.size();
       const auto index = static_cast<std::uint32_t>(result_.tokens.size());
@@ -365,6 +413,16 @@ class Lexer {
       return true;
     }
     return false;
+  }
+
+  /// Whether `.x` here is a part of what the parenthesis right before it closes.
+  bool is_part() const {
+    if (result_.tokens.empty()) return false;
+    const Token& last = result_.tokens.back();
+    const char next = at_ + 2 < text_.size() ? text_[at_ + 2] : ' ';
+    const bool goes_on = (next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z') || next == '_' ||
+                         (next >= '0' && next <= '9');
+    return last.kind == TokenKind::right_parenthesis && last.end == at_ && !goes_on;
   }
 
   /// Finds which bracket closes which, for the parser's recovery. A brace ends the parentheses that are open inside it:
@@ -401,8 +459,15 @@ class Lexer {
     report(Code::unexpected_character, begin, at_,
            visible ? fmt::format("Wale does not use the character `{}`", text_.substr(begin, character.bytes))
                    : fmt::format("the invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
-           help_for(text_[begin], visible));
+           help_for(text_[begin], visible), unknown_fixes(begin, visible));
     add(TokenKind::unreadable, begin);
+  }
+
+  /// What nobody sees is removed; a `#` at the beginning of a line begins a comment in many languages.
+  std::vector<Fix> unknown_fixes(std::size_t begin, bool visible) const {
+    if (!visible) return {replace(span(begin, at_), "")};
+    if (text_[begin] == '#' && starts_line_) return {replace(span(begin, at_), "//")};
+    return {};
   }
 
   static std::string help_for(char c, bool visible) {
@@ -432,14 +497,19 @@ class Lexer {
     starts_line_ = false;
   }
 
-  void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help) {
-    diagnostics_.report({code,
-                         {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)},
-                         std::move(message),
-                         {},
-                         {},
-                         {},
-                         std::move(help)});
+  Span span(std::size_t begin, std::size_t end) const {
+    return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
+
+  void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
+              std::vector<Fix> fixes = {}, std::vector<Fact> facts = {}, std::string rule = {}) {
+    diagnostics_.report({.code = code,
+                         .span = span(begin, end),
+                         .message = std::move(message),
+                         .help = std::move(help),
+                         .facts = std::move(facts),
+                         .rule = std::move(rule),
+                         .fixes = std::move(fixes)});
   }
 
   std::string_view text_;

@@ -46,6 +46,8 @@ enum class TokenKind : std::uint8_t {
   greater_equal,
   plus_minus,
   prime,
+  part_x,  ///< `.x` right behind a `)`
+  part_y,
   percent,
   unreadable,  ///< already reported; whatever needs it gives up silently
 };
@@ -66,10 +68,6 @@ struct Tokens {
   std::vector<std::string> texts;
   std::map<std::size_t, std::string> documentation;  ///< text of the `///` comments before a token
 };
-
-/// Files larger than this are refused (W0109); a material has a few hundred lines, measured tables live in their own
-/// files.
-constexpr std::size_t largest_source = 4u << 20;
 
 /// Reading a file stops after this many errors in it.
 constexpr std::size_t error_limit = 100;

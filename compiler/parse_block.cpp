@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "compiler/fix.hpp"
 #include "compiler/parser.hpp"
 #include "compiler/spelling.hpp"
 
@@ -10,7 +11,8 @@ constexpr std::string_view sections[] = {"representative", "perceptual", "physic
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
 /// What begins a physical statement; `x' = …` has no word of its own.
-const std::vector<std::string> physical_words = {"param", "let", "height", "force", "patch", "state", "next", "show"};
+const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch",
+                                                 "state", "memory", "next",   "show"};
 
 template <class List>
 bool holds(const List& list, std::string_view word) {
@@ -37,7 +39,7 @@ Setting Parser::setting() {
   if (at(TokenKind::equals) || at(TokenKind::colon)) {
     const Token& next = token(at_ + 1);
     complain(fmt::format("a setting has no {} after its name", shown(here())), "a value",
-             fmt::format("write `{} {}`", setting.key.text, spelling(next)));
+             fmt::format("write `{} {}`", setting.key.text, spelling(next)), drop_here());
     advance();
   }
   setting.items.push_back(setting_item());
@@ -78,7 +80,8 @@ SettingItem Parser::setting_item() {
       item.range_end = expression();
     }
   }
-  if (item.words.empty() && !item.value) fail("expected a value" + after_previous(), "a value", mend_here());
+  if (item.words.empty() && !item.value)
+    fail("expected a value" + after_previous(), "a value", mend_here(), fixes_here());
   if (at(TokenKind::equals)) {
     advance();
     item.equals = expression();
@@ -86,6 +89,15 @@ SettingItem Parser::setting_item() {
   while (at(TokenKind::name)) item.trailing.push_back(take_word());
   item.span = since(begin);
   return item;
+}
+
+/// Whether the lines of a material's sections follow although no `{` stands here.
+bool Parser::has_sections_below() const {
+  std::size_t index = at_;
+  while (!token(index).starts_line && kind(index) != TokenKind::left_brace && kind(index) != TokenKind::end) ++index;
+  return kind(index) == TokenKind::left_brace ||
+         (kind(index) == TokenKind::name && kind(index + 1) == TokenKind::left_brace &&
+          holds(sections, spelling(token(index))));
 }
 
 /// `representative { … }`, `perceptual { … }` or `physical { … }`.
@@ -97,12 +109,13 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
     if (!meant) return stray_statement(material, misplaced);
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("a material has no `{}`", section),
                 "`representative`, `perceptual` or `physical`", "`" + section + "`",
-                fmt::format("did you mean `{}`?", *meant));
+                fmt::format("did you mean `{}`?", *meant), respell_here(section_names), {}, {{"meant", *meant}});
     section = *meant;
   }
   if ((section == "perceptual" && material.perceptual_span) || (section == "physical" && material.physical_span))
     complain_at(Code::declared_twice, span_of(here()), fmt::format("a material has one `{}` block", section), "", "",
-                "put all its statements into one block");
+                "put all its statements into one block", {},
+                {{section == "physical" ? *material.physical_span : *material.perceptual_span, "the first one"}});
   advance();
   if (section == "representative") {
     block(true, [&] {
@@ -123,11 +136,11 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
 }
 
 /// What stands in a material but in none of its sections. A physical statement is read where it is, and only the first
-/// of them reported: they were all meant to be in the same `physical { … }`.
+/// statement reported: they were all meant to be in the same section, or one ended too early.
 void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
   const bool physical =
       here().kind == TokenKind::name && (holds(physical_words, spelling(here())) || kind(at_ + 1) == TokenKind::prime);
-  if (misplaced && physical) {
+  if (misplaced) {
     reported_ = true;
   } else {
     complain_at(Code::unexpected_token, span_of(here()),
@@ -135,8 +148,8 @@ void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
                 "`representative`, `perceptual` or `physical`", shown(here()),
                 physical ? "put it into `physical { … }`" : "put it into the section that it belongs to");
   }
-  if (!physical) throw Abandon{};
   misplaced = true;
+  if (!physical) throw Abandon{};
   material.physical.push_back(physical_statement());
   end_statement();
 }
@@ -157,7 +170,7 @@ PerceptStatement Parser::percept_statement() {
   if (at(TokenKind::equals) || at(TokenKind::colon)) {
     const Token& next = token(at_ + 1);
     complain(fmt::format("a percept's level has no {} before it", shown(here())), "a level",
-             fmt::format("write `{} {}`", percept.name.text, spelling(next)));
+             fmt::format("write `{} {}`", percept.name.text, spelling(next)), drop_here());
     advance();
   }
   const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus;
@@ -196,23 +209,27 @@ std::string_view Parser::physical_keyword() {
     const bool defines = followed_by(TokenKind::equals);
     if (followed_by(TokenKind::prime)) return "'";
     if (const auto known = word_of_table(word); !known.empty()) return known;
-    const auto meant = nearest_spelling(word, defines ? std::vector<std::string>{"force"} : physical_words);
+    const std::vector<std::string> candidates = defines ? std::vector<std::string>{"force"} : physical_words;
+    const auto meant = nearest_spelling(word, candidates);
     const bool plausible = meant && (defines || followed_by(TokenKind::name) || *meant == "patch");
     if (plausible) {
       complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word),
-                  "`" + *meant + "`", "`" + word + "`", fmt::format("did you mean `{}`?", *meant));
+                  "`" + *meant + "`", "`" + word + "`", fmt::format("did you mean `{}`?", *meant),
+                  respell_here(candidates), {}, {{"meant", *meant}});
       return word_of_table(*meant);
     }
     if (defines) {
       complain_at(Code::unexpected_token, span_of(here()), fmt::format("`{}` is defined without saying as what", word),
-                  "`let`, `param`, `height` or `state`", "`" + word + "`", fmt::format("write `let {} = …`", word));
+                  "`let`, `param`, `height` or `state`", "`" + word + "`", fmt::format("write `let {} = …`", word),
+                  {insert_before(span_of(here()), "let ", {}, false)});
       return "=";
     }
   }
   const bool operation = here().kind >= TokenKind::plus && here().kind <= TokenKind::greater_equal;
   complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with {}", shown(here())),
-              "`param`, `let`, `height`, `state`, `force`, `patch`, `next`, `show` or `name' = …`", shown(here()),
-              operation ? "to go on in the next line, end the line above with the operator" : "");
+              "`param`, `let`, `height`, `state`, `memory`, `force`, `patch`, `next`, `show` or `name' = …`",
+              shown(here()), operation ? "to go on in the next line, end the line above with the operator" : "",
+              operation ? move_operator_up() : std::vector<Fix>{});
   throw Abandon{};
 }
 
@@ -226,6 +243,8 @@ PhysicalStatement Parser::physical_statement() {
     result.what = param();
   } else if (keyword == "state") {
     result.what = state();
+  } else if (keyword == "memory") {
+    result.what = memory();
   } else if (keyword == "patch") {
     result.what = patch();
   } else if (keyword == "show") {
@@ -233,13 +252,16 @@ PhysicalStatement Parser::physical_statement() {
     result.what = ShowStatement{expression()};
   } else if (keyword == "force") {
     advance();
-    expect(TokenKind::equals, "`=`", "write `force = …`");
-    result.what = ForceStatement{expression()};
+    ForceStatement force{};
+    if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
+    expect(TokenKind::equals, "`=`", "write `force = …`", insert_equals());
+    force.value = expression();
+    result.what = std::move(force);
   } else {
     if (keyword != "=") advance();
     Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
     expect(TokenKind::equals, "`=`",
-           fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text));
+           fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text), insert_equals());
     const ExprId value = expression();
     if (keyword == "height") {
       result.what = HeightStatement{std::move(name), value};
@@ -257,9 +279,14 @@ ParamStatement Parser::param() {
   param.documentation = documentation_here();
   advance();
   param.name = declared_name("parameter");
-  expect(TokenKind::equals, "`=`", fmt::format("write `param {} = …`", param.name.text));
+  expect(TokenKind::equals, "`=`", fmt::format("write `param {} = …`", param.name.text), insert_equals());
   param.value = expression();
   param.range = optional_range();
+  if (at(TokenKind::comma) && is_word(at_ + 1, "soft")) {
+    advance();
+    advance();
+    param.soft_range = range();
+  }
   if (at(TokenKind::text)) {
     param.description = input_.texts[here().value];
     advance();
@@ -272,15 +299,37 @@ StateStatement Parser::state() {
   advance();
   StateStatement state;
   state.name = declared_name("state");
-  if (at(TokenKind::colon)) {
-    advance();
-    if (!at(TokenKind::name)) fail("expected a dimension" + after_previous(), "a dimension, as in `: velocity`", {});
-    state.dimension = take_word();
-  }
-  expect(TokenKind::equals, "`=`", fmt::format("a state begins somewhere: write `state {} = …`", state.name.text));
+  state.dimension = optional_dimension();
+  expect(TokenKind::equals, "`=`", fmt::format("a state begins somewhere: write `state {} = …`", state.name.text),
+         insert_equals());
   state.value = expression();
   state.range = optional_range();
   return state;
+}
+
+/// `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
+MemoryStatement Parser::memory() {
+  advance();
+  MemoryStatement memory{};
+  memory.name = declared_name("memory");
+  memory.dimension = optional_dimension();
+  expect(TokenKind::equals, "`=`", fmt::format("write `memory {} = …`", memory.name.text));
+  memory.value = expression();
+  memory.range = optional_range();
+  if (!at(TokenKind::comma) || !is_word(at_ + 1, "cell"))
+    fail("expected `, cell`" + after_previous(), "`, cell` and a length",
+         "say how wide its cells are, as in `memory track = 0 in 0 .. 1, cell 1 mm`");
+  advance();
+  advance();
+  memory.cell = expression();
+  return memory;
+}
+
+std::optional<Word> Parser::optional_dimension() {
+  if (!at(TokenKind::colon)) return std::nullopt;
+  advance();
+  if (!at(TokenKind::name)) fail("expected a dimension" + after_previous(), "a dimension, as in `: length`", {});
+  return take_word();
 }
 
 /// `v' = …`, or `next v = …`.
@@ -290,7 +339,7 @@ UpdateStatement Parser::update() {
   if (!update.derivative) advance();
   update.name = update.derivative ? take_word() : declared_name("state");
   if (update.derivative) advance();
-  expect(TokenKind::equals, "`=`", fmt::format("write `next {} = …`", update.name.text));
+  expect(TokenKind::equals, "`=`", fmt::format("write `next {} = …`", update.name.text), insert_equals());
   update.value = expression();
   return update;
 }
@@ -299,7 +348,7 @@ PatchStatement Parser::patch() {
   advance();
   if (at(TokenKind::equals)) {
     complain("the size of the patch has no `=` before it", "a length",
-             fmt::format("write `patch {}`", spelling(token(at_ + 1))));
+             fmt::format("write `patch {}`", spelling(token(at_ + 1))), drop_here());
     advance();
   }
   PatchStatement patch{{expression()}};
@@ -313,11 +362,33 @@ PatchStatement Parser::patch() {
 std::optional<Range> Parser::optional_range() {
   if (!at(TokenKind::word_in)) return std::nullopt;
   advance();
+  return range();
+}
+
+Range Parser::range() {
   Range range{};
   range.low = expression();
-  expect(TokenKind::range, "`..`", "a range is written `in 1 mm .. 5 mm`");
+  expect(TokenKind::range, "`..`", "a range is written `in 1 mm .. 5 mm`", insert_range());
   range.high = expression();
   return range;
+}
+
+/// Goes behind the `{` of a block. When it is missing the block is read all the same, from the next line on, or else
+/// each of its statements would seem to stand in the wrong place; so is a block with a `{` too many.
+void Parser::open_block() {
+  if (here().kind == TokenKind::left_brace) {
+    advance();
+    if (here().kind != TokenKind::left_brace) return;
+    complain_at(Code::unexpected_token, span_of(here()), "a second `{`", "a statement", "`{`",
+                "a block has one; remove it", {replace(span_of(here()), "")});
+    return advance();
+  }
+  complain("expected `{`" + after_previous(), "`{`", "a block stands in braces", insert_opening_brace());
+  while (here().kind != TokenKind::left_brace && here().kind != TokenKind::right_brace &&
+         here().kind != TokenKind::end && !here().starts_line)
+    advance();
+  if (here().kind == TokenKind::left_brace) return advance();
+  brace_missing_ = true;  // how many it should be is now a guess
 }
 
 /// Whether the block must have been meant to end before this token although no `}` says so.
@@ -339,7 +410,8 @@ void Parser::missing_brace(std::size_t open) {
       Code::unexpected_token, at_end ? Span{last.source, last.end, last.end} : span_of(here()),
       at_end ? "expected `}` before the end of the file" : fmt::format("expected `}}` before {}", shown(here())), "`}`",
       at_end ? "the end of the file" : shown(here()),
-      fmt::format("close the `{{` after {} in line {}, column {}", owner, opened.line, opened.column));
+      fmt::format("close the `{{` after {} in line {}, column {}", owner, opened.line, opened.column),
+      insert_brace(open), {{span_of(token(open)), "opened here"}});
 }
 
 }  // namespace wale

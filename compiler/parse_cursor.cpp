@@ -5,9 +5,7 @@
 #include "compiler/parser.hpp"
 
 namespace wale {
-namespace {
 
-/// A line that ends in one of these goes on in the next.
 bool continues(TokenKind kind) {
   switch (kind) {
     case TokenKind::comma:
@@ -23,6 +21,9 @@ bool continues(TokenKind kind) {
     case TokenKind::greater:
     case TokenKind::greater_equal:
     case TokenKind::plus_minus:
+    case TokenKind::word_and:
+    case TokenKind::word_or:
+    case TokenKind::word_not:
     case TokenKind::word_if:
     case TokenKind::word_then:
     case TokenKind::word_else: return true;
@@ -30,9 +31,11 @@ bool continues(TokenKind kind) {
   }
 }
 
+namespace {
+
 bool ends_value(TokenKind kind) {
-  return kind == TokenKind::name || kind == TokenKind::number || kind == TokenKind::right_parenthesis ||
-         kind == TokenKind::percent;
+  return kind == TokenKind::name || kind == TokenKind::part_x || kind == TokenKind::part_y ||
+         kind == TokenKind::number || kind == TokenKind::right_parenthesis || kind == TokenKind::percent;
 }
 
 }  // namespace
@@ -58,21 +61,23 @@ bool Parser::begins_statement(std::size_t index) const {
   const TokenKind next = kind(index + 1);
   if (next == TokenKind::prime) return kind(index + 2) == TokenKind::equals;
   if (next == TokenKind::equals) return is_word(index, "force");
+  if (is_word(index, "force") && next == TokenKind::name) return kind(index + 2) == TokenKind::equals;
   if (next == TokenKind::number) return is_word(index, "patch");
   if (next == TokenKind::left_brace) {
     return is_word(index, "representative") || is_word(index, "perceptual") || is_word(index, "physical");
   }
   if (next != TokenKind::name || token(index + 1).starts_line) return false;
-  for (const std::string_view word : {"param", "let", "height", "state", "next", "show", "essential"}) {
+  for (const std::string_view word : {"param", "let", "height", "state", "memory", "next", "show", "essential"}) {
     if (is_word(index, word)) return true;
   }
   return begins_declaration(index);
 }
 
-/// Whether a line begins a declaration even inside a block that nobody closed.
+/// Whether a statement begins a declaration even inside a block that nobody closed.
 bool Parser::begins_declaration(std::size_t index) const {
-  if (!token(index).starts_line || kind(index) != TokenKind::name || kind(index + 1) != TokenKind::name) return false;
+  if (kind(index) != TokenKind::name || kind(index + 1) != TokenKind::name) return false;
   const TokenKind third = kind(index + 2);
+  if (is_word(index, "export")) return token(index + 1).starts_line == false;
   if (is_word(index, "material")) return third == TokenKind::left_brace || third == TokenKind::equals;
   if (is_word(index, "function")) return third == TokenKind::left_parenthesis;
   if (is_word(index, "map")) return third == TokenKind::word_from || third == TokenKind::left_brace;
@@ -100,7 +105,8 @@ Word Parser::declared_name(std::string_view declares) {
     std::string help;
     if (at(TokenKind::number)) help = "names begin with a letter";
     if (at(TokenKind::text)) help = "names are written without quotes";
-    fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help));
+    fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help),
+         unquote(false));
   }
   Word name = take_word();
   if (name.text.find('.') != std::string::npos) {
@@ -111,10 +117,11 @@ Word Parser::declared_name(std::string_view declares) {
 }
 
 /// Takes the token. When it is missing, says so and goes on as if it had been there.
-void Parser::expect(TokenKind expected, std::string_view spelling, std::string help) {
+void Parser::expect(TokenKind expected, std::string_view spelling, std::string help, std::vector<Fix> fixes) {
   if (at(expected)) return advance();
   if (here().kind == TokenKind::unreadable && !ends_statement(at_)) throw Abandon{};
-  complain(fmt::format("expected {}{}", spelling, after_previous()), std::string(spelling), std::move(help));
+  complain(fmt::format("expected {}{}", spelling, after_previous()), std::string(spelling), std::move(help),
+           std::move(fixes));
 }
 
 Span Parser::since(std::size_t first_token) const {
@@ -150,34 +157,66 @@ std::string Parser::found_here() const {
 std::string Parser::after_previous() const { return at_ == 0 ? "" : " after " + shown(token(at_ - 1)); }
 
 std::string Parser::documentation_here() const {
-  const auto found = input_.documentation.find(at_);
+  auto found = input_.documentation.find(at_);
+  // What is exported has its comment above the word `export`.
+  if (found == input_.documentation.end() && at_ > 0 && is_word(at_ - 1, "export"))
+    found = input_.documentation.find(at_ - 1);
   return found == input_.documentation.end() ? std::string() : found->second;
 }
 
-void Parser::complain(std::string message, std::string expected, std::string help) {
+void Parser::complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,
+                      std::vector<SecondarySpan> secondary) {
   Span span = span_of(here());
   const bool after_last = here().starts_line || here().kind == TokenKind::end;
   if (ends_statement(at_) && after_last && at_ > 0) span.begin = span.end = token(at_ - 1).end;
-  complain_at(Code::unexpected_token, span, std::move(message), std::move(expected), found_here(), std::move(help));
+  complain_at(Code::unexpected_token, span, std::move(message), std::move(expected), found_here(), std::move(help),
+              std::move(fixes), std::move(secondary));
 }
 
 void Parser::complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
-                         std::string help) {
+                         std::string help, std::vector<Fix> fixes, std::vector<SecondarySpan> secondary,
+                         std::vector<Fact> facts) {
   // What the lexer could not read has been reported by the lexer.
   if (here().kind == TokenKind::unreadable) reported_ = true;
   if (reported_) return;
   reported_ = true;
-  diagnostics_.report({code, span, std::move(message), {}, std::move(expected), std::move(found), std::move(help)});
+  diagnostics_.report({.code = code,
+                       .span = span,
+                       .message = std::move(message),
+                       .expected = std::move(expected),
+                       .found = std::move(found),
+                       .help = std::move(help),
+                       .secondary = std::move(secondary),
+                       .facts = std::move(facts),
+                       .fixes = std::move(fixes)});
   // Nothing more is said about a file with this many errors: what is left of it is skipped.
   if (diagnostics_.all().size() >= error_limit) {
-    at_ = tokens_.size() - 1;
-    brace_missing_ = true;
-    throw Abandon{};
+    give_up();
   }
 }
 
-void Parser::fail(std::string message, std::string expected, std::string help) {
-  complain(std::move(message), std::move(expected), std::move(help));
+/// Skips the rest of the file, and says no more about it.
+void Parser::give_up() {
+  at_ = tokens_.size() - 1;
+  brace_missing_ = true;
+  throw Abandon{};
+}
+
+void Parser::count_statement() {
+  if (++statements_ <= most_statements) return;
+  reported_ = false;
+  diagnostics_.report({.code = Code::too_long,
+                       .span = span_of(here()),
+                       .message = fmt::format("this file has more than {} statements", most_statements),
+                       .help = "keep measurements in an image or a table of their own, or split the file and `import` "
+                               "its parts",
+                       .facts = {{"limit", NumberWithUnit{static_cast<double>(most_statements), ""}}}});
+  give_up();
+}
+
+void Parser::fail(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,
+                  std::vector<SecondarySpan> secondary) {
+  complain(std::move(message), std::move(expected), std::move(help), std::move(fixes), std::move(secondary));
   throw Abandon{};
 }
 
@@ -206,13 +245,11 @@ std::string Parser::mend_here() const {
     case TokenKind::less:
     case TokenKind::less_equal:
     case TokenKind::greater:
-    case TokenKind::greater_equal: return "comparisons do not chain; write one `if` inside the other";
+    case TokenKind::greater_equal: return "comparisons do not chain; join two of them with `and`";
     case TokenKind::plus_minus: return "a tolerance belongs to a percept; to subtract, write `-`";
     case TokenKind::range: return "a range follows `in`: `in 1 mm .. 5 mm`";
     case TokenKind::colon: return "named arguments stand in the parentheses of a call";
     case TokenKind::right_parenthesis: return "there is no `(` that it could close; remove it";
-    case TokenKind::word_and:
-    case TokenKind::word_or: return "write one `if` inside the other";
     case TokenKind::word_then:
     case TokenKind::word_else: return "a conditional is written `if … then … else …`";
     default: return {};
@@ -223,9 +260,24 @@ void Parser::end_statement() {
   if (!ends_statement(at_)) {
     // What was read of the value is not what was meant: `2` of `2 sin(x)`.
     if (last_expression_) tree_.exprs[*last_expression_] = Erroneous{};
-    fail("expected the end of the line" + after_previous(), "the end of the line", mend_here());
+    fail("expected the end of the line" + after_previous(), "the end of the line", mend_here(), fixes_here());
   }
   if (here().kind == TokenKind::semicolon) advance();
+}
+
+/// Whether the `}` here stands where something else was meant: in the middle of a line that goes on as no line does
+/// behind a block.
+bool Parser::is_stray_brace() const {
+  const Token& next = token(at_ + 1);
+  if (here().starts_line || next.starts_line) return false;
+  switch (next.kind) {
+    case TokenKind::end:
+    case TokenKind::semicolon:
+    case TokenKind::right_brace: return false;
+    case TokenKind::name:
+      return token(at_ + 2).starts_line || (kind(at_ + 2) != TokenKind::left_brace && kind(at_ + 2) != TokenKind::name);
+    default: return true;
+  }
 }
 
 /// Goes to the end of a statement in which something was wrong: past the parentheses that it opened if they are closed,
@@ -239,8 +291,10 @@ void Parser::skip_statement() {
   for (;; advance()) {
     switch (here().kind) {
       case TokenKind::end:
-      case TokenKind::semicolon:
-      case TokenKind::right_brace: return;
+      case TokenKind::semicolon: return;
+      case TokenKind::right_brace:
+        if (is_stray_brace()) continue;
+        return;
       case TokenKind::left_brace:
         at_ = here().value > 0 ? here().value : tokens_.size() - 1;
         advance();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/fix.hpp"
 #include "compiler/parser.hpp"
 
 namespace wale {
@@ -14,17 +15,21 @@ struct InfixOperator {
   int precedence;
 };
 
-/// Higher binds tighter. A power binds tighter still, and to the right: see `power`.
-constexpr int comparison_precedence = 1;
+/// Higher binds tighter. `not` stands between `and` and the comparisons; a power binds tighter still, and to the right:
+/// see `power`.
+constexpr int disjunction_precedence = 1, conjunction_precedence = 2, comparison_precedence = 3, sum_precedence = 4,
+              product_precedence = 5;
 constexpr InfixOperator infix_operators[] = {
+    {TokenKind::word_or, BinaryOperator::disjunction, disjunction_precedence},
+    {TokenKind::word_and, BinaryOperator::conjunction, conjunction_precedence},
     {TokenKind::less, BinaryOperator::less, comparison_precedence},
     {TokenKind::less_equal, BinaryOperator::less_equal, comparison_precedence},
     {TokenKind::greater, BinaryOperator::greater, comparison_precedence},
     {TokenKind::greater_equal, BinaryOperator::greater_equal, comparison_precedence},
-    {TokenKind::plus, BinaryOperator::add, 2},
-    {TokenKind::minus, BinaryOperator::subtract, 2},
-    {TokenKind::star, BinaryOperator::multiply, 3},
-    {TokenKind::slash, BinaryOperator::divide, 3},
+    {TokenKind::plus, BinaryOperator::add, sum_precedence},
+    {TokenKind::minus, BinaryOperator::subtract, sum_precedence},
+    {TokenKind::star, BinaryOperator::multiply, product_precedence},
+    {TokenKind::slash, BinaryOperator::divide, product_precedence},
 };
 
 const InfixOperator* infix(TokenKind kind) {
@@ -36,6 +41,8 @@ const InfixOperator* infix(TokenKind kind) {
 /// How well a number is known, where a declaration says so: these words are no units.
 constexpr std::string_view evidence_words[] = {"measured", "published",   "estimated",
                                                "recalled", "transferred", "assumed"};
+
+std::vector<Fact> limit_fact(std::size_t limit) { return {{"limit", NumberWithUnit{static_cast<double>(limit), ""}}}; }
 
 }  // namespace
 
@@ -54,27 +61,47 @@ ExprId Parser::expression() {
 }
 
 ExprId Parser::operation(int least_precedence) {
-  ExprId left = signed_operand();
+  int most_precedence = product_precedence;
+  ExprId left;
+  if (at(TokenKind::word_not) && least_precedence <= comparison_precedence) {
+    left = complement();
+    most_precedence = conjunction_precedence;
+  } else {
+    left = signed_operand();
+  }
   while (!ends_statement(at_)) {
     const InfixOperator* found = infix(here().kind);
-    if (found == nullptr || found->precedence < least_precedence) break;
+    if (found == nullptr || found->precedence < least_precedence || found->precedence > most_precedence) break;
     advance();
     const ExprId right = operation(found->precedence + 1);
     left = add(Binary{found->op, left, right}, joined(tree_.span(left), tree_.span(right)), {left, right});
     // `a < b < c` compares a truth with a number; nobody means that.
-    if (found->precedence == comparison_precedence) least_precedence = comparison_precedence + 1;
+    if (found->precedence <= comparison_precedence) most_precedence = conjunction_precedence;
   }
   return left;
 }
 
-/// Everything that nests passes through here, so this is where depth is counted.
+void Parser::nest() {
+  if (++nesting_ <= deepest_nesting) return;
+  complain_at(Code::nested_too_deep, span_of(here()),
+              fmt::format("an expression nested more than {} deep", deepest_nesting), {}, {},
+              "name parts of it with `let`", {}, {}, limit_fact(deepest_nesting));
+  throw Abandon{};
+}
+
+/// `not a < b` is `not (a < b)`.
+ExprId Parser::complement() {
+  nest();
+  const std::size_t begin = at_;
+  advance();
+  const ExprId operand = operation(comparison_precedence);
+  --nesting_;
+  return add(Unary{UnaryOperator::complement, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
+}
+
+/// Everything else that nests passes through here, so this is where depth is counted.
 ExprId Parser::signed_operand() {
-  if (++nesting_ > deepest_nesting) {
-    complain_at(Code::nested_too_deep, span_of(here()),
-                fmt::format("an expression nested more than {} deep", deepest_nesting), {}, {},
-                "name parts of it with `let`");
-    throw Abandon{};
-  }
+  nest();
   const std::size_t begin = at_;
   ExprId result;
   if (at(TokenKind::minus) || at(TokenKind::plus)) {
@@ -91,7 +118,13 @@ ExprId Parser::signed_operand() {
 
 /// `-2^2` is -4, `2^-1` a half, `2^3^2` two to the ninth.
 ExprId Parser::power() {
-  const ExprId base = operand();
+  ExprId base = operand();
+  while (at(TokenKind::part_x) || at(TokenKind::part_y)) {
+    const char part = at(TokenKind::part_x) ? 'x' : 'y';
+    const Span span = joined(tree_.span(base), span_of(here()));
+    advance();
+    base = add(Part{base, part}, span, {base});
+  }
   if (!at(TokenKind::caret)) return base;
   advance();
   const ExprId exponent = signed_operand();
@@ -120,7 +153,7 @@ ExprId Parser::operand() {
   std::string help;
   switch (here().kind) {
     case TokenKind::left_bracket: help = "vectors are written `vector(a, b)`"; break;
-    case TokenKind::word_not: help = "exchange the `then` and the `else` of the `if`"; break;
+    case TokenKind::word_not: help = "`not` is of a condition: put it and its condition in parentheses"; break;
     case TokenKind::star:
     case TokenKind::slash: help = "an operator stands between two values; a value is missing before it"; break;
     case TokenKind::plus_minus: help = "write `-`, or `+` and a space before the `-`"; break;
@@ -199,6 +232,7 @@ ExprId Parser::name_or_call() {
     return add(NameUse{std::move(name.text)}, name.span);
   }
   Call call{take_word(), {}};
+  call.arguments.reserve(4);  // few calls have more
   open_parentheses_.push_back(at_);
   advance();
   std::size_t highest = 0;
@@ -212,9 +246,10 @@ ExprId Parser::name_or_call() {
       const std::size_t after = at_;
       at_ = argument_begin - 1;  // the comma, for it may have been meant as a decimal point
       std::string help = mend_here();
+      std::vector<Fix> fixes = fixes_here();
       at_ = after;
       complain_at(Code::unexpected_token, tree_.span(last.value), "arguments without a name come before those with one",
-                  "`name: value`", shown(token(argument_begin)), std::move(help));
+                  "`name: value`", shown(token(argument_begin)), std::move(help), std::move(fixes));
       throw Abandon{};
     }
     named = named || last.name;
@@ -243,7 +278,8 @@ ExprId Parser::parenthesised() {
   const ExprId inner = operation(0);
   if (at(TokenKind::comma)) {
     fail("expected `)`" + after_previous(), "`)`",
-         mend_here().empty() ? "vectors are written `vector(a, b)`" : mend_here());
+         mend_here().empty() ? "vectors are written `vector(a, b)`" : mend_here(),
+         mend_here().empty() ? std::vector{insert_before(span_of(token(begin)), "vector", {}, false)} : fixes_here());
   }
   close_parenthesis("`)`");
   tree_.expr_spans[inner] = since(begin);
@@ -257,14 +293,16 @@ void Parser::close_parenthesis(std::string_view expected) {
     if (here().starts_line && (begins_statement(at_) || !closed_later)) {
       const Span end = span_of(token(at_ - 1));
       complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, std::string(expected),
-                  "the end of the line", unclosed_parenthesis());
+                  "the end of the line", unclosed_parenthesis(), {insert_after(end, ")", {}, false)},
+                  {{span_of(token(open_parentheses_.back())), "opened here"}});
       throw Abandon{};
     }
     std::string help = mend_here();
     if (here().starts_line && closed_later) help = "arguments are separated by commas";
     if (help.empty()) help = unclosed_parenthesis();
     if (here().kind == TokenKind::name && expected.starts_with("`,`")) help += ", and commas between arguments";
-    fail(message, std::string(expected), std::move(help));
+    fail(message, std::string(expected), std::move(help), fixes_here(),
+         {{span_of(token(open_parentheses_.back())), "opened here"}});
   }
   advance();
   open_parentheses_.pop_back();
@@ -282,7 +320,7 @@ ExprId Parser::conditional() {
   if (!at(TokenKind::word_then)) {
     std::string help = mend_here();
     if (help.empty()) help = "a conditional is written `if … then … else …`";
-    fail("expected `then`" + after_previous(), "`then`", std::move(help));
+    fail("expected `then`" + after_previous(), "`then`", std::move(help), fixes_here());
   }
   advance();
   const ExprId yes = operation(0);
@@ -301,7 +339,7 @@ ExprId Parser::add(Expr expr, Span span, std::initializer_list<ExprId> children)
   if (height > highest_expression) {
     complain_at(Code::nested_too_deep, span,
                 fmt::format("an expression of more than {} steps in a row", highest_expression), {}, {},
-                "name parts of it with `let`");
+                "name parts of it with `let`", {}, {}, limit_fact(highest_expression));
     throw Abandon{};
   }
   tree_.exprs.push_back(std::move(expr));

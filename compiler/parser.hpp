@@ -14,10 +14,16 @@ namespace wale {
 /// Thrown where a statement cannot be read any further, caught where the next one begins. Never leaves the parser.
 struct Abandon {};
 
+/// Whether a line that ends in such a token goes on in the next.
+bool continues(TokenKind kind);
+
 /// How deep parentheses, calls, signs, powers and conditionals may stand in each other.
 constexpr std::size_t deepest_nesting = 200;
 /// How high the tree of one expression may grow, a sum of many terms included: later stages walk it recursively.
 constexpr std::size_t highest_expression = 1000;
+
+/// Statements of one file. People write hundreds; later stages compare each name with all others.
+constexpr std::size_t most_statements = 12000;
 
 /// Recursive descent over the tokens of one file; `parse.hpp` is the way in, schema/wale.grammar the authority.
 ///
@@ -34,13 +40,14 @@ class Parser {
   // parse.cpp: declarations
   bool version();
   void declaration();
+  bool ends_lostness() const;
   void import_module();
-  void dimension();
-  void unit();
-  void constant();
-  void function();
+  void dimension(bool exported);
+  void unit(bool exported);
+  void constant(bool exported);
+  void function(bool exported);
   FormalParameter formal_parameter();
-  void record();
+  void record(bool exported);
   void material();
 
   // parse_block.cpp: what stands in braces
@@ -48,15 +55,20 @@ class Parser {
   SettingItem setting_item();
   bool is_leading_word() const;
   void material_section(MaterialDecl& material, bool& misplaced);
+  bool has_sections_below() const;
   void stray_statement(MaterialDecl& material, bool& misplaced);
   PerceptStatement percept_statement();
   PhysicalStatement physical_statement();
   std::string_view physical_keyword();
   ParamStatement param();
   StateStatement state();
+  MemoryStatement memory();
+  std::optional<Word> optional_dimension();
   UpdateStatement update();
   PatchStatement patch();
   std::optional<Range> optional_range();
+  Range range();
+  void open_block();
   void missing_brace(std::size_t open);
   bool ends_block_by_mistake(bool in_section) const;
   template <class Body>
@@ -65,7 +77,9 @@ class Parser {
   // parse_expression.cpp
   ExprId expression();
   ExprId operation(int least_precedence);
+  ExprId complement();
   ExprId signed_operand();
+  void nest();
   ExprId power();
   ExprId operand();
   ExprId number();
@@ -79,6 +93,18 @@ class Parser {
   void close_parenthesis(std::string_view expected);
   std::string unclosed_parenthesis() const;
   ExprId add(Expr expr, Span span, std::initializer_list<ExprId> children = {});
+
+  // parse_mend.cpp: what a program can mend of it
+  std::vector<Fix> fixes_here() const;
+  std::vector<Fix> insert_equals() const;
+  std::vector<Fix> insert_range() const;
+  std::vector<Fix> drop_here() const;
+  std::vector<Fix> move_operator_up() const;
+  std::vector<Fix> insert_opening_brace() const;
+  std::vector<Fix> insert_brace(std::size_t open) const;
+  std::vector<Fix> unquote(bool is_module) const;
+  std::vector<Fix> state_version(bool is_wale, bool has_number, bool is_declaration) const;
+  std::vector<Fix> respell_here(const std::vector<std::string>& candidates) const;
 
   // parse_cursor.cpp: where the parser stands, what it says, where it goes on
   const Token& here() const { return tokens_[at_]; }
@@ -94,7 +120,7 @@ class Parser {
   void advance() { at_ += at_ + 1 < tokens_.size() ? 1 : 0; }
   Word take_word();
   Word declared_name(std::string_view declares);
-  void expect(TokenKind kind, std::string_view spelling, std::string help = {});
+  void expect(TokenKind kind, std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
   Span since(std::size_t first_token) const;
@@ -106,13 +132,19 @@ class Parser {
   std::string documentation_here() const;
 
   /// Reports what stands here, or the place just after the last token when the statement has ended.
-  void complain(std::string message, std::string expected, std::string help);
-  void complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
-                   std::string help);
-  [[noreturn]] void fail(std::string message, std::string expected, std::string help);
+  void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
+                std::vector<SecondarySpan> secondary = {});
+  void complain_at(Code code, Span span, std::string message, std::string expected, std::string found, std::string help,
+                   std::vector<Fix> fixes = {}, std::vector<SecondarySpan> secondary = {},
+                   std::vector<Fact> facts = {});
+  [[noreturn]] void fail(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
+                         std::vector<SecondarySpan> secondary = {});
   ExprId erroneous(std::size_t first_token) { return add(Erroneous{}, since(first_token)); }
   std::string mend_here() const;
   void end_statement();
+  [[noreturn]] void give_up();
+  void count_statement();
+  bool is_stray_brace() const;
   void skip_statement();
   /// Reads one statement and stands at the beginning of the next, whatever happens.
   template <class Body>
@@ -131,7 +163,9 @@ class Parser {
   std::optional<ExprId> last_expression_;  ///< of this statement
   bool reported_ = false;                  ///< this statement has had its error
   bool brace_missing_ = false;             ///< this declaration has had its error about braces
-  bool in_setting_ = false;                ///< words of evidence end a unit: `0.3 kg assumed`
+  std::size_t statements_ = 0;
+  bool lost_ = false;        ///< outside all declarations; one error has said so
+  bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
 };
 
 template <class Body>
@@ -143,6 +177,7 @@ void Parser::statement(Body body) {
   open_parentheses_.clear();
   nesting_ = 0;
   try {
+    count_statement();
     body();
   } catch (const Abandon&) {
     skip_statement();
@@ -154,8 +189,7 @@ void Parser::statement(Body body) {
 template <class Body>
 Span Parser::block(bool in_section, Body body) {
   const std::size_t open = at_;
-  if (here().kind != TokenKind::left_brace) fail("expected `{`" + after_previous(), "`{`", {});
-  advance();
+  open_block();
   for (;;) {
     while (here().kind == TokenKind::semicolon) advance();
     if (here().kind == TokenKind::right_brace) break;

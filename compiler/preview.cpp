@@ -9,7 +9,9 @@
 #include "compiler/preview/canvas.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/field.hpp"
+#include "compiler/preview/marks.hpp"
 #include "compiler/preview/plot.hpp"
+#include "compiler/preview/rehearsal.hpp"
 #include "compiler/preview/relief.hpp"
 #include "compiler/preview/style.hpp"
 
@@ -21,12 +23,12 @@ constexpr double margin = 64;
 constexpr PageBox picture = {margin, 196, margin + 580, 776};
 constexpr PageBox upper_plot = {764, 226, page_width - margin, 456};
 constexpr PageBox lower_plot = {764, 534, page_width - margin, 776};
+// Where both have an axis of their own below.
+constexpr PageBox upper_of_two = {764, 226, page_width - margin, 438};
+constexpr PageBox lower_of_two = {764, 564, page_width - margin, 776};
 constexpr PageBox tall_plot = {764, 226, page_width - margin, 776};
 constexpr int curve_points = 1801;
 constexpr double stroking_speed = 0.1;  // m/s; of the second force curve, where motion is resisted
-
-/// A surface higher than this is no texture: such heights are plain numbers, 0 to 1.
-constexpr double highest_texture = 0.02;  // m
 
 const char* axis_name(const Exhibit& exhibit) { return exhibit.axis == 0 ? "x" : "y"; }
 
@@ -69,14 +71,14 @@ double largest_of(const std::vector<Curve>& curves) {
   return largest;
 }
 
-Plot height_plot(const Bank& bank, const Exhibit& exhibit) {
+Plot height_plot(const Bank& bank, const Memory& memory, const Exhibit& exhibit) {
   Plot plot;
   plot.title = fmt::format("Height along {}", axis_name(exhibit));
   plot.x_notation = length_notation(exhibit.side);
-  plot.curves = {{height_along(bank, exhibit, curve_points), style::height, ""}};
+  plot.curves = {{height_along(bank, &memory, exhibit, curve_points), style::height, ""}};
   const auto& values = plot.curves[0].profile.values;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  if (*most - *least < highest_texture) plot.y_notation = length_notation(*most - *least);
+  if (bank.program().description().picture.relief_is_length) plot.y_notation = length_notation(*most - *least);
   plot.shaded = true;
   return plot;
 }
@@ -107,20 +109,54 @@ Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
   return plot;
 }
 
-void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit) {
-  draw_relief(canvas, picture, bank, exhibit);
-  mark_section(canvas, exhibit);
-  const Notation length = length_notation(exhibit.side);
-  draw_scale_bar(canvas, exhibit.side, length);
-  std::string caption = "relief, lit from the upper left";
-  if (exhibit.period) caption = fmt::format("period {} · ", shown_quantity(*exhibit.period, length)) + caption;
-  write_caption(canvas, caption);
-  draw_plot(canvas, upper_plot, height_plot(bank, exhibit));
-  draw_plot(canvas, lower_plot, force_plot(bank, exhibit));
+/// Where the hand was along x while it rubbed.
+Plot stroke_plot(const Rehearsal& rehearsal) {
+  Plot plot;
+  plot.title = "The hand along x, rubbing to and fro";
+  plot.x_notation = {"s", 1};
+  Profile profile{rehearsal.times, {}};
+  for (glm::vec2 place : rehearsal.places) profile.values.push_back(place.x);
+  plot.curves = {{std::move(profile), style::height, ""}};
+  plot.y_notation = length_notation(largest_of(plot.curves));
+  plot.balanced = true;
+  return plot;
 }
 
-void draw_forces(Canvas& canvas, const Bank& bank, const Exhibit& exhibit) {
-  const bool of_velocity = !exhibit.pushes_at_rest && exhibit.resists_motion;
+/// What it felt meanwhile.
+Plot felt_plot(const Rehearsal& rehearsal) {
+  Plot plot;
+  plot.title = "Force on the hand";
+  plot.x_name = "time";
+  plot.x_notation = {"s", 1};
+  for (int axis : {0, 1}) {
+    Profile profile{rehearsal.times, {}};
+    for (Force force : rehearsal.forces) profile.values.push_back(std::isfinite(force[axis]) ? force[axis] : 0);
+    plot.curves.push_back(
+        {std::move(profile), axis == 0 ? style::force : style::moving, axis == 0 ? "along x" : "along y"});
+  }
+  plot.y_notation = force_notation(largest_of(plot.curves));
+  plot.balanced = true;
+  return plot;
+}
+
+void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  const bool in_time = remembers(bank.program().description());
+  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit);
+  if (exhibit.has_relief) mark_section(canvas, exhibit);
+  draw_marks(canvas, picture, exhibit, rehearsal);
+  const Notation length = length_notation(exhibit.side);
+  draw_scale_bar(canvas, exhibit.side, length);
+  std::string caption =
+      exhibit.has_relief ? (exhibit.period ? "lit from the upper left" : "relief, lit from the upper left") : "";
+  if (in_time) caption = fmt::format("after {} s under the hand (ring)", shown_number(rehearsal.seconds));
+  if (exhibit.period) {
+    caption =
+        fmt::format("period {}{}{}", shown_quantity(*exhibit.period, length), caption.empty() ? "" : " · ", caption);
+  }
+  write_caption(canvas, caption);
+}
+
+void draw_field_and_scale(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
   const double strongest = draw_field(canvas, picture, bank, exhibit, of_velocity);
   if (of_velocity) {
     draw_scale_bar(canvas, 2 * exhibit.speed, speed_notation(exhibit.speed));
@@ -133,14 +169,16 @@ void draw_forces(Canvas& canvas, const Bank& bank, const Exhibit& exhibit) {
   } else {
     write_caption(canvas, "no force anywhere");
   }
+}
+
+/// Beside what has neither relief nor memory: how it pushes, and how it resists.
+void draw_force_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
   if (of_velocity) return draw_plot(canvas, tall_plot, speed_plot(bank, exhibit));
   Plot at_rest = force_plot(bank, exhibit);
   if (!exhibit.resists_motion) return draw_plot(canvas, tall_plot, at_rest);
   at_rest.curves.resize(1);
-  PageBox upper = upper_plot, lower = lower_plot;
-  upper.bottom -= 18, lower.top += 30;  // both have an axis of their own below
-  draw_plot(canvas, upper, at_rest);
-  draw_plot(canvas, lower, speed_plot(bank, exhibit));
+  draw_plot(canvas, upper_of_two, at_rest);
+  draw_plot(canvas, lower_of_two, speed_plot(bank, exhibit));
 }
 
 void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
@@ -168,13 +206,30 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
 }  // namespace
 
 Drawing draw_preview(const Bank& bank, const PreviewText& text) {
-  const Exhibit exhibit = exhibit_of(bank);
+  const PatchProgram& program = bank.program().description();
+  const Rehearsal rehearsal = rehearse(bank);
+  const Exhibit exhibit = exhibit_of(bank, &rehearsal.memory);
+  const bool of_velocity = !exhibit.pushes_at_rest && exhibit.resists_motion;
   Canvas canvas(page_width, page_height, style::paper);
   write_words(canvas, bank, text);
-  if (exhibit.has_relief) {
-    draw_surface(canvas, bank, exhibit);
+  if (exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() || remembers(program)) {
+    draw_surface(canvas, bank, exhibit, rehearsal);
   } else {
-    draw_forces(canvas, bank, exhibit);
+    draw_field_and_scale(canvas, bank, exhibit, of_velocity);
+  }
+  if (remembers(program) && exhibit.has_relief) {
+    Plot heights = height_plot(bank, rehearsal.memory, exhibit);
+    heights.x_name = fmt::format("position {}", axis_name(exhibit));
+    draw_plot(canvas, upper_of_two, heights);
+    draw_plot(canvas, lower_of_two, felt_plot(rehearsal));
+  } else if (remembers(program)) {
+    draw_plot(canvas, upper_plot, stroke_plot(rehearsal));
+    draw_plot(canvas, lower_plot, felt_plot(rehearsal));
+  } else if (exhibit.has_relief) {
+    draw_plot(canvas, upper_plot, height_plot(bank, rehearsal.memory, exhibit));
+    draw_plot(canvas, lower_plot, force_plot(bank, exhibit));
+  } else {
+    draw_force_plots(canvas, bank, exhibit, of_velocity);
   }
   canvas.outline(picture, {1, style::rule});
   return canvas.finish();

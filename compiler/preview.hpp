@@ -29,7 +29,9 @@ PreviewText preview_text(const Bank& bank);
 /// line through the centre, and the words.
 ///
 /// A program whose relief is constant shows its force field as arrows instead; one that only resists motion shows the
-/// force against velocity. Forces are those commanded, in N or mN. The same bank and text give the same pixels.
+/// force against velocity. A program that says colours, shows marks or remembers shows its surface whatever its relief;
+/// the last two after a simulated hand has rubbed it for a short while, and one that remembers shows the hand and its
+/// force over that time. Forces are those commanded, in N or mN. The same bank and text give the same pixels.
 Drawing draw_preview(const Bank& bank, const PreviewText& text);
 
 }  // namespace wale

@@ -25,6 +25,8 @@ const char* spelled(BinaryOperator op) {
     case BinaryOperator::less_equal: return "<=";
     case BinaryOperator::greater: return ">";
     case BinaryOperator::greater_equal: return ">=";
+    case BinaryOperator::conjunction: return "and";
+    case BinaryOperator::disjunction: return "or";
   }
   return "?";
 }
@@ -46,7 +48,8 @@ struct ExpressionPrinter {
   std::string operator()(const TextLiteral& text) const { return quoted(text.text); }
   std::string operator()(const NameUse& name) const { return name.name; }
   std::string operator()(const Unary& unary) const {
-    return fmt::format("({} {})", unary.op == UnaryOperator::negate ? "-" : "+", print(unary.operand));
+    const char* op = unary.op == UnaryOperator::negate ? "-" : unary.op == UnaryOperator::plus ? "+" : "not";
+    return fmt::format("({} {})", op, print(unary.operand));
   }
   std::string operator()(const Binary& binary) const {
     return fmt::format("({} {} {})", spelled(binary.op), print(binary.left), print(binary.right));
@@ -63,6 +66,7 @@ struct ExpressionPrinter {
   std::string operator()(const Conditional& conditional) const {
     return fmt::format("(if {} {} {})", print(conditional.condition), print(conditional.yes), print(conditional.no));
   }
+  std::string operator()(const Part& part) const { return fmt::format("(. {} {})", print(part.whole), part.part); }
   std::string operator()(const Erroneous&) const { return "<error>"; }
 };
 
@@ -81,17 +85,19 @@ class TreePrinter {
 
   void operator()(const Import& import) { line(0, "(import " + import.module.text + ")"); }
   void operator()(const DimensionDecl& dimension) {
-    line(0, "(dimension " + dimension.name.text + optional(dimension.definition) + ")");
+    line(0, exported(dimension) + "(dimension " + dimension.name.text + optional(dimension.definition) +
+                range(dimension.range) + ")");
   }
   void operator()(const UnitDecl& unit) {
-    line(0, documented(unit.documentation) + "(unit " + unit.name.text + typed(unit.dimension) +
+    line(0, documented(unit.documentation) + exported(unit) + "(unit " + unit.name.text + typed(unit.dimension) +
                 optional(unit.definition) + ")");
   }
   void operator()(const Constant& constant) {
-    line(0, documented(constant.documentation) + "(let " + constant.name.text + " " + expr(constant.value) + ")");
+    line(0, documented(constant.documentation) + exported(constant) + "(let " + constant.name.text + " " +
+                expr(constant.value) + ")");
   }
   void operator()(const FunctionDecl& function) {
-    std::string text = documented(function.documentation) + "(function (" + function.name.text;
+    std::string text = documented(function.documentation) + exported(function) + "(function (" + function.name.text;
     for (const FormalParameter& parameter : function.parameters) {
       text += " " + parameter.name.text + typed(parameter.dimension);
       if (parameter.default_value) text += " = " + expr(*parameter.default_value);
@@ -99,7 +105,7 @@ class TreePrinter {
     line(0, text + ") " + expr(function.body) + ")");
   }
   void operator()(const RecordDecl& record) {
-    line(0, documented(record.documentation) + "(" + record.keyword.text + " " + record.name.text +
+    line(0, documented(record.documentation) + exported(record) + "(" + record.keyword.text + " " + record.name.text +
                 (record.from ? " from " + record.from->text : ""));
     settings(1, record.settings);
     result_ += ")";
@@ -135,6 +141,10 @@ class TreePrinter {
 
   std::string expr(ExprId id) const { return print_expression(tree_, id); }
   std::string optional(const std::optional<ExprId>& id) const { return id ? " " + expr(*id) : ""; }
+  template <class Node>
+  static std::string exported(const Node& node) {
+    return node.exported ? "export " : "";
+  }
   static std::string typed(const std::optional<Word>& dimension) { return dimension ? " : " + dimension->text : ""; }
   static std::string documented(const std::string& documentation) {
     return documentation.empty() ? "" : "(documented " + quoted(documentation) + ") ";
@@ -177,6 +187,8 @@ class TreePrinter {
   std::string statement_text(const ParamStatement& param) const {
     std::string text =
         documented(param.documentation) + "(param " + param.name.text + " " + expr(param.value) + range(param.range);
+    if (param.soft_range)
+      text += fmt::format(" (soft {} {})", expr(param.soft_range->low), expr(param.soft_range->high));
     if (!param.description.empty()) text += " " + quoted(param.description);
     return text + ")";
   }
@@ -186,7 +198,9 @@ class TreePrinter {
   std::string statement_text(const HeightStatement& height) const {
     return "(height " + height.name.text + " " + expr(height.value) + ")";
   }
-  std::string statement_text(const ForceStatement& force) const { return "(force " + expr(force.value) + ")"; }
+  std::string statement_text(const ForceStatement& force) const {
+    return "(force " + (force.name ? force.name->text + " " : "") + expr(force.value) + ")";
+  }
   std::string statement_text(const PatchStatement& patch) const {
     std::string text = "(patch";
     for (const ExprId size : patch.sizes) text += " " + expr(size);
@@ -194,6 +208,10 @@ class TreePrinter {
   }
   std::string statement_text(const StateStatement& state) const {
     return "(state " + state.name.text + typed(state.dimension) + " " + expr(state.value) + range(state.range) + ")";
+  }
+  std::string statement_text(const MemoryStatement& memory) const {
+    return "(memory " + memory.name.text + typed(memory.dimension) + " " + expr(memory.value) + range(memory.range) +
+           " (cell " + expr(memory.cell) + "))";
   }
   std::string statement_text(const UpdateStatement& update) const {
     return (update.derivative ? "(derivative " : "(next ") + update.name.text + " " + expr(update.value) + ")";

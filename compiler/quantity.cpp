@@ -9,10 +9,7 @@
 
 namespace wale {
 
-QuantityReader::QuantityReader() : resolver_(file_resolver({})) {
-  const SourceId nothing = sources_.add("", "wale 1\n");
-  modules_ = load_modules(parse(sources_, nothing, diagnostics_), sources_, *resolver_, diagnostics_);
-}
+QuantityReader::QuantityReader() : common_(common_modules()), names_(common_->declarations) {}
 
 std::optional<std::vector<double>> QuantityReader::list(const std::string& option, const std::string& text,
                                                         const std::vector<Dimension>& dimensions, std::size_t needed,
@@ -35,7 +32,7 @@ std::optional<std::vector<double>> QuantityReader::list(const std::string& optio
   }
   Terms terms;
   std::vector<HeightTable> tables;
-  ExpressionChecker checker({sources_, modules_.declarations, diagnostics_}, terms, tables);
+  ExpressionChecker checker({sources_, names_, diagnostics_}, terms, tables);
   Scope scope;
   std::vector<double> values;
   for (std::size_t i = 0; i < expressions.size(); ++i)
@@ -45,8 +42,7 @@ std::optional<std::vector<double>> QuantityReader::list(const std::string& optio
 }
 
 std::optional<Hand> QuantityReader::hand(const std::string& option, const std::string& text) {
-  const Dimension length = modules_.declarations.dimension("length"),
-                  velocity = modules_.declarations.dimension("velocity");
+  const Dimension length = names_.dimension("length"), velocity = names_.dimension("velocity");
   const auto values = list(option, text, {length, length, velocity, velocity}, 2, "10 mm, 5 mm");
   if (!values) return std::nullopt;
   Hand hand;
@@ -64,14 +60,15 @@ std::optional<float> QuantityReader::parameter(const std::string& option, const 
     const auto expressions = parse_expressions(sources_, source, tree, diagnostics_);
     Terms terms;
     std::vector<HeightTable> tables;
-    ExpressionChecker checker({sources_, modules_.declarations, diagnostics_}, terms, tables);
+    ExpressionChecker checker({sources_, names_, diagnostics_}, terms, tables);
     Scope scope;
     const Value unit = expressions.size() == 1 ? checker.check(tree, expressions[0], scope) : Value{};
     if (unit.failed()) return std::nullopt;
     dimension = unit.dimension;
   }
   // A unit that only the material's own file declares travels with the parameter.
-  modules_.declarations.units.try_emplace(parameter.unit, Unit{parameter.unit_in_si, dimension});
+  if (!names_.units.contains(parameter.unit))
+    names_.units.add(parameter.unit, {.what = {parameter.unit_in_si, dimension}, .declared = {}});
   const std::string example =
       parameter.unit.empty() ? "0.5" : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit);
   const auto values = list(option, text, {dimension}, 1, example);
@@ -86,6 +83,15 @@ std::optional<float> QuantityReader::parameter(const std::string& option, const 
          .help = fmt::format("give a value from {:.6g}{} to {:.6g}{}", parameter.low / parameter.unit_in_si, unit,
                              parameter.high / parameter.unit_in_si, unit)});
     return std::nullopt;
+  }
+  if (value < parameter.soft_low || value > parameter.soft_high) {
+    const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+    diagnostics_.report(
+        {.code = Code::beyond_soft_range,
+         .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
+         .message = fmt::format("`{}` is outside its usual range here", parameter.name),
+         .help = fmt::format("usual are values from {:.6g}{} to {:.6g}{}", parameter.soft_low / parameter.unit_in_si,
+                             unit, parameter.soft_high / parameter.unit_in_si, unit)});
   }
   return value;
 }

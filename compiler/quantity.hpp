@@ -22,7 +22,7 @@ class QuantityReader {
   std::optional<Hand> hand(const std::string& option, const std::string& text);
 
   /// A value for a parameter, in SI and in its range: "5mm" for one in mm. Its own unit is known even where nothing
-  /// else declares it.
+  /// else declares it. One outside its usual (soft) range is a warning.
   std::optional<float> parameter(const std::string& option, const Parameter& parameter, const std::string& text);
 
   const SourceSet& sources() const { return sources_; }
@@ -35,8 +35,8 @@ class QuantityReader {
 
   SourceSet sources_;
   Diagnostics diagnostics_;
-  std::unique_ptr<Resolver> resolver_;
-  ModuleSet modules_;
+  std::shared_ptr<const CommonModules> common_;
+  Declarations names_;
 };
 
 }  // namespace wale

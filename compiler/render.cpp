@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <optional>
 
 #include "compiler/utf8.hpp"
@@ -87,8 +87,6 @@ constexpr Palette plain = {"", "", "", ""};
 constexpr Palette error_colours = {"\x1b[1;31m", "\x1b[1m", "\x1b[1;34m", "\x1b[0m"};
 constexpr Palette warning_colours = {"\x1b[1;33m", "\x1b[1m", "\x1b[1;34m", "\x1b[0m"};
 
-const char* severity_name(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
-
 /// The lines of a note after the first stand below its first character.
 std::string indented(std::string_view text, std::size_t indent) {
   std::string result;
@@ -104,76 +102,123 @@ std::string indented(std::string_view text, std::size_t indent) {
   return result;
 }
 
+/// A span with the sign that underlines it.
+struct Marked {
+  Span span;
+  std::string_view label;
+  char sign = '-';
+};
+
+/// What is underlined in one file: by line, the primary span's first.
+using MarkedLines = std::map<unsigned, std::vector<Marked>>;
+
+/// The excerpt of a diagnostic's files: lines with their numbers, and below them what is marked.
+class Excerpt {
+ public:
+  Excerpt(const Diagnostic& diagnostic, const SourceSet& sources, const Palette& paint)
+      : sources_(sources), paint_(paint) {
+    mark({diagnostic.span, diagnostic.label, '^'});
+    for (const SecondarySpan& each : diagnostic.secondary) mark({each.span, each.label});
+    unsigned last_line = 1;
+    for (const auto& [source, lines] : files_)
+      if (!lines.empty()) last_line = std::max(last_line, lines.rbegin()->first);
+    number_width_ = std::to_string(last_line).size();
+  }
+
+  std::string margin() const { return std::string(number_width_ + 1, ' '); }
+
+  /// The primary span's file first, the others in the order in which they are named.
+  std::string text() const {
+    std::string out;
+    for (const auto& [source, lines] : files_) {
+      const bool primary = out.empty();
+      const Place place = sources_.place(primary ? files_.front().second.at(primary_line_).front().span
+                                                 : lines.begin()->second.front().span);
+      out += fmt::format("{}{}{}{} {}:{}:{}\n", margin(), paint_.gutter, primary ? "-->" : ":::", paint_.off,
+                         sources_[source].name, place.line, place.column);
+      out += fmt::format("{}{} |{}\n", margin(), paint_.gutter, paint_.off);
+      unsigned previous = 0;
+      for (const auto& [number, marks] : lines) {
+        if (previous != 0 && number > previous + 1) out += fmt::format("{}...{}\n", paint_.gutter, paint_.off);
+        out += line(number, marks);
+        previous = number;
+      }
+    }
+    return out;
+  }
+
+ private:
+  void mark(const Marked& marked) {
+    if (marked.span.source >= sources_.size()) return;
+    const unsigned line = sources_.place(marked.span).line;
+    if (files_.empty()) primary_line_ = line;
+    auto file = std::ranges::find(files_, marked.span.source, &std::pair<SourceId, MarkedLines>::first);
+    if (file == files_.end()) file = files_.insert(file, {marked.span.source, {}});
+    file->second[line].push_back(marked);
+  }
+
+  DisplayedLine displayed(const Marked& marked) const {
+    const std::string_view line = sources_.line(marked.span);
+    const auto line_begin = static_cast<std::size_t>(line.data() - sources_[marked.span.source].text.data());
+    DisplayedLine shown = display(line, marked.span.begin - std::min<std::size_t>(line_begin, marked.span.begin),
+                                  marked.span.end - std::min<std::size_t>(line_begin, marked.span.end));
+    trim(shown);
+    return shown;
+  }
+
+  /// A long line is cut around its first mark; a mark that then lies beyond the cut gets an excerpt of its own.
+  std::string line(unsigned number, const std::vector<Marked>& marks) const {
+    std::string out, before;
+    for (const Marked& marked : marks) {
+      const DisplayedLine shown = displayed(marked);
+      std::string text;
+      for (const std::string& column : shown.columns) text += column;
+      if (out.empty() || text != before)
+        out += fmt::format(" {}{:>{}} |{}{}{}\n", paint_.gutter, number, number_width_, paint_.off,
+                           text.empty() ? "" : " ", text);
+      before = std::move(text);
+      out += fmt::format("{}{} |{} {}{}{}{}{}{}\n", margin(), paint_.gutter, paint_.off, std::string(shown.begin, ' '),
+                         marked.sign == '^' ? paint_.severity : paint_.gutter,
+                         std::string(shown.end - shown.begin, marked.sign), marked.label.empty() ? "" : " ",
+                         indented(marked.label, 0), paint_.off);
+    }
+    return out;
+  }
+
+  const SourceSet& sources_;
+  const Palette& paint_;
+  std::vector<std::pair<SourceId, MarkedLines>> files_;
+  unsigned primary_line_ = 1;
+  std::size_t number_width_ = 1;
+};
+
 }  // namespace
+
+std::string_view severity_name(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
 
 std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, bool colour) {
   const Severity severity = severity_of(diagnostic.code);
   const Palette& paint = !colour ? plain : severity == Severity::error ? error_colours : warning_colours;
-  // What is wrong with a command line rather than a file has no place.
-  const bool has_place = diagnostic.span.source < sources.size();
-  const Place place = has_place ? sources.place(diagnostic.span) : Place{};
-  const std::string line_number = std::to_string(place.line);
-  const std::string margin(line_number.size() + 1, ' ');
-
   std::string out =
       fmt::format("{}{}[{}]{}{}: {}{}\n", paint.severity, severity_name(severity), code_name(diagnostic.code),
                   paint.off, paint.bold, indented(diagnostic.message, 0), paint.off);
-  if (has_place) {
-    const std::string_view line = sources.line(diagnostic.span);
-    const auto line_begin = static_cast<std::size_t>(line.data() - sources[diagnostic.span.source].text.data());
-    DisplayedLine shown =
-        display(line, diagnostic.span.begin - std::min<std::size_t>(line_begin, diagnostic.span.begin),
-                diagnostic.span.end - std::min<std::size_t>(line_begin, diagnostic.span.end));
-    trim(shown);
-    std::string text;
-    for (const std::string& column : shown.columns) text += column;
-    out += fmt::format("{}{}-->{} {}:{}:{}\n", margin, paint.gutter, paint.off, sources[diagnostic.span.source].name,
-                       place.line, place.column);
-    out += fmt::format("{}{} |{}\n", margin, paint.gutter, paint.off);
-    out += fmt::format(" {}{} |{}{}{}\n", paint.gutter, line_number, paint.off, text.empty() ? "" : " ", text);
-    out += fmt::format("{}{} |{} {}{}{}{}{}{}\n", margin, paint.gutter, paint.off, std::string(shown.begin, ' '),
-                       paint.severity, std::string(shown.end - shown.begin, '^'), diagnostic.label.empty() ? "" : " ",
-                       indented(diagnostic.label, 0), paint.off);
-  }
-  if (diagnostic.expected.empty() && diagnostic.found.empty() && diagnostic.help.empty()) return out;
+  // What is wrong with a command line rather than a file has no place.
+  const Excerpt excerpt(diagnostic, sources, paint);
+  out += excerpt.text();
+  const std::string margin = excerpt.margin();
 
-  out += fmt::format("{}{} |{}\n", margin, paint.gutter, paint.off);
   const std::size_t note_indent = margin.size() + 3;  // beyond " = "
-  std::string sign = fmt::format("{} {}={} ", margin, paint.gutter, paint.off);
-  const auto note = [&](std::string_view title, const std::string& text) {
-    if (text.empty()) return;
-    out += fmt::format("{}{}{}\n", sign, title, indented(text, note_indent + title.size()));
-    if (title != "help: ") sign = std::string(note_indent, ' ');
+  const std::string sign = fmt::format("{} {}={} ", margin, paint.gutter, paint.off);
+  std::string notes;
+  const auto note = [&](const std::string& before, std::string_view title, const std::string& text) {
+    if (!text.empty()) notes += fmt::format("{}{}{}\n", before, title, indented(text, note_indent + title.size()));
   };
-  note("expected  ", diagnostic.expected);
-  note("found     ", diagnostic.found);
-  sign = fmt::format("{} {}={} ", margin, paint.gutter, paint.off);
-  note("help: ", diagnostic.help);
-  return out;
-}
-
-std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources) {
-  using Json = nlohmann::ordered_json;
-  Json list = Json::array();
-  for (const Diagnostic& each : diagnostics.all()) {
-    Json object = {{"code", code_name(each.code)}, {"severity", severity_name(severity_of(each.code))}};
-    if (each.span.source < sources.size()) {
-      const Place begin = sources.place(each.span);
-      const Place end = sources.place({each.span.source, each.span.end, each.span.end});
-      object["file"] = sources[each.span.source].name;
-      object["line"] = begin.line;
-      object["column"] = begin.column;
-      object["end_line"] = end.line;
-      object["end_column"] = end.column;
-    }
-    object["message"] = each.message;
-    if (!each.expected.empty()) object["expected"] = each.expected;
-    if (!each.found.empty()) object["found"] = each.found;
-    if (!each.help.empty()) object["help"] = each.help;
-    list.push_back(std::move(object));
-  }
-  constexpr int indent = 2;
-  return list.dump(indent, ' ', false, Json::error_handler_t::replace);
+  note(sign, "expected  ", diagnostic.expected);
+  note(notes.empty() ? sign : std::string(note_indent, ' '), "found     ", diagnostic.found);
+  note(sign, "cause: ", diagnostic.cause);
+  note(sign, "rule: ", diagnostic.rule);
+  note(sign, "help: ", diagnostic.help);
+  return notes.empty() ? out : out + fmt::format("{}{} |{}\n", margin, paint.gutter, paint.off) + notes;
 }
 
 }  // namespace wale

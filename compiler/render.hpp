@@ -1,17 +1,21 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "compiler/diagnostic.hpp"
 
 namespace wale {
 
-/// A diagnostic as people read it: code, message, place, the line with carets, expected and found, the mend.
+/// "error" or "warning".
+std::string_view severity_name(Severity severity);
+
+/// A diagnostic as people read it: code, message, place, the line with carets (`^` under the primary span, `-` under
+/// the others, which may be on other lines and in other files), and the notes in the order cause, rule, proposal.
 /// `colour` adds ANSI colours.
 std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, bool colour);
 
-/// All diagnostics as a JSON array of objects: code, severity, file, line, column, end_line, end_column, message,
-/// expected, found, help (absent when empty).
+/// All diagnostics as a JSON array of objects; schema/LANGUAGE.md, "Reading a diagnostic", lists their fields.
 std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources);
 
 }  // namespace wale

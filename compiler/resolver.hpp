@@ -30,7 +30,12 @@ class Resolver {
   virtual std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) = 0;
 };
 
-/// Looks beside the file that asks, then in each of the roots; files over 512 MiB are refused.
+/// The name of the file that marks the folder in which a project's modules are rooted. It may be empty.
+inline constexpr const char* project_marker = "wale.project";
+
+/// Looks beside the file that asks, then in the project that it belongs to (the nearest folder above it that holds a
+/// `wale.project`), then in each of the roots; files over 512 MiB, modules over 4 MiB and more than a thousand modules
+/// are refused.
 std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots);
 
 /// Reads a whole file, or says why not (missing, a folder, unreadable, too large).

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "wale/memory.hpp"
+
 namespace wale {
 
 namespace {
@@ -12,14 +14,35 @@ namespace {
 /// The number that a single-precision value is short for: 0.0006, not 0.00060000002849.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
+/// Fills in what a trace of places and velocities tells besides them.
+void complete(std::vector<SampledHand>& hands) {
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    Hand& hand = hands[i].hand;
+    hand.workspace = hand.position;
+    hand.time = hands[i].time;
+    if (i == 0 || !(hands[i].time > hands[i - 1].time)) continue;
+    const Hand& before = hands[i - 1].hand;
+    const auto seconds = static_cast<float>(hands[i].time - hands[i - 1].time);
+    hand.acceleration = (hand.velocity - before.velocity) / seconds;
+    hand.raw_velocity = (hand.position - before.position) / seconds;
+    if (i > 1) hand.raw_acceleration = (hand.raw_velocity - before.raw_velocity) / seconds;
+  }
+}
+
 }  // namespace
 
 std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
   const glm::vec2 extent = glm::vec2(bank.size().width, bank.size().height) / 2.0f;
+  complete(hands);
+  Memory memory(bank.program());
+  bool was_inside = false;
   for (auto& sampled : hands) {
     const glm::vec2 place = sampled.hand.position;
     const bool inside = std::abs(place.x) <= extent.x && std::abs(place.y) <= extent.y;
-    sampled.force = inside ? tick(bank, sampled.hand) + Force(0.0f) : Force(0.0f);  // a spreadsheet has no use for -0
+    if (inside && !was_inside) memory.enter(bank, sampled.hand);
+    sampled.force = inside ? tick(bank, memory, sampled.hand) + Force(0.0f)  // a spreadsheet has no use for -0
+                           : Force(0.0f);
+    was_inside = inside;
   }
   return hands;
 }

@@ -14,7 +14,9 @@ struct SampledHand {
   Force force{0};   ///< N
 };
 
-/// Runs the program at each hand in turn, a tick each; outside the patch nothing pushes.
+/// Runs the program at each hand in turn, a tick each, with one memory: it enters when the hand comes inside, and
+/// outside the patch nothing ticks or pushes. The patch is at the workspace's centre, time is that of the trace, and
+/// accelerations and raw figures are the differences between one hand and the next over their times.
 std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands);
 
 /// A line a hand under a header with units, in the shortest digits that read back as the same numbers.

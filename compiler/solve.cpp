@@ -8,123 +8,19 @@
 #include <set>
 
 #include "compiler/check_expression.hpp"
+#include "compiler/law.hpp"
 #include "compiler/spelling.hpp"
 
 namespace wale {
 
 namespace {
 
-/// Copies an expression from one set of terms to another, some of its terms replaced.
-class TermCopier {
- public:
-  TermCopier(const Terms& from, Terms& to) : from_(from), to_(to), copies_(from.size()) {}
-
-  void replace(TermId from, TermId to) { copies_[from] = to; }
-
-  TermId operator()(TermId root) {
-    // Operands stand before their users, so one pass over what the root needs copies everything in order.
-    std::vector<bool> needed(root + 1, false);
-    needed[root] = true;
-    for (TermId id = root + 1; id-- > 0;) {
-      if (!needed[id] || copies_[id]) continue;
-      for (const TermId operand : operands(from_[id])) needed[operand] = true;
-    }
-    for (TermId id = 0; id <= root; ++id) {
-      if (!needed[id] || copies_[id]) continue;
-      Term term = from_[id];
-      const auto count = operands(term).size();
-      if (count > 0) term.a = *copies_[term.a];
-      if (count > 1) term.b = *copies_[term.b];
-      if (count > 2) term.c = *copies_[term.c];
-      copies_[id] = to_.add(term);
-    }
-    return *copies_[root];
-  }
-
- private:
-  static std::vector<TermId> operands(const Term& term) {
-    switch (term.kind) {
-      case TermKind::operation: {
-        std::vector<TermId> all{term.a, term.b, term.c};
-        all.resize(static_cast<std::size_t>(operand_count(term.operation)));
-        return all;
-      }
-      case TermKind::component:
-      case TermKind::gradient:
-      case TermKind::peak: return {term.a};
-      default: return {};
-    }
-  }
-
-  const Terms& from_;
-  Terms& to_;
-  std::vector<std::optional<TermId>> copies_;
-};
-
-/// A map's law as expressions: the magnitude of a carrier, the level of a carrier, the carrier of a level.
-class Law {
- public:
-  Law(const Map& map, const Percept& percept) : map_(map), percept_(percept) {}
-
-  std::optional<TermId> magnitude(Terms& terms, TermId carrier) const {
-    const TermId unknown = terms.add({.kind = TermKind::magnitude});
-    const auto [left, right] = copy(terms, unknown, carrier);
-    return isolate(terms, left, right, unknown);
-  }
-
-  std::optional<TermId> level(Terms& terms, TermId carrier) const {
-    const auto asked = magnitude(terms, carrier), one = magnitude(terms, terms.literal(percept_.one));
-    if (!asked || !one) return std::nullopt;
-    return terms.apply(Operation::divide, *asked, *one);
-  }
-
-  std::optional<TermId> carrier(Terms& terms, TermId level) const {
-    const auto one = magnitude(terms, terms.literal(percept_.one));
-    if (!one) return std::nullopt;
-    const TermId unknown = terms.add({.kind = TermKind::carrier});
-    const auto [left, right] = copy(terms, terms.apply(Operation::multiply, level, *one), unknown);
-    return isolate(terms, left, right, unknown);
-  }
-
-  /// The same as numbers.
-  double level_of(double carrier) const {
-    return number([&](Terms& terms) { return level(terms, terms.literal(carrier)); });
-  }
-  double magnitude_of(double carrier) const {
-    return number([&](Terms& terms) { return magnitude(terms, terms.literal(carrier)); });
-  }
-  double carrier_of(double level) const {
-    return number([&](Terms& terms) { return this->carrier(terms, terms.literal(level)); });
-  }
-
- private:
-  std::pair<TermId, TermId> copy(Terms& terms, TermId magnitude, TermId carrier) const {
-    TermCopier copier(map_.terms, terms);
-    for (TermId id = 0; id < map_.terms.size(); ++id) {
-      if (map_.terms[id].kind == TermKind::magnitude) copier.replace(id, magnitude);
-      if (map_.terms[id].kind == TermKind::carrier) copier.replace(id, carrier);
-    }
-    const TermId left = copier(map_.left);
-    return {left, copier(map_.right)};
-  }
-
-  template <typename Build>
-  static double number(Build build) {
-    Terms terms;
-    const auto term = build(terms);
-    return term ? constant_value(terms, *term).value_or(std::nan("")) : std::nan("");
-  }
-
-  const Map& map_;
-  const Percept& percept_;
-};
-
 class Solver {
  public:
   Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
          Diagnostics& diagnostics)
       : material_(material),
-        declarations_(module.declarations),
+        declarations_(module.declarations()),
         sources_(sources),
         resolver_(resolver),
         diagnostics_(diagnostics) {}
@@ -132,10 +28,9 @@ class Solver {
   SolvedMaterial solve(const std::string& device_name) {
     solved_.name = material_.name;
     solved_.span = material_.span;
-    const auto device = declarations_.devices.find(device_name);
-    if (device == declarations_.devices.end()) {
-      std::vector<std::string> candidates;
-      for (const auto& [name, declared] : declarations_.devices) candidates.push_back(name);
+    const DeviceDeclaration* device = declarations_.devices.find(device_name);
+    if (!device) {
+      const auto candidates = declarations_.devices.spellings();
       const auto near = nearest_spelling(device_name, candidates);
       std::string known;
       for (const auto& candidate : candidates) known += (known.empty() ? "" : ", ") + candidate;
@@ -143,7 +38,7 @@ class Solver {
              near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", known));
       return std::move(solved_);
     }
-    device_ = &device->second;
+    device_ = device;
     solved_.device = device_->profile;
     solved_.parameters = material_.parameters;
     solved_.layers = material_.layers;
@@ -157,7 +52,8 @@ class Solver {
       report(Code::value_out_of_range, material_.patch ? material_.patch_span : material_.span,
              fmt::format("a patch of {:.4g} mm x {:.4g} mm does not fit `{}`", 1e3 * solved_.patch_width,
                          1e3 * solved_.patch_height, device_name),
-             fmt::format("its workspace is {:.4g} mm across", 1e3 * workspace));
+             Advice(fmt::format("its workspace is {:.4g} mm across", 1e3 * workspace))
+                 .fact("high", 1e3 * workspace, "mm"));
 
     open_terms_ = material_.terms;
     carriers_ = material_.carriers;
@@ -165,16 +61,20 @@ class Solver {
     tables_ = material_.tables;
     force_ = material_.force;
     relief_ = material_.relief;
+    solved_.relief_is_length = material_.relief_is_length;
     force_span_ = material_.force_span;
     if (!force_ && !realise_percepts()) return std::move(solved_);
 
     for (const auto& asked : material_.percepts) solve_percept(asked);
     for (std::size_t i = 0; i < open_spans_.size(); ++i)
-      if (!solutions_.contains(static_cast<std::uint32_t>(i)) && !complained_.contains(static_cast<std::uint32_t>(i)))
+      if (const auto open = static_cast<std::uint32_t>(i);
+          !solutions_.contains(open) && !complained_.contains(open) && !material_.blended_opens.contains(open))
         report(Code::open_amplitude, open_spans_[i], "nothing says how hard this pushes",
                fmt::format(
                    "say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give the amplitude: `amplitude: 1.2 N`",
                    percept_of(i)));
+    size_memories();
+    warn_of_fine_periods();
     if (diagnostics_.has_errors()) return std::move(solved_);
     substitute();
     describe_percepts();
@@ -198,8 +98,9 @@ class Solver {
              "write the physics: `physical { force = … }`");
       return false;
     }
-    const auto& [tree, expr] = realisation->second;
+    const auto& [tree, expr, home] = realisation->second;
     ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_}, open_terms_, tables_);
+    checker.read(*home);
     Scope scope;
     scope.hand = true;
     const Value value = checker.check_as(*tree, expr, scope, Value::Type::vector, declarations_.dimension("force"));
@@ -210,7 +111,10 @@ class Solver {
     open_spans_ = checker.open_spans();
     for (auto& span : open_spans_) span = asked.span;
     for (const auto& carrier : carriers_)
-      if (carrier.relief) relief_ = carrier.relief;
+      if (carrier.relief) {
+        relief_ = carrier.relief;
+        solved_.relief_is_length = carrier.relief_dimension == declarations_.dimension("length");
+      }
     return true;
   }
 
@@ -219,16 +123,16 @@ class Solver {
   const Map* map_for(const Percept& percept, std::optional<Span> span) {
     for (const auto& device : {device_->profile.name, percept.reference_device}) {
       const Map* found = nullptr;
-      for (const auto& map : declarations_.maps) {
-        if (map.percept != percept.name || map.device != device) continue;
+      for (const Map* map : declarations_.maps()) {
+        if (map->percept != percept.name || map->device != device) continue;
         if (found) {
           if (span)
             report(Code::no_map, *span,
-                   fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map.source),
+                   fmt::format("two maps for {} on `{}`: {}; {}", percept.name, device, found->source, map->source),
                    "keep one of them");
           return nullptr;
         }
-        found = &map;
+        found = map;
       }
       if (found) return found;
     }
@@ -238,8 +142,16 @@ class Solver {
     return nullptr;
   }
 
+  /// What to do about several sizes left open, the second of which is where it is reported.
+  static Advice left_open(const std::vector<const Carrier*>& open) {
+    Advice advice = "add the heights up in one `lateral(a + b)`, or give all but one an amplitude";
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (i != 1) advice = std::move(advice).see(open[i]->span, "this one is open too");
+    return advice;
+  }
+
   void solve_percept(const AskedPercept& asked) {
-    const Percept& percept = declarations_.percepts.at(asked.name);
+    const Percept& percept = *declarations_.percepts.find(asked.name);
     std::vector<const Carrier*> mine, open;
     for (const auto& carrier : carriers_) {
       if (carrier.name != percept.carrier) continue;
@@ -254,8 +166,7 @@ class Solver {
     if (open.size() > 1) {
       for (const auto* carrier : open) complained_.insert(open_terms_[carrier->size].index);
       report(Code::several_open, open[1]->span,
-             fmt::format("{} sizes are left open for one {}", open.size(), asked.name),
-             "add the heights up in one `lateral(a + b)`, or give all but one an amplitude");
+             fmt::format("{} sizes are left open for one {}", open.size(), asked.name), left_open(open));
       return;
     }
     const Map* map = map_for(percept, asked.span);
@@ -275,11 +186,11 @@ class Solver {
       return;
     }
     warn_of_range(asked, *map, percept, law, size);
-    for (const auto& parameter : solved_.parameters)
-      if (parameter.name == asked.name)
-        report(Code::declared_twice, material_.span,
+    for (std::size_t i = 0; i < material_.parameters.size(); ++i)
+      if (material_.parameters[i].name == asked.name)
+        report(Code::declared_twice, material_.parameter_spans[i],
                fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
-               "give the parameter another name");
+               Advice("give the parameter another name").see(asked.span, "asked for here"));
     solutions_[open_terms_[open[0]->size].index] = {&percept, map,
                                                     static_cast<std::uint32_t>(solved_.parameters.size())};
     solved_.parameters.push_back(
@@ -289,18 +200,23 @@ class Solver {
          .value = static_cast<float>(asked.level),
          .low = 0,
          .high = 1,
+         .soft_low = 0,
+         .soft_high = 1,
          .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", asked.name)});
   }
 
   void warn_of_range(const AskedPercept& asked, const Map& map, const Percept& percept, const Law& law, double size) {
-    const auto& names = declarations_.names;
+    const auto& names = declarations_.names();
     const std::string unit = names.unit(percept.carrier_dimension);
     constexpr double rounding = 1e-6;  // a reference stimulus at the very end of the range is inside it
     if (size > device_->profile.force_newton)
       report(Code::saturates, asked.span,
              fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` pushes {:.3g} {} at most", asked.name, asked.level, size,
                          unit, device_->profile.name, device_->profile.force_newton, unit),
-             fmt::format("the most it can render is {:.2g}", law.level_of(device_->profile.force_newton)));
+             Advice(fmt::format("the most it can render is {:.2g}", law.level_of(device_->profile.force_newton)))
+                 .fact("most_level", law.level_of(device_->profile.force_newton))
+                 .fact("needed", size, unit)
+                 .fact("most", device_->profile.force_newton, unit));
     if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) ||
         size > map.valid_high * (1 + rounding))
       report(Code::beyond_validity, asked.span,
@@ -317,20 +233,68 @@ class Solver {
     if (!size) return;
     const double level = law.level_of(*size);
     const double difference = std::abs(std::log10(level) - std::log10(asked.level));
-    if (difference <= map.scatter) return;
-    diagnostics_.report(
-        {.code = Code::percept_conflict,
-         .span = asked.span,
-         .message = fmt::format("{} {:.3g} is asked for, and the amplitude given makes it {:.2g}", asked.name,
-                                asked.level, level),
-         .expected = fmt::format("an amplitude of {:.3g} {}", law.carrier_of(asked.level),
-                                 declarations_.names.unit(carrier.dimension)),
-         .found = fmt::format("{:.3g} {}", *size, declarations_.names.unit(carrier.dimension)),
-         .help = "leave out the amplitude, and it is solved from the percept; or leave out the percept"});
+    if (difference <= map.scatter || std::abs(level - asked.level) <= asked.tolerance) return;
+    diagnostics_.report({.code = Code::percept_conflict,
+                         .span = asked.span,
+                         .message = fmt::format("{} {:.3g} is asked for, and the amplitude given makes it {:.2g}",
+                                                asked.name, asked.level, level),
+                         .expected = fmt::format("an amplitude of {:.3g} {}", law.carrier_of(asked.level),
+                                                 declarations_.names().unit(carrier.dimension)),
+                         .found = fmt::format("{:.3g} {}", *size, declarations_.names().unit(carrier.dimension)),
+                         .help = "leave out the amplitude, and it is solved from the percept; or leave out the percept",
+                         .secondary = {{carrier.size_span, fmt::format("gives {} {:.2g}", asked.name, level)}},
+                         .facts = {{"asked", NumberWithUnit{asked.level, ""}}, {"given", NumberWithUnit{level, ""}}}});
+  }
+
+  /// Lays the memories' cells over the patch.
+  void size_memories() {
+    constexpr double most_cells_a_side = 1024, most_cells = 1 << 20;
+    double all = 0;
+    for (const auto& memory : material_.memories) {
+      const double columns = std::max(1.0, std::round(solved_.patch_width / memory.cell));
+      const double rows = std::max(1.0, std::round(solved_.patch_height / memory.cell));
+      all += columns * rows;
+      if (std::max(columns, rows) > most_cells_a_side || all > most_cells) {
+        report(
+            Code::unbounded_memory, memory.span,
+            fmt::format("`{}` has {:.0f} x {:.0f} cells on this patch", memory.name, columns, rows),
+            Advice(fmt::format("at most {:.0f} a side and {:.0f} in all are kept; make the cells wider than {:.3g} mm",
+                               most_cells_a_side, most_cells,
+                               1e3 * std::max(solved_.patch_width, solved_.patch_height) / most_cells_a_side))
+                .fact("columns", columns)
+                .fact("rows", rows)
+                .fact("most_a_side", most_cells_a_side)
+                .fact("most", most_cells));
+        return;
+      }
+      solved_.memories.push_back({.name = memory.name,
+                                  .columns = static_cast<std::uint32_t>(columns),
+                                  .rows = static_cast<std::uint32_t>(rows),
+                                  .initial = static_cast<float>(memory.initial),
+                                  .low = static_cast<float>(memory.low),
+                                  .high = static_cast<float>(memory.high)});
+    }
+  }
+
+  /// A period that falls between two encoder counts is noise at the handle.
+  void warn_of_fine_periods() {
+    const double step = device_->profile.position_step();
+    std::set<std::pair<std::uint32_t, std::uint32_t>> said;
+    for (const auto& period : material_.periods) {
+      const auto length = constant_value(open_terms_, period.length, &material_.parameters);
+      if (!length || *length >= 2 * step || !said.emplace(period.span.source, period.span.begin).second) continue;
+      report(Code::under_resolution, period.span,
+             fmt::format("a period of {:.3g} mm is less than two counts of the encoder of `{}` ({:.3g} mm each)",
+                         1e3 * *length, device_->profile.name, 1e3 * step),
+             Advice(fmt::format("make it {:.2g} mm or more", std::ceil(2e4 * step) / 10))
+                 .fact("period", 1e3 * *length, "mm")
+                 .fact("least", 2e3 * step, "mm"));
+    }
   }
 
   /// Copies everything, the solved expressions in place of what was open.
   void substitute() {
+    solved_.terms.reserve(open_terms_.size());
     TermCopier copier(open_terms_, solved_.terms);
     std::map<std::uint32_t, TermId> sizes;
     for (const auto& [index, solution] : solutions_) {
@@ -338,12 +302,49 @@ class Solver {
       sizes[index] = *Law(*solution.map, *solution.percept).carrier(solved_.terms, level);
     }
     for (TermId id = 0; id < open_terms_.size(); ++id)
-      if (open_terms_[id].kind == TermKind::open) copier.replace(id, sizes.at(open_terms_[id].index));
+      if (const Term& term = open_terms_[id]; term.kind == TermKind::open && sizes.contains(term.index))
+        copier.replace(id, sizes.at(term.index));
+      else if (term.kind == TermKind::cells)
+        copier.replace(id, solved_.terms.literal(term.index % 2 == 0 ? solved_.memories[term.index / 2].columns
+                                                                     : solved_.memories[term.index / 2].rows));
     solved_.force = {copier((*force_)[0]), copier((*force_)[1])};
     if (relief_) solved_.relief = copier(*relief_);
+    if (material_.colour)
+      solved_.colour = {copier((*material_.colour)[0]), copier((*material_.colour)[1]), copier((*material_.colour)[2])};
+    for (const auto& state : material_.states) {
+      solved_.states.push_back(state);
+      solved_.states.back().initial = copier(state.initial);
+      solved_.states.back().next = copier(state.next);
+    }
+    for (std::size_t i = 0; i < material_.memories.size(); ++i)
+      if (const auto& next = material_.memories[i].next) {
+        const TermId value = copier(*next);
+        const auto [u, v] = place_in_memory(solved_.memories[i]);
+        solved_.writes.push_back({static_cast<std::uint16_t>(i), u, v, value});
+      }
+    for (const auto& mark : material_.marks) {
+      solved_.marks.push_back(mark);
+      for (auto& operand : solved_.marks.back().operands) operand = copier(operand);
+    }
     solved_.force_span = force_span_;
     solved_.tables = tables_;
     for (const auto& carrier : carriers_) solved_sizes_.push_back(copier(carrier.size));
+  }
+
+  /// Where the hand is in a memory, in cells from the centre of the first one.
+  std::array<TermId, 2> place_in_memory(const Grid& grid) {
+    Terms& terms = solved_.terms;
+    const auto along = [&](Input position, Input half, double cells) {
+      const TermId from_centre =
+          terms.apply(Operation::multiply, terms.apply(Operation::divide, terms.input(position), terms.input(half)),
+                      terms.apply(Operation::multiply, terms.literal(cells), terms.literal(0.5)));
+      return terms.apply(
+          Operation::add, from_centre,
+          terms.apply(Operation::subtract, terms.apply(Operation::multiply, terms.literal(cells), terms.literal(0.5)),
+                      terms.literal(0.5)));
+    };
+    return {along(Input::x, Input::patch_half_width, grid.columns),
+            along(Input::y, Input::patch_half_height, grid.rows)};
   }
 
   /// The carrier that tells of a percept: the one solved for it, or the only one there is.
@@ -360,7 +361,8 @@ class Solver {
 
   /// Every percept that a carrier of the force tells of, asked for or not, is told from the program.
   void describe_percepts() {
-    for (const auto& [name, percept] : declarations_.percepts) {
+    for (const auto& name : declarations_.percepts.spellings()) {
+      const Percept& percept = *declarations_.percepts.find(name);
       const auto index = carrier_of(percept);
       if (!index) continue;
       const Map* map = map_for(percept, std::nullopt);  // asked for, it has been reported
@@ -402,13 +404,13 @@ class Solver {
   std::string percept_of(std::size_t open) const {
     for (const auto& carrier : carriers_)
       if (carrier.open && open_terms_[carrier.size].index == open)
-        for (const auto& [name, percept] : declarations_.percepts)
-          if (percept.carrier == carrier.name) return name;
+        for (const auto& name : declarations_.percepts.spellings())
+          if (declarations_.percepts.find(name)->carrier == carrier.name) return name;
     return "roughness";
   }
 
-  void report(Code code, Span span, std::string message, std::string help) {
-    diagnostics_.report({.code = code, .span = span, .message = std::move(message), .help = std::move(help)});
+  void report(Code code, Span span, std::string message, Advice advice) {
+    diagnostics_.report(std::move(advice).about(code, span, std::move(message)));
   }
 
   struct Solution {

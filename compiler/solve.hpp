@@ -19,6 +19,12 @@ struct SolvedPercept {
   TermId magnitude = 0, level = 0;  ///< of a carrier of the size in the `probe` input
 };
 
+/// What becomes of the cell of a memory that is nearest to (u, v), in cells from the centre of its first one.
+struct SolvedWrite {
+  std::uint16_t memory = 0;
+  TermId u = 0, v = 0, value = 0;
+};
+
 /// A material with nothing left open, for one device.
 struct SolvedMaterial {
   std::string name;
@@ -29,6 +35,12 @@ struct SolvedMaterial {
   std::array<TermId, 2> force{};
   Span force_span;
   std::optional<TermId> relief;
+  bool relief_is_length = false;
+  std::optional<std::array<TermId, 3>> colour;
+  std::vector<CheckedState> states;
+  std::vector<Grid> memories;
+  std::vector<SolvedWrite> writes;
+  std::vector<CheckedMark> marks;
   std::vector<SolvedPercept> percepts;
   DeviceProfile device;
   double patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m

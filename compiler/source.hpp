@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,6 +9,10 @@
 namespace wale {
 
 using SourceId = std::uint32_t;
+
+/// Files larger than this are refused (W0109); a material has a few hundred lines, measured tables live in their own
+/// files.
+constexpr std::size_t largest_source = 4u << 20;
 
 /// A stretch of source text: bytes `begin` .. `end` of one file.
 struct Span {
@@ -28,11 +33,15 @@ struct Source {
   std::string text;
 };
 
-/// All texts that a compilation has read; a `Span` names a part of one of them.
+/// The ids of the files that are part of the binary begin here: they are the same in every compilation.
+inline constexpr SourceId first_embedded_source = 1u << 31;
+
+/// All texts that a compilation has read, besides the embedded files that each one knows; a `Span` names a part of one
+/// of them.
 class SourceSet {
  public:
   SourceId add(std::string name, std::string text);
-  const Source& operator[](SourceId id) const { return sources_[id]; }
+  const Source& operator[](SourceId id) const { return entry(id).source; }
   std::size_t size() const { return sources_.size(); }
 
   std::string_view text(Span span) const;
@@ -40,10 +49,18 @@ class SourceSet {
   std::string_view line(Span span) const;  ///< the whole first line of the span, without its newline
 
  private:
+  struct Entry {
+    Source source;
+    std::vector<std::uint32_t> line_starts;  ///< the byte at which each line begins
+  };
+  static Entry measured(std::string name, std::string text);
+  static const std::vector<Entry>& embedded();
+  const Entry& entry(SourceId id) const {
+    return id >= first_embedded_source ? embedded()[id - first_embedded_source] : sources_[id];
+  }
   std::size_t line_index(Span span) const;  ///< which line the span begins in, from 0
 
-  std::vector<Source> sources_;
-  std::vector<std::vector<std::uint32_t>> line_starts_;  ///< for each source the byte at which each line begins
+  std::vector<Entry> sources_;
 };
 
 }  // namespace wale

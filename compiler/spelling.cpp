@@ -31,20 +31,35 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates) {
+std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest_compared = 64;
-  if (word.size() > longest_compared) return std::nullopt;
-  std::optional<std::string> nearest;
-  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1;
+  // Of thousands of names one is always near, and looking through them for each of a thousand errors takes minutes.
+  constexpr std::size_t most_compared = 2000;
+  if (word.size() > longest_compared || candidates.size() > most_compared) return std::nullopt;
+  std::optional<NearSpelling> nearest;
+  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1, as_near = 0;
   for (const auto& candidate : candidates) {
     if (candidate.size() > longest_compared || candidate == word) continue;
     const std::size_t changed = letters_changed(word, candidate);
     // With one or two letters every other name is near: only their order and their capitals can be a slip.
     const bool short_word = std::max(word.size(), candidate.size()) <= 2;
     const bool turned = word.size() == 2 && candidate.size() == 2 && word[0] == candidate[1] && word[1] == candidate[0];
-    if (changed < fewest && (!short_word || changed == 0 || turned)) fewest = changed, nearest = candidate;
+    if (short_word && changed != 0 && !turned) continue;
+    if (changed < fewest) {
+      fewest = changed, as_near = 0;
+      nearest = NearSpelling{candidate, false};
+    }
+    // A name may be declared in two places; that does not make it two.
+    if (nearest && changed == fewest && candidate != nearest->text) ++as_near;
   }
+  if (nearest) nearest->certain = fewest <= 1 && as_near == 0;
   return nearest;
+}
+
+std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates) {
+  auto near = near_spelling(word, candidates);
+  if (!near) return std::nullopt;
+  return std::move(near->text);
 }
 
 }  // namespace wale

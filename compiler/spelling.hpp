@@ -11,4 +11,14 @@ namespace wale {
 /// capitals and two neighbours that changed places count little.
 std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
+/// A candidate near to a word.
+struct NearSpelling {
+  std::string text;
+  /// One slip at most, capitals counted, and no other candidate is as near: there is no doubt what was meant.
+  bool certain = false;
+};
+
+/// As `nearest_spelling`, and whether it is the only one in question.
+std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
+
 }  // namespace wale

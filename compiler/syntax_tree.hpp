@@ -37,8 +37,20 @@ struct NameUse {
   std::string name;
 };
 
-enum class UnaryOperator { negate, plus };
-enum class BinaryOperator { add, subtract, multiply, divide, power, less, less_equal, greater, greater_equal };
+enum class UnaryOperator { negate, plus, complement };  // complement: `not`
+enum class BinaryOperator {
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  conjunction,  // `and`
+  disjunction,  // `or`
+};
 
 struct Unary {
   UnaryOperator op;
@@ -59,10 +71,15 @@ struct Call {
 struct Conditional {
   ExprId condition, yes, no;
 };
+/// `grad(h).x`: one part of a vector that has no name. `hand.x` is a dotted name.
+struct Part {
+  ExprId whole;
+  char part;  ///< 'x' or 'y'
+};
 /// What stands where an expression was expected and none could be read; already reported.
 struct Erroneous {};
 
-using Expr = std::variant<NumberLiteral, TextLiteral, NameUse, Unary, Binary, Call, Conditional, Erroneous>;
+using Expr = std::variant<NumberLiteral, TextLiteral, NameUse, Unary, Binary, Call, Conditional, Part, Erroneous>;
 
 /// `a .. b`.
 struct Range {
@@ -97,26 +114,32 @@ struct RecordDecl {
   std::vector<Setting> settings;
   std::string documentation;
   Span span;
+  bool exported = false;
 };
 
 struct Import {
   Word module;
 };
+/// Declarations other than materials and imports are their file's own unless `export` stands before them.
 struct DimensionDecl {
   Word name;
-  std::optional<ExprId> definition;
-};  ///< none: a base dimension
+  std::optional<ExprId> definition;  ///< none: a base dimension
+  std::optional<Range> range;        ///< the bounds of states of this dimension that have none of their own
+  bool exported = false;
+};
 /// `unit m : length` (a base unit) or `unit N = 1 kg m/s^2`.
 struct UnitDecl {
   Word name;
   std::optional<Word> dimension;
   std::optional<ExprId> definition;
   std::string documentation;
+  bool exported = false;
 };
 struct Constant {
   Word name;
   ExprId value;
   std::string documentation;
+  bool exported = false;
 };  ///< `let` outside a material
 struct FormalParameter {
   Word name;
@@ -128,6 +151,7 @@ struct FunctionDecl {
   std::vector<FormalParameter> parameters;
   ExprId body;
   std::string documentation;
+  bool exported = false;
 };
 
 /// `roughness 0.6`, `essential softness 0.8 ± 0.1`, `roughness coarse`.
@@ -144,6 +168,7 @@ struct ParamStatement {
   Word name;
   ExprId value;
   std::optional<Range> range;
+  std::optional<Range> soft_range;
   std::string description;
   std::string documentation;
 };
@@ -155,7 +180,9 @@ struct HeightStatement {
   Word name;
   ExprId value;
 };
+/// `force = …`, or a layer of it, `force texture = …`.
 struct ForceStatement {
+  std::optional<Word> name;
   ExprId value;
 };
 /// `patch 95 mm, 95 mm`: the patch's width and height.
@@ -168,6 +195,14 @@ struct StateStatement {
   ExprId value;
   std::optional<Range> range;
 };
+/// `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
+struct MemoryStatement {
+  Word name;
+  std::optional<Word> dimension;
+  ExprId value;
+  std::optional<Range> range;
+  ExprId cell;
+};
 struct UpdateStatement {
   Word name;
   bool derivative;
@@ -179,7 +214,7 @@ struct ShowStatement {
 
 struct PhysicalStatement {
   std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, StateStatement,
-               UpdateStatement, ShowStatement>
+               MemoryStatement, UpdateStatement, ShowStatement>
       what;
   Span span;
 };

@@ -1,37 +1,54 @@
 #include "compiler/term.hpp"
 
-#include <algorithm>
-
 namespace wale {
-
-int operand_count(Operation operation) { return static_cast<int>(std::ranges::count(facts(operation).fields, 'r')); }
 
 namespace {
 
-Dependence operator|(Dependence a, Dependence b) {
-  return {a.parameter || b.parameter, a.position || b.position, a.velocity || b.velocity, a.open || b.open};
+void operator|=(Dependence& a, const Dependence& b) {
+  a.parameter |= b.parameter;
+  a.position |= b.position;
+  a.velocity |= b.velocity;
+  a.open |= b.open;
+  a.moment |= b.moment;
+  a.state |= b.state;
 }
 
 }  // namespace
+
+void Terms::reserve(std::size_t terms) {
+  terms_.reserve(terms);
+  dependences_.reserve(terms);
+}
 
 TermId Terms::add(const Term& term) {
   Dependence dependence;
   switch (term.kind) {
     case TermKind::literal: break;
     case TermKind::input:
-      dependence.position = term.input() == Input::x || term.input() == Input::y;
-      dependence.velocity = term.input() == Input::velocity_x || term.input() == Input::velocity_y;
-      dependence.parameter = !dependence.position && !dependence.velocity;
+      switch (term.input()) {
+        case Input::x:
+        case Input::y: dependence.position = true; break;
+        case Input::velocity_x:
+        case Input::velocity_y:
+        case Input::raw_velocity_x:
+        case Input::raw_velocity_y: dependence.velocity = true; break;
+        case Input::patch_half_width:
+        case Input::patch_half_height:
+        case Input::patch_rim:
+        case Input::probe:
+        case Input::seconds_per_tick: dependence.parameter = true; break;
+        default: dependence.moment = true;
+      }
       break;
+    case TermKind::state: dependence.state = true; break;
+    case TermKind::cells: dependence.parameter = true; break;
     case TermKind::parameter:
     case TermKind::magnitude:
     case TermKind::carrier: dependence.parameter = true; break;
     case TermKind::open: dependence.open = dependence.parameter = true; break;
     case TermKind::operation: {
-      const int operands = operand_count(term.operation);
-      if (operands > 0) dependence = dependences_[term.a];
-      if (operands > 1) dependence = dependence | dependences_[term.b];
-      if (operands > 2) dependence = dependence | dependences_[term.c];
+      for (const TermId operand : operands(term)) dependence |= dependences_[operand];
+      if (term.operation == Operation::recall || term.operation == Operation::cell) dependence.state = true;
       break;
     }
     case TermKind::component: dependence = dependences_[term.a]; break;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,8 +20,11 @@ enum class TermKind : std::uint8_t {
   open,       ///< a quantity left open, number `index`; `solve` replaces it
   magnitude,  ///< in a map's law: the perceived magnitude
   carrier,    ///< in a map's law: the size of the carrier
-  operation,  ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`
-  component,  ///< result `index` of the sample `a`
+  state,      ///< state number `index` as it was when the tick began
+  cells,      ///< how many columns (index 2 g) or rows (2 g + 1) memory number g has; `solve` replaces it
+  operation,  ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`, `recall` and
+              ///< `cell` grid number `index`
+  component,  ///< result `index` of the sample or recall `a`
   gradient,   ///< derivative of `a` along axis `index` (0 x, 1 y)
   peak,       ///< 99th percentile of `a` over the patch less its rim
 };
@@ -39,7 +43,12 @@ struct Term {
 /// What a term's value changes with.
 struct Dependence {
   bool parameter = false, position = false, velocity = false, open = false;
-  bool constant() const { return !parameter && !position && !velocity && !open; }
+  bool moment = false;  ///< time, acceleration, the button, the hand's place on the workspace
+  bool state = false;   ///< states and memories
+  bool constant() const { return !parameter && !open && !in_tick(); }
+  bool in_tick() const { return position || changing(); }
+  /// Not the same at the same place: no height, and nothing to take a peak of.
+  bool changing() const { return velocity || moment || state; }
 };
 
 /// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
@@ -47,6 +56,8 @@ class Terms {
  public:
   const Term& operator[](TermId id) const { return terms_[id]; }
   std::size_t size() const { return terms_.size(); }
+  /// Makes room for so many terms; there may be more.
+  void reserve(std::size_t terms);
 
   TermId add(const Term& term);
   TermId literal(double value, Span span = {});
@@ -63,7 +74,26 @@ class Terms {
   std::vector<Dependence> dependences_;
 };
 
-/// How many operands an operation reads from registers.
-int operand_count(Operation operation);
+/// The terms that a term is worked out from: a, b, c as far as it has them.
+struct TermOperands {
+  std::array<TermId, 3> terms{};
+  std::size_t count = 0;
+
+  std::size_t size() const { return count; }
+  TermId operator[](std::size_t i) const { return terms[i]; }
+  const TermId* begin() const { return terms.data(); }
+  const TermId* end() const { return terms.data() + count; }
+};
+
+inline TermOperands operands(const Term& term) {
+  switch (term.kind) {
+    case TermKind::operation:
+      return {{term.a, term.b, term.c}, static_cast<std::size_t>(facts(term.operation).operands)};
+    case TermKind::component:
+    case TermKind::gradient:
+    case TermKind::peak: return {{term.a}, 1};
+    default: return {};
+  }
+}
 
 }  // namespace wale

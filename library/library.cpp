@@ -4,7 +4,6 @@
 #include <cctype>
 
 #include "compiler/compile.hpp"
-#include "compiler/parse.hpp"
 #include "compiler/render.hpp"
 
 namespace wale {
@@ -37,16 +36,10 @@ bool is_level(const std::string& text) {
 }  // namespace
 
 struct Library::Parts {
-  SourceSet sources;
-  ModuleSet modules;
+  std::shared_ptr<const CommonModules> common = common_modules();
 };
 
-Library::Library() : parts_(std::make_unique<Parts>()) {
-  Diagnostics diagnostics;
-  const auto resolver = file_resolver({});
-  const SourceId nothing = parts_->sources.add("", "wale 1\n");
-  parts_->modules = load_modules(parse(parts_->sources, nothing, diagnostics), parts_->sources, *resolver, diagnostics);
-}
+Library::Library() : parts_(std::make_unique<Parts>()) {}
 
 Library::~Library() = default;
 
@@ -68,16 +61,16 @@ std::variant<Program, Unavailable> Library::material(const std::string& file, co
 
 std::vector<DescribedDevice> Library::devices() const {
   std::vector<DescribedDevice> devices;
-  for (const auto& [name, device] : parts_->modules.declarations.devices)
+  parts_->common->declarations.devices.each([&](const std::string&, const DeviceDeclaration& device) {
     devices.push_back({device.profile, device.source, device.assumed});
+  });
   return devices;
 }
 
 std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& name) const {
-  const auto& hands = parts_->modules.declarations.hands;
-  const auto found = hands.find(name);
-  if (found == hands.end()) return Unavailable{"no hand is called " + name + "\n"};
-  const auto& hand = found->second;
+  const HandDeclaration* found = parts_->common->declarations.hands.find(name);
+  if (!found) return Unavailable{"no hand is called " + name + "\n"};
+  const HandDeclaration& hand = *found;
   return SimulatedPerson{.hand = {hand.mass, hand.damping, hand.stiffness},
                          .lateral = {hand.lateral_amplitude, hand.lateral_frequency, {}},
                          .circular = {hand.circular_radius, hand.circular_frequency, {}},

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace wale {
@@ -20,23 +19,33 @@ struct OperationFacts {
   std::string_view fields;  ///< of a, b, c: r register, t table, g grid, p peak, - must be zero
   int results;              ///< consecutive registers written
   int cost;                 ///< in units of one addition
+  int operands = 0;         ///< how many of a, b, c are registers; those come first
 };
 
-/// The facts of an operation number, or nothing when no instruction has that number.
-constexpr std::optional<OperationFacts> operation_facts(unsigned number) {
+/// The facts of all operations, by number; a number that no instruction has is without a name.
+inline constexpr auto operation_table = [] {
+  std::array<OperationFacts, 256> table{};
   // clang-format off
-  switch (number) {
 #define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
-  case number: return OperationFacts{#name, fields, results, cost};
+  table[number] = {#name, fields, results, cost};
 #define SPECIAL(number, name, fields, results, cost) \
-  case number: return OperationFacts{#name, fields, results, cost};
+  table[number] = {#name, fields, results, cost};
 #include "schema/instruction.def"
-    default: return std::nullopt;
-  }
   // clang-format on
+  for (OperationFacts& each : table)
+    for (const char field : each.fields) each.operands += field == 'r';
+  return table;
+}();
+
+/// The facts of an operation number, or null when no instruction has that number.
+constexpr const OperationFacts* operation_facts(unsigned number) {
+  const bool known = number < operation_table.size() && !operation_table[number].name.empty();
+  return known ? &operation_table[number] : nullptr;
 }
 
-constexpr OperationFacts facts(Operation operation) { return *operation_facts(static_cast<unsigned>(operation)); }
+constexpr const OperationFacts& facts(Operation operation) {
+  return operation_table[static_cast<std::uint8_t>(operation)];
+}
 
 /// Registers, tables and peaks are named by 14-bit numbers.
 using RegisterNumber = std::uint16_t;

@@ -79,7 +79,8 @@ Colour mixed(Colour first, Colour second, float part) {
   return {between(first.red, second.red), between(first.green, second.green), between(first.blue, second.blue)};
 }
 
-Canvas::Canvas(int width, int height, Colour paper) : width_(width * fineness), height_(height * fineness) {
+Canvas::Canvas(int width, int height, Colour paper)
+    : width_(width * fineness), height_(height * fineness), clip_{0, 0, width_, height_} {
   pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 3);
   fill({0, 0, static_cast<double>(width), static_cast<double>(height)}, paper);
   sans_ = Font::find(sans_fonts);
@@ -88,7 +89,7 @@ Canvas::Canvas(int width, int height, Colour paper) : width_(width * fineness), 
 }
 
 void Canvas::blend(int x, int y, Colour colour, float opacity) {
-  if (opacity <= 0 || x < 0 || y < 0 || x >= width_ || y >= height_) return;
+  if (opacity <= 0 || x < clip_.left || y < clip_.top || x >= clip_.right || y >= clip_.bottom) return;
   float* pixel =
       &pixels_[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)) * 3];
   pixel[0] += (colour.red - pixel[0]) * opacity;
@@ -172,6 +173,39 @@ void Canvas::shade(std::span<const PagePoint> points, double base, Colour colour
       }
     }
   }
+}
+
+void Canvas::area(std::span<const PagePoint> corners, Colour colour, float opacity) {
+  double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9, doubled_area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const PagePoint a = corners[i], b = corners[(i + 1) % corners.size()];
+    left = std::min(left, a.x), right = std::max(right, a.x);
+    top = std::min(top, a.y), bottom = std::max(bottom, a.y);
+    doubled_area += a.x * b.y - a.y * b.x;
+  }
+  const auto inside = [](double value, int low, int high) {
+    return static_cast<int>(std::clamp(value * fineness, double(low), double(high)));
+  };
+  const double turn = doubled_area < 0 ? -1 : 1;
+  for (int y = inside(top - 1, clip_.top, clip_.bottom); y < inside(bottom + 1, clip_.top, clip_.bottom); ++y) {
+    for (int x = inside(left - 1, clip_.left, clip_.right); x < inside(right + 1, clip_.left, clip_.right); ++x) {
+      double depth = 1e9;  // how far inside the nearest edge, canvas pixels
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const PagePoint a = corners[i], along = corners[(i + 1) % corners.size()] - a;
+        const PagePoint to = PagePoint(x + 0.5, y + 0.5) / double(fineness) - a;
+        const double length = std::hypot(along.x, along.y);
+        if (length > 0) depth = std::min(depth, turn * (along.x * to.y - along.y * to.x) / length * fineness);
+      }
+      blend(x, y, colour, opacity * static_cast<float>(std::clamp(depth + 0.5, 0.0, 1.0)));
+    }
+  }
+}
+
+void Canvas::clip(const PageBox& box) {
+  const auto fine = [](double x, int most) {
+    return static_cast<int>(std::clamp(std::round(x * fineness), 0.0, double(most)));
+  };
+  clip_ = {fine(box.left, width_), fine(box.top, height_), fine(box.right, width_), fine(box.bottom, height_)};
 }
 
 void Canvas::write(PagePoint at, std::string_view text, const Type& type, Align align) {

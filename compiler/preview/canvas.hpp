@@ -59,6 +59,11 @@ class Canvas {
   void line(PagePoint from, PagePoint to, const Pen& pen);
   /// The area between the points, from left to right, and the height `base`; opacity as given.
   void shade(std::span<const PagePoint> points, double base, Colour colour, float opacity);
+  /// The inside of a convex shape, given by its corners in either direction.
+  void area(std::span<const PagePoint> corners, Colour colour, float opacity);
+  /// From here on only what lies in `box` is drawn, until `unclip`.
+  void clip(const PageBox& box);
+  void unclip() { clip_ = {0, 0, width_, height_}; }
   /// A line of text with its baseline at `at.y`; nothing when no font is installed.
   void write(PagePoint at, std::string_view text, const Type& type, Align align = Align::left);
   /// The same, shortened with an ellipsis where it would be wider than `width`.
@@ -73,8 +78,14 @@ class Canvas {
   const Font& font_of(const Type& type) const { return type.face == Face::serif ? serif_ : sans_; }
   void blend(int x, int y, Colour colour, float opacity);
 
+  /// Canvas pixels; right and bottom are the first outside.
+  struct Clip {
+    int left = 0, top = 0, right = 0, bottom = 0;
+  };
+
   int width_ = 0, height_ = 0;  // canvas pixels
-  std::vector<float> pixels_;   // rows from the top, three channels
+  Clip clip_;
+  std::vector<float> pixels_;  // rows from the top, three channels
   Font serif_, sans_;
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wale/picture.hpp"
+
 namespace wale {
 namespace {
 
@@ -12,9 +14,9 @@ constexpr float no_force = 1e-4f;
 constexpr double brisk = 0.5;
 constexpr int periods_shown = 8;
 
-std::vector<float> reliefs(const Bank& bank, const std::vector<glm::vec2>& positions) {
+std::vector<float> reliefs(const Bank& bank, const Memory* memory, const std::vector<glm::vec2>& positions) {
   std::vector<float> heights(positions.size());
-  relief_all(bank, positions, heights);
+  surface_all(bank, memory, positions, heights);
   for (float& height : heights) {
     if (!std::isfinite(height)) height = 0;
   }
@@ -67,12 +69,12 @@ std::optional<double> period_of(std::vector<float> signal) {
 }
 
 /// The texture's period along an axis, in m, on the line that lies `aside` from the centre.
-std::optional<double> relief_period(const Bank& bank, int axis, double length, float aside) {
+std::optional<double> relief_period(const Bank& bank, const Memory* memory, int axis, double length, float aside) {
   constexpr int count = 3072;
   std::vector<glm::vec2> line(count, glm::vec2(aside));
   for (int i = 0; i < count; ++i)
     line[static_cast<std::size_t>(i)][axis] = static_cast<float>(((i + 0.5) / count - 0.5) * length);
-  std::vector<float> heights = reliefs(bank, line);
+  std::vector<float> heights = reliefs(bank, memory, line);
   if (!(spread(heights) > 0)) return std::nullopt;
   const auto samples = period_of(std::move(heights));
   if (!samples) return std::nullopt;
@@ -89,11 +91,12 @@ struct Look {
 };
 
 /// How much relief and force at rest vary over a set of positions.
-Look look_at(const Bank& bank, const std::vector<glm::vec2>& positions, std::vector<Force>* at_rest = nullptr) {
+Look look_at(const Bank& bank, const Memory* memory, const std::vector<glm::vec2>& positions,
+             std::vector<Force>* at_rest = nullptr) {
   std::vector<Hand> hands;
   for (glm::vec2 position : positions) hands.push_back({position, {}});
   const auto forces = forces_on(bank, hands);
-  Look look{spread(reliefs(bank, positions)), 0};
+  Look look{spread(reliefs(bank, memory, positions)), 0};
   for (Force force : forces) look.force = std::max(look.force, std::hypot(double{force.x}, double{force.y}));
   if (at_rest) *at_rest = forces;
   return look;
@@ -101,7 +104,7 @@ Look look_at(const Bank& bank, const std::vector<glm::vec2>& positions, std::vec
 
 }  // namespace
 
-Exhibit exhibit_of(const Bank& bank) {
+Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
   const PatchSize size = bank.size();
   Exhibit exhibit;
   exhibit.side = std::min(size.width, size.height);
@@ -119,7 +122,7 @@ Exhibit exhibit_of(const Bank& bank) {
     }
   }
   std::vector<Force> at_rest;
-  const Look whole = look_at(bank, positions, &at_rest);
+  const Look whole = look_at(bank, memory, positions, &at_rest);
   exhibit.has_relief = whole.relief > 0;
   exhibit.pushes_at_rest = whole.force > no_force;
   for (glm::vec2 way : {glm::vec2(1, 0), glm::vec2(0, -1)}) {
@@ -137,12 +140,15 @@ Exhibit exhibit_of(const Bank& bank) {
       // The rim's fade is no part of the texture.
       const double length = (axis == 0 ? size.width : size.height) - 2.0 * size.rim;
       for (double aside : {0.0, 0.137}) {
-        const auto period = relief_period(bank, axis, length, static_cast<float>(aside * length));
+        const auto period = relief_period(bank, memory, axis, length, static_cast<float>(aside * length));
         if (period) exhibit.period = std::max(exhibit.period.value_or(0.0), *period);
       }
     }
     // Found from samples, so that the last digits are chance: 19.9973 mm is shown as 20.
-    if (exhibit.period) exhibit.side = std::min(exhibit.side, in_three_digits(periods_shown * *exhibit.period));
+    // Marks are where their author put them, near a rib or far from it.
+    const bool marked = !bank.program().description().picture.marks.empty();
+    if (exhibit.period && !marked)
+      exhibit.side = std::min(exhibit.side, in_three_digits(periods_shown * *exhibit.period));
   }
 
   // The section runs along x through the centre, unless nothing varies there: along ribs, or between rows of bumps.
@@ -152,7 +158,7 @@ Exhibit exhibit_of(const Bank& bank) {
     for (int i = 0; i < points; ++i) {
       line[static_cast<std::size_t>(i)][axis] = static_cast<float>(((i + 0.5) / points - 0.5) * exhibit.side);
     }
-    const Look look = look_at(bank, line);
+    const Look look = look_at(bank, memory, line);
     return exhibit.has_relief ? look.relief : look.force;
   };
   const double enough = 0.1 * (exhibit.has_relief ? whole.relief : whole.force);
@@ -168,14 +174,14 @@ Exhibit exhibit_of(const Bank& bank) {
   return exhibit;
 }
 
-Profile height_along(const Bank& bank, const Exhibit& exhibit, int count) {
+Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int count) {
   std::vector<glm::vec2> line(static_cast<std::size_t>(count), glm::vec2(static_cast<float>(exhibit.aside)));
   Profile profile;
   for (int i = 0; i < count; ++i) {
     profile.at.push_back((i / (count - 1.0) - 0.5) * exhibit.side);
     line[static_cast<std::size_t>(i)][exhibit.axis] = static_cast<float>(profile.at.back());
   }
-  const auto heights = reliefs(bank, line);
+  const auto heights = reliefs(bank, memory, line);
   profile.values.assign(heights.begin(), heights.end());
   return profile;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "wale/memory.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -20,8 +21,9 @@ struct Exhibit {
   double speed = 0;              ///< m/s; up to which forces against velocity are shown
 };
 
-/// Looks at a program: eight periods of its texture or, where it has none, the whole patch.
-Exhibit exhibit_of(const Bank& bank);
+/// Looks at a program: eight periods of its texture or, where it has none or shows marks, the whole patch. Heights here
+/// and below are as the memory has them; without one, as a hand finds them that enters at the centre.
+Exhibit exhibit_of(const Bank& bank, const Memory* memory = nullptr);
 
 /// A quantity along a line: `at` in m or m/s, ascending.
 struct Profile {
@@ -29,7 +31,7 @@ struct Profile {
 };
 
 /// The surface's height along the section, at `count` positions.
-Profile height_along(const Bank& bank, const Exhibit& exhibit, int count);
+Profile height_along(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int count);
 /// The force along the section's own axis on a hand that moves along it at `speed` (m/s).
 Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int count);
 /// The same force on a hand at the patch's centre, against its velocity.

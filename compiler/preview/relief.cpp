@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/openimageio.hpp"
+#include "wale/picture.hpp"
 
 namespace wale {
 namespace {
@@ -17,24 +18,36 @@ constexpr Colour glint = {1.0f, 0.992f, 0.965f};
 struct Heights {
   int side = 0;
   std::vector<float> values;
-  float at(int column, int row) const { return values[static_cast<std::size_t>(row * side + column)]; }
+  std::vector<Colour> colours;  // beside `values`; empty where the program says none
+  std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * side + column); }
+  float at(int column, int row) const { return values[index(column, row)]; }
 };
 
-Heights heights_of(const Bank& bank, const Exhibit& exhibit, int shown) {
-  Heights heights{shown + 2, {}};
+Heights heights_of(const Bank& bank, const Memory* memory, const Exhibit& exhibit, int shown) {
+  Heights heights{shown + 2, {}, {}};
   std::vector<glm::vec2> positions;
   for (int row = -1; row <= shown; ++row) {
     for (int column = -1; column <= shown; ++column) positions.push_back(pixel_position(exhibit, column, row, shown));
   }
   heights.values.resize(positions.size());
-  relief_all(bank, positions, heights.values);
+  std::vector<glm::vec3> colours(bank.program().description().picture.colour ? positions.size() : 0);
+  surface_all(bank, memory, positions, heights.values, colours);
+  for (glm::vec3 colour : colours) heights.colours.push_back({colour.r, colour.g, colour.b});
   for (float& value : heights.values) {
     if (!std::isfinite(value)) value = 0;
   }
   const auto [least, most] = std::minmax_element(heights.values.begin(), heights.values.end());
-  const float low = *least, range = std::max(*most - *least, 1e-30f);
-  for (float& value : heights.values) value = (value - low) / range;
+  const float low = *least, range = *most - *least;
+  // What is flat is level ground at its top.
+  for (float& value : heights.values) value = range > 1e-30f ? (value - low) / range : 1.0f;
   return heights;
+}
+
+/// A surface of a colour where plaster would look like `lamp`.
+Colour lit_by(Colour lamp, Colour surface) {
+  const auto part = [](float light, float white, float own) { return std::min(own * light / white, 1.0f); };
+  return {part(lamp.red, plaster.red, surface.red), part(lamp.green, plaster.green, surface.green),
+          part(lamp.blue, plaster.blue, surface.blue)};
 }
 
 /// How far each point lies below its surroundings, 0 .. 1: the light that a hollow does not get. `reach` in pixels.
@@ -56,9 +69,9 @@ std::vector<float> hollowness(const Heights& heights, double reach) {
 
 }  // namespace
 
-void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Exhibit& exhibit) {
+void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit) {
   const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness));
-  const Heights heights = heights_of(bank, exhibit, shown);
+  const Heights heights = heights_of(bank, memory, exhibit, shown);
 
   std::vector<float> slopes;
   const auto slope = [&](int column, int row) {  // to the right and upwards, per pixel
@@ -94,7 +107,9 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Exh
       const float shade =
           std::clamp(0.42f * in_hollow + 0.10f * (1 - height) + (tone < 0 ? -0.95f * tone : 0.0f), 0.0f, 0.92f);
       const float shine = std::clamp(tone * 2.6f, 0.0f, 0.95f);
-      pixels.push_back(mixed(mixed(plaster, glint, shine), shadow, shade));
+      const Colour lamp = mixed(mixed(plaster, glint, shine), shadow, shade);
+      pixels.push_back(heights.colours.empty() ? lamp
+                                               : lit_by(lamp, heights.colours[heights.index(column + 1, row + 1)]));
     }
   }
   canvas.place(box, pixels);

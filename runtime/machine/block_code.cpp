@@ -25,8 +25,7 @@ float lane_of(const float* operand, std::size_t lane, float shared) {
 
 /// One operation over a block, for one choice of uniform operands.
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
-void kernel(float* destination, const float* as, const float* bs, const float* cs, const Lookup&,
-            const float*) {
+[[gnu::always_inline]] inline void apply(float* destination, const float* as, const float* bs, const float* cs) {
   const float shared_a = *as, shared_b = *bs, shared_c = *cs;
   WALE_LANES_ARE_INDEPENDENT
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -34,6 +33,34 @@ void kernel(float* destination, const float* as, const float* bs, const float* c
         Meaning<operation>::of(lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b),
                                lane_of<uniform_c>(cs, lane, shared_c));
   }
+}
+
+template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
+void narrow_kernel(float* destination, const float* as, const float* bs, const float* cs, const Lookup&, const float*) {
+  apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs);
+}
+
+#if defined(__x86_64__)
+/// The same in vectors of eight floats. Each lane goes through the same operations, so its bits are the same.
+template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
+[[gnu::target("avx2")]] void wide_kernel(float* destination, const float* as, const float* bs, const float* cs,
+                                         const Lookup&, const float*) {
+  apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs);
+}
+
+const bool has_wide_vectors = [] {
+  __builtin_cpu_init();
+  return __builtin_cpu_supports("avx2") != 0;
+}();
+#endif
+
+/// The kernel that suits this processor best.
+template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
+Kernel kernel() {
+#if defined(__x86_64__)
+  if (has_wide_vectors) return wide_kernel<operation, uniform_a, uniform_b, uniform_c>;
+#endif
+  return narrow_kernel<operation, uniform_a, uniform_b, uniform_c>;
 }
 
 template <bool uniform_a, bool uniform_b>
@@ -54,8 +81,8 @@ void recall_kernel(float* destination, const float* as, const float* bs, const f
                    const float* cells) {
   const float shared_a = *as, shared_b = *bs;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const GridSample sample = recall_of(*lookup.grid, cells, lane_of<uniform_a>(as, lane, shared_a),
-                                        lane_of<uniform_b>(bs, lane, shared_b));
+    const GridSample sample =
+        recall_of(*lookup.grid, cells, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
     destination[lane] = sample.value;
     destination[row_stride + lane] = sample.along_a;
     destination[2 * row_stride + lane] = sample.along_b;
@@ -67,8 +94,8 @@ void cell_kernel(float* destination, const float* as, const float* bs, const flo
                  const float* cells) {
   const float shared_a = *as, shared_b = *bs;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    destination[lane] = cells[cell_at(*lookup.grid, lane_of<uniform_a>(as, lane, shared_a),
-                                      lane_of<uniform_b>(bs, lane, shared_b))];
+    destination[lane] =
+        cells[cell_at(*lookup.grid, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b))];
   }
 }
 
@@ -98,61 +125,55 @@ Variants variants() {
     return with_two_operands(
         {cell_kernel<false, false>, cell_kernel<true, false>, cell_kernel<false, true>, cell_kernel<true, true>});
   } else {
-    return {kernel<operation, a, b, c>,       kernel<operation, true, b, c>,      kernel<operation, a, true, c>,
-            kernel<operation, true, true, c>, kernel<operation, a, b, true>,      kernel<operation, true, b, true>,
-            kernel<operation, a, true, true>, kernel<operation, true, true, true>};
+    return {kernel<operation, a, b, c>(),       kernel<operation, true, b, c>(),
+            kernel<operation, a, true, c>(),    kernel<operation, true, true, c>(),
+            kernel<operation, a, b, true>(),    kernel<operation, true, b, true>(),
+            kernel<operation, a, true, true>(), kernel<operation, true, true, true>()};
   }
 }
 
-// clang-format off
-Variants variants_of(Operation operation) {
-  switch (operation) {
+/// The kernels of every operation, by its number.
+const std::array<Variants, operation_table.size()> all_variants = [] {
+  std::array<Variants, operation_table.size()> all{};
+  // clang-format off
 #define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
-    case Operation::name: return variants<Operation::name>();
+  all[number] = variants<Operation::name>();
 #define SPECIAL(number, name, fields, results, cost) \
-    case Operation::name: return variants<Operation::name>();
+  all[number] = variants<Operation::name>();
 #include "schema/instruction.def"
-  }
-  return {};
-}
-// clang-format on
+  // clang-format on
+  return all;
+}();
 
 }  // namespace
 
-BlockOperand block_operand(const PatchProgram& program, RegisterNumber number) {
+BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
   constexpr auto first_four = static_cast<RegisterNumber>(Input::velocity_y);
   constexpr auto others = static_cast<RegisterNumber>(Input::acceleration_x);
   constexpr auto last = static_cast<RegisterNumber>(Input::button);
   static_assert(first_four + 1 + last - others + 1 == input_rows);
   if (number <= first_four) return {number, false};
   if (number >= others && number <= last) return {static_cast<std::uint16_t>(number - others + first_four + 1), false};
-  if (number < program.first_state()) return {number, true};
-  return {static_cast<std::uint16_t>(input_rows + number - program.first_state()), false};
+  if (number < first_state) return {number, true};
+  return {static_cast<std::uint16_t>(input_rows + number - first_state), false};
 }
 
 BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const GridShape> grids,
                        std::span<const Instruction> code) {
   BlockCode decoded;
   decoded.reserve(code.size());
+  const RegisterNumber first_state = program.first_state();
   for (const Instruction& instruction : code) {
-    const auto operation = static_cast<Operation>(instruction.operation);
-    const std::string_view fields = facts(operation).fields;
-    const std::array<RegisterNumber, 3> numbers = {instruction.a, instruction.b, instruction.c};
-    std::array<BlockOperand, 3> operands;
-    BlockInstruction block;
-    unsigned variant = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (fields[i] == 'r') operands[i] = block_operand(program, numbers[i]);
-      if (fields[i] == 't') block.lookup.spline = &splines[numbers[i]];
-      if (fields[i] == 'g') block.lookup.grid = &grids[numbers[i]];
-      if (operands[i].uniform) variant |= 1u << i;
-    }
-    block.kernel = variants_of(operation)[variant];
-    block.destination = block_operand(program, instruction.destination).index;
-    block.a = operands[0];
-    block.b = operands[1];
-    block.c = operands[2];
-    decoded.push_back(block);
+    const OperationFacts& known = operation_table[instruction.operation];
+    BlockInstruction& block = decoded.emplace_back();
+    if (known.operands > 0) block.a = block_operand(first_state, instruction.a);
+    if (known.operands > 1) block.b = block_operand(first_state, instruction.b);
+    if (known.operands > 2) block.c = block_operand(first_state, instruction.c);
+    if (known.fields[2] == 't') block.lookup.spline = &splines[instruction.c];
+    if (known.fields[2] == 'g') block.lookup.grid = &grids[instruction.c];
+    const unsigned variant = (block.a.uniform ? 1u : 0u) | (block.b.uniform ? 2u : 0u) | (block.c.uniform ? 4u : 0u);
+    block.kernel = all_variants[instruction.operation][variant];
+    block.destination = block_operand(first_state, instruction.destination).index;
   }
   return decoded;
 }

@@ -45,8 +45,11 @@ using BlockCode = std::vector<BlockInstruction>;
 /// else is uniform.
 inline constexpr std::uint16_t input_rows = 14;
 
-/// Where a register of the program is found by a block.
-BlockOperand block_operand(const PatchProgram& program, RegisterNumber number);
+/// Where a register is found by a block of a program whose states begin at register `first_state`.
+BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number);
+inline BlockOperand block_operand(const PatchProgram& program, RegisterNumber number) {
+  return block_operand(program.first_state(), number);
+}
 
 /// Code of a section other than setup for blocks. It points into `splines` and `grids`.
 BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const GridShape> grids,

@@ -1,7 +1,6 @@
 #include "runtime/machine/decoded_program.hpp"
 
 #include <array>
-#include <set>
 
 namespace wale {
 namespace {
@@ -23,28 +22,30 @@ std::vector<float> initial_cells_of(std::span<const Grid> grids) {
 }
 
 std::vector<Input> tick_inputs_of(const PatchProgram& program) {
-  std::set<RegisterNumber> read;
+  std::array<bool, first_constant> read{};  // by input
+  const auto reads = [&read](RegisterNumber number) {
+    if (number < first_constant) read[number] = true;
+  };
   for (const auto* code : {&program.enter, &program.tick}) {
     for (const Instruction& instruction : *code) {
-      const std::string_view fields = facts(static_cast<Operation>(instruction.operation)).fields;
-      const std::array<RegisterNumber, 3> operands = {instruction.a, instruction.b, instruction.c};
-      for (std::size_t i = 0; i < operands.size(); ++i) {
-        if (fields[i] == 'r') read.insert(operands[i]);
-      }
+      const int operands = operation_table[instruction.operation].operands;
+      if (operands > 0) reads(instruction.a);
+      if (operands > 1) reads(instruction.b);
+      if (operands > 2) reads(instruction.c);
     }
   }
-  for (const State& state : program.states) read.insert({state.initial, state.next});
-  for (const GridWrite& write : program.writes) read.insert({write.u, write.v, write.value});
+  for (const State& state : program.states) reads(state.initial), reads(state.next);
+  for (const GridWrite& write : program.writes) reads(write.u), reads(write.v), reads(write.value);
   std::vector<Input> inputs;
-  for (const RegisterNumber number : read) {
-    if (number < first_constant && !block_operand(program, number).uniform) inputs.push_back(static_cast<Input>(number));
+  for (RegisterNumber number = 0; number < first_constant; ++number) {
+    if (read[number] && !block_operand(program, number).uniform) inputs.push_back(static_cast<Input>(number));
   }
   return inputs;
 }
 
 }  // namespace
 
-DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(verified)) {
+DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(verified)), envelope(description.device) {
   splines.reserve(description.tables.size());
   for (const HeightTable& table : description.tables) splines.emplace_back(table);
   grids = shapes_of(description.grids);

@@ -4,6 +4,7 @@
 
 #include "runtime/machine/block_code.hpp"
 #include "runtime/machine/grid.hpp"
+#include "runtime/machine/inputs.hpp"
 #include "runtime/machine/spline.hpp"
 #include "schema/patch_program.hpp"
 
@@ -19,7 +20,8 @@ struct DecodedProgram {
   std::vector<Spline> splines;       ///< one for each table
   std::vector<GridShape> grids;      ///< one for each grid
   std::vector<float> initial_cells;  ///< of all grids, as they are when the program is placed
-  std::vector<Input> tick_inputs;    ///< that change from tick to tick and are read by tick, enter or what follows them
+  Envelope envelope;
+  std::vector<Input> tick_inputs;  ///< that change from tick to tick and are read by tick, enter or what follows them
   BlockCode enter, tick, picture;
   std::vector<BlockCode> peaks;
   RegisterNumber force_x = 0, force_y = 0;  ///< the output registers

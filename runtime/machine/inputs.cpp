@@ -6,7 +6,7 @@ namespace wale {
 namespace {
 
 /// `value` held within +-`bound`; not-a-number gives 0.
-float envelope(float value, float bound) {
+float within(float value, float bound) {
   return value >= -bound ? (value <= bound ? value : bound) : (value < 0 ? -bound : 0.0f);
 }
 
@@ -22,12 +22,10 @@ void place(std::span<const Hand> hands, float* values, Value value) {
 
 }  // namespace
 
-void place_input(Input input, std::span<const Hand> hands, const DeviceProfile& device, float* values) noexcept {
-  const auto reach = static_cast<float>(device.workspace_diameter);
-  const auto speed = static_cast<float>(device.speed_limit);
-  const auto jolt = static_cast<float>(device.speed_limit * device.rate);
+void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept {
+  const auto [reach, speed, acceleration] = envelope;
   const auto components = [&](glm::vec2 Hand::*quantity, float bound, float glm::vec2::*axis) {
-    place(hands, values, [=](const Hand& hand) { return envelope(hand.*quantity.*axis, bound); });
+    place(hands, values, [=](const Hand& hand) { return within(hand.*quantity.*axis, bound); });
   };
   constexpr auto x = &glm::vec2::x, y = &glm::vec2::y;
   switch (input) {
@@ -35,12 +33,12 @@ void place_input(Input input, std::span<const Hand> hands, const DeviceProfile& 
     case Input::y: return components(&Hand::position, reach, y);
     case Input::velocity_x: return components(&Hand::velocity, speed, x);
     case Input::velocity_y: return components(&Hand::velocity, speed, y);
-    case Input::acceleration_x: return components(&Hand::acceleration, jolt, x);
-    case Input::acceleration_y: return components(&Hand::acceleration, jolt, y);
+    case Input::acceleration_x: return components(&Hand::acceleration, acceleration, x);
+    case Input::acceleration_y: return components(&Hand::acceleration, acceleration, y);
     case Input::raw_velocity_x: return components(&Hand::raw_velocity, speed, x);
     case Input::raw_velocity_y: return components(&Hand::raw_velocity, speed, y);
-    case Input::raw_acceleration_x: return components(&Hand::raw_acceleration, jolt, x);
-    case Input::raw_acceleration_y: return components(&Hand::raw_acceleration, jolt, y);
+    case Input::raw_acceleration_x: return components(&Hand::raw_acceleration, acceleration, x);
+    case Input::raw_acceleration_y: return components(&Hand::raw_acceleration, acceleration, y);
     case Input::workspace_x: return components(&Hand::workspace, reach, x);
     case Input::workspace_y: return components(&Hand::workspace, reach, y);
     case Input::time: return place(hands, values, [](const Hand& hand) { return seconds(hand.time); });

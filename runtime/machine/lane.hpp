@@ -6,11 +6,9 @@
 
 namespace wale {
 
-/// Runs verified code once over the program's registers and the cells of all its grids, which code that looks at no grid
-/// does without. Only setup holds `peak` instructions, and only they
-/// allocate; any other code is real-time: no allocation, lock or system call.
-/// The caller holds a `FloatingPointMode`.
-void run_lane(const DecodedProgram& program, std::span<const Instruction> code, float* registers,
-              const float* cells);
+/// Runs verified code once over the program's registers and the cells of all its grids, which code that looks at no
+/// grid does without. Only setup holds `peak` instructions, and only they allocate; any other code is real-time: no
+/// allocation, lock or system call. The caller holds a `FloatingPointMode`.
+void run_lane(const DecodedProgram& program, std::span<const Instruction> code, float* registers, const float* cells);
 
 }  // namespace wale

@@ -36,7 +36,7 @@ bool belongs(const Memory* memory, const Bank& bank) {
 std::vector<float> registers_at(const Bank& bank, const Memory* memory, const Hand& hand) {
   const DecodedProgram& program = bank.program().decoded();
   std::vector<float> registers(bank.registers().begin(), bank.registers().end());
-  place_hand(hand_inputs, hand, program.description.device, registers.data());
+  place_hand(hand_inputs, hand, program.envelope, registers.data());
   if (memory != nullptr) {
     std::copy(memory->states().begin(), memory->states().end(), registers.begin() + program.description.first_state());
   } else {
@@ -73,8 +73,8 @@ void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::ve
   for (std::size_t first = 0; first < positions.size(); first += lanes) {
     const std::size_t count = std::min(lanes, positions.size() - first);
     for (std::size_t lane = 0; lane < count; ++lane) hands[lane].position = positions[first + lane];
-    place_input(Input::x, std::span(hands).first(count), description.device, block.row(x));
-    place_input(Input::y, std::span(hands).first(count), description.device, block.row(y));
+    place_input(Input::x, std::span(hands).first(count), program.envelope, block.row(x));
+    place_input(Input::y, std::span(hands).first(count), program.envelope, block.row(y));
     const FloatingPointMode mode;
     block.run(program.picture, registers.data(), cells);
     for (std::size_t lane = 0; lane < count; ++lane) {

@@ -13,7 +13,7 @@ namespace wale {
 Force tick(Bank& bank, const Hand& hand) noexcept {
   const DecodedProgram& program = bank.program().decoded();
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.description.device, registers);
+  place_hand(program.tick_inputs, hand, program.envelope, registers);
   {
     const FloatingPointMode mode;
     if (!program.description.states.empty()) enter_lane(program, registers);
@@ -26,7 +26,7 @@ Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept {
   const DecodedProgram& program = bank.program().decoded();
   if (&program != &memory.program_.decoded()) return tick(bank, hand);
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.description.device, registers);
+  place_hand(program.tick_inputs, hand, program.envelope, registers);
   std::copy(memory.states_.begin(), memory.states_.end(), registers + program.description.first_state());
   {
     const FloatingPointMode mode;
@@ -47,7 +47,7 @@ void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> fo
     const std::size_t count = std::min(lanes, hands.size() - first);
     for (const Input input : program.tick_inputs) {
       float* row = block.row(block_operand(description, static_cast<RegisterNumber>(input)));
-      place_input(input, hands.subspan(first, count), description.device, row);
+      place_input(input, hands.subspan(first, count), program.envelope, row);
     }
     const FloatingPointMode mode;
     if (!description.states.empty()) enter_block(program, block, registers);

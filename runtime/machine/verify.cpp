@@ -46,13 +46,13 @@ constexpr std::initializer_list<Input> tick_inputs = {Input::x,
                                                       Input::time,
                                                       Input::button,
                                                       Input::seconds_per_tick};
-constexpr std::initializer_list<Input> prediction_inputs = {
-    Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::probe, Input::seconds_per_tick};
+constexpr std::initializer_list<Input> prediction_inputs = {Input::patch_half_width, Input::patch_half_height,
+                                                            Input::patch_rim, Input::probe, Input::seconds_per_tick};
 
 /// Follows code in order and refuses the first instruction that breaks a rule.
 class Verifier {
  public:
-  explicit Verifier(const PatchProgram& program) : program_(program) {
+  explicit Verifier(const PatchProgram& program) : program_(program), register_count_(program.register_count()) {
     for (std::size_t i = first_constant; i < program.first_setup(); ++i) defined_[i] = true;
   }
 
@@ -231,8 +231,8 @@ class Verifier {
   /// `who` gives the beginning of the sentence for a refusal.
   template <typename Sentence>
   void check_read(const Section& section, const Sentence& who, RegisterNumber number, const Registers& defined) const {
-    if (number >= program_.register_count()) {
-      refuse(who(), " register ", number, ", and the program has ", program_.register_count());
+    if (number >= register_count_) {
+      refuse(who(), " register ", number, ", and the program has ", register_count_);
     }
     if (number < first_constant) {
       const auto legal = [number](Input input) { return static_cast<RegisterNumber>(input) == number; };
@@ -339,6 +339,7 @@ class Verifier {
   }
 
   const PatchProgram& program_;
+  const std::size_t register_count_;
   Registers defined_, proved_;
 };
 

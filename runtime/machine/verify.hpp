@@ -24,8 +24,8 @@ inline constexpr std::size_t writes_limit = 16, marks_limit = 1024;
 
 /// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md.
 ///
-/// A program that passes stops in time, reads nothing that is not defined, remembers a bounded amount, and commands no force beyond its
-/// ceilings, whatever its registers hold.
+/// A program that passes stops in time, reads nothing that is not defined, remembers a bounded amount, and commands no
+/// force beyond its ceilings, whatever its registers hold.
 std::optional<Refusal> verify(const PatchProgram& program);
 
 }  // namespace wale

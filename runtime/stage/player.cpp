@@ -9,52 +9,77 @@ Player::Player(Device& device, Exchange<PlacedPatch>& patches, Record& record, s
       patches_(patches),
       record_(record),
       position_step_(device.profile().position_step()),
-      filter_x_(device.profile()),
-      filter_y_(device.profile()),
+      filters_x_(device.profile()),
+      filters_y_(device.profile()),
       guards_(device.profile()) {
   record_.seconds_per_tick = 1 / device.profile().rate;
   record_.ticks.resize(beats);
 }
 
+Hand Player::hand(const Reading& reading, const Beat& beat) noexcept {
+  const auto x = filters_x_(reading.counts.x, beat.elapsed), y = filters_y_(reading.counts.y, beat.elapsed);
+  const double speed = position_step_ / record_.seconds_per_tick, jolt = speed / record_.seconds_per_tick;
+  return {.velocity = glm::vec2(glm::dvec2(x.velocity, y.velocity) * speed),
+          .acceleration = glm::vec2(glm::dvec2(x.acceleration, y.acceleration) * jolt),
+          .raw_velocity = glm::vec2(glm::dvec2(x.raw.velocity, y.raw.velocity) * speed),
+          .raw_acceleration = glm::vec2(glm::dvec2(x.raw.acceleration, y.raw.acceleration) * jolt),
+          .workspace = glm::vec2(glm::dvec2(reading.counts) * position_step_),
+          .time = static_cast<double>(beat.period) * record_.seconds_per_tick,
+          .button = reading.button};
+}
+
+Force Player::feel(PlacedPatch& patch, const Hand& hand) noexcept {
+  const long before = patch.memory->restored();
+  if (inside_ != patch.memory.get()) patch.memory->enter(patch.bank, hand);
+  const Force force = tick(patch.bank, *patch.memory, hand);
+  restored_ += patch.memory->restored() - before;
+  return force;
+}
+
 void Player::serve(const Beat& beat) noexcept {
   device_.elapse(beat.elapsed);
   const Reading reading = device_.sample();
-  const glm::dvec2 counts_per_tick(filter_x_(reading.counts.x, beat.elapsed),
-                                   filter_y_(reading.counts.y, beat.elapsed));
   const glm::dvec2 position = glm::dvec2(reading.counts) * position_step_;
-  const glm::dvec2 velocity = counts_per_tick * (position_step_ / record_.seconds_per_tick);
+  Hand hand = this->hand(reading, beat);
 
   if (patches_.take()) guards_.slew();
   Force wanted(0);
-  bool inside = false;
+  const Memory* inside = nullptr;
   if (PlacedPatch* patch = patches_.held()) {
-    const Hand hand{glm::vec2(position - glm::dvec2(patch->position)), glm::vec2(velocity)};
+    hand.position = glm::vec2(position - glm::dvec2(patch->position));
     const PatchSize size = patch->bank.size();
-    inside = std::abs(hand.position.x) <= size.width / 2 && std::abs(hand.position.y) <= size.height / 2;
-    if (inside) wanted = tick(patch->bank, hand);
+    if (std::abs(hand.position.x) <= size.width / 2 && std::abs(hand.position.y) <= size.height / 2) {
+      wanted = feel(*patch, hand);
+      inside = patch->memory.get();
+    }
   }
-  if (inside != inside_) guards_.slew();
+  if ((inside != nullptr) != (inside_ != nullptr)) guards_.slew();
   inside_ = inside;
   const Force force = device_.command(guards_(wanted));
 
   lateness_.add(beat.lateness);
   missed_ += beat.skipped;
-  const double time = static_cast<double>(beat.period) * record_.seconds_per_tick;
-  record_.ticks[served_++] = {.time = time,
-                              .position = glm::vec2(position),
-                              .velocity = glm::vec2(velocity),
+  record_.ticks[served_++] = {.time = hand.time,
+                              .position = hand.workspace,
+                              .velocity = hand.velocity,
                               .force = force,
                               .interaction = reading.interaction,
                               .lateness = static_cast<float>(static_cast<double>(beat.lateness) * 1e-9),
                               .skipped = static_cast<std::uint32_t>(beat.skipped),
-                              .inside = inside};
-  latest_.store({.time = time,
+                              .inside = inside != nullptr};
+  latest_.store({.time = hand.time,
                  .ticks_run = static_cast<long>(served_),
                  .ticks_missed = missed_,
-                 .position = glm::vec2(position),
-                 .velocity = glm::vec2(velocity),
+                 .position = hand.workspace,
+                 .velocity = hand.velocity,
                  .force = force,
-                 .inside = inside});
+                 .inside = inside != nullptr});
+}
+
+GuardCounts Player::guards() const {
+  GuardCounts counts = guards_.counts();
+  counts.restored = restored_;
+  return counts;
 }
 
 void Player::finish() { record_.ticks.resize(served_); }

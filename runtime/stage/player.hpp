@@ -1,19 +1,46 @@
 #pragma once
 
+#include <memory>
+
+#include "runtime/stage/acceleration_filter.hpp"
 #include "runtime/stage/exchange.hpp"
 #include "runtime/stage/guards.hpp"
 #include "runtime/stage/lateness.hpp"
 #include "runtime/stage/latest.hpp"
 #include "runtime/stage/loop.hpp"
 #include "runtime/stage/velocity_filter.hpp"
+#include "wale/memory.hpp"
 #include "wale/stage.hpp"
 
 namespace wale {
 
 /// A patch at its parameters and its place on the workspace (m from its centre): what the control side hands over.
+/// The memory is that of the bank's program. Patches that differ in their parameters only share it; whoever plays it is
+/// the only one to touch it, and the control side lets it go.
 struct PlacedPatch {
   Bank bank;
   glm::vec2 position;
+  std::shared_ptr<Memory> memory;
+};
+
+/// What one axis tells of the hand, in counts and ticks.
+class AxisFilters {
+ public:
+  explicit AxisFilters(const DeviceProfile& profile) : velocity_(profile), acceleration_(profile) {}
+
+  struct Result {
+    double velocity = 0, acceleration = 0;
+    PlainDifferences::Result raw;
+  };
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  Result operator()(int counts, long periods) noexcept {
+    return {velocity_(counts, periods), acceleration_(counts, periods), raw_(counts, periods)};
+  }
+
+ private:
+  VelocityFilter velocity_;
+  AccelerationFilter acceleration_;
+  PlainDifferences raw_;
 };
 
 /// The real-time half of a stage: what one thread does at each beat. The device is without force once it is gone.
@@ -25,8 +52,8 @@ class Player {
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
-  /// Samples the device, filters velocity, takes the newest patch, ticks its program if the hand is within, guards,
-  /// commands the force, records.
+  /// Samples the device, filters its motion, takes the newest patch, ticks its program if the hand is within (after
+  /// entering it, if the hand was not within it before), guards, commands the force, records.
   /// Real-time: allocates nothing, takes no lock, makes no system call besides the device's own, does not throw.
   void serve(const Beat& beat) noexcept;
 
@@ -35,20 +62,26 @@ class Player {
 
   /// After the last beat.
   Lateness lateness() const { return lateness_.summary(); }
-  const GuardCounts& guards() const { return guards_.counts(); }
+  GuardCounts guards() const;
   /// Cuts the record to the beats served.
   void finish();
 
  private:
+  /// The hand as this beat has it, but for its position on the patch.
+  Hand hand(const Reading& reading, const Beat& beat) noexcept;
+  /// The program's force, with the hand within the patch.
+  Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
+
   Device& device_;
   Exchange<PlacedPatch>& patches_;
   Record& record_;
   std::size_t served_ = 0;
   long missed_ = 0;
   double position_step_;  // m per count
-  VelocityFilter filter_x_, filter_y_;
+  AxisFilters filters_x_, filters_y_;
   Guards guards_;
-  bool inside_ = false;
+  const Memory* inside_ = nullptr;  // the memory of the patch that the hand was within at the last beat
+  long restored_ = 0;
   LatenessHistogram lateness_;
   Latest<Progress> latest_;
 };

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -64,8 +65,9 @@ struct Placement {
   glm::vec2 position;
   PatchSize size;
   std::vector<float> parameters;
+  std::shared_ptr<Memory> memory;
 
-  PlacedPatch build() const { return {Bank(program, parameters, size), position}; }
+  Bank bank() const { return Bank(program, parameters, size); }
 };
 
 struct Stage::Parts {
@@ -90,7 +92,7 @@ struct Stage::Parts {
     if (!std::exchange(changed, false)) return;
     const Placement copy = *placement;
     lock.unlock();  // building may take long, and whoever turns the next knob should not wait for it
-    patches.publish(copy.build());
+    patches.publish({copy.bank(), copy.position, copy.memory});
   }
 
   void play_in_virtual_time(Player& player, Exchange<PlacedPatch>& patches, long ticks, const RunOptions& options,
@@ -176,8 +178,9 @@ Stage::~Stage() = default;
 void Stage::place(const Program& program, glm::vec2 position) { place(program, position, program.default_size()); }
 
 void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
+  Placement placement{program, position, size, program.default_parameters(), std::make_shared<Memory>(program)};
   const std::lock_guard lock(parts_->mutex);
-  parts_->placement = Placement{program, position, size, program.default_parameters()};
+  parts_->placement = std::move(placement);
   parts_->changed = true;
   parts_->news.notify_all();
 }
@@ -185,7 +188,7 @@ void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
 std::optional<Refusal> Stage::set(std::string_view parameter, float value) {
   const std::lock_guard lock(parts_->mutex);
   if (!parts_->placement) return Refusal{"nothing is placed on the stage"};
-  auto& [program, position, size, values] = *parts_->placement;
+  auto& [program, position, size, values, memory] = *parts_->placement;
   const std::vector<Parameter>& known = program.description().parameters;
   const std::optional<std::size_t> index = program.parameter(parameter);
   if (!index) {
@@ -208,7 +211,7 @@ std::optional<Refusal> Stage::set(std::string_view parameter, float value) {
 std::optional<Bank> Stage::bank() const {
   const std::optional<Placement> placement = parts_->copy_placement();
   if (!placement) return std::nullopt;
-  return placement->build().bank;
+  return placement->bank();
 }
 
 std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
@@ -219,8 +222,10 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   {
     const std::lock_guard lock(parts_->mutex);
     if (!parts_->placement) return Refusal{"nothing is placed on the stage"};
-    if (std::exchange(parts_->running, true)) return Refusal{"another run is under way on this stage"};
-    parts_->changed = true;  // every run begins with a bank of its own
+    if (parts_->running) return Refusal{"another run is under way on this stage"};
+    parts_->placement->memory = std::make_shared<Memory>(parts_->placement->program);
+    parts_->running = true;
+    parts_->changed = true;  // every run begins with a bank of its own, and with a memory of its own
   }
   struct Ending {
     Parts& parts;

@@ -7,7 +7,7 @@
 namespace wale::command_line {
 namespace {
 
-const std::vector<std::string> verbs{"check", "build", "describe", "feel", "sample", "preview", "devices"};
+const std::vector<std::string> verbs{"check", "explain", "build", "describe", "feel", "sample", "preview", "devices"};
 
 TEST(Help, TellsADesignerACuratorAndAProgrammerWhereToStart) {
   const Outcome help = wale({"--help"});

@@ -40,6 +40,31 @@ TEST(Sharing, AChainOfLetsIsLinear) {
   EXPECT_GE(program.description().tick.size(), 2u * links);
 }
 
+TEST(Sharing, AChainOfSumsOfOneIsLinear) {
+  // An operation for each link, of the hand and so in every tick; twenty links are 2^20 times as much.
+  const auto chain = [](int links) {
+    std::string body = "    let a0 = x\n";
+    for (int i = 1; i <= links; ++i) body += fmt::format("    let a{} = a{} + a{}\n", i, i - 1, i - 1);
+    return compiled(body + fmt::format("    force = vector(a{} * 1e-6 N/m, 0 N)", links));
+  };
+  EXPECT_LE(chain(10000).description().tick.size(), 10010u);
+  Bank bank(chain(20));
+  EXPECT_FLOAT_EQ(tick(bank, {{0.05f, 0}, {0, 0}}).x, 0.05f * 1048576 * 1e-6f);
+}
+
+TEST(Sharing, AChainThroughFunctionsIsLinear) {
+  constexpr int links = 10000;
+  std::string body = "    let a0 = x / 1 m\n";
+  for (int i = 1; i <= links; ++i)
+    body += fmt::format("    let a{} = {}(a{}, a{})\n", i, i % 2 == 0 ? "half" : "bent", i - 1, i - 1);
+  const Program program = compiled(body + fmt::format("    force = vector(a{} * 1 N, 0 N)", links),
+                                   "function half(a, b) = 0.25 * a + b / 4\n"
+                                   "function bent(a, b) = half(a, sin(b)) + half(sin(a), b)");
+  // By hand: two products and a sum in one, and in the other these twice and a sum, and a sine of two.
+  EXPECT_LE(program.description().tick.size(), 6u * links + 10);
+  EXPECT_GE(program.description().tick.size(), 2u * links);
+}
+
 TEST(Sharing, AChainOfConstantsIsLinear) {
   std::string lets = "let c0 = 1\n";
   for (int i = 1; i <= 60; ++i) lets += fmt::format("let c{} = 0.5 * c{} + c{} / 2\n", i, i - 1, i - 1);

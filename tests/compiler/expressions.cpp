@@ -36,8 +36,13 @@ TEST(RandomMaterials, MachineAndReferenceAgree) {
     const Program program = Compiled(text).only();
 
     for (int each = 0; each < hands_each; ++each) {
-      const Hand hand{{static_cast<float>(0.07 * uniform(random)), static_cast<float>(0.07 * uniform(random))},
-                      {static_cast<float>(0.5 * uniform(random)), static_cast<float>(0.5 * uniform(random))}};
+      const auto in = [&](double size) { return static_cast<float>(size * uniform(random)); };
+      Hand hand;
+      hand.position = {in(0.07), in(0.07)};
+      hand.velocity = {in(0.5), in(0.5)};
+      hand.acceleration = {in(8), in(8)};
+      hand.time = 5 + in(5);
+      hand.button = in(1) > 0;
       std::vector<float> parameters = program.default_parameters();
       std::map<std::string, double> values;
       for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -48,7 +53,16 @@ TEST(RandomMaterials, MachineAndReferenceAgree) {
       }
       reference::Quantity expected;
       try {
-        expected = reference::force(tree, {hand.position.x, hand.position.y, hand.velocity.x, hand.velocity.y}, values);
+        expected = reference::force(tree,
+                                    {.x = hand.position.x,
+                                     .y = hand.position.y,
+                                     .vx = hand.velocity.x,
+                                     .vy = hand.velocity.y,
+                                     .ax = hand.acceleration.x,
+                                     .ay = hand.acceleration.y,
+                                     .time = hand.time,
+                                     .button = hand.button},
+                                    values);
       } catch (const reference::Undecided&) {
         ++undecided;
         continue;

@@ -30,33 +30,45 @@ class RandomMaterial {
     return fmt::format("wale 1\n\n{}\nmaterial m {{\n  physical {{\n{}{}  }}\n}}\n", declarations_, params, body_);
   }
 
-  void write() {
+  /// Everything but states.
+  void write() { write(false); }
+  /// With states, scalar and vector, whose bounds are reached now and then.
+  void write_with_states() { write(true); }
+
+ private:
+  void write(bool with_states) {
     for (int i = below(3); i >= 0; --i) {
       const std::string name = fmt::format("c{}", names_.size());
       const Dimension dimension = small_dimension();
       declarations_ += fmt::format("let {} = {}\n", name, literal(dimension));
       names_.push_back({name, dimension, false});
     }
-    for (int i = below(3); i >= 0; --i) write_function();
+    for (int i = below(3); i >= 0; --i) {
+      hand_ = one_in(2);  // functions know of inputs and of nothing else of the material's
+      write_function();
+    }
+    hand_ = false;
     for (int i = below(3); i >= 0; --i) {
       const Dimension dimension = small_dimension();
       params_.push_back({fmt::format("p{}", names_.size()), figure(), unit(dimension)});
       names_.push_back({params_.back().name, dimension, false});
     }
     hand_ = true;
-    for (int i = below(4); i >= 0; --i) {
-      const std::string name = fmt::format("l{}", names_.size());
-      const bool vector = one_in(3);
-      const Dimension dimension = small_dimension();
-      body_ += fmt::format("    let {} = {}\n", name, vector ? vector_of(dimension, 3) : number_of(dimension, 3));
-      names_.push_back({name, dimension, vector});
-    }
+    if (with_states) write_states();
+    for (int i = below(4); i >= 0; --i) write_let();
     // Brought under the device's limit, whatever its size.
-    body_ += fmt::format("    let push = {}\n", vector_of(force, 4));
-    body_ += "    force = push * (5 N / (1 N + length(push)))\n";
+    const int layers = 1 + below(3);
+    for (int i = 0; i < layers; ++i) {
+      if (one_in(3)) write_update();
+      body_ += fmt::format("    let push{} = {}\n", i, vector_of(force, 4));
+      const bool last = i == layers - 1;
+      body_ += fmt::format("    force{0} = push{1} * ({2} N / (1 N + length(push{1})))\n",
+                           last && one_in(2) ? "" : fmt::format(" layer{}", i), i, 4.5 / layers);
+      if (!last && one_in(2)) names_.push_back({fmt::format("layer{}", i), force, true});
+    }
+    while (!unmoved_.empty()) write_update();
   }
 
- private:
   using Dimension = std::array<int, 3>;  // m, kg, s
   static constexpr Dimension force{1, 1, -2}, length{1, 0, 0}, plain{0, 0, 0};
 
@@ -69,9 +81,54 @@ class RandomMaterial {
   int below(int n) { return static_cast<int>(random_() % static_cast<std::uint32_t>(n)); }
   bool one_in(int n) { return below(n) == 0; }
 
+  void write_let() {
+    const std::string name = fmt::format("l{}", names_.size() + conditions_.size());
+    if (one_in(4)) {
+      body_ += fmt::format("    let {} = {}\n", name, condition(3));
+      conditions_.push_back(name);
+      return;
+    }
+    const bool vector = one_in(3);
+    const Dimension dimension = small_dimension();
+    body_ += fmt::format("    let {} = {}\n", name, vector ? vector_of(dimension, 3) : number_of(dimension, 3));
+    names_.push_back({name, dimension, vector});
+  }
+
+  /// Where a state begins says nothing of states; so they get known all at once.
+  void write_states() {
+    for (int i = 0, count = 1 + below(4); i < count; ++i) {
+      const Name state{fmt::format("s{}", i), small_dimension(), one_in(3)};
+      const std::string in = unit(state.dimension), zero = in.empty() ? "0" : "0 " + in;
+      const std::string nought = state.vector ? fmt::format("vector({0}, {0})", zero) : zero;
+      // Bounds of about the size of what comes; a start that the compiler knows has to lie within them.
+      const std::string begin = one_in(2) ? nought : named_input(state.dimension, state.vector);
+      body_ += fmt::format("    state {} = {} in -{} .. {}\n", state.text, begin.empty() ? nought : begin,
+                           literal(state.dimension), literal(state.dimension));
+      unmoved_.push_back(state);
+    }
+    names_.insert(names_.end(), unmoved_.begin(), unmoved_.end());
+  }
+
+  /// One of the updates that are left, or none for that state.
+  void write_update() {
+    if (unmoved_.empty()) return;
+    const auto which = unmoved_.begin() + below(static_cast<int>(unmoved_.size()));
+    const Name state = *which;
+    unmoved_.erase(which);
+    if (one_in(6)) return;
+    const bool rate = one_in(2);
+    Dimension dimension = state.dimension;
+    if (rate) --dimension[2];
+    // A tick is a nine-hundredth of a second: some rates are fast enough to get somewhere.
+    const std::string faster = rate && one_in(2) ? "300 * " : "";
+    body_ += fmt::format("    {}{}{} = {}{}\n", rate ? "" : "next ", state.text, rate ? "'" : "", faster,
+                         state.vector ? vector_of(dimension, 3) : number_of(dimension, 3));
+  }
+
   Dimension small_dimension() {
-    static const std::vector<Dimension> common{plain,      plain,      length,     force,     {1, 0, -1}, {0, 1, 0},
-                                               {0, 1, -2}, {0, 1, -1}, {2, 1, -2}, {0, 0, 1}, {2, 0, 0},  {-1, 0, 0}};
+    static const std::vector<Dimension> common{plain,     plain,      length,     force,      {1, 0, -1},
+                                               {0, 1, 0}, {0, 1, -2}, {0, 1, -1}, {2, 1, -2}, {0, 0, 1},
+                                               {2, 0, 0}, {-1, 0, 0}, {1, 0, -2}};
     return common[static_cast<std::size_t>(below(static_cast<int>(common.size())))];
   }
 
@@ -126,11 +183,29 @@ class RandomMaterial {
     std::vector<std::string> fitting;
     for (const auto& name : names_)
       if (name.dimension == dimension && name.vector == vector) fitting.push_back(name.text);
-    if (hand_ && dimension == length)
-      for (const char* place : {"hand", "x", "y"})
-        if (vector == (place[0] == 'h')) fitting.push_back(place);
-    if (hand_ && vector && dimension == Dimension{1, 0, -1}) fitting.push_back("velocity");
+    if (!vector)  // parts of vectors that have a name
+      for (const auto& name : names_)
+        if (name.dimension == dimension && name.vector) fitting.push_back(name.text + (one_in(2) ? ".x" : ".y"));
+    if (const std::string input = named_input(dimension, vector); !input.empty()) fitting.push_back(input);
     if (!vector && dimension == plain) fitting.push_back("pi");
+    return fitting.empty() ? "" : fitting[static_cast<std::size_t>(below(static_cast<int>(fitting.size())))];
+  }
+
+  /// Likewise of the inputs.
+  std::string named_input(const Dimension& dimension, bool vector) {
+    if (!hand_) return "";
+    std::vector<std::string> fitting;
+    const std::array<std::pair<const char*, Dimension>, 3> motion{
+        {{"hand", length}, {"velocity", {1, 0, -1}}, {"acceleration", {1, 0, -2}}}};
+    for (const auto& [name, of] : motion) {
+      if (of != dimension) continue;
+      if (vector)
+        fitting.emplace_back(name);
+      else
+        fitting.insert(fitting.end(), {std::string(name) + ".x", std::string(name) + ".y"});
+    }
+    if (!vector && dimension == length) fitting.insert(fitting.end(), {"x", "y"});
+    if (!vector && dimension == Dimension{0, 0, 1}) fitting.insert(fitting.end(), {"time", "dt"});
     return fitting.empty() ? "" : fitting[static_cast<std::size_t>(below(static_cast<int>(fitting.size())))];
   }
 
@@ -140,7 +215,7 @@ class RandomMaterial {
       return name.empty() || one_in(4) ? literal(d) : name;
     }
     const auto n = [&](const Dimension& dimension) { return number_of(dimension, depth - 1); };
-    switch (below(d == plain ? 18 : 12)) {
+    switch (below(d == plain ? 24 : 14)) {
       case 0: return fmt::format("({} + {})", n(d), n(d));
       case 1: return fmt::format("({} - {})", n(d), n(d));
       case 2: return product(d, depth);
@@ -156,13 +231,24 @@ class RandomMaterial {
         const Dimension a = small_dimension(), b{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
         return fmt::format("dot({}, {})", vector_of(a, depth - 1), vector_of(b, depth - 1));
       }
-      case 12: return fmt::format("{}({})", one_in(2) ? "sin" : "cos", n(plain));
-      case 13: return fmt::format("exp(-abs({}))", n(plain));
-      case 14:
+      case 12: return fmt::format("({}).{}", vector_of(d, depth - 1), one_in(2) ? "x" : "y");
+      case 13: return fmt::format("mix({}, {}, {})", n(d), n(d), n(plain));
+      case 14: return fmt::format("{}({})", one_in(2) ? "sin" : "cos", n(plain));
+      case 15: return fmt::format("exp(-abs({}))", n(plain));
+      case 16:
         return fmt::format("{}(0.2 + abs({}))", std::array{"log", "log2", "log10"}[static_cast<std::size_t>(below(3))],
                            n(plain));
-      case 15: return fmt::format("{}({})", one_in(2) ? "normal" : "smoothstep", n(plain));
-      case 16: return fmt::format("floor({})", n(plain));
+      case 17: return fmt::format("{}({})", one_in(2) ? "normal" : "smoothstep", n(plain));
+      case 18:
+        return fmt::format("{}({})", std::array{"floor", "ceil", "round", "fract"}[static_cast<std::size_t>(below(4))],
+                           n(plain));
+      case 19: {
+        const Dimension of = small_dimension();
+        return fmt::format("atan2({}, {})", n(of), n(of));
+      }
+      case 20: return fmt::format("sign({})", n(small_dimension()));
+      case 21:
+      case 22: return fmt::format("tanh({})", n(plain));
       default: return fmt::format("modulo({}, {})", n(plain), literal(plain));
     }
   }
@@ -199,6 +285,21 @@ class RandomMaterial {
   }
 
   std::string condition(int depth) {
+    if (depth > 0 && one_in(3)) {
+      const auto c = [&] { return condition(depth - 1); };
+      switch (below(4)) {
+        case 0: return fmt::format("({} and {})", c(), c());
+        case 1: return fmt::format("({} or {})", c(), c());
+        case 2: return fmt::format("(not ({}))", c());
+        default: return fmt::format("(if {} then {} else {})", c(), c(), c());
+      }
+    }
+    if (one_in(8)) {
+      std::vector<std::string> known{"true", "false"};
+      if (hand_) known.insert(known.end(), {"button", "button"});
+      known.insert(known.end(), conditions_.begin(), conditions_.end());
+      return known[static_cast<std::size_t>(below(static_cast<int>(known.size())))];
+    }
     const Dimension d = small_dimension();
     return fmt::format("{} {} {}", number_of(d, depth),
                        std::array{"<", "<=", ">", ">="}[static_cast<std::size_t>(below(4))], number_of(d, depth));
@@ -211,7 +312,7 @@ class RandomMaterial {
       return fmt::format("vector({}, {})", number_of(d, 0), number_of(d, 0));
     }
     const auto v = [&](const Dimension& dimension) { return vector_of(dimension, depth - 1); };
-    switch (below(hand_ && d == force ? 9 : 7)) {
+    switch (below(hand_ && d == force ? 12 : 10)) {
       case 0: return fmt::format("({} + {})", v(d), v(d));
       case 1: return fmt::format("({} - {})", v(d), v(d));
       case 2: {
@@ -225,8 +326,13 @@ class RandomMaterial {
       }
       case 4: return fmt::format("-{}", v(d));
       case 5: return fmt::format("(if {} then {} else {})", condition(depth - 1), v(d), v(d));
-      case 7: return fmt::format("viscous({})", number_of({0, 1, -1}, depth - 1));
-      case 8: return fmt::format("spring({})", number_of({0, 1, -2}, depth - 1));
+      case 6: return fmt::format("rotate({}, {})", v(d), number_of(plain, depth - 1));
+      case 7:
+        return d == plain ? fmt::format("normalise({})", v(small_dimension()))
+                          : fmt::format("{} * normalise({})", number_of(d, depth - 1), v(small_dimension()));
+      case 8: return fmt::format("mix({}, {}, {})", v(d), v(d), number_of(plain, depth - 1));
+      case 10: return fmt::format("viscous({})", number_of({0, 1, -1}, depth - 1));
+      case 11: return fmt::format("spring({})", number_of({0, 1, -2}, depth - 1));
       default: return fmt::format("vector({}, {})", number_of(d, depth - 1), number_of(d, depth - 1));
     }
   }
@@ -239,6 +345,8 @@ class RandomMaterial {
 
   std::mt19937 random_;  // its numbers are the same everywhere; distributions' are not, so none is used
   std::vector<Name> names_;
+  std::vector<std::string> conditions_;
+  std::vector<Name> unmoved_;  ///< states without an update so far
   std::vector<Function> functions_;
   std::vector<Param> params_;
   std::string declarations_, body_;

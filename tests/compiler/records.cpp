@@ -31,7 +31,7 @@ device bench {
 )");
   const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
   ASSERT_FALSE(diagnostics.has_errors());
-  EXPECT_EQ(module.declarations.devices.at("bench").assumed, (std::vector<std::string>{"mass", "damping"}));
+  EXPECT_EQ(module.declarations().devices.find("bench")->assumed, (std::vector<std::string>{"mass", "damping"}));
 }
 
 }  // namespace

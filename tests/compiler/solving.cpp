@@ -128,5 +128,52 @@ TEST(SolvedAmplitude, OfAPerceptAloneIsTheDevicesOwnRealisation) {
   EXPECT_NEAR(amplitude(Bank(program), 0), 1.934, 0.0005);
 }
 
+/// Whether the percept and an amplitude of the level `level` by Minsky's map may stand together.
+bool agree(const std::string& percept, double level) {
+  const double amplitude = 194 * 10.0 / 512 * std::pow(level, 1 / 0.759593);
+  try {
+    compiled(fmt::format("    force = lateral(grating(x, period: 2 mm), amplitude: {:.6f} N)", amplitude), "", percept);
+    return true;
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("error[W0403]"), std::string::npos) << error.what();
+    return false;
+  }
+}
+
+TEST(GivenAmplitude, AgreesWithinTheScatterOfTheMap) {
+  // 0.0519 of log10 either way.
+  for (const double level : {0.2, 0.6, 0.8}) {
+    const std::string percept = fmt::format("roughness {}", level);
+    EXPECT_TRUE(agree(percept, level));
+    EXPECT_TRUE(agree(percept, level * std::pow(10, 0.051)));
+    EXPECT_TRUE(agree(percept, level * std::pow(10, -0.051)));
+    EXPECT_FALSE(agree(percept, level * std::pow(10, 0.053)));
+    EXPECT_FALSE(agree(percept, level * std::pow(10, -0.053)));
+  }
+}
+
+TEST(GivenAmplitude, AgreesWithinATolerance) {
+  for (const std::string percept : {"roughness 0.6 ± 0.15", "roughness 0.6 +- 0.15", "roughness 60 % ± 15 %"}) {
+    EXPECT_TRUE(agree(percept, 0.749)) << percept;
+    EXPECT_TRUE(agree(percept, 0.451)) << percept;
+    EXPECT_FALSE(agree(percept, 0.751)) << percept;
+    EXPECT_FALSE(agree(percept, 0.449)) << percept;
+  }
+  // The tolerance only ever adds to what the scatter allows: 0.676 is within it.
+  EXPECT_TRUE(agree("roughness 0.6 ± 0.01", 0.67));
+  EXPECT_TRUE(agree("roughness 0.6 ± 0.1", 0.69));
+  EXPECT_FALSE(agree("roughness 0.6", 0.69));
+  EXPECT_FALSE(agree("roughness 0.6 ± 0.1", 0.71));
+  EXPECT_FALSE(agree("roughness 0.6 ± 0.1", 0.49));
+}
+
+TEST(SolvedAmplitude, IsNoOtherForATolerance) {
+  const auto at = [](const std::string& percept) {
+    Bank bank(compiled("    force = lateral(grating(x, period: 2 mm))", "", percept));
+    return amplitude(bank, 0);
+  };
+  EXPECT_EQ(at("roughness 0.6"), at("roughness 0.6 ± 0.2"));
+}
+
 }  // namespace
 }  // namespace wale::compiling

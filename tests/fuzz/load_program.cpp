@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "schema/patch_program_format.hpp"
+#include "wale/memory.hpp"
+#include "wale/picture.hpp"
 #include "wale/program.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
@@ -29,5 +31,21 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     const wale::Force force = tick(bank, {{place, -place}, {place, 1.0f}});
     if (!(std::abs(force.x) <= most && std::abs(force.y) <= most)) std::abort();
   }
+  wale::Memory memory(program);
+  memory.enter(bank, {});
+  for (const float place : {0.0f, 0.013f, -1e30f, std::nanf("")}) {
+    const wale::Force force = tick(bank, memory, {{place, -place}, {place, 1.0f}});
+    if (!(std::abs(force.x) <= most && std::abs(force.y) <= most)) std::abort();
+  }
+  for (const float value : memory.states()) {
+    if (!std::isfinite(value)) std::abort();
+  }
+  for (const float value : memory.cells()) {
+    if (!std::isfinite(value)) std::abort();
+  }
+  float height = 0;
+  const glm::vec2 place(0.01f, -0.02f);
+  surface_all(bank, &memory, {&place, 1}, {&height, 1});
+  show(bank, memory, {});
   return 0;
 }

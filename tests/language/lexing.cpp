@@ -72,6 +72,10 @@ TEST(Lexing, TextsAreUnescaped) {
   EXPECT_FALSE(cut.diagnostics.has_errors());
 }
 
+TEST(Lexing, DocumentationKeepsItsLastLetter) {
+  EXPECT_EQ(Cut("/// voil\u00e0  \t\r\nx").tokens.documentation.at(0), "voil\u00e0");  // whose last byte is 0xA0
+}
+
 TEST(Lexing, CommentsAreWhiteSpaceAndDocumentationIsKept) {
   const Cut cut("a // b\n/* c\n d */ e\n/// one\n/// two\nf //// no\ng");
   EXPECT_EQ(cut.kinds(), (Kinds{name, name, name, name, end}));

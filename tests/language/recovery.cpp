@@ -91,7 +91,12 @@ TEST(Recovery, AMisspeltWordIsReadAsWhatWasMeant) {
   EXPECT_EQ(reading.errors(),
             (Errors{"W0103 2:1 no declaration begins with `materiall`", "W0103 2:15 a material has no `physicl`",
                     "W0103 2:25 no statement begins with `heigt`"}));
-  for (const auto& each : reading.diagnostics.all()) EXPECT_TRUE(each.help.starts_with("did you mean")) << each.help;
+  for (const auto& each : reading.diagnostics.all()) {
+    EXPECT_TRUE(each.help.starts_with("did you mean")) << each.help;
+    ASSERT_EQ(each.facts.size(), 1u);
+    EXPECT_EQ(each.facts[0].name, "meant");
+  }
+  EXPECT_EQ(std::get<std::string>(reading.diagnostics.all()[0].facts[0].value), "material");
   EXPECT_EQ(reading.printed(), "(material m\n  (physical\n    (height h x)\n    (force (lateral h))))\n");
 }
 
@@ -124,7 +129,7 @@ TEST(Mends, SayWhatToWriteInstead) {
       {"let a = 2 (k + 1)", "to multiply, write `2 * (…)`"},
       {"let a = 2,5 * k", "decimals are written with a point: `2.5`"},
       {"let a = f(x, p: 2,5 mm)", "decimals are written with a point: `2.5`"},
-      {"let a = b < c < d", "comparisons do not chain; write one `if` inside the other"},
+      {"let a = b < c < d", "comparisons do not chain; join two of them with `and`"},
       {"let a = [1, 2]", "vectors are written `vector(a, b)`"},
       {"let a = (1, 2)", "vectors are written `vector(a, b)`"},
       {"let a = if b = c then 1 else 2", "`=` defines; values are compared with `<`, `<=`, `>` and `>=`"},

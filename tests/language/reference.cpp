@@ -2,11 +2,15 @@
 // that schema/ declares.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <regex>
 #include <sstream>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "compiler/compile.hpp"
@@ -23,30 +27,64 @@ std::string content(const std::string& name) {
   return text.str();
 }
 
-/// A fenced block: what stands behind its opening fence, its first line in the page, its text.
+/// A fenced block: what stands behind its opening fence, its first line in the page, its text, and the file that the
+/// line above calls it, as in "A file `detent.csv`:".
 struct Block {
   std::string kind;
   int line = 0;
   std::string text;
+  std::string name;
 };
 
 std::vector<Block> blocks_of(const std::string& page) {
   std::vector<Block> blocks;
   bool inside = false;
   int number = 0;
+  const std::regex naming("file `([^`]+)`:$");
+  std::string name;
   std::istringstream lines(page);
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (line.starts_with("```")) {
-      if (!inside) blocks.push_back({line.substr(3), number + 1, ""});
+      if (!inside) blocks.push_back({line.substr(3), number + 1, "", name});
       inside = !inside;
+      name.clear();
     } else if (inside) {
       blocks.back().text += line + "\n";
+    } else if (!line.empty()) {
+      std::smatch named;
+      name = std::regex_search(line, named, naming) ? named[1].str() : "";
     }
   }
   EXPECT_FALSE(inside) << "a block does not end";
   return blocks;
 }
+
+/// The files that the page shows, and beside them the pictures of library/stone.
+class PageResolver final : public Resolver {
+ public:
+  explicit PageResolver(const std::vector<Block>& blocks) {
+    for (const Block& block : blocks)
+      if (!block.name.empty()) files_[block.name] = block.text;
+  }
+
+  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) override {
+    std::string name = path + ".wale";
+    std::replace(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(path.size()), '.', '/');
+    return file(name, from);
+  }
+
+  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) override {
+    if (const auto found = files_.find(name); found != files_.end()) return ResolvedFile{name, found->second};
+    return library_->file(name, from);
+  }
+
+  std::size_t size() const { return files_.size(); }
+
+ private:
+  std::map<std::string, std::string> files_;
+  std::unique_ptr<Resolver> library_ = file_resolver({WALE_SOURCE_DIR "/library/stone"});
+};
 
 std::string rendered(const Diagnostics& diagnostics, const SourceSet& sources) {
   std::string text;
@@ -65,16 +103,18 @@ std::vector<std::string> found_in(const std::string& text, const std::string& pa
 
 TEST(Reference, ItsExamplesCompile) {
   int compiled = 0;
-  for (const Block& block : blocks_of(content("schema/LANGUAGE.md"))) {
+  const auto blocks = blocks_of(content("schema/LANGUAGE.md"));
+  PageResolver resolver(blocks);
+  EXPECT_EQ(resolver.size(), 2);
+  for (const Block& block : blocks) {
     if (block.kind != "wale") continue;
     SourceSet sources;
     Diagnostics diagnostics;
-    const auto resolver = file_resolver({});
     const SourceId source = sources.add("example.wale", block.text);
-    const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+    const CheckedModule module = check_source(sources, source, resolver, diagnostics);
     EXPECT_FALSE(module.materials.empty()) << "line " << block.line;
     for (const auto& material : module.materials) {
-      compile_material(module, material.name, default_device, sources, source, *resolver, diagnostics);
+      compile_material(module, material.name, default_device, sources, source, resolver, diagnostics);
       ++compiled;
     }
     EXPECT_EQ(rendered(diagnostics, sources), "") << "line " << block.line;

@@ -116,6 +116,101 @@ TEST(Rendering, JsonForPrograms) {
   EXPECT_EQ(render_json(Diagnostics(), rendering.sources), "[]");
 }
 
+TEST(Rendering, SecondarySpansAreUnderlinedOnTheirOwnLinesInOrder) {
+  const std::string text = "let k = 3 N\n\n\n\n\n\n\n\n\nlet sum = k + 2 mm\n";
+  Rendering rendering(text, "k + 2 mm");
+  const auto at = [&](const char* part) {
+    const auto begin = static_cast<std::uint32_t>(text.find(part));
+    return Span{0, begin, begin + static_cast<std::uint32_t>(std::string(part).size())};
+  };
+  rendering.diagnostic.label = "no sum";
+  rendering.diagnostic.secondary = {{at("2 mm"), "a length"}, {at("3 N"), "a force"}, {at("let sum"), ""}};
+  EXPECT_EQ(rendering.text(),
+            "error[W0301]: force expected, found energy\n"
+            "   --> library/fabric/corduroy.wale:10:11\n"
+            "    |\n"
+            "  1 | let k = 3 N\n"
+            "    |         --- a force\n"
+            "...\n"
+            " 10 | let sum = k + 2 mm\n"
+            "    |           ^^^^^^^^ no sum\n"
+            "    |               ---- a length\n"
+            "    | -------\n");
+}
+
+TEST(Rendering, SecondarySpansInOtherFilesNameThem) {
+  Rendering rendering("force = k\n", "k");
+  const SourceId other = rendering.sources.add("library/levels.wale", "\n\nlet k = 3 mm\n");
+  rendering.diagnostic.secondary = {{{other, 6, 7}, "declared here"}, {{9, 0, 1}, "in no file that is known"}};
+  EXPECT_EQ(rendering.text(),
+            "error[W0301]: force expected, found energy\n"
+            "  --> library/fabric/corduroy.wale:1:9\n"
+            "   |\n"
+            " 1 | force = k\n"
+            "   |         ^\n"
+            "  ::: library/levels.wale:3:5\n"
+            "   |\n"
+            " 3 | let k = 3 mm\n"
+            "   |     - declared here\n");
+}
+
+TEST(Rendering, NotesStandInTheOrderCauseRuleProposal) {
+  Rendering rendering("force = k\n", "k");
+  rendering.diagnostic.help = "write `k * x`";
+  rendering.diagnostic.rule = "forces are in newtons";
+  rendering.diagnostic.cause = "`k` is a stiffness";
+  rendering.diagnostic.found = "N/m";
+  EXPECT_TRUE(
+      rendering.text().ends_with("   = found     N/m\n"
+                                 "   = cause: `k` is a stiffness\n"
+                                 "   = rule: forces are in newtons\n"
+                                 "   = help: write `k * x`\n"))
+      << rendering.text();
+}
+
+TEST(Rendering, JsonHasSpansFactsAndFixes) {
+  Rendering rendering("a\nµ force = k\n", "force");
+  rendering.diagnostic.label = "here";
+  rendering.diagnostic.cause = "why";
+  rendering.diagnostic.rule = "which";
+  rendering.diagnostic.secondary = {{{0, 0, 1}, "first"}};
+  rendering.diagnostic.facts = {
+      {"limit", NumberWithUnit{4, "MB"}}, {"name", std::string("k")}, {"declared", Span{0, 0, 1}}};
+  rendering.diagnostic.fixes = {{"write `b`", {{{0, 0, 1}, "b"}, {{0, 5, 5}, "\n"}}, true}};
+  Diagnostics diagnostics;
+  diagnostics.report(rendering.diagnostic);
+  const auto only = nlohmann::json::parse(render_json(diagnostics, rendering.sources)).at(0);
+  EXPECT_EQ(only["begin_byte"], 5);
+  EXPECT_EQ(only["end_byte"], 10);
+  EXPECT_EQ(only["label"], "here");
+  EXPECT_EQ(only["cause"], "why");
+  EXPECT_EQ(only["rule"], "which");
+  EXPECT_EQ(only["secondary"],
+            nlohmann::json::parse(R"([{"file": "library/fabric/corduroy.wale", "line": 1, "column": 1,
+    "end_line": 1, "end_column": 2, "begin_byte": 0, "end_byte": 1, "label": "first"}])"));
+  EXPECT_EQ(only["facts"][0], nlohmann::json::parse(R"({"name": "limit", "value": 4.0, "unit": "MB"})"));
+  EXPECT_EQ(only["facts"][1], nlohmann::json::parse(R"({"name": "name", "text": "k"})"));
+  EXPECT_EQ(only["facts"][2]["end_byte"], 1);
+  const auto& fix = only["fixes"].at(0);
+  EXPECT_EQ(fix["title"], "write `b`");
+  EXPECT_EQ(fix["safe"], true);
+  EXPECT_EQ(fix["edits"].at(1)["begin_byte"], 5);
+  EXPECT_EQ(fix["edits"].at(1)["line"], 2);
+  EXPECT_EQ(fix["edits"].at(1)["column"], 3);
+  EXPECT_EQ(fix["edits"].at(1)["replacement"], "\n");
+}
+
+TEST(Diagnostics, AThingIsSaidOnceAndNoMoreThanAThousandErrors) {
+  Diagnostics diagnostics;
+  const Diagnostic once{.code = Code::unknown_name, .span = {0, 1, 2}, .message = "what"};
+  for (int i = 0; i < 3; ++i) diagnostics.report(once);
+  EXPECT_EQ(diagnostics.all().size(), 1u);
+  for (std::uint32_t i = 0; i < 5000; ++i)
+    diagnostics.report({.code = Code::unknown_name, .span = {0, i, i}, .message = "what"});
+  EXPECT_EQ(diagnostics.error_count(), 1000u);
+  EXPECT_TRUE(diagnostics.is_full());
+}
+
 TEST(Rendering, WhatHasNoPlaceHasNoLine) {
   Diagnostics diagnostics;
   diagnostics.report({Code::unknown_device, {}, "no device is called `tablet`", {}, {}, {}, "see `wale devices`"});

@@ -8,6 +8,8 @@
 
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
+#include "wale/memory.hpp"
+#include "wale/picture.hpp"
 
 namespace wale {
 namespace {
@@ -23,10 +25,19 @@ std::vector<Hand> hands(std::mt19937& random, std::size_t count) {
   std::uniform_real_distribution<float> place(-0.1f, 0.1f), speed(-1, 1);
   std::vector<Hand> all(count);
   for (Hand& hand : all) {
-    hand = {{place(random), place(random)}, {speed(random), speed(random)}};
-    for (float* value : {&hand.position.x, &hand.position.y, &hand.velocity.x, &hand.velocity.y}) {
-      if (random() % 8 == 0) *value = extremes[random() % std::size(extremes)];
+    hand.time = 1e-3 * static_cast<double>(random() % 100000);
+    hand.button = random() % 2 == 0;
+    for (glm::vec2* pair : {&hand.position, &hand.workspace}) *pair = {place(random), place(random)};
+    for (glm::vec2* pair : {&hand.velocity, &hand.acceleration, &hand.raw_velocity, &hand.raw_acceleration}) {
+      *pair = {speed(random), speed(random)};
     }
+    for (glm::vec2* pair : {&hand.position, &hand.velocity, &hand.acceleration, &hand.raw_velocity,
+                            &hand.raw_acceleration, &hand.workspace}) {
+      for (const int axis : {0, 1}) {
+        if (random() % 8 == 0) (*pair)[axis] = extremes[random() % std::size(extremes)];
+      }
+    }
+    if (random() % 8 == 0) hand.time = extremes[random() % std::size(extremes)];
   }
   return all;
 }
@@ -51,6 +62,53 @@ TEST(Agreement, TickAndBlocksGiveTheSameBits) {
     }
   }
   EXPECT_GT(pushes, 1000u) << "programs that only saturate would prove little";
+}
+
+// What a tick without memory means: one whose memory was just made and entered.
+TEST(Agreement, ATickWithoutMemoryIsOneAfterEntering) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const Program program = loaded(example::RandomProgram(seed).make());
+    Bank bank(program), other(program);
+    std::mt19937 random(seed);
+    for (const Hand& hand : hands(random, 20)) {
+      Memory memory(program);
+      memory.enter(bank, hand);
+      const Force remembered = tick(bank, memory, hand), forgotten = tick(other, hand);
+      ASSERT_EQ(bits(remembered.x), bits(forgotten.x)) << seed;
+      ASSERT_EQ(bits(remembered.y), bits(forgotten.y)) << seed;
+    }
+  }
+}
+
+// The picture's blocks against its code in one lane, through a frame that holds the same code.
+TEST(Agreement, SurfaceAndFrameGiveTheSameBits) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    PatchProgram description = example::RandomProgram(seed).make();
+    description.picture.frame = description.picture.code;
+    description.picture.marks = {{MarkKind::line,
+                                  {description.picture.relief, (*description.picture.colour)[0],
+                                   (*description.picture.colour)[1], (*description.picture.colour)[2]}}};
+    const Program program = loaded(description);
+    Bank bank(program);
+    Memory memory(program);
+    std::mt19937 random(seed);
+    const std::vector<Hand> all = hands(random, 140);
+    memory.enter(bank, all[0]);
+    for (int i = 0; i < 5; ++i) tick(bank, memory, all[i]);
+    std::vector<glm::vec2> places;
+    for (const Hand& hand : all) places.push_back(hand.position);
+    std::vector<float> heights(all.size());
+    std::vector<glm::vec3> colours(all.size());
+    surface_all(bank, &memory, places, heights, colours);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto marks = show(bank, memory, all[i]);
+      ASSERT_EQ(bits(marks[0].values[0]), bits(heights[i])) << seed << " " << i;
+      for (int c = 0; c < 3; ++c) {
+        const float value = marks[0].values[1 + c];
+        ASSERT_NEAR(colours[i][c], value > 0 ? std::min(value, 1.0f) : 0.0f, 1e-37) << seed << " " << i;
+      }
+    }
+  }
 }
 
 TEST(Agreement, BanksAreTheSameEachTime) {

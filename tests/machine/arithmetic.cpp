@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <random>
@@ -117,6 +119,58 @@ TEST(Arithmetic, Normal) {
   EXPECT_EQ(normal_of(-3e38f), 0.0f);
   EXPECT_TRUE(std::isnan(normal_of(nan)));
   for (float a = 0; a < 8; a += 0.01f) EXPECT_NEAR(normal_of(-a), 1.0 - normal_of(a), 6e-8);
+}
+
+// All directions, at sizes from the least to the greatest, and both sides of the axes and the diagonals.
+TEST(Arithmetic, Arctangent) {
+  const FloatingPointMode mode;
+  double most = 0, most_relative = 0;
+  const auto look = [&](float a, float b) {
+    const double truth = std::atan2(static_cast<double>(a), static_cast<double>(b));
+    const double error = std::abs(arctangent_of(a, b) - truth);
+    most = std::max(most, error);
+    if (std::abs(truth) > 1e-30) most_relative = std::max(most_relative, error / std::abs(truth));
+  };
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> anywhere(-1, 1), power(-100, 100);
+  for (int i = 0; i < 3000000; ++i) look(anywhere(random), anywhere(random));
+  for (int i = 0; i < 1000000; ++i) {
+    const float size = std::exp2(power(random));
+    look(anywhere(random) * size, anywhere(random) * size);
+  }
+  for (float t = 1e-20f; t < 1e20f; t *= 1.001f) {
+    for (const float a : {t, -t}) {
+      for (const float b : {1.0f, -1.0f}) look(a, b);
+    }
+  }
+  for (int ulps = -50; ulps <= 50; ++ulps) {
+    look(std::bit_cast<float>(std::bit_cast<std::uint32_t>(0.7f) + static_cast<std::uint32_t>(ulps)), 0.7f);
+  }
+  std::printf("    worst error %.3g absolute, %.3g relative\n", most, most_relative);
+  EXPECT_LT(most, 3e-7);
+  EXPECT_LT(most_relative, 2e-7);
+}
+
+TEST(Arithmetic, ArctangentAtItsEdges) {
+  const float pi = 3.14159274f, quarter = 0.785398185f;
+  EXPECT_EQ(arctangent_of(0, 0), 0.0f);
+  for (const float zero : {0.0f, -0.0f}) {
+    EXPECT_EQ(arctangent_of(zero, 2), 0.0f);
+    EXPECT_EQ(arctangent_of(zero, -2), pi);
+    EXPECT_EQ(arctangent_of(zero, -zero), 0.0f);
+    EXPECT_EQ(arctangent_of(3, zero), pi / 2);
+    EXPECT_EQ(arctangent_of(-3, zero), -pi / 2);
+  }
+  EXPECT_FLOAT_EQ(arctangent_of(inf, inf), quarter);
+  EXPECT_FLOAT_EQ(arctangent_of(inf, -inf), 3 * quarter);
+  EXPECT_FLOAT_EQ(arctangent_of(-inf, -inf), -3 * quarter);
+  EXPECT_FLOAT_EQ(arctangent_of(inf, -1e30f), pi / 2);
+  EXPECT_EQ(arctangent_of(1, inf), 0.0f);
+  EXPECT_EQ(arctangent_of(1, -inf), pi);
+  for (const float other : {0.0f, 1.0f, -2.0f, inf, -inf, nan}) {
+    EXPECT_TRUE(std::isnan(arctangent_of(nan, other))) << other;
+    EXPECT_TRUE(std::isnan(arctangent_of(other, nan))) << other;
+  }
 }
 
 TEST(Arithmetic, FloorAndAbsoluteAndSquareRootAreExact) {

@@ -6,9 +6,12 @@
 #include <chrono>
 #include <cmath>
 
+#include "runtime/machine/floating_point_mode.hpp"
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
 #include "tests/schema/wpp_bytes.hpp"
+#include "wale/memory.hpp"
+#include "wale/picture.hpp"
 
 namespace wale {
 namespace {
@@ -51,9 +54,29 @@ void exercise(const Program& program) {
     tick_all(bank, {&hand, 1}, {&same, 1});
     ASSERT_EQ(force, same);
   }
+  Memory memory(program);
+  memory.enter(bank, {});
+  for (int i = 0; i < 5; ++i) {
+    const auto at = static_cast<float>(i);
+    const Force force = tick(bank, memory, {.position = {0.01f * at, -0.3f}, .raw_velocity = {at, -at}, .time = at});
+    ASSERT_LE(std::abs(force.x), most);
+    ASSERT_LE(std::abs(force.y), most);
+  }
+  const FloatingPointMode mode;  // in which a subnormal end of a range is 0
+  for (std::size_t i = 0; i < memory.states().size(); ++i) {
+    const State& state = program.description().states[i];
+    ASSERT_TRUE(memory.states()[i] >= state.low && memory.states()[i] <= state.high);
+  }
+  for (std::size_t i = 0; i < program.description().grids.size(); ++i) {
+    const Grid& grid = program.description().grids[i];
+    for (const float cell : memory.grid(i)) ASSERT_TRUE(cell >= grid.low && cell <= grid.high);
+  }
   float relief = 0;
+  glm::vec3 colour;
   const glm::vec2 position(0.01f, 0.02f);
   relief_all(bank, {&position, 1}, {&relief, 1});
+  surface_all(bank, &memory, {&position, 1}, {&relief, 1}, {&colour, 1});
+  ASSERT_EQ(show(bank, memory, {}).size(), program.description().picture.marks.size());
   for (std::size_t i = 0; i < program.description().percepts.size(); ++i) predict(bank, i, 1.0f);
 }
 

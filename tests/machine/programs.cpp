@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "runtime/machine/arithmetic.hpp"
 #include "tests/machine/running.hpp"
 
 namespace wale {
@@ -61,6 +62,8 @@ TEST(Machine, OperationsMeanWhatTheySay) {
   EXPECT_EQ(result(Operation::log2, 0.125f), -3.0f);
   EXPECT_NEAR(result(normal, 0.125f), 0.5 * std::erfc(-0.125 / std::numbers::sqrt2), 2e-7);
   EXPECT_EQ(result(limit, 0.125f, 0.0625f), 0.0625f);
+  EXPECT_NEAR(result(arctangent, 0.125f, -0.0625f), std::atan2(0.125, -0.0625), 3e-7);
+  EXPECT_EQ(result(hash, 0.125f, -0.0625f, 1.5f), hash_of(0, -1, 1));
 }
 
 // example::program(): amplitude 2 N, period 2 mm. |cos| exceeds cos(k) on 2 k / pi of its points, so its 99th
@@ -118,19 +121,57 @@ TEST(Machine, SizesThatMakeNoSenseAreReplaced) {
   EXPECT_EQ(bank.registers()[6], 0.001f);
 }
 
-TEST(Machine, HandIsHeldInTheEnvelope) {
+/// The number that a program sees in one input.
+float seen(Input input, const Hand& hand) {
   PatchProgram p = example::least();
-  p.constants = {0.0f, 10.0f};
-  p.temporaries = 2;
-  p.tick = {instruction(limit, 34, 0, 33), instruction(limit, 35, 3, 33)};
-  p.outputs = {{OutputQuantity::force, 0, 34, 33}, {OutputQuantity::force, 1, 35, 33}};
+  const auto number = static_cast<unsigned>(input);
+  p.tick = {instruction(limit, 34, number, 33)};
   Bank bank(loaded(p));
-  const float reach = 0.2286f, speed = 2.0f;
-  EXPECT_EQ(tick(bank, {{0.01f, 0}, {0, -0.5f}}), Force(0.01f, -0.5f));
-  EXPECT_EQ(tick(bank, {{5, 0}, {0, 5}}), Force(reach, speed));
-  EXPECT_EQ(tick(bank, {{-5, 0}, {0, -5}}), Force(-reach, -speed));
-  EXPECT_EQ(tick(bank, {{inf, 0}, {0, -inf}}), Force(reach, -speed));
-  EXPECT_EQ(tick(bank, {{nan, nan}, {nan, nan}}), Force(0, 0));
+  tick(bank, hand);
+  return bank.registers()[number];
+}
+
+TEST(Machine, HandIsHeldInTheEnvelope) {
+  const float reach = 0.2286f, speed = 2.0f, jolt = 1800.0f;  // 2 m/s in one tick of 900 Hz
+  const auto held = [](Input input, glm::vec2 Hand::*quantity, int axis, float most) {
+    const auto with = [&](float value) {
+      Hand hand;
+      (hand.*quantity)[axis] = value;
+      return seen(input, hand);
+    };
+    EXPECT_EQ(with(0.5f * most), 0.5f * most);
+    EXPECT_EQ(with(-most), -most);
+    for (const float beyond : {1.001f * most, 1e30f, inf}) {
+      EXPECT_EQ(with(beyond), most);
+      EXPECT_EQ(with(-beyond), -most);
+    }
+    EXPECT_EQ(with(nan), 0.0f);
+  };
+  for (const int axis : {0, 1}) {
+    const auto along = [axis](Input x) { return static_cast<Input>(static_cast<int>(x) + axis); };
+    held(along(Input::x), &Hand::position, axis, reach);
+    held(along(Input::velocity_x), &Hand::velocity, axis, speed);
+    held(along(Input::acceleration_x), &Hand::acceleration, axis, jolt);
+    held(along(Input::raw_velocity_x), &Hand::raw_velocity, axis, speed);
+    held(along(Input::raw_acceleration_x), &Hand::raw_acceleration, axis, jolt);
+    held(along(Input::workspace_x), &Hand::workspace, axis, reach);
+  }
+}
+
+TEST(Machine, TimeAndButtonArriveAsFiniteNumbers) {
+  const double endless = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(seen(Input::time, {.time = 12.5}), 12.5f);
+  EXPECT_EQ(seen(Input::time, {.time = -1}), 0.0f);
+  EXPECT_EQ(seen(Input::time, {.time = std::nan("")}), 0.0f);
+  EXPECT_EQ(seen(Input::time, {.time = endless}), std::numeric_limits<float>::max());
+  EXPECT_EQ(seen(Input::time, {.time = 1e300}), std::numeric_limits<float>::max());
+  EXPECT_EQ(seen(Input::button, {.button = true}), 1.0f);
+  EXPECT_EQ(seen(Input::button, {}), 0.0f);
+}
+
+TEST(Machine, PeriodIsThatOfTheDevice) {
+  const Bank bank(loaded(example::least()));
+  EXPECT_FLOAT_EQ(bank.registers()[18], 1.0f / 900);
 }
 
 TEST(Machine, PredictsFromTheProbe) {

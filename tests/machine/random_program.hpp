@@ -7,7 +7,8 @@
 namespace wale::example {
 
 /// A well-formed program of random instructions: constants of every kind, two parameters, setup with a peak, states and
-/// grids that every section uses as it may, a tick that mixes all operations, two outputs and marks. The same program for the same seed.
+/// grids that every section uses as it may, a tick that mixes all operations, two outputs and marks. The same program
+/// for the same seed.
 class RandomProgram {
  public:
   explicit RandomProgram(unsigned seed) : random_(seed) {}
@@ -25,7 +26,7 @@ class RandomProgram {
     }
     p.setup_registers = 12;
     p.temporaries = 24;
-    
+
     p.states = {{"one", -1.0f, 1.0f}, {"two", 0.25f, 3.0f}, {"three", -1e30f, 1e30f}, {"four", -2.0f, -1.0f}};
     p.grids = {{"field", 7, 5, 0.5f, -10.0f, 10.0f}, {"line", 1, 9, 0.0f, -1.0f, 1.0f}};
 

@@ -8,6 +8,7 @@
 
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
+#include "wale/memory.hpp"
 
 namespace {
 thread_local long allocations = 0;
@@ -26,6 +27,8 @@ namespace wale {
 namespace {
 
 static_assert(noexcept(tick(std::declval<Bank&>(), std::declval<const Hand&>())));
+static_assert(noexcept(tick(std::declval<Bank&>(), std::declval<Memory&>(), std::declval<const Hand&>())));
+static_assert(noexcept(std::declval<Memory&>().enter(std::declval<Bank&>(), std::declval<const Hand&>())));
 
 TEST(RealTime, TickAllocatesNothing) {
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -35,6 +38,14 @@ TEST(RealTime, TickAllocatesNothing) {
     ASSERT_GT(loaded, before) << "the counter counts";
     for (int i = 0; i < 1000; ++i) tick(bank, {{static_cast<float>(i) * 1e-4f, 0.01f}, {0.1f, 0}});
     ASSERT_EQ(allocations, loaded) << seed;
+    Memory memory(bank.program());
+    const long made = allocations;
+    for (int i = 0; i < 1000; ++i) {
+      const Hand hand{{static_cast<float>(i) * 1e-4f, 0.01f}, {0.1f, 0}};
+      if (i % 100 == 0) memory.enter(bank, hand);
+      tick(bank, memory, hand);
+    }
+    ASSERT_EQ(allocations, made) << seed;
   }
 }
 

@@ -126,8 +126,8 @@ TEST(Verification, InputsBelongToSections) {
     for (RegisterNumber input = 0; input < first_constant; ++input) {
       PatchProgram p = program();
       place_of(p) = instruction(add, place_of(p).destination, input, input);
-      const std::string refusal = section + " 0 `add` reads input " + std::to_string(input) + ", which " + section +
-                                  " does not have";
+      const std::string refusal =
+          section + " 0 `add` reads input " + std::to_string(input) + ", which " + section + " does not have";
       EXPECT_EQ(refusal_of(p), legal.contains(input) ? "" : refusal) << section << " " << input;
     }
   };
@@ -291,7 +291,7 @@ TEST(Verification, Device) {
 TEST(Verification, Percepts) {
   EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].name.clear(); }), "percept 0 has no name");
   EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].parameter = 2; }), "percept 0 is set by parameter 2 of 2");
-  for (const RegisterNumber amplitude : {0, 4, 43, 60}) {
+  for (const RegisterNumber amplitude : {0, 4, 42, 43, 60}) {
     PatchProgram p = program();
     p.percepts[0].amplitude = amplitude;
     EXPECT_EQ(refusal_of(p), "percept 0 finds its amplitude in register " + std::to_string(amplitude) +

@@ -157,7 +157,7 @@ TEST(Exhibit, ProfilesAreThePrograms) {
   for (std::size_t i = 0; i < 11; ++i) EXPECT_NEAR(against.values[i], -3 * against.at[i], 1e-6);
   const Bank grating = sine_grating(0.004f, 2);
   const Exhibit exhibit = exhibit_of(grating);
-  const Profile force = force_along(grating, exhibit, 0, 101), height = height_along(grating, exhibit, 101);
+  const Profile force = force_along(grating, exhibit, 0, 101), height = height_along(grating, nullptr, exhibit, 101);
   for (std::size_t i = 0; i < 101; ++i) {
     EXPECT_NEAR(force.values[i], -2 * std::cos(2 * pi * force.at[i] / 0.004), 1e-4);
     EXPECT_NEAR(height.values[i], 0.5 + 0.5 * std::sin(2 * pi * height.at[i] / 0.004), 1e-4);

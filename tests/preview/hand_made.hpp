@@ -41,9 +41,14 @@ class HandMade {
   }
   RegisterNumber add(std::vector<Instruction>& code, Operation operation, RegisterNumber a, RegisterNumber b = 0,
                      RegisterNumber c = 0) {
-    const auto result = static_cast<RegisterNumber>(first_constant + constant_count + program.temporaries++);
+    const auto result = static_cast<RegisterNumber>(program.first_temporary() + program.temporaries++);
     code.push_back({static_cast<std::uint8_t>(operation), result, a, b, c});
     return result;
+  }
+  /// A state; all of them before the first `add`, since temporaries lie behind them.
+  RegisterNumber add_state(const State& state) {
+    program.states.push_back(state);
+    return static_cast<RegisterNumber>(program.first_temporary() - 1);
   }
   void push(RegisterNumber x, RegisterNumber y, float most) {
     const RegisterNumber ceiling = constant(most);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace wale::reference {
@@ -66,55 +67,60 @@ Dimension sum(const Dimension& a, const Dimension& b, double factor = 1) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-/// One part of a quantity, and its bound.
-struct Part {
+/// One component of a quantity, and its bound.
+struct Component {
   double value, error;
 };
-Part part(const Quantity& of, int i) { return {of.value[i], of.error[i]}; }
+Component part(const Quantity& of, int i) { return {of.value[i], of.error[i]}; }
 
 /// Rounds a result: what comes in as its error came from the operands.
-Part rounded(double value, double error, double by = rounding) {
+Component rounded(double value, double error, double by = rounding) {
   // Beyond these a float is infinite or flushed to zero.
   if (!std::isfinite(value) || !std::isfinite(error) || std::abs(value) > 1e37) throw Undecided{};
   if (value != 0 && std::abs(value) < 1e-36) throw Undecided{};
   return {value, error + by * std::abs(value)};
 }
 
-Part add(Part a, Part b) { return rounded(a.value + b.value, a.error + b.error); }
-Part negated(Part a) { return {-a.value, a.error}; }
-Part multiply(Part a, Part b) {
+Component add(Component a, Component b) { return rounded(a.value + b.value, a.error + b.error); }
+Component negated(Component a) { return {-a.value, a.error}; }
+Component multiply(Component a, Component b) {
   return rounded(a.value * b.value, std::abs(a.value) * b.error + std::abs(b.value) * a.error + a.error * b.error);
 }
-Part divide(Part a, Part b) {
+Component divide(Component a, Component b) {
   const double least = std::abs(b.value) - b.error;
   if (least <= 0.1 * std::abs(b.value)) throw Undecided{};
   return rounded(a.value / b.value, (a.error + std::abs(a.value / b.value) * b.error) / least);
 }
-Part square_root(Part a) {
+Component square_root(Component a) {
   if (a.value <= 2 * a.error) throw Undecided{};
   return rounded(std::sqrt(a.value), a.error / std::sqrt(a.value - a.error));
 }
 /// A function whose slope is at most `slope` near the argument.
-Part smooth(double value, Part argument, double slope) {
+Component smooth(double value, Component argument, double slope) {
   return rounded(value, argument.error * slope + function_rounding, function_rounding);
 }
-Part exponential(Part a, double base) {  // base^a
+Component exponential(Component a, double base) {  // base^a
   const double log_base = std::log(base), value = std::pow(base, a.value);
   return rounded(
       value, value * std::expm1(std::abs(log_base) * a.error + function_rounding * (1 + std::abs(a.value * log_base))));
 }
-Part logarithm(Part a, double base) {
+Component logarithm(Component a, double base) {
   if (a.value <= 2 * a.error) throw Undecided{};
   const double value = std::log(a.value) / std::log(base);
   return rounded(value, a.error / (a.value - a.error) / std::log(base) + function_rounding, 2 * function_rounding);
 }
-bool less(Part a, Part b) {
+bool less(Component a, Component b) {
   if (std::abs(a.value - b.value) <= a.error + b.error) throw Undecided{};
   return a.value < b.value;
 }
-Part smaller(Part a, Part b) { return {std::min(a.value, b.value), std::max(a.error, b.error)}; }
-Part larger(Part a, Part b) { return {std::max(a.value, b.value), std::max(a.error, b.error)}; }
-Part floor_of(Part a) {
+/// Where it is beyond doubt which one it is, the other's error does not matter.
+Component smaller(Component a, Component b) {
+  if (a.value + a.error < b.value - b.error) return a;
+  if (b.value + b.error < a.value - a.error) return b;
+  return {std::min(a.value, b.value), std::max(a.error, b.error)};
+}
+Component larger(Component a, Component b) { return negated(smaller(negated(a), negated(b))); }
+Component floor_of(Component a) {
   const double up = std::ceil(a.value) - a.value, down = a.value - std::floor(a.value);
   if (std::min(up, down) <= a.error && a.error > 0) throw Undecided{};
   return {std::floor(a.value), 0};
@@ -151,6 +157,11 @@ class Evaluator {
 
   Quantity operator()(const Unary& node, const Names& names) {
     Quantity result = evaluate(node.operand, names);
+    if (node.op == UnaryOperator::complement) {
+      require(result.type == Quantity::Type::condition, "not before no condition");
+      result.value[0] = 1 - result.value[0];
+      return result;
+    }
     require(result.type != Quantity::Type::condition, "a sign before a condition");
     if (node.op == UnaryOperator::negate)
       for (double& value : result.value) value = -value;
@@ -164,11 +175,13 @@ class Evaluator {
       case BinaryOperator::divide: return product(a, b, true);
       case BinaryOperator::power: return raised(a, b);
       case BinaryOperator::add: return parts(a, b, add);
-      case BinaryOperator::subtract: return parts(a, b, [](Part p, Part q) { return add(p, negated(q)); });
+      case BinaryOperator::subtract: return parts(a, b, [](Component p, Component q) { return add(p, negated(q)); });
       case BinaryOperator::less: return compared(a, b, true, true);
       case BinaryOperator::less_equal: return compared(a, b, true, false);
       case BinaryOperator::greater: return compared(a, b, false, true);
       case BinaryOperator::greater_equal: return compared(a, b, false, false);
+      case BinaryOperator::conjunction: return joined(a, b, true);
+      case BinaryOperator::disjunction: return joined(a, b, false);
     }
     throw std::runtime_error("an operator");
   }
@@ -200,6 +213,22 @@ class Evaluator {
     return built_in(node.callee.text, arguments);
   }
 
+  Quantity operator()(const Part& node, const Names& names) {
+    return component(evaluate(node.whole, names), node.part);
+  }
+
+  static Quantity component(const Quantity& whole, char which) {
+    require(whole.type == Quantity::Type::vector, "a part of no vector");
+    const int i = which == 'x' ? 0 : 1;
+    return {Quantity::Type::number, {whole.value[i], 0}, {whole.error[i], 0}, whole.dimension};
+  }
+
+  static Quantity joined(const Quantity& a, const Quantity& b, bool both) {
+    require(a.type == Quantity::Type::condition && b.type == Quantity::Type::condition, "no conditions");
+    const bool p = a.value[0] != 0, q = b.value[0] != 0;
+    return {Quantity::Type::condition, {(both ? p && q : p || q) ? 1.0 : 0.0, 0}, {}, {}};
+  }
+
   Quantity operator()(const TextLiteral&, const Names&) { throw std::runtime_error("a text"); }
   Quantity operator()(const Erroneous&, const Names&) { throw std::runtime_error("an error"); }
 
@@ -209,7 +238,14 @@ class Evaluator {
     if (name == "y") return number(hand_.y, {1, 0, 0}, 0);
     if (name == "hand") return {Quantity::Type::vector, {hand_.x, hand_.y}, {}, {1, 0, 0}};
     if (name == "velocity") return {Quantity::Type::vector, {hand_.vx, hand_.vy}, {}, {1, 0, -1}};
+    if (name == "acceleration") return {Quantity::Type::vector, {hand_.ax, hand_.ay}, {}, {1, 0, -2}};
+    if (name == "time") return number(hand_.time, {0, 0, 1});
+    if (name == "dt") return number(hand_.seconds_per_tick, {0, 0, 1});
+    if (name == "button") return {Quantity::Type::condition, {hand_.button ? 1.0 : 0.0, 0}, {}, {}};
+    if (name == "true" || name == "false") return {Quantity::Type::condition, {name == "true" ? 1.0 : 0.0, 0}, {}, {}};
     if (name == "pi") return number(std::acos(-1.0));
+    if (const auto dot = name.rfind('.'); dot != std::string::npos)
+      return component(lookup(name.substr(0, dot), names), name.back());
     for (const auto& declaration : tree_.declarations)
       if (const auto* constant = std::get_if<Constant>(&declaration); constant && constant->name.text == name)
         return evaluate(constant->value, {});
@@ -221,14 +257,14 @@ class Evaluator {
     require(a.type == b.type && a.type != Quantity::Type::condition && a.dimension == b.dimension, "unlike operands");
     Quantity result = a;
     for (int i = 0; i < (a.type == Quantity::Type::vector ? 2 : 1); ++i) {
-      const Part p = f(part(a, i), part(b, i));
+      const Component p = f(part(a, i), part(b, i));
       result.value[i] = p.value;
       result.error[i] = p.error;
     }
     return result;
   }
 
-  Quantity of(Part part, const Dimension& dimension = {}) {
+  Quantity of(Component part, const Dimension& dimension = {}) {
     return {Quantity::Type::number, {part.value, 0}, {part.error, 0}, dimension};
   }
 
@@ -241,9 +277,9 @@ class Evaluator {
     result.type = vector ? Quantity::Type::vector : Quantity::Type::number;
     result.dimension = sum(a.dimension, b.dimension, divides ? -1 : 1);
     for (int i = 0; i < (vector ? 2 : 1); ++i) {
-      const Part left = part(a, a.type == Quantity::Type::vector ? i : 0);
-      const Part right = part(b, b.type == Quantity::Type::vector ? i : 0);
-      const Part p = divides ? divide(left, right) : multiply(left, right);
+      const Component left = part(a, a.type == Quantity::Type::vector ? i : 0);
+      const Component right = part(b, b.type == Quantity::Type::vector ? i : 0);
+      const Component p = divides ? divide(left, right) : multiply(left, right);
       result.value[i] = p.value;
       result.error[i] = p.error;
     }
@@ -265,7 +301,7 @@ class Evaluator {
     const Dimension dimension = sum({}, base.dimension, power);
     if (power == 0.5) return of(square_root(part(base, 0)), dimension);
     if (power == std::floor(power) && std::abs(power) <= 16) {
-      Part product{1, 0};
+      Component product{1, 0};
       for (int i = 0; i < std::abs(power); ++i) product = multiply(product, part(base, 0));
       return of(power < 0 ? divide({1, 0}, product) : product, dimension);
     }
@@ -291,6 +327,40 @@ class Evaluator {
       for (const auto& argument : arguments) require(argument.dimension == arguments[0].dimension, "unlike arguments");
     };
     constexpr double e = 2.718281828459045;
+    if (name == "atan2") {
+      alike();
+      const Component y = scalar(0), x = scalar(1);
+      const double size = std::hypot(x.value, y.value), error = x.error + y.error;
+      // At the cut the angle jumps by a whole turn; near the middle it is anything.
+      if (size <= 4 * error || (x.value < 0 && std::abs(y.value) <= y.error)) throw Undecided{};
+      return of(rounded(std::atan2(y.value, x.value), error / (size - 2 * error) + function_rounding));
+    }
+    if (name == "sign") {
+      if (std::abs(scalar(0).value) <= scalar(0).error) throw Undecided{};
+      return of({scalar(0).value > 0 ? 1.0 : -1.0, 0});
+    }
+    if (name == "round") return of(floor_of(add(plain(0), {0.5, 0})));
+    if (name == "ceil") return of(negated(floor_of(negated(plain(0)))));
+    if (name == "fract") return of(add(plain(0), negated(floor_of(plain(0)))));
+    if (name == "tanh") return of(smooth(std::tanh(plain(0).value), plain(0), 1));
+    if (name == "mix") {
+      const Quantity rise =
+          parts(arguments.at(1), arguments.at(0), [](Component p, Component q) { return add(p, negated(q)); });
+      return parts(arguments[0], product(rise, of(plain(2)), false), add);
+    }
+    if (name == "rotate") {
+      require(arguments.at(0).type == Quantity::Type::vector, "a vector is due");
+      const Component cosine = smooth(std::cos(plain(1).value), plain(1), 1),
+                      sine = smooth(std::sin(plain(1).value), plain(1), 1);
+      const Component vx = part(arguments[0], 0), vy = part(arguments[0], 1);
+      const Component x = add(multiply(vx, cosine), negated(multiply(vy, sine)));
+      const Component y = add(multiply(vx, sine), multiply(vy, cosine));
+      return {Quantity::Type::vector, {x.value, y.value}, {x.error, y.error}, dimension(0)};
+    }
+    if (name == "normalise") {
+      const Component size = square_root(dot(arguments.at(0), arguments.at(0)));
+      return product(arguments[0], of(size, dimension(0)), true);
+    }
     if (name == "abs") return of({std::abs(scalar(0).value), scalar(0).error}, dimension(0));
     if (name == "floor") return of(floor_of(plain(0)));
     if (name == "sqrt") return of(square_root(scalar(0)), sum({}, dimension(0), 0.5));
@@ -310,12 +380,12 @@ class Evaluator {
       return of(smaller(larger(scalar(0), scalar(1)), scalar(2)), dimension(0));
     }
     if (name == "smoothstep") {
-      const Part t = smaller(larger(plain(0), {0, 0}), {1, 0});
+      const Component t = smaller(larger(plain(0), {0, 0}), {1, 0});
       return of(multiply(multiply(t, t), add({3, 0}, negated(multiply({2, 0}, t)))));
     }
     if (name == "modulo") {
       alike();
-      const Part whole = floor_of(divide(scalar(0), scalar(1)));
+      const Component whole = floor_of(divide(scalar(0), scalar(1)));
       return of(add(scalar(0), negated(multiply(scalar(1), whole))), dimension(0));
     }
     if (name == "vector") {
@@ -340,32 +410,105 @@ class Evaluator {
   HandState hand_;
 };
 
+/// Range of a state, in the dimension of its initial value; wide where it has none of its own.
+std::array<double, 2> range_of(Evaluator& evaluator, const StateStatement& state, const Names& names) {
+  if (!state.range) return {-1e30, 1e30};
+  return {evaluator.evaluate(state.range->low, names).value[0], evaluator.evaluate(state.range->high, names).value[0]};
+}
+
+/// Each part of a state's new value by itself.
+Quantity held(Quantity value, Evaluator& evaluator, const StateStatement& state, const Names& names) {
+  const auto [low, high] = range_of(evaluator, state, names);
+  for (int i = 0; i < (value.type == Quantity::Type::vector ? 2 : 1); ++i) {
+    const Component within =
+        larger(smaller(part(value, i), {high, std::abs(high) * rounding}), {low, std::abs(low) * rounding});
+    value.value[i] = within.value;
+    value.error[i] = within.error;
+  }
+  return value;
+}
+
+const MaterialDecl& only_material(const SyntaxTree& tree) {
+  for (const auto& declaration : tree.declarations)
+    if (const auto* material = std::get_if<MaterialDecl>(&declaration)) return *material;
+  throw std::runtime_error("no material");
+}
+
 }  // namespace
 
-Quantity force(const SyntaxTree& tree, const HandState& hand, const std::map<std::string, double>& parameters) {
-  Evaluator evaluator(tree, hand);
-  for (const auto& declaration : tree.declarations) {
-    const auto* material = std::get_if<MaterialDecl>(&declaration);
-    if (!material) continue;
-    Names names;
-    for (const auto& statement : material->physical) {
-      if (const auto* param = std::get_if<ParamStatement>(&statement.what)) {
-        Quantity value = evaluator.evaluate(param->value, names);
-        // What is set is a float already.
-        if (const auto set = parameters.find(param->name.text); set != parameters.end())
-          value = number(set->second, value.dimension, 0);
-        names[param->name.text] = value;
-      }
-      if (const auto* let = std::get_if<LetStatement>(&statement.what))
-        names[let->name.text] = evaluator.evaluate(let->value, names);
-      if (const auto* force = std::get_if<ForceStatement>(&statement.what)) {
-        const Quantity result = evaluator.evaluate(force->value, names);
-        require(result.type == Quantity::Type::vector && result.dimension == Dimension{1, 1, -2}, "no force");
-        return result;
-      }
+Simulation::Simulation(const SyntaxTree& tree, std::map<std::string, double> parameters)
+    : tree_(tree), parameters_(std::move(parameters)) {}
+
+void Simulation::enter(const HandState& hand) {
+  states_.clear();
+  tick(hand, true);
+}
+
+Quantity Simulation::tick(const HandState& hand) { return tick(hand, false); }
+
+Quantity Simulation::tick(const HandState& hand, bool entering) {
+  Evaluator evaluator(tree_, hand);
+  Names names;
+  std::optional<Quantity> sum;
+  const auto& statements = only_material(tree_).physical;
+  // Everything but the updates reads the states as they are now.
+  for (const auto& statement : statements) {
+    if (const auto* param = std::get_if<ParamStatement>(&statement.what)) {
+      Quantity value = evaluator.evaluate(param->value, names);
+      // What is set is a float already.
+      if (const auto set = parameters_.find(param->name.text); set != parameters_.end())
+        value = number(set->second, value.dimension, 0);
+      names[param->name.text] = value;
+    }
+    if (const auto* let = std::get_if<LetStatement>(&statement.what))
+      names[let->name.text] = evaluator.evaluate(let->value, names);
+    if (const auto* state = std::get_if<StateStatement>(&statement.what)) {
+      if (entering) states_[state->name.text] = held(evaluator.evaluate(state->value, names), evaluator, *state, names);
+      names[state->name.text] = states_.at(state->name.text);
+    }
+    if (const auto* force = std::get_if<ForceStatement>(&statement.what)) {
+      const Quantity term = evaluator.evaluate(force->value, names);
+      require(term.type == Quantity::Type::vector && term.dimension == Dimension{1, 1, -2}, "no force");
+      if (force->name) names[force->name->text] = term;
+      if (sum)
+        for (int i = 0; i < 2; ++i) {
+          const Component added = add(part(*sum, i), part(term, i));
+          sum->value[i] = added.value;
+          sum->error[i] = added.error;
+        }
+      else
+        sum = term;
     }
   }
-  throw std::runtime_error("no material with a force");
+  if (entering) return {};
+  // Updates run in order, and a state updated above reads as its new value.
+  Names updating = names;
+  for (const auto& statement : statements)
+    if (const auto* update = std::get_if<UpdateStatement>(&statement.what)) {
+      const Quantity before = names.at(update->name.text), change = evaluator.evaluate(update->value, updating);
+      Quantity after = change;
+      for (int i = 0; i < (before.type == Quantity::Type::vector ? 2 : 1); ++i) {
+        Component next = part(change, i);
+        if (update->derivative)
+          next = add(part(before, i), multiply(next, {hand.seconds_per_tick, hand.seconds_per_tick * rounding}));
+        after.value[i] = next.value;
+        after.error[i] = next.error;
+      }
+      after.dimension = before.dimension;
+      for (const auto& other : statements)
+        if (const auto* state = std::get_if<StateStatement>(&other.what);
+            state && state->name.text == update->name.text)
+          after = held(after, evaluator, *state, names);
+      updating[update->name.text] = states_[update->name.text] = after;
+    }
+  require(sum.has_value(), "no material with a force");
+  return *sum;
+}
+
+Quantity force(const SyntaxTree& tree, const HandState& hand, const std::map<std::string, double>& parameters) {
+  Simulation simulation(tree, parameters);
+  simulation.enter(hand);
+  return simulation.tick(hand);
 }
 
 }  // namespace wale::reference

@@ -36,16 +36,24 @@ TEST(Allocation, IsNoticed) {
 }
 
 TEST(Allocation, ABeatNeitherAllocatesNorFreesEvenWhenABankArrives) {
-  SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.04, 1});
-  Exchange<PlacedPatch> patches;
-  Record record;
-  Player player(joystick, patches, record, 2000);
-  const Program program = corduroy(1.934f);
-  for (long period = 0; period < 2000; ++period) {
-    if (period % 7 == 0) patches.publish({Bank(program), glm::vec2(0)});
-    const long before = allocations + releases;
-    player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
-    ASSERT_EQ(allocations + releases, before) << period;
+  for (const Program& program : {corduroy(1.934f), bead(500)}) {
+    SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});  // in and out of the patch
+    Exchange<PlacedPatch> patches;
+    Record record;
+    Player player(joystick, patches, record, 2000);
+    auto memory = std::make_shared<Memory>(program);
+    long entered = 0, inside = 0;
+    for (long period = 0; period < 2000; ++period) {
+      if (period % 50 == 0) memory = std::make_shared<Memory>(program);
+      if (period % 7 == 0) patches.publish({Bank(program), glm::vec2(0), memory});
+      const long before = allocations + releases;
+      player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
+      ASSERT_EQ(allocations + releases, before) << period;
+      entered += record.ticks[period].inside && period > 0 && !record.ticks[period - 1].inside;
+      inside += record.ticks[period].inside;
+    }
+    EXPECT_GT(entered, 0);
+    EXPECT_GT(inside, 500);
   }
 }
 

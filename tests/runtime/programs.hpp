@@ -9,7 +9,8 @@
 
 namespace wale {
 
-/// Writes small patch programs by hand. Constants come first, so they are all named before the first operation.
+/// Writes small patch programs by hand. Constants come first, so they are all named before the first operation. An
+/// operation of several results is named by the first.
 class Assembly {
  public:
   explicit Assembly(std::vector<float> constants, std::vector<Parameter> parameters = {}) {
@@ -25,12 +26,28 @@ class Assembly {
   RegisterNumber constant(unsigned i) const { return static_cast<RegisterNumber>(first_constant + i); }
   RegisterNumber parameter(unsigned i) const { return static_cast<RegisterNumber>(program.first_parameter() + i); }
 
-  /// Appends an operation to `code` and returns the temporary that it writes.
+  /// Declares a state, before the first operation.
+  RegisterNumber state(std::string name, float low, float high) {
+    program.states.push_back({std::move(name), low, high});
+    return static_cast<RegisterNumber>(program.first_state() + program.states.size() - 1);
+  }
+  /// What the state of that register begins with and becomes.
+  void evolve(RegisterNumber state, RegisterNumber initial, RegisterNumber next) {
+    State& evolving = program.states.at(state - program.first_state());
+    evolving.initial = initial;
+    evolving.next = next;
+  }
+
+  /// Appends an operation to `code` and returns the temporary that it writes first.
   RegisterNumber operator()(std::vector<Instruction>& code, Operation operation, RegisterNumber a, RegisterNumber b = 0,
                             RegisterNumber c = 0) {
-    const auto result = static_cast<RegisterNumber>(program.first_temporary() + program.temporaries++);
+    const auto result = static_cast<RegisterNumber>(program.first_temporary() + program.temporaries);
+    program.temporaries = static_cast<std::uint16_t>(program.temporaries + facts(operation).results);
     code.push_back({static_cast<std::uint8_t>(operation), result, a, b, c});
     return result;
+  }
+  RegisterNumber enter(Operation operation, RegisterNumber a, RegisterNumber b = 0, RegisterNumber c = 0) {
+    return (*this)(program.enter, operation, a, b, c);
   }
   RegisterNumber tick(Operation operation, RegisterNumber a, RegisterNumber b = 0, RegisterNumber c = 0) {
     return (*this)(program.tick, operation, a, b, c);
@@ -75,6 +92,28 @@ inline Program push(float force, float ceiling = 9) {
   Assembly a({ceiling, 0}, {{"push", "mN", 1e-3, force, -20, 20, -20, 20, ""}});
   a.push(0, a.parameter(0), a.constant(0));
   a.push(1, a.constant(1), a.constant(0));
+  return a.load();
+}
+
+/// A bead of 1 kg that hangs on the hand by a spring of the parameter `stiffness` (N/m) and starts where the hand
+/// enters, at rest; its place and speed follow by semi-implicit Euler. The hand feels the spring. The bead presses its
+/// place into a track of 9 cells, 2.5 mm wide each, the middle one at the patch's centre.
+inline Program bead(float stiffness) {
+  Assembly a({9, 1, 0, 400, 4}, {{"stiffness", "N/m", 1, stiffness, 0, 1e6f, 0, 1e6f, ""}});
+  const RegisterNumber place = a.state("place", -1, 1), speed = a.state("speed", -10, 10);
+  a.program.grids = {{"track", 9, 1, 0, 0, 1}};
+  const RegisterNumber stretch = a.tick(Operation::subtract, a.input(Input::x), place);
+  const RegisterNumber pull = a.tick(Operation::multiply, stretch, a.parameter(0));
+  const RegisterNumber step = a.tick(Operation::multiply, pull, a.input(Input::seconds_per_tick));
+  const RegisterNumber faster = a.tick(Operation::add, speed, step);
+  const RegisterNumber moved = a.tick(Operation::multiply, faster, a.input(Input::seconds_per_tick));
+  a.evolve(place, a.input(Input::x), a.tick(Operation::add, place, moved));
+  a.evolve(speed, a.constant(2), faster);
+  const RegisterNumber column =
+      a.tick(Operation::add, a.tick(Operation::multiply, place, a.constant(3)), a.constant(4));
+  a.program.writes = {{0, column, a.constant(2), a.constant(1)}};
+  a.push(0, a.tick(Operation::negate, pull), a.constant(0));
+  a.push(1, a.constant(2), a.constant(0));
   return a.load();
 }
 

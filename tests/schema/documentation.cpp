@@ -62,10 +62,10 @@ TEST(Documentation, ListsEverySectionInOrder) {
 
 // Numbers never change: those of the format's first version, by hand.
 TEST(Documentation, NumbersNeverChange) {
-  const std::vector<std::string_view> names = {
-      "add",  "subtract", "multiply", "divide", "negate", "absolute", "minimum", "maximum", "floor",  "square_root",
-      "less", "select",   "sine",     "cosine", "exp2",   "log2",     "normal",  "limit",   "sample", "peak",
-      "arctangent", "hash", "recall", "cell"};
+  const std::vector<std::string_view> names = {"add",     "subtract", "multiply",   "divide",      "negate", "absolute",
+                                               "minimum", "maximum",  "floor",      "square_root", "less",   "select",
+                                               "sine",    "cosine",   "exp2",       "log2",        "normal", "limit",
+                                               "sample",  "peak",     "arctangent", "hash",        "recall", "cell"};
   EXPECT_FALSE(operation_facts(0));
   for (unsigned number = 1; number <= names.size(); ++number) {
     ASSERT_TRUE(operation_facts(number));

@@ -31,8 +31,8 @@ inline DeviceProfile device() {
   return device;
 }
 
-/// A sinusoidal grating of a live period whose force has a live amplitude, with a table, a state, grids, marks, a percept
-/// and layers: a program in which no part of the format is empty.
+/// A sinusoidal grating of a live period whose force has a live amplitude, with a table, a state, grids, marks, a
+/// percept and layers: a program in which no part of the format is empty.
 ///
 ///   height = sine(2 pi x / period);  force x = -amplitude * slope / peak(|slope|), limited;  force y = 0, limited
 inline PatchProgram program() {

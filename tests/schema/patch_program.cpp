@@ -49,7 +49,8 @@ TEST(PatchProgram, FileIsLaidOutAsDocumented) {
   EXPECT_EQ(wpp::get(bytes, 16, 8), bytes.size());
   std::string kinds;
   for (const auto& section : wpp::sections_of(bytes)) kinds += section.kind + (section.flags != 0 ? "! " : "? ");
-  EXPECT_EQ(kinds, "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? LAYR? ");
+  EXPECT_EQ(kinds,
+            "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? LAYR? ");
 }
 
 TEST(PatchProgram, WhatIsNotThereIsLeftOut) {
@@ -87,7 +88,8 @@ TEST(PatchProgram, StatesGridsAndMarksAreLaidOutAsDocumented) {
   wpp::append_text(grids, "dot");
   wpp::append(grids, 1, 4);
   wpp::append(grids, 1, 4);
-  for (const std::uint32_t figure : {0xbf800000u, 0xc0000000u, 0x40000000u}) wpp::append(grids, figure, 4);  // -1, -2, 2
+  for (const std::uint32_t figure : {0xbf800000u, 0xc0000000u, 0x40000000u})
+    wpp::append(grids, figure, 4);  // -1, -2, 2
   wpp::append(grids, 2, 4);
   for (const int number : {0, 43, 1, 44, 1, 34, 34, 42}) wpp::append(grids, number, 2);
   EXPECT_EQ(content("GRID"), grids);

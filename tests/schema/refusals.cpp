@@ -150,7 +150,8 @@ TEST(Refusals, ContentThatEndsEarlyOrLate) {
 }
 
 TEST(Refusals, CountsBeyondTheFile) {
-  for (const std::string kind : {"CONS", "PARM", "SETU", "PEAK", "STAT", "GRID", "TICK", "OUTP", "FRAM", "TABL", "PERC", "LAYR"}) {
+  for (const std::string kind :
+       {"CONS", "PARM", "SETU", "PEAK", "STAT", "GRID", "TICK", "OUTP", "FRAM", "TABL", "PERC", "LAYR"}) {
     for (const std::uint32_t count : {0xffffffffu, 0x20000000u, 100000u}) {
       const std::string reason = refusal_of_content(kind, [count](Bytes& b) { wpp::put(b, 0, count, 4); });
       EXPECT_EQ(reason.substr(0, 20), "section " + kind + " claims ") << reason;

@@ -14,6 +14,7 @@ struct Reading {
   /// N, what the hand exerts on the handle, averaged over the period that just ended: it contains inertia and friction.
   /// Not-a-number where the device has no way to know.
   Force interaction{std::numeric_limits<float>::quiet_NaN()};
+  bool button = false;  ///< the device's button is pressed
 };
 
 /// A force-feedback joystick: position in, force out. One thread at a time uses it.

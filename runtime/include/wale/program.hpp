@@ -12,12 +12,12 @@
 
 namespace wale {
 
-/// The hand as a patch program sees it, in m, m/s and m/s^2. Whatever stands here, a program sees finite numbers: position
-/// and workspace within plus and minus the workspace's diameter, velocities within the device's speed limit,
+/// The hand as a patch program sees it, in m, m/s and m/s^2. Whatever stands here, a program sees finite numbers:
+/// position and workspace within plus and minus the workspace's diameter, velocities within the device's speed limit,
 /// accelerations within that speed in one tick, time from 0 on, and 0 for not-a-number.
 struct Hand {
-  glm::vec2 position{0.0f};  ///< from the patch's centre
-  glm::vec2 velocity{0.0f};  ///< filtered
+  glm::vec2 position{0.0f};          ///< from the patch's centre
+  glm::vec2 velocity{0.0f};          ///< filtered
   glm::vec2 acceleration{0.0f};      ///< filtered
   glm::vec2 raw_velocity{0.0f};      ///< plain differences of positions
   glm::vec2 raw_acceleration{0.0f};  ///< plain differences of those

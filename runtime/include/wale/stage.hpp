@@ -40,11 +40,12 @@ struct Lateness {
   double p50 = 0, p99 = 0, maximum = 0;
 };
 
-/// On how many ticks each guard changed the force.
+/// On how many ticks each guard changed the force, and what the program's own memory had to mend.
 struct GuardCounts {
   long not_a_number = 0;  ///< the program's force was none, so zero
   long device_limit = 0;  ///< beyond the device's peak force on an axis
   long slew = 0;          ///< held back after a start, an entry, a leaving or a change of bank
+  long restored = 0;      ///< times that a state was not a number, so its initial value
 };
 
 struct RunResult {
@@ -69,7 +70,8 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
 
   /// Puts a patch with its centre at `position` (m from the workspace's centre), in place of the one before, its
-  /// parameters at their defaults. Its own size unless one is given.
+  /// parameters at their defaults and its memory new. Its own size unless one is given. Parameters that are set later
+  /// leave the memory as it is; each run begins with a new one.
   void place(const Program& program, glm::vec2 position = glm::vec2(0.0f));
   void place(const Program& program, glm::vec2 position, PatchSize size);
 

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "compiler/open_file.hpp"
+
+namespace wale {
+
+/// What became of one material of a collection.
+struct BuiltMaterial {
+  std::string material;
+  std::string path;         ///< of the program that was written; empty when there is none
+  std::size_t bytes = 0;    ///< of it
+  std::string problem;      ///< why the program could not be written; empty when it was, or did not compile
+  Diagnostics diagnostics;  ///< of this material alone
+};
+
+struct BuiltCollection {
+  std::string refusal;  ///< why nothing was begun; else empty
+  std::vector<BuiltMaterial> materials;
+
+  std::size_t built() const;
+};
+
+/// Builds every material of an opened Wale file that has no errors to FOLDER/NAME.wpp, one after the other; one that
+/// fails does not keep the others from being built. Makes the folder where there is none. Files that are there already
+/// are replaced.
+BuiltCollection build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder);
+
+}  // namespace wale

@@ -1,0 +1,105 @@
+#include "compiler/check_files.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "compiler/apply_fixes.hpp"
+#include "compiler/compile.hpp"
+#include "compiler/replace_file.hpp"
+
+namespace wale {
+namespace {
+
+/// A fix may uncover another, and a file tells its first hundred errors at a time; no file that people write needs half
+/// of this.
+constexpr int most_rounds = 20;
+/// A file that imports another has more to say once the other is mended.
+constexpr int most_passes = 3;
+
+/// All that is wrong with one text.
+Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<std::string>& roots) {
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver(roots);
+  const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+  if (diagnostics.has_errors()) return diagnostics;
+  for (const auto& material : module.materials) {
+    Diagnostics of_material;
+    compile_material(module, material.name, default_device, sources, source, *resolver, of_material);
+    for (const auto& diagnostic : of_material.all()) diagnostics.report(diagnostic);
+  }
+  return diagnostics;
+}
+
+/// Mends a text as far as it goes; adds what was done to `mends`.
+std::string mended(const std::string& file, std::string text, const std::vector<std::string>& roots,
+                   std::vector<Mend>& mends) {
+  std::set<std::string> seen = {text};
+  for (int round = 0; round < most_rounds; ++round) {
+    SourceSet sources;
+    const SourceId source = sources.add(file, text);
+    const Diagnostics diagnostics = check_text(sources, source, roots);
+    FixedText fixed = apply_fixes(text, source, safe_fixes(diagnostics.all()));
+    // Fixes that lead back to where they began mend nothing.
+    if (fixed.applied.empty() || !seen.insert(fixed.text).second) break;
+    for (const Fix& fix : fixed.applied) mends.push_back({sources.place(fix.edits.front().span), fix.title});
+    text = std::move(fixed.text);
+  }
+  return text;
+}
+
+/// Whether the file was changed.
+bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
+  auto read = read_file(result.file);
+  auto* found = std::get_if<ResolvedFile>(&read);
+  if (!found || result.problem) return false;  // that it cannot be read, the check says
+  std::vector<Mend> mends;
+  const std::string text = mended(result.file, found->bytes, roots, mends);
+  if (text == found->bytes) return false;
+  result.problem = replace_file(result.file, text);
+  if (result.problem) return false;
+  result.mends.insert(result.mends.end(), mends.begin(), mends.end());
+  return true;
+}
+
+}  // namespace
+
+CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+  CheckedFiles result;
+  std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, Code, std::string>> said;
+  for (const auto& file : files) {
+    auto read = read_file(file);
+    Diagnostics diagnostics;
+    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+      diagnostics.report({.code = Code::unreadable_file,
+                          .span = {result.sources.add(file, ""), 0, 0},
+                          .message = fmt::format("`{}` cannot be read: {}", file, problem->reason),
+                          .help = "name a Wale file"});
+    } else {
+      const SourceId source = result.sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
+      diagnostics = check_text(result.sources, source, roots);
+    }
+    for (const auto& each : diagnostics.all()) {
+      const auto name = std::filesystem::path(result.sources[each.span.source].name).lexically_normal().string();
+      if (said.emplace(name, each.span.begin, each.span.end, each.code, each.message).second)
+        result.diagnostics.report(each);
+    }
+  }
+  return result;
+}
+
+std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+  std::vector<MendedFile> results;
+  for (const auto& file : files) results.push_back({file, {}, std::nullopt});
+  for (int pass = 0; pass < most_passes; ++pass) {
+    bool changed = false;
+    for (MendedFile& each : results) changed = mend_file(each, roots) || changed;
+    if (!changed) break;
+  }
+  return results;
+}
+
+}  // namespace wale

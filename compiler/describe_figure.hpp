@@ -1,0 +1,21 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+/// A figure with the digits that single precision holds: 0.6, not 0.60000002384.
+inline double figure(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
+
+/// A parameter's value in its author's unit.
+inline double shown(float value, double unit_in_si) { return figure(value / unit_in_si); }
+
+/// What the cells of a memory take on the device.
+inline std::size_t bytes_of(const Grid& grid) { return std::size_t{grid.columns} * grid.rows * sizeof(float); }
+
+}  // namespace wale

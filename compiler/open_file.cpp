@@ -1,0 +1,50 @@
+#include "compiler/open_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "schema/patch_program_format.hpp"
+
+namespace wale {
+
+OpenedFile open_file(const FileRequest& request) {
+  OpenedFile opened;
+  auto read = read_file(request.file);
+  if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+    opened.refusal = fmt::format("`{}` cannot be read: {}", request.file, problem->reason);
+    return opened;
+  }
+  auto& bytes = std::get<ResolvedFile>(read).bytes;
+  const bool patch_program =
+      std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
+                         [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
+  if (patch_program || request.file.ends_with(".wpp")) {
+    auto loaded = Program::load(std::as_bytes(std::span(bytes)));
+    if (const auto* refusal = std::get_if<Refusal>(&loaded))
+      opened.refusal = fmt::format("`{}` is refused: {}", request.file, refusal->reason);
+    else
+      opened.program = std::get<Program>(std::move(loaded));
+    return opened;
+  }
+  const auto resolver = file_resolver(request.roots);
+  opened.source = opened.sources.add(request.file, std::move(bytes));
+  opened.module = check_source(opened.sources, opened.source, *resolver, opened.diagnostics);
+  return opened;
+}
+
+std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,
+                                      Diagnostics& diagnostics) {
+  const auto resolver = file_resolver(request.roots);
+  return compile_material(*opened.module, material, request.device, opened.sources, opened.source, *resolver,
+                          diagnostics);
+}
+
+std::vector<std::string> materials_of(const OpenedFile& opened) {
+  std::vector<std::string> names;
+  if (opened.module)
+    for (const auto& material : opened.module->materials) names.push_back(material.name);
+  return names;
+}
+
+}  // namespace wale

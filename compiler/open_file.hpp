@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/check.hpp"
+#include "compiler/compile.hpp"
+#include "compiler/diagnostic.hpp"
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// A file as a person names it: a Wale file, or a patch program (.wpp).
+struct FileRequest {
+  std::string file;
+  std::string device = default_device;
+  std::vector<std::string> roots;  ///< folders in which imports are looked for at last
+};
+
+/// What such a file holds.
+struct OpenedFile {
+  SourceSet sources;
+  SourceId source = 0;
+  Diagnostics diagnostics;
+  std::string refusal;                  ///< why it cannot be read or loaded at all; else empty
+  std::optional<Program> program;       ///< of a patch program
+  std::optional<CheckedModule> module;  ///< of a Wale file, with or without errors
+};
+
+/// Reads a file and, when it is a Wale file, checks it. No material is compiled yet.
+OpenedFile open_file(const FileRequest& request);
+
+/// Compiles one material of an opened Wale file; its errors and warnings go to `diagnostics`. Without a name the file's
+/// only or first material.
+std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,
+                                      Diagnostics& diagnostics);
+
+/// The names of an opened Wale file's materials, in the order written.
+std::vector<std::string> materials_of(const OpenedFile& opened);
+
+}  // namespace wale

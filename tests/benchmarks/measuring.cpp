@@ -1,0 +1,25 @@
+// How long it takes to measure a program, which ends every compilation. Bar: 2 ms.
+
+#include <benchmark/benchmark.h>
+
+#include "compiler/measure.hpp"
+#include "tests/benchmarks/materials.hpp"
+
+namespace wale::benchmarks {
+namespace {
+
+void MeasureAProgram(benchmark::State& state) {
+  const Program program = compiled(material_of_40_lines);
+  for (auto _ : state) benchmark::DoNotOptimize(measure(Bank(program)));
+}
+BENCHMARK(MeasureAProgram)->Unit(benchmark::kMicrosecond);
+
+/// Its peaks, which every change of a parameter works out again.
+void FillABank(benchmark::State& state) {
+  const Program program = compiled(material_of_40_lines);
+  for (auto _ : state) benchmark::DoNotOptimize(Bank(program));
+}
+BENCHMARK(FillABank)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace wale::benchmarks

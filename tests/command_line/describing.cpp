@@ -1,0 +1,183 @@
+// What `wale describe` tells of documentation, ranges, memory, marks and modules, and `wale feel` of what was mended.
+
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line {
+namespace {
+
+const std::string sledge = R"(wale 1
+
+/// A block on a spring.
+/// It lags behind.
+material sledge {
+  physical {
+    param k = 60 N/m in 10 N/m .. 200 N/m, soft 30 N/m .. 120 N/m  "stiffness"
+    param c = 2 N s/m in 0 N s/m .. 5 N s/m
+    state p : position = hand in -60 mm .. 60 mm
+    memory track : length = 1 mm in 0 mm .. 5 mm, cell 2 mm
+    patch 80 mm, 60 mm
+    p' = (hand - p) / 100 ms
+    next track = track + 1 mm/s * dt
+    force = k * (p - hand) - c * velocity
+    show spring(p, hand, 7 mm, colour: "#204060")
+    show box(p, 20 mm, 10 mm, colour: "#8a5a2b")
+    show colour(0.5, 0.5, track / 5 mm)
+  }
+}
+)";
+
+const std::string module = R"(wale 1
+
+/// Litres a second.
+export unit lps = 0.001 m^3/s
+export dimension flow = area * velocity
+/// Standard gravity.
+export let gravity = 9.80665 m/s^2
+let hidden = 2
+/// A bump of a height of 1.
+export function bump(place: length, width: length = 4 mm, power = 2) = exp(-(length(place) / width)^hidden * power)
+function inner(a) = a
+export function twice(a) = inner(2 * a)
+)";
+
+TEST(Describe, TellsWhatAProgramRemembersAndShows) {
+  const Folder folder;
+  const std::string file = folder.write("sledge.wale", sledge);
+  const auto described = wale({"describe", file, "--json"}).json();
+  EXPECT_EQ(described.at("documentation"), "A block on a spring.\nIt lags behind.");
+  const auto& states = described.at("states");
+  ASSERT_EQ(states.size(), 2u);
+  EXPECT_EQ(states[0].at("name"), "p.x");
+  EXPECT_DOUBLE_EQ(states[0].at("min_si").get<double>(), -0.06);
+  EXPECT_DOUBLE_EQ(states[1].at("max_si").get<double>(), 0.06);
+  const auto& memory = described.at("memories").at(0);
+  EXPECT_EQ(memory.at("name"), "track");
+  EXPECT_EQ(memory.at("columns"), 40);  // 80 mm in cells of 2 mm
+  EXPECT_EQ(memory.at("rows"), 30);
+  EXPECT_EQ(memory.at("bytes"), 40 * 30 * 4);
+  EXPECT_DOUBLE_EQ(memory.at("initial_si").get<double>(), 0.001);
+  const auto& shows = described.at("shows");
+  EXPECT_EQ(shows.at("colour"), true);
+  EXPECT_EQ(shows.at("relief"), false);
+  EXPECT_EQ(shows.at("marks").at(0), (nlohmann::json{{"kind", "spring"}, {"colour", "#204060"}}));
+  EXPECT_EQ(shows.at("marks").at(1), (nlohmann::json{{"kind", "box"}, {"colour", "#8a5a2b"}}));
+  for (const char* section : {"setup", "peak", "enter", "tick", "picture", "frame"})
+    EXPECT_TRUE(described.at("sections").at(section).contains("cost")) << section;
+
+  const std::string text = wale({"describe", file}).out;
+  for (const char* part : {"A block on a spring.\n", "It lags behind.\n", "p.x", "-0.06 .. 0.06", "40 x 30 cells",
+                           "4800 bytes", "spring #204060", "the hand's velocity and what it remembers"})
+    EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
+}
+
+TEST(Describe, UsualRangesAreToldWhereTheyAreNarrower) {
+  const Folder folder;
+  const std::string file = folder.write("sledge.wale", sledge);
+  const auto parameters = wale({"describe", file, "--json"}).json().at("parameters");
+  EXPECT_DOUBLE_EQ(parameters.at(0).at("soft_min").get<double>(), 30);
+  EXPECT_DOUBLE_EQ(parameters.at(0).at("soft_max").get<double>(), 120);
+  EXPECT_FALSE(parameters.at(1).contains("soft_min"));
+  const std::string text = wale({"describe", file}).out;
+  EXPECT_TRUE(contains(text, "usually 30 .. 120 N/m")) << text;
+  EXPECT_FALSE(contains(text, "usually 0 .. 5")) << text;
+}
+
+TEST(Describe, SaysWhyNoPerceptIsTold) {
+  const Folder folder;
+  const auto reason = [&](const std::string& force) {
+    const std::string file = folder.write("a.wale", "wale 1\nmaterial a { physical { force = " + force + " } }\n");
+    return wale({"describe", file, "--json"}).json().at("no_percept").get<std::string>();
+  };
+  EXPECT_TRUE(contains(reason("-2 N s/m * velocity"), "the hand's velocity"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m)"), "a field of places"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m) * sin(time * 6 / 1 s)"), "time"));
+  EXPECT_TRUE(contains(reason("0 N/m * hand"), "pushes nowhere"));
+  EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_percept"));
+}
+
+TEST(Describe, AModuleTellsWhatItExports) {
+  const Folder folder;
+  const std::string file = folder.write("module.wale", module);
+  const Outcome outcome = wale({"describe", file, "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto described = outcome.json();
+  EXPECT_EQ(described.at("file"), file);
+  const auto& functions = described.at("functions");
+  ASSERT_EQ(functions.size(), 2u) << "in the order written, without `inner`";
+  EXPECT_EQ(functions[0].at("name"), "bump");
+  EXPECT_EQ(functions[0].at("documentation"), "A bump of a height of 1.");
+  const auto& arguments = functions[0].at("arguments");
+  ASSERT_EQ(arguments.size(), 3u);
+  EXPECT_EQ(arguments[0], (nlohmann::json{{"name", "place"}, {"dimension", "length"}}));
+  EXPECT_EQ(arguments[1], (nlohmann::json{{"name", "width"}, {"dimension", "length"}, {"default", "4 mm"}}));
+  EXPECT_EQ(arguments[2], (nlohmann::json{{"name", "power"}, {"default", "2"}}));
+  EXPECT_EQ(functions[1].at("name"), "twice");
+  ASSERT_EQ(described.at("constants").size(), 1u);
+  EXPECT_EQ(described.at("constants")[0].at("value"), "9.80665 m/s^2");
+  EXPECT_EQ(described.at("constants")[0].at("documentation"), "Standard gravity.");
+  ASSERT_EQ(described.at("units").size(), 1u);
+  EXPECT_DOUBLE_EQ(described.at("units")[0].at("in_si").get<double>(), 0.001);
+  EXPECT_EQ(described.at("units")[0].at("dimension"), "flow");
+  EXPECT_EQ(described.at("units")[0].at("documentation"), "Litres a second.");
+  EXPECT_EQ(described.at("dimensions").at(0).at("factors"), "m^3 s^-1");
+
+  const std::string text = wale({"describe", file}).out;
+  EXPECT_TRUE(contains(text, "bump(place: length, width: length = 4 mm, power = 2)\n")) << text;
+  EXPECT_TRUE(contains(text, "A bump of a height of 1.")) << text;
+  EXPECT_FALSE(contains(text, "inner")) << text;
+  EXPECT_FALSE(contains(text, "hidden =")) << text;
+}
+
+TEST(Describe, WhatEveryFileKnowsIsAModuleToo) {
+  const auto described = wale({"describe", std::string(WALE_SOURCE_DIR) + "/schema/units.wale", "--json"}).json();
+  EXPECT_EQ(described.at("functions").size(), 0u);
+  EXPECT_EQ(described.at("dimensions").at(0).at("name"), "length");
+  EXPECT_EQ(described.at("units").at(0).at("name"), "m");
+}
+
+TEST(Describe, ExportsOfAFileWithMaterialsAreToldWhenAsked) {
+  const Folder folder;
+  const std::string file = folder.write("both.wale", module + "material a { physical { force = viscous(2 N s/m) } }\n");
+  EXPECT_EQ(wale({"describe", file, "--json"}).json().at("material"), "a");
+  EXPECT_EQ(wale({"describe", file, "--exports", "--json"}).json().at("functions").size(), 2u);
+  // Nothing at all to tell is an error as before.
+  EXPECT_EQ(wale({"describe", folder.write("none.wale", "wale 1\n")}).status, 1);
+}
+
+TEST(Feel, TellsHowOftenAStateWasMended) {
+  const Folder folder;
+  const std::string file = folder.write("broken.wale", R"(wale 1
+material broken {
+  physical {
+    state q = 0 in -1 .. 1
+    next q = sqrt(-1 - time / 1 s) + 0 * q
+    force = -1 N/m * hand * (1 + q)
+  }
+}
+)");
+  const std::vector<std::string> command{"feel", file, "--virtual-time", "--seconds", "0.1"};
+  const Outcome text = wale(command);
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_TRUE(contains(text.out, "90 times a state was not a number")) << text.out;  // every tick of 0.1 s at 900 Hz
+  auto with_json = command;
+  with_json.emplace_back("--json");
+  EXPECT_EQ(wale(with_json).json().at("guards").at("restored"), 90);
+  EXPECT_FALSE(contains(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1"}).out, "not a number and"));
+}
+
+TEST(Set, OutsideTheUsualRangeIsAWarning) {
+  const Folder folder;
+  const std::string file = folder.write("sledge.wale", sledge);
+  const Outcome outcome = wale({"describe", file, "--json", "--set", "k=150 N/m"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "warning[W0308]")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "from 30 N/m to 120 N/m")) << outcome.err;
+  EXPECT_DOUBLE_EQ(outcome.json().at("parameters").at(0).at("value").get<double>(), 150);
+  EXPECT_EQ(wale({"describe", file, "--set", "k=30 N/m"}).err, "") << "the range's own ends are usual";
+  EXPECT_EQ(wale({"describe", file, "--set", "k=250 N/m"}).status, 1);
+}
+
+}  // namespace
+}  // namespace wale::command_line

@@ -1,0 +1,220 @@
+// Materials made from materials: instances, `like`, `between` and blends.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "compiler/measure.hpp"
+#include "tests/compiler/compiling.hpp"
+
+namespace wale::compiling {
+namespace {
+
+const char* const base = R"(wale 1
+material ribbed {
+  representative { kind fabric.woven }
+  perceptual { roughness 0.6 }
+  physical {
+    param wale = 2.5 mm in 1 mm .. 5 mm
+    param drag = 2 N s/m in 0 N s/m .. 8 N s/m
+    height ribs = grating(x, period: wale)
+    force texture = lateral(ribs)
+    force syrup = viscous(drag)
+  }
+}
+)";
+
+Hand somewhere(std::mt19937& random) {
+  const auto uniform = [&] { return static_cast<float>(random() / 2147483648.0 - 1); };
+  return {{0.06f * uniform(), 0.06f * uniform()}, {0.3f * uniform(), 0.3f * uniform()}};
+}
+
+/// The same force everywhere.
+void expect_same(const Program& a, const Program& b, double tolerance = 0) {
+  Bank one(a), other(b);
+  std::mt19937 random(7);
+  for (int i = 0; i < 500; ++i) {
+    const Hand hand = somewhere(random);
+    const Force p = tick(one, hand), q = tick(other, hand);
+    ASSERT_NEAR(p.x, q.x, tolerance);
+    ASSERT_NEAR(p.y, q.y, tolerance);
+  }
+}
+
+/// A material of those of `base` and `more`, and the same written out.
+void expect_means(const std::string& more, const std::string& name, const std::string& written_out,
+                  double tolerance = 0) {
+  const Compiled made(std::string(base) + more), plain("wale 1\n" + written_out);
+  expect_same(made.programs.at(name), plain.only(), tolerance);
+}
+
+TEST(Instances, AreTheSameWithOtherDefaults) {
+  expect_means("material fine = ribbed(wale: 1.2 mm, drag: 0 N s/m)", "fine", R"(material m {
+  perceptual { roughness 0.6 }
+  physical {
+    param wale = 1.2 mm in 1 mm .. 5 mm
+    force = lateral(grating(x, period: wale)) + viscous(0 N s/m)
+  }
+})");
+  const Compiled made(std::string(base) + "material fine = ribbed(wale: 1.2 mm)");
+  const auto& parameters = made.programs.at("fine").description().parameters;
+  EXPECT_FLOAT_EQ(parameters[0].value, 1.2e-3f);
+  EXPECT_FLOAT_EQ(parameters[0].high, 5e-3f);
+}
+
+TEST(Instances, MayBlocksFollow) {
+  expect_means("material soft = ribbed(drag: 1 N s/m) { perceptual { roughness 0.3 } }", "soft", R"(material m {
+  perceptual { roughness 0.3 }
+  physical { force = lateral(grating(x, period: 2.5 mm)) + viscous(1 N s/m) }
+})");
+}
+
+TEST(Like, ReplacesWhatItSaysItself) {
+  expect_means(R"(material crossed {
+  representative { like ribbed }
+  perceptual { roughness 0.5 }
+  physical {
+    param tilt = 30 deg in 0 deg .. 90 deg
+    height ribs = grating(rotate(hand, tilt).y, period: wale)
+    force syrup = viscous(2 * drag)
+    force wind = vector(0.1 N, 0 N)
+  }
+})",
+               "crossed", R"(material m {
+  perceptual { roughness 0.5 }
+  physical {
+    force = lateral(grating(rotate(hand, 30 deg).y, period: 2.5 mm)) + viscous(4 N s/m) + vector(0.1 N, 0 N)
+  }
+})",
+               2e-5);
+}
+
+TEST(Like, AWholeForceReplacesAllLayers) {
+  expect_means(R"(material bare {
+  representative { like ribbed }
+  physical { force = lateral(ribs) }
+})",
+               "bare", R"(material m {
+  perceptual { roughness 0.6 }
+  physical { force = lateral(grating(x, period: 2.5 mm)) }
+})");
+}
+
+TEST(Like, TakesOverTheKind) {
+  const Compiled made(std::string(base) + "material other { representative { like ribbed } }");
+  const auto& entries = made.programs.at("other").description().layers.representative;
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].first, "kind");
+  EXPECT_EQ(entries[0].second.front(), "fabric.woven");
+}
+
+TEST(Between, LeadsFromOneSettingToAnother) {
+  const Compiled made(std::string(base) + R"(
+material fine = ribbed(wale: 1 mm, drag: 0 N s/m) { perceptual { roughness 0.2 } }
+material middle = between(fine, ribbed, 0.25)
+material again = between(middle, ribbed, 0.5)
+)");
+  const auto& parameters = made.programs.at("middle").description().parameters;
+  EXPECT_FLOAT_EQ(parameters[0].value, 1.375e-3f);
+  EXPECT_FLOAT_EQ(parameters[1].value, 0.5f);
+  EXPECT_FLOAT_EQ(parameters[2].value, 0.3f);  // the level
+  EXPECT_FLOAT_EQ(made.programs.at("again").description().parameters[0].value, 1.9375e-3f);
+}
+
+TEST(Blends, AddForcesByWeight) {
+  expect_means(R"(
+material a { physical { param k = 20 N/m in 1 N/m .. 50 N/m
+ force = spring(k) + viscous(3 N s/m) } }
+material b { physical { param k = 8 N/m in 1 N/m .. 50 N/m
+ force = lateral(grating(y, period: 3 mm), amplitude: 1.5 N) - k * hand } }
+material mixed = 0.7 a + 30 % b
+)",
+               "mixed", R"(material m { physical {
+  force = 0.7 * (spring(20 N/m) + viscous(3 N s/m)) + 0.3 * (lateral(grating(y, period: 3 mm), amplitude: 1.5 N) - 8 N/m * hand)
+} })",
+               2e-5);
+  const Compiled made(std::string(base) + R"(
+material a { physical { param k = 20 N/m in 1 N/m .. 50 N/m
+ force = spring(k) } }
+material b { physical { param k = 8 N/m in 1 N/m .. 50 N/m
+ force = spring(k) } }
+material mixed = 0.7 a + 0.3 * b(k: 9 N/m)
+)");
+  const auto& parameters = made.programs.at("mixed").description().parameters;
+  ASSERT_EQ(parameters.size(), 2u);
+  EXPECT_EQ(parameters[0].name, "k");
+  EXPECT_EQ(parameters[1].name, "b_k");
+  EXPECT_FLOAT_EQ(parameters[1].value, 9);
+}
+
+TEST(Blends, MixOpenTexturesAndSolveTheirAmplitudeAgain) {
+  const Compiled made(std::string(base) + R"(
+material ringed { perceptual { roughness 0.2 }
+ physical { height rings = 1 mm * grating(length(hand), period: 4 mm)
+  force = lateral(rings) } }
+material mixed = 0.75 ribbed + 0.25 ringed
+)");
+  const Program& mixed = made.programs.at("mixed");
+  // Percepts mix in magnitude, in which levels are linear.
+  const auto& parameters = mixed.description().parameters;
+  const auto level = std::ranges::find(parameters, "roughness", &Parameter::name);
+  ASSERT_NE(level, parameters.end());
+  EXPECT_FLOAT_EQ(level->value, 0.75f * 0.6f + 0.25f * 0.2f);
+  // The amplitude is that of the level: (F / 194 pu)^0.759593 = 0.5, F at the 99th percentile over the patch.
+  Bank bank(mixed, std::vector<float>{2.5e-3f, 0, 0.5f}, mixed.default_size());
+  const double amplitude = 194 * 10.0 / 512 * std::pow(0.5, 1 / 0.759593);
+  EXPECT_NEAR(wale::amplitude(bank, 0), amplitude, 2e-4 * amplitude);
+  EXPECT_NEAR(measure(bank).p99_newton, amplitude, 0.02 * amplitude);
+  // Its shape is that of both textures' forces, each by its weight in units of its own amplitude.
+  Bank ribs(made.programs.at("ribbed"), std::vector<float>{2.5e-3f, 0, 0.6f}, mixed.default_size());
+  Bank rings(made.programs.at("ringed"));
+  const double rib_amplitude = wale::amplitude(ribs, 0), ring_amplitude = wale::amplitude(rings, 0);
+  std::mt19937 random(3);
+  double scale = 0;
+  for (int i = 0; i < 300; ++i) {
+    Hand hand = somewhere(random);
+    hand.velocity = {};
+    const Force sum = tick(ribs, hand) * static_cast<float>(0.75 / rib_amplitude) +
+                      tick(rings, hand) * static_cast<float>(0.25 / ring_amplitude);
+    const Force force = tick(bank, hand);
+    if (glm::length(sum) > 0.7 || glm::length(sum) < 0.2) continue;  // not held at its amplitude, and not noise
+    if (scale == 0) scale = glm::length(force) / glm::length(sum);
+    // Where one of the textures is held the sum of the held ones differs a little.
+    EXPECT_NEAR(force.x, scale * sum.x, 0.06) << i;
+    EXPECT_NEAR(force.y, scale * sum.y, 0.06) << i;
+  }
+}
+
+TEST(Blends, OfBlendsAndWithMoreOnTop) {
+  expect_means(R"(
+material a { physical { force = spring(20 N/m) } }
+material b { physical { force = viscous(4 N s/m) } }
+material ab = 0.5 a + 0.5 b
+material abb = 0.5 ab + b { physical { force = vector(0.2 N, 0 N) } }
+)",
+               "abb", R"(material m { physical {
+  force = 0.25 * spring(20 N/m) + 0.25 * viscous(4 N s/m) + viscous(4 N s/m) + vector(0.2 N, 0 N)
+} })",
+               2e-5);
+}
+
+TEST(Blends, KeepTheirComponentsStatesApart) {
+  const Compiled made(R"(wale 1
+material swing { physical {
+  param k = 10 N/m in 1 N/m .. 90 N/m
+  state p : length = 0 mm in -10 mm .. 10 mm
+  next p = x / 2
+  force = vector(-k * p, 0 N)
+} }
+material two = 0.5 swing + 0.25 * swing(k: 30 N/m)
+)");
+  const auto& states = made.programs.at("two").description().states;
+  ASSERT_EQ(states.size(), 2u);
+  EXPECT_NE(states[0].name, states[1].name);
+}
+
+}  // namespace
+}  // namespace wale::compiling

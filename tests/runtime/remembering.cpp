@@ -1,0 +1,217 @@
+// The stage with programs that remember, and what it tells them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "runtime/stage/player.hpp"
+#include "tests/runtime/figures.hpp"
+#include "tests/runtime/programs.hpp"
+#include "wale/stage.hpp"
+
+namespace wale {
+namespace {
+
+/// A device whose hand is where the test says at each period, in counts, and which notes nothing else.
+class Puppet : public Device {
+ public:
+  explicit Puppet(std::function<Reading(long)> reading) : reading_(std::move(reading)) { profile_.slew = 0; }
+  const DeviceProfile& profile() const noexcept override { return profile_; }
+  void elapse(long periods) noexcept override { elapsed_ += periods; }
+  Reading sample() noexcept override { return reading_(elapsed_); }
+  Force command(Force force) noexcept override { return force; }
+
+ private:
+  DeviceProfile profile_ = sandpaper();
+  std::function<Reading(long)> reading_;
+  long elapsed_ = 0;
+};
+
+constexpr int beyond = 2000;  // counts: 112 mm from the centre, outside the patch of 160 mm
+
+RunResult run(Stage& stage, long ticks, std::function<void(const Progress&)> progress = {}) {
+  auto result = stage.run({.seconds = static_cast<double>(ticks) / 900, .virtual_time = true, .progress = progress});
+  if (const auto* refusal = std::get_if<Refusal>(&result)) {
+    ADD_FAILURE() << refusal->reason;
+    return {};
+  }
+  return std::move(std::get<RunResult>(result));
+}
+
+/// force x = an input times a gain.
+Program feeling(Input input, float gain = 1) {
+  Assembly a({9, gain, 0});
+  a.push(0, a.tick(Operation::multiply, a.input(input), a.constant(1)), a.constant(0));
+  a.push(1, a.constant(2), a.constant(0));
+  return a.load();
+}
+
+/// force x = ticks since the hand entered, times the parameter `gain`; y = the entry's time in s, less than the
+/// ceiling.
+Program counting() {
+  Assembly a({9, 0, 1}, {{"gain", "", 1, 0.001f, 0, 1, 0, 1, ""}});
+  const RegisterNumber count = a.state("count", 0, 1e6f), since = a.state("since", 0, 1e6f);
+  a.evolve(count, a.constant(1), a.tick(Operation::add, count, a.constant(2)));
+  a.evolve(since, a.input(Input::time), since);
+  a.push(0, a.tick(Operation::multiply, count, a.parameter(0)), a.constant(0));
+  a.push(1, since, a.constant(0));
+  return a.load();
+}
+
+TEST(Remembering, StatesBeginWheneverTheHandEnters) {
+  // Outside for periods 0-9, 100-119 and 200-.
+  Puppet device([](long period) {
+    const bool outside = period < 10 || (period >= 100 && period < 120) || period >= 200;
+    return Reading{.counts = {outside ? beyond : 0, 0}};
+  });
+  Stage stage(device);
+  stage.place(counting());
+  const auto ticks = run(stage, 220).record.ticks;
+  for (long i = 0; i < 220; ++i) {
+    const bool outside = i < 10 || (i >= 100 && i < 120) || i >= 200;
+    const long entered = i < 100 ? 10 : 120;
+    ASSERT_NEAR(ticks[i].force.x, outside ? 0 : 0.001 * static_cast<double>(i - entered), 1e-6) << i;
+    ASSERT_NEAR(ticks[i].force.y, outside ? 0 : static_cast<double>(entered) / 900, 1e-6) << i;
+  }
+}
+
+TEST(Remembering, AChangedParameterKeepsTheStates) {
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  stage.place(counting());
+  const auto turn = [&](const Progress& now) {
+    EXPECT_FALSE(stage.set("gain", 0.001f * static_cast<float>(1 + now.ticks_run / 90)));
+  };
+  const auto ticks = run(stage, 450, turn).record.ticks;
+  for (long i = 0; i < 450; ++i) {
+    ASSERT_NEAR(ticks[i].force.x, 0.001 * static_cast<double>((1 + i / 90) * i), 1e-4) << i;
+  }
+}
+
+TEST(Remembering, APatchPlacedAnewBeginsAnewEvenUnderTheHand) {
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  const Program program = counting();
+  stage.place(program);
+  const auto again = [&](const Progress& now) {
+    if (now.ticks_run == 180) stage.place(program);
+  };
+  const auto ticks = run(stage, 270, again).record.ticks;
+  EXPECT_NEAR(ticks[179].force.x, 0.179, 1e-6);
+  EXPECT_NEAR(ticks[180].force.x, 0, 1e-6);
+  EXPECT_NEAR(ticks[180].force.y, 0.2, 1e-6);
+  EXPECT_NEAR(ticks[269].force.x, 0.089, 1e-6);
+}
+
+TEST(Remembering, EachRunBeginsAnew) {
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  stage.place(counting());
+  for (int i = 0; i < 2; ++i) {
+    const auto ticks = run(stage, 50).record.ticks;
+    EXPECT_NEAR(ticks[49].force.x, 0.049, 1e-6);
+    EXPECT_EQ(ticks[49].force.y, 0);
+  }
+}
+
+TEST(Remembering, ABeadIsPulledAlong) {
+  // The hand moves 20 mm at once; the bead follows it as semi-implicit Euler says.
+  const double step = sandpaper().position_step(), dt = 1 / 900.0;
+  Puppet device([](long period) { return Reading{.counts = {period < 5 ? 0 : 358, 0}}; });
+  Stage stage(device);
+  stage.place(bead(200));
+  const RunResult result = run(stage, 900);
+  double place = 0, speed = 0;
+  for (long i = 0; i < 900; ++i) {
+    const double pull = 200 * ((i < 5 ? 0 : 358 * step) - place);
+    ASSERT_NEAR(result.record.ticks[i].force.x, -pull, 2e-3) << i;
+    speed += pull * dt;
+    place += speed * dt;
+  }
+  EXPECT_EQ(result.guards.restored, 0);
+}
+
+TEST(Remembering, StatesThatAreNoNumbersAreCounted) {
+  // next = 0 / 0 while the hand is right of the centre, else 1 / 1.
+  Assembly a({9, 0, 1});
+  const RegisterNumber state = a.state("state", 0, 1);
+  const RegisterNumber right = a.tick(Operation::less, a.constant(1), a.input(Input::x));
+  const RegisterNumber whole = a.tick(Operation::subtract, a.constant(2), right);
+  a.evolve(state, a.constant(1), a.tick(Operation::divide, whole, whole));
+  a.push(0, state, a.constant(0));
+  a.push(1, a.constant(1), a.constant(0));
+  Puppet device([](long period) { return Reading{.counts = {period >= 20 && period < 50 ? 10 : -10, 0}}; });
+  Stage stage(device);
+  stage.place(a.load());
+  const RunResult result = run(stage, 100);
+  EXPECT_EQ(result.guards.restored, 30);
+  EXPECT_EQ(result.guards.not_a_number, 0);
+  for (long i = 0; i < 100; ++i) {
+    ASSERT_EQ(result.record.ticks[i].force.x, i == 0 || (i > 20 && i <= 50) ? 0.0f : 1.0f) << i;
+  }
+}
+
+TEST(Telling, TimeIsTheNumberOfPeriods) {
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  stage.place(feeling(Input::time));
+  const auto ticks = run(stage, 900).record.ticks;
+  for (long i = 0; i < 900; ++i) ASSERT_NEAR(ticks[i].force.x, static_cast<double>(i) / 900, 1e-6);
+}
+
+TEST(Telling, SkippedPeriodsCountTowardsTime) {
+  Puppet device([](long) { return Reading{}; });
+  Exchange<PlacedPatch> patches;
+  Record record;
+  Player player(device, patches, record, 2);
+  const Program program = feeling(Input::time);
+  patches.publish({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)});
+  player.serve({.period = 0});
+  player.serve({.period = 450, .elapsed = 450, .skipped = 449});
+  EXPECT_FLOAT_EQ(record.ticks[1].force.x, 0.5f);
+}
+
+TEST(Telling, TheButton) {
+  Puppet device([](long period) { return Reading{.button = period % 3 == 0}; });
+  Stage stage(device);
+  stage.place(feeling(Input::button));
+  const auto ticks = run(stage, 30).record.ticks;
+  for (long i = 0; i < 30; ++i) ASSERT_EQ(ticks[i].force.x, i % 3 == 0 ? 1.0f : 0.0f);
+}
+
+TEST(Telling, ThePlaceOnTheWorkspace) {
+  Puppet device([](long) { return Reading{.counts = {358, -179}}; });
+  Stage stage(device);
+  stage.place(feeling(Input::workspace_x), {0.01f, 0.02f});
+  EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, 358 * 0.2286 / 4096, 1e-7);
+  stage.place(feeling(Input::workspace_y), {0.01f, 0.02f});
+  EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, -179 * 0.2286 / 4096, 1e-7);
+  stage.place(feeling(Input::x), {0.01f, 0.02f});
+  EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, 358 * 0.2286 / 4096 - 0.01, 1e-7);
+}
+
+// x = t^2 counts, y = -2 t^2: raw velocity 2 t - 1 counts per tick, acceleration 2 counts per tick^2 whatever estimates
+// it.
+TEST(Telling, MotionInMetresAndSeconds) {
+  const double step = 0.2286 / 4096, rate = 900;
+  const auto reading = [](long period) {
+    const auto square = static_cast<int>(period * period);
+    return Reading{.counts = {square, -2 * square}};
+  };
+  const auto felt = [&](Input input, float gain) {
+    Puppet device(reading);
+    Stage stage(device);
+    stage.place(feeling(input, gain));
+    return run(stage, 20).record.ticks[9].force.x / gain;
+  };
+  EXPECT_NEAR(felt(Input::raw_velocity_x, 1), 17 * step * rate, 1e-5);
+  EXPECT_NEAR(felt(Input::raw_velocity_y, 1), -1, 1e-6) << "held at the speed limit";
+  EXPECT_NEAR(felt(Input::raw_acceleration_x, 0.01f), 2 * step * rate * rate, 1e-3);
+  EXPECT_NEAR(felt(Input::raw_acceleration_y, 0.01f), -4 * step * rate * rate, 1e-3);
+  EXPECT_NEAR(felt(Input::acceleration_x, 0.01f), 2 * step * rate * rate, 1e-3);
+  EXPECT_NEAR(felt(Input::acceleration_y, 0.01f), -4 * step * rate * rate, 1e-3);
+}
+
+}  // namespace
+}  // namespace wale
