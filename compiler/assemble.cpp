@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/overloaded.hpp"
+
 namespace wale {
 
 namespace {
@@ -13,13 +15,6 @@ namespace {
 /// A material of more statements than this, all that it takes over included, is beyond what a patch program holds.
 constexpr std::size_t most_statements = 20'000;
 constexpr std::size_t deepest_derivation = 64;
-
-template <typename... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <typename... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 /// What a statement declares, by which a later one replaces it: the name of a parameter, a value or a layer of force;
 /// "x'" for the update of x; "force" and "patch" for those themselves; empty for a mark of the picture.

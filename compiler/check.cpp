@@ -1,10 +1,5 @@
 #include "compiler/check.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <set>
-
 #include "compiler/check_material.hpp"
 #include "compiler/check_names.hpp"
 

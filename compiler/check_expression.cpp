@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/overloaded.hpp"
+
 namespace wale {
 
 namespace {
-
-template <typename... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <typename... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 constexpr double largest_literal = 3.4e38;  // what a register can hold
 
@@ -151,11 +146,10 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
 Value ExpressionChecker::ambiguous_unit(const Word& word, Span declared) {
   if (std::ranges::find(ambiguous_, declared) != ambiguous_.end()) return failed(word.span);
   ambiguous_.push_back(declared);
-  return report(
-      Code::ambiguous_name, word.span, fmt::format("`{}` is a unit and also a name", word.text),
-      "which of them?",
-      Advice(fmt::format("give the name another spelling, or write `* {}` when the name is meant", word.text))
-          .see(declared, "the name is declared here"));
+  return report(Code::ambiguous_name, word.span, fmt::format("`{}` is a unit and also a name", word.text),
+                "which of them?",
+                Advice(fmt::format("give the name another spelling, or write `* {}` when the name is meant", word.text))
+                    .see(declared, "the name is declared here"));
 }
 
 Value ExpressionChecker::unary(const SyntaxTree& tree, ExprId, const Unary& node, Scope& scope) {

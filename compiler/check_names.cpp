@@ -6,17 +6,11 @@
 #include <set>
 
 #include "compiler/builtin_functions.hpp"
+#include "compiler/overloaded.hpp"
 
 namespace wale {
 
 namespace {
-
-template <typename... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <typename... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
 

@@ -253,7 +253,7 @@ void StatementChecker::update_memory(const UpdateStatement& node, KnownMemory& k
       .span = span};
   const Value value = check_update(node, Value::Type::number, memory.dimension);
   scope_.names.at(node.name.text).value = whole;
-  if (!value.failed()) material_.memories[index].next = value.x;
+  if (!value.failed()) material_.memories[index].next = {u, v, value.x};
 }
 
 }  // namespace wale

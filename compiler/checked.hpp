@@ -29,13 +29,18 @@ struct CheckedState {
   Span span;
 };
 
+/// What the cell nearest to (u, v) becomes, in cells from the centre of the first one.
+struct CheckedWrite {
+  TermId u = 0, v = 0, value = 0;
+};
+
 /// A field over the patch that is remembered.
 struct CheckedMemory {
   std::string name;
   Dimension dimension;
   double initial = 0, low = 0, high = 0;  ///< SI
   double cell = 0;                        ///< width of a cell, m
-  std::optional<TermId> next;             ///< what the cell under the hand becomes
+  std::optional<CheckedWrite> next;       ///< where the hand is
   Span span;
 };
 

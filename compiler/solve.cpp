@@ -318,9 +318,8 @@ class Solver {
     }
     for (std::size_t i = 0; i < material_.memories.size(); ++i)
       if (const auto& next = material_.memories[i].next) {
-        const TermId value = copier(*next);
-        const auto [u, v] = place_in_memory(solved_.memories[i]);
-        solved_.writes.push_back({static_cast<std::uint16_t>(i), u, v, value});
+        solved_.writes.push_back(
+            {static_cast<std::uint16_t>(i), copier(next->u), copier(next->v), copier(next->value)});
       }
     for (const auto& mark : material_.marks) {
       solved_.marks.push_back(mark);
@@ -329,22 +328,6 @@ class Solver {
     solved_.force_span = force_span_;
     solved_.tables = tables_;
     for (const auto& carrier : carriers_) solved_sizes_.push_back(copier(carrier.size));
-  }
-
-  /// Where the hand is in a memory, in cells from the centre of the first one.
-  std::array<TermId, 2> place_in_memory(const Grid& grid) {
-    Terms& terms = solved_.terms;
-    const auto along = [&](Input position, Input half, double cells) {
-      const TermId from_centre =
-          terms.apply(Operation::multiply, terms.apply(Operation::divide, terms.input(position), terms.input(half)),
-                      terms.apply(Operation::multiply, terms.literal(cells), terms.literal(0.5)));
-      return terms.apply(
-          Operation::add, from_centre,
-          terms.apply(Operation::subtract, terms.apply(Operation::multiply, terms.literal(cells), terms.literal(0.5)),
-                      terms.literal(0.5)));
-    };
-    return {along(Input::x, Input::patch_half_width, grid.columns),
-            along(Input::y, Input::patch_half_height, grid.rows)};
   }
 
   /// The carrier that tells of a percept: the one solved for it, or the only one there is.
