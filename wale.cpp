@@ -21,22 +21,22 @@
 #include <vector>
 
 #include "calibration/felt_report.hpp"
-#include "compiler/apply_fixes.hpp"
 #include "compiler/build_all.hpp"
 #include "compiler/check_files.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/describe.hpp"
-#include "compiler/describe_module.hpp"
-#include "compiler/explain.hpp"
-#include "compiler/format.hpp"
-#include "compiler/library_folders.hpp"
+#include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_module.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/diagnostics/explain.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/format/format.hpp"
+#include "compiler/measure/sample.hpp"
+#include "compiler/modules/library_folders.hpp"
 #include "compiler/open_file.hpp"
-#include "compiler/preview.hpp"
+#include "compiler/preview/preview.hpp"
 #include "compiler/quantity.hpp"
-#include "compiler/render.hpp"
-#include "compiler/replace_file.hpp"
-#include "compiler/sample.hpp"
-#include "compiler/spelling.hpp"
+#include "compiler/text/replace_file.hpp"
+#include "compiler/text/spelling.hpp"
 #include "library/device_report.hpp"
 #include "wale/felt.hpp"
 #include "wale/library.hpp"
@@ -447,7 +447,8 @@ int main(int argc, char** argv) {
   verb = app.add_subcommand("format", "writes Wale files in the language's one style");
   bool check_only = false;
   verb->add_option("FILE", files, "Wale files; - for standard input to standard output")->required();
-  verb->add_flag("--check", check_only, "changes nothing; lists the files that would change and fails if there are any");
+  verb->add_flag("--check", check_only,
+                 "changes nothing; lists the files that would change and fails if there are any");
   verb->callback([&] { status = format(files, check_only); });
 
   verb = app.add_subcommand("build", "compiles a material to a patch program");

@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "compiler/apply_fixes.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/replace_file.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/text/replace_file.hpp"
 
 namespace wale {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/diagnostic.hpp"
+#include "compiler/diagnostics/diagnostic.hpp"
 
 namespace wale {
 

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "compiler/emit.hpp"
-#include "compiler/follow_on.hpp"
-#include "compiler/lower.hpp"
-#include "compiler/measure.hpp"
-#include "compiler/parse.hpp"
-#include "compiler/solve.hpp"
-#include "compiler/spelling.hpp"
+#include "compiler/check/follow_on.hpp"
+#include "compiler/emit/emit.hpp"
+#include "compiler/emit/lower.hpp"
+#include "compiler/measure/measure.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/parse/parse.hpp"
+#include "compiler/solve/solve.hpp"
+#include "compiler/text/spelling.hpp"
 
 namespace wale {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "compiler/check.hpp"
-#include "compiler/diagnostic.hpp"
-#include "compiler/resolver.hpp"
+#include "compiler/check/check.hpp"
+#include "compiler/diagnostics/diagnostic.hpp"
+#include "compiler/text/resolver.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "compiler/check.hpp"
+#include "compiler/check/check.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/diagnostic.hpp"
+#include "compiler/diagnostics/diagnostic.hpp"
 #include "wale/program.hpp"
 
 namespace wale {

@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "compiler/check_expression.hpp"
-#include "compiler/parse.hpp"
+#include "compiler/expression/check_expression.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/parse/parse.hpp"
 
 namespace wale {
 

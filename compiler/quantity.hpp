@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/check.hpp"
+#include "compiler/check/check.hpp"
 #include "schema/patch_program.hpp"
 #include "wale/program.hpp"
 

@@ -4,7 +4,8 @@
 #include <cctype>
 
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/modules/load_modules.hpp"
 
 namespace wale {
 

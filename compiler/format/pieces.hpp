@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compiler/lex.hpp"
+#include "compiler/parse/lex.hpp"
 
 namespace wale::formatting {
 

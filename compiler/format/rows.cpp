@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "compiler/format.hpp"
-#include "compiler/parser.hpp"
+#include "compiler/format/format.hpp"
+#include "compiler/parse/parser.hpp"
 
 namespace wale::formatting {
 namespace {

@@ -1,7 +1,7 @@
 #include "compiler/format/spacing.hpp"
 
-#include "compiler/embedded_files.hpp"
-#include "compiler/parse.hpp"
+#include "compiler/parse/parse.hpp"
+#include "compiler/text/embedded_files.hpp"
 
 namespace wale::formatting {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "compiler/format/pieces.hpp"
-#include "compiler/syntax_tree.hpp"
+#include "compiler/parse/syntax_tree.hpp"
 
 namespace wale::formatting {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "compiler/openimageio.hpp"
-#include "compiler/utf8.hpp"
+#include "compiler/image/openimageio.hpp"
+#include "compiler/text/utf8.hpp"
 
 namespace wale {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compiler/drawing.hpp"
+#include "compiler/image/drawing.hpp"
 #include "compiler/preview/lettering.hpp"
 
 namespace wale {

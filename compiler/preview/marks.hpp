@@ -1,8 +1,8 @@
 #pragma once
 
+#include "compiler/measure/rehearsal.hpp"
 #include "compiler/preview/canvas.hpp"
 #include "compiler/preview/exhibit.hpp"
-#include "compiler/preview/rehearsal.hpp"
 
 namespace wale {
 

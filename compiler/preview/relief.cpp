@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compiler/openimageio.hpp"
+#include "compiler/image/openimageio.hpp"
 #include "wale/picture.hpp"
 
 namespace wale {

@@ -2,9 +2,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "compiler/format.hpp"
-#include "compiler/lex.hpp"
-#include "compiler/parse.hpp"
+#include "compiler/format/format.hpp"
+#include "compiler/parse/lex.hpp"
+#include "compiler/parse/parse.hpp"
 #include "tests/benchmarks/materials.hpp"
 
 namespace wale::benchmarks {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
-#include "compiler/emit.hpp"
-#include "compiler/lower.hpp"
-#include "compiler/render.hpp"
-#include "compiler/solve.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/emit/emit.hpp"
+#include "compiler/emit/lower.hpp"
+#include "compiler/solve/solve.hpp"
 
 namespace wale::benchmarks {
 

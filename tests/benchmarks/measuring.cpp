@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "compiler/measure.hpp"
+#include "compiler/measure/measure.hpp"
 #include "tests/benchmarks/materials.hpp"
 
 namespace wale::benchmarks {

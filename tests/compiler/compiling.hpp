@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "wale/program.hpp"
 
 namespace wale::compiling {

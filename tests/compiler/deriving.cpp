@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "compiler/measure.hpp"
+#include "compiler/measure/measure.hpp"
 #include "tests/compiler/compiling.hpp"
 
 namespace wale::compiling {

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "compiler/parse.hpp"
+#include "compiler/parse/parse.hpp"
 #include "tests/compiler/compiling.hpp"
 #include "tests/compiler/random_material.hpp"
 #include "tests/reference/evaluator.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "compiler/parse.hpp"
+#include "compiler/parse/parse.hpp"
 #include "tests/compiler/compiling.hpp"
 #include "tests/compiler/random_material.hpp"
 #include "tests/reference/evaluator.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "compiler/parse.hpp"
+#include "compiler/parse/parse.hpp"
 #include "tests/compiler/compiling.hpp"
 #include "tests/reference/evaluator.hpp"
 #include "wale/memory.hpp"

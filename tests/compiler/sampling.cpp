@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compiler/sample.hpp"
+#include "compiler/measure/sample.hpp"
 #include "tests/runtime/programs.hpp"
 
 namespace wale {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "compiler/check_expression.hpp"
-#include "compiler/solve.hpp"
+#include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/solve.hpp"
 #include "tests/compiler/compiling.hpp"
 
 namespace wale::compiling {

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "compiler/compile.hpp"
-#include "compiler/format.hpp"
-#include "compiler/parse.hpp"
-#include "compiler/print_tree.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/format/format.hpp"
+#include "compiler/parse/parse.hpp"
+#include "compiler/parse/print_tree.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "compiler/image.hpp"
-#include "compiler/openimageio.hpp"
+#include "compiler/image/image.hpp"
+#include "compiler/image/openimageio.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>

@@ -9,10 +9,10 @@
 #include <map>
 #include <random>
 
-#include "compiler/apply_fixes.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/lex.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/parse/lex.hpp"
 
 namespace wale {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "compiler/apply_fixes.hpp"
 #include "compiler/compile.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
 
 namespace wale {
 namespace {

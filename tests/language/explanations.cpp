@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "compiler/compile.hpp"
-#include "compiler/explain.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/explain.hpp"
+#include "compiler/diagnostics/render.hpp"
 
 namespace wale {
 namespace {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "compiler/apply_fixes.hpp"
-#include "compiler/fix.hpp"
-#include "compiler/unit_names.hpp"
+#include "compiler/declarations/unit_names.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/diagnostics/fix.hpp"
 #include "tests/language/reading.hpp"
 
 namespace {

@@ -1,10 +1,10 @@
 // wale format: one style, nothing lost, the same twice.
 
-#include "compiler/format.hpp"
+#include "compiler/format/format.hpp"
 
 #include <gtest/gtest.h>
 
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "tests/language/grammar.hpp"
 #include "tests/language/reading.hpp"
 #include "tests/language/shipped.hpp"

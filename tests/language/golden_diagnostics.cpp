@@ -24,9 +24,9 @@
 #include <regex>
 #include <set>
 
-#include "compiler/apply_fixes.hpp"
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/diagnostics/render.hpp"
 
 namespace wale {
 namespace {
@@ -236,7 +236,7 @@ TEST(DiagnosticCodes, EachHasACase) {
   };
   std::set<std::string> codes;
 #define CODE(number, name, severity, title) codes.insert(code_name(Code::name));
-#include "compiler/diagnostic_codes.def"
+#include "compiler/diagnostics/diagnostic_codes.def"
   for (const auto& code : codes)
     EXPECT_NE(fs::exists(folder / code), without_cases.contains(code))
         << code << " needs a folder of cases, or a reason";

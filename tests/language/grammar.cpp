@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "compiler/lex.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/parse/lex.hpp"
 #include "tests/language/reading.hpp"
 #include "tests/language/shipped.hpp"
 

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "compiler/lex.hpp"
+#include "compiler/parse/lex.hpp"
 #include "tests/language/grammar.hpp"
 
 class Grammar::Reader {

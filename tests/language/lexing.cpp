@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "compiler/lex.hpp"
+#include "compiler/parse/lex.hpp"
 
 namespace wale {
 namespace {

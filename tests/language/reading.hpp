@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "compiler/parse.hpp"
-#include "compiler/print_tree.hpp"
+#include "compiler/parse/parse.hpp"
+#include "compiler/parse/print_tree.hpp"
 
 /// A text and everything that reading it gives.
 struct Reading {

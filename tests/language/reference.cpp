@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 
 namespace wale {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 
 namespace wale {
 namespace {

@@ -7,8 +7,8 @@
 #include <iterator>
 #include <random>
 
-#include "compiler/lex.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/parse/lex.hpp"
 #include "tests/language/reading.hpp"
 
 namespace {

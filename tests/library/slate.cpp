@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "compiler/image.hpp"
-#include "compiler/resolver.hpp"
+#include "compiler/image/image.hpp"
+#include "compiler/text/resolver.hpp"
 #include "library/stone/slate_heights.hpp"
 
 namespace wale {

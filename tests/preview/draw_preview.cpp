@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "compiler/openimageio.hpp"
-#include "compiler/preview.hpp"
+#include "compiler/image/openimageio.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/exhibit.hpp"
+#include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
 
 namespace wale {

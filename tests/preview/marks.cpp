@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "compiler/preview.hpp"
+#include "compiler/measure/rehearsal.hpp"
 #include "compiler/preview/exhibit.hpp"
-#include "compiler/preview/rehearsal.hpp"
+#include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
 
 namespace wale {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "wale/felt.hpp"
 #include "wale/library.hpp"
 #include "wale/stage.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "compiler/syntax_tree.hpp"
+#include "compiler/parse/syntax_tree.hpp"
 
 /// The language read as plainly as its reference says it: a slow walk over the tree in double precision. Shares nothing
 /// with the compiler but the parser, and is used by nothing but tests.

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
 

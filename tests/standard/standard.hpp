@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
-#include "compiler/render.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "wale/memory.hpp"
 #include "wale/picture.hpp"
 #include "wale/program.hpp"

@@ -1,0 +1,512 @@
+#include "compiler/check/assemble.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/parse/overloaded.hpp"
+
+namespace wale {
+
+namespace {
+
+/// A material of more statements than this, all that it takes over included, is beyond what a patch program holds.
+constexpr std::size_t most_statements = 20'000;
+constexpr std::size_t deepest_derivation = 64;
+
+/// What a statement declares, by which a later one replaces it: the name of a parameter, a value or a layer of force;
+/// "x'" for the update of x; "force" and "patch" for those themselves; empty for a mark of the picture.
+std::string replaced_by(const PhysicalStatement& statement) {
+  return std::visit(Overloaded{
+                        [](const ParamStatement& node) { return node.name.text; },
+                        [](const LetStatement& node) { return node.name.text; },
+                        [](const HeightStatement& node) { return node.name.text; },
+                        [](const ForceStatement& node) { return node.name ? node.name->text : std::string("force ="); },
+                        [](const PatchStatement&) { return std::string("patch ="); },
+                        [](const StateStatement& node) { return node.name.text; },
+                        [](const MemoryStatement& node) { return node.name.text; },
+                        [](const UpdateStatement& node) { return node.name.text + "'"; },
+                        [](const ShowStatement&) { return std::string(); },
+                    },
+                    statement.what);
+}
+
+template <typename Statement>
+bool is(const AssembledStatement& assembled) {
+  return std::holds_alternative<Statement>(assembled.statement->what);
+}
+
+class Assembler {
+ public:
+  explicit Assembler(const Surroundings& surroundings) : surroundings_(surroundings) {}
+
+  std::shared_ptr<const AssembledMaterial> assemble(const Declared<MaterialDecl>& declared) {
+    const MaterialDecl& node = *declared.node;
+    if (std::ranges::find(path_, &node) != path_.end()) {
+      report(Code::recursive_material, node.name.span, fmt::format("`{}` is made from itself", node.name.text),
+             "let one of the materials stand on its own");
+      return nullptr;
+    }
+    if (path_.size() >= deepest_derivation) {
+      report(Code::nested_too_deep, node.name.span,
+             fmt::format("more than {} materials are made from one another", deepest_derivation),
+             "make them from an earlier one");
+      return nullptr;
+    }
+    path_.push_back(&node);
+    auto result = std::make_shared<AssembledMaterial>();
+    bool good = true;
+    if (node.derived_from) {
+      const auto made = made_from(declared, *node.derived_from);
+      if (made) *result = *made;
+      good = made != nullptr;
+      result->derived = true;
+    }
+    for (const auto& setting : node.representative) {
+      if (setting.key.text == "like") good = take_over(declared, setting, *result) && good;
+      if (setting.key.text == "kind") result->kind = setting, result->kind_tree = declared.tree;
+    }
+    for (const auto& percept : node.perceptual) add_percept(declared, percept, result->percepts);
+    add_statements(declared, *result);
+    statements_ += result->statements.size();
+    path_.pop_back();
+    if (statements_ > most_statements) {
+      report(Code::program_too_large, node.name.span,
+             fmt::format("with all that it is made from, `{}` has more than {} statements", node.name.text,
+                         most_statements),
+             "make it from fewer materials");
+      return nullptr;
+    }
+    return good ? result : nullptr;
+  }
+
+ private:
+  // ---- what a material is made from -------------------------------------------------------------------------------
+
+  /// `like denim`: everything of `denim` that the material does not say itself.
+  bool take_over(const Declared<MaterialDecl>& declared, const Setting& setting, AssembledMaterial& result) {
+    const bool alone = setting.items.size() == 1 && setting.items[0].words.size() == 1 && !setting.items[0].value;
+    if (!alone || result.derived) {
+      report(alone ? Code::declared_twice : Code::wrong_type, setting.span,
+             alone ? "a material is made from one other" : "`like` takes the name of one material",
+             alone ? first_origin(*declared.node, setting) : "write, for example, `like denim`");
+      return false;
+    }
+    const auto* other = find(setting.items[0].words[0], *declared.home);
+    const auto base = other ? assemble(*other) : nullptr;
+    if (base) result = *base;
+    result.derived = true;
+    return base != nullptr;
+  }
+
+  /// What a material is made from before `again` says it once more.
+  static Advice first_origin(const MaterialDecl& node, const Setting& again) {
+    Advice advice = "keep either `like` or the `=` behind the name; for a mixture write `= 0.5 a + 0.5 b`";
+    for (const auto& setting : node.representative)
+      if (!node.derived_from && setting.key.text == "like" && &setting != &again)
+        return std::move(advice).see(setting.span, "the first one");
+    return advice;
+  }
+
+  std::shared_ptr<const AssembledMaterial> made_from(const Declared<MaterialDecl>& from, ExprId expr) {
+    const Expr& node = from.tree->expr(expr);
+    if (const auto* use = std::get_if<NameUse>(&node)) {
+      const auto* other = find({use->name, from.tree->span(expr)}, *from.home);
+      return other ? assemble(*other) : nullptr;
+    }
+    if (const auto* call = std::get_if<Call>(&node))
+      return call->callee.text == "between" ? between(from, expr, *call) : instance(from, *call);
+    if (std::holds_alternative<Erroneous>(node)) return nullptr;
+    return blend(from, expr);
+  }
+
+  const Declared<MaterialDecl>* find(const Word& word, const Declarations& home) {
+    if (const auto* found = home.materials.find(word.text)) return found;
+    report(Code::unknown_name, word.span, fmt::format("no material is called `{}`", word.text),
+           did_you_mean(word.span, word.text, home.materials.spellings(),
+                        "declare it in this file, or `import` the file that does, as in `import fabric.denim`"));
+    return nullptr;
+  }
+
+  /// `corduroy(wale: 1.2 mm)`: the same with other defaults.
+  std::shared_ptr<const AssembledMaterial> instance(const Declared<MaterialDecl>& from, const Call& call) {
+    const auto* other = find(call.callee, *from.home);
+    const auto base = other ? assemble(*other) : nullptr;
+    if (!base) return nullptr;
+    auto result = std::make_shared<AssembledMaterial>(*base);
+    bool good = true;
+    std::map<std::string, Span> given;
+    for (const auto& argument : call.arguments) {
+      const Span span = from.tree->span(argument.value);
+      if (!argument.name) {
+        report(Code::unknown_argument, span, fmt::format("the parameters of `{}` are given by name", call.callee.text),
+               fmt::format("write, for example, `{}({})`", call.callee.text, example_of(*base)));
+        good = false;
+        continue;
+      }
+      const auto [first, is_new] = given.emplace(argument.name->text, argument.name->span);
+      if (!is_new) {
+        report(Code::declared_twice, argument.name->span, fmt::format("`{}` is given twice", argument.name->text),
+               Advice("give it once").see(first->second, "given here first"));
+        good = false;
+        continue;
+      }
+      const Mixture value{{{1, from.tree, argument.value, from.home}}};
+      if (set(*result, argument.name->text, value)) continue;
+      const auto percept = std::ranges::find(result->percepts, argument.name->text, &AskedPercept::name);
+      if (percept != result->percepts.end()) {  // `velvet(roughness: 0.1)`
+        const auto level = constant(from, argument.value);
+        if (level && !(*level >= 0 && *level <= 1))
+          report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", *level),
+                 fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", percept->name));
+        if (level) percept->level = *level, percept->span = span;
+        continue;
+      }
+      const auto known = parameters(*base);
+      report(Code::unknown_argument, argument.name->span,
+             fmt::format("`{}` has no parameter `{}`", call.callee.text, argument.name->text),
+             did_you_mean(argument.name->span, argument.name->text, known,
+                          known.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(known, ", "))));
+      good = false;
+    }
+    return good ? result : nullptr;
+  }
+
+  static std::vector<std::string> parameters(const AssembledMaterial& material) {
+    std::vector<std::string> all;
+    for (const auto& assembled : material.statements)
+      if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what)) all.push_back(param->name.text);
+    for (const auto& component : material.components)
+      for (auto& name : parameters(*component.material)) all.push_back(std::move(name));
+    return all;
+  }
+
+  static std::string example_of(const AssembledMaterial& material) {
+    const auto known = parameters(material);
+    return known.empty() ? "" : known.front() + ": …";
+  }
+
+  /// Gives a parameter another default, in a blend in every component that has it.
+  static bool set(AssembledMaterial& material, const std::string& name, const Mixture& value) {
+    bool found = false;
+    for (auto& assembled : material.statements)
+      if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what);
+          param && param->name.text == name)
+        assembled.value = value, found = true;
+    for (auto& component : material.components) {
+      auto copy = std::make_shared<AssembledMaterial>(*component.material);
+      if (set(*copy, name, value)) component.material = copy, found = true;
+    }
+    return found;
+  }
+
+  // ---- mixtures ---------------------------------------------------------------------------------------------------
+
+  /// `between(fine, wide, 0.3)`: one structure, every parameter and every level on the way from one to the other.
+  std::shared_ptr<const AssembledMaterial> between(const Declared<MaterialDecl>& from, ExprId expr, const Call& call) {
+    const Span span = from.tree->span(expr);
+    if (call.arguments.size() != 3 || std::ranges::any_of(call.arguments, [](auto& each) { return bool(each.name); })) {
+      report(Code::missing_argument, span, "`between` takes two materials and how far the way from one to the other is",
+             "write, for example, `between(fine_corduroy, wide_corduroy, 0.3)`");
+      return nullptr;
+    }
+    const auto first = made_from(from, call.arguments[0].value), second = made_from(from, call.arguments[1].value);
+    const auto way = constant(from, call.arguments[2].value);
+    if (!first || !second || !way) return nullptr;
+    if (!(*way >= 0 && *way <= 1)) {
+      report(Code::value_out_of_range, from.tree->span(call.arguments[2].value),
+             fmt::format("{:.4g} of the way is not between the two", *way), "give a number from 0 to 1");
+      return nullptr;
+    }
+    if (!same_structure(*first, *second, span)) return nullptr;
+    auto result = std::make_shared<AssembledMaterial>(*first);
+    mix(*result, *second, *way);
+    return result;
+  }
+
+  bool same_structure(const AssembledMaterial& a, const AssembledMaterial& b, Span span) {
+    const auto differ = [&](const std::string& how, std::vector<SecondarySpan> where = {}) {
+      Advice advice =
+          "`between` leads from one setting of a material's parameters to another of the same material; to mix "
+          "materials write `0.7 a + 0.3 b`";
+      for (const auto& [place, label] : where) advice = std::move(advice).see(place, label);
+      report(Code::different_structures, span, "these two have different structures: " + how, std::move(advice));
+      return false;
+    };
+    if (a.components.size() != b.components.size()) return differ("one is a blend of more than the other");
+    for (std::size_t i = 0; i < a.components.size(); ++i)
+      if (!same_structure(*a.components[i].material, *b.components[i].material, span)) return false;
+    if (a.statements.size() != b.statements.size())
+      return differ(fmt::format("one has {} statements, the other {}", a.statements.size(), b.statements.size()));
+    for (std::size_t i = 0; i < a.statements.size(); ++i)
+      if (a.statements[i].statement != b.statements[i].statement)
+        return differ(
+            fmt::format("`{}` in the one, `{}` in the other",
+                        first_line(surroundings_.sources.text(a.statements[i].statement->span)),
+                        first_line(surroundings_.sources.text(b.statements[i].statement->span))),
+            {{a.statements[i].statement->span, "in the one"}, {b.statements[i].statement->span, "in the other"}});
+    for (const auto& percept : a.percepts)
+      if (std::ranges::find(b.percepts, percept.name, &AskedPercept::name) == b.percepts.end())
+        return differ(fmt::format("only one asks for {}", percept.name), {{percept.span, "asked for here"}});
+    if (a.percepts.size() != b.percepts.size()) return differ("they ask for different percepts");
+    return true;
+  }
+
+  static std::string first_line(std::string_view text) {
+    constexpr std::size_t longest = 60;
+    text = text.substr(0, text.find('\n'));
+    return std::string(text.substr(0, longest)) + (text.size() > longest ? "…" : "");
+  }
+
+  static void mix(AssembledMaterial& a, const AssembledMaterial& b, double way) {
+    for (std::size_t i = 0; i < a.statements.size(); ++i) {
+      const auto* param = std::get_if<ParamStatement>(&a.statements[i].statement->what);
+      if (!param) continue;
+      const auto own = [&](const AssembledStatement& each) {
+        return each.value.value_or(Mixture{{{1, each.tree, param->value, each.home}}});
+      };
+      Mixture mixed;
+      for (auto part : own(a.statements[i]).parts) part.weight *= 1 - way, mixed.parts.push_back(part);
+      for (auto part : own(b.statements[i]).parts) part.weight *= way, mixed.parts.push_back(part);
+      a.statements[i].value = std::move(mixed);
+    }
+    for (auto& percept : a.percepts)
+      percept.level += way * (std::ranges::find(b.percepts, percept.name, &AskedPercept::name)->level - percept.level);
+    for (std::size_t i = 0; i < a.components.size(); ++i) {
+      auto copy = std::make_shared<AssembledMaterial>(*a.components[i].material);
+      mix(*copy, *b.components[i].material, way);
+      a.components[i].material = copy;
+    }
+  }
+
+  /// `0.7 corduroy + 0.3 denim`: forces and textures side by side.
+  std::shared_ptr<const AssembledMaterial> blend(const Declared<MaterialDecl>& from, ExprId expr) {
+    auto result = std::make_shared<AssembledMaterial>();
+    if (!add_components(from, expr, result->components)) return nullptr;
+    double whole = 0;
+    for (const auto& component : result->components) whole += component.weight;
+    for (const auto& component : result->components)
+      for (const auto& asked : component.material->percepts) {
+        auto found = std::ranges::find(result->percepts, asked.name, &AskedPercept::name);
+        if (found == result->percepts.end()) {
+          result->percepts.push_back({asked.name, 0, 0, from.tree->span(expr)});
+          found = result->percepts.end() - 1;
+        }
+        found->level += component.weight / whole * asked.level;
+      }
+    return result;
+  }
+
+  bool add_components(const Declared<MaterialDecl>& from, ExprId expr,
+                      std::vector<AssembledMaterial::Component>& components) {
+    const Expr& node = from.tree->expr(expr);
+    if (const auto* binary = std::get_if<Binary>(&node); binary && binary->op == BinaryOperator::add) {
+      const bool left = add_components(from, binary->left, components);
+      return add_components(from, binary->right, components) && left;
+    }
+    const Span span = from.tree->span(expr);
+    std::shared_ptr<const AssembledMaterial> material;
+    std::string name;
+    double weight = 1;
+    if (const auto* number = std::get_if<NumberLiteral>(&node)) {  // 0.3 denim
+      double scale = 1;
+      std::size_t next = 0;
+      for (; next + 1 < number->suffix.size(); ++next) {  // 30 % denim
+        const Unit* unit = from.home->units.find(number->suffix[next].name.text);
+        if (!unit || !unit->dimension.plain()) break;
+        scale *= unit->factor;
+      }
+      if (next + 1 != number->suffix.size() || number->suffix[next].divides || number->suffix[next].exponent != 1)
+        return no_component(span);
+      weight = number->value * scale;
+      name = number->suffix[next].name.text;
+      const auto* other = find(number->suffix[next].name, *from.home);
+      material = other ? assemble(*other) : nullptr;
+    } else if (const auto* product = std::get_if<Binary>(&node);
+               product && product->op == BinaryOperator::multiply) {  // 0.3 * denim(weave: 1 mm)
+      const auto factor = constant(from, product->left);
+      if (!factor) return false;
+      weight = *factor;
+      name = name_of(from, product->right);
+      material = made_from(from, product->right);
+    } else if (std::holds_alternative<NameUse>(node) || std::holds_alternative<Call>(node)) {
+      name = name_of(from, expr);
+      material = made_from(from, expr);
+    } else {
+      return no_component(span);
+    }
+    if (!material) return false;
+    if (!(weight > 0) || !std::isfinite(weight)) {
+      report(Code::value_out_of_range, span, "a component has a weight above zero",
+             "leave out what is not in the blend");
+      return false;
+    }
+    components.push_back({weight, name, material});
+    return true;
+  }
+
+  static std::string name_of(const Declared<MaterialDecl>& from, ExprId expr) {
+    if (const auto* use = std::get_if<NameUse>(&from.tree->expr(expr))) return use->name;
+    if (const auto* call = std::get_if<Call>(&from.tree->expr(expr))) return call->callee.text;
+    return "part";
+  }
+
+  bool no_component(Span span) {
+    report(Code::wrong_type, span, "this is no material and no mixture of materials",
+           "write `corduroy(wale: 1 mm)`, `0.7 corduroy + 0.3 denim` or `between(a, b, 0.5)`");
+    return false;
+  }
+
+  std::optional<double> constant(const Declared<MaterialDecl>& from, ExprId expr) {
+    Terms terms;
+    std::vector<HeightTable> tables;
+    ExpressionChecker checker({surroundings_.sources, *from.home, surroundings_.diagnostics}, terms, tables);
+    Scope scope;
+    return checker.constant(*from.tree, expr, scope, Dimension{});
+  }
+
+  // ---- the material's own layers ----------------------------------------------------------------------------------
+
+  /// Own statements take the place of those of the same name; what is new stands before the next that replaces
+  /// something, so that the replacement may use it, or else at the end.
+  void add_statements(const Declared<MaterialDecl>& declared, AssembledMaterial& result) {
+    auto& all = result.statements;
+    const std::size_t inherited = all.size();
+    std::vector<bool> own(inherited, false);
+    std::vector<AssembledStatement> fresh;
+    bool shows_cleared = false;
+    for (const auto& statement : declared.node->physical) {
+      const AssembledStatement assembled{&statement, declared.tree, declared.home, {}};
+      const std::string key = replaced_by(statement);
+      if (key.empty() && !shows_cleared) {  // a picture of one's own replaces the one taken over
+        shows_cleared = true;
+        for (std::size_t i = all.size(); i-- > 0;)
+          if (is<ShowStatement>(all[i]) && i < own.size() && !own[i]) erase(all, own, i);
+      }
+      std::size_t place = all.size();
+      for (std::size_t i = 0; i < all.size() && !key.empty(); ++i)
+        if (!own[i] && (replaced_by(*all[i].statement) == key || (key == "force =" && is<ForceStatement>(all[i])))) {
+          place = i;
+          break;
+        }
+      if (place == all.size()) {
+        fresh.push_back(assembled);
+        continue;
+      }
+      all[place] = assembled;
+      own[place] = true;
+      if (key == "force =")  // the whole force: its layers go with it
+        for (std::size_t i = all.size(); i-- > place + 1;)
+          if (!own[i] && is<ForceStatement>(all[i])) erase(all, own, i);
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(place), fresh.begin(), fresh.end());
+      own.insert(own.begin() + static_cast<std::ptrdiff_t>(place), fresh.size(), true);
+      fresh.clear();
+    }
+    all.insert(all.end(), fresh.begin(), fresh.end());
+  }
+
+  static void erase(std::vector<AssembledStatement>& all, std::vector<bool>& own, std::size_t i) {
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+    own.erase(own.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+  void add_percept(const Declared<MaterialDecl>& declared, const PerceptStatement& node,
+                   std::vector<AskedPercept>& percepts) {
+    const auto& declarations = *declared.home;
+    if (!declarations.percepts.contains(node.name.text)) {
+      const auto known = declarations.percepts.spellings();
+      return report(
+          Code::unknown_name, node.name.span, fmt::format("nothing declares a percept `{}`", node.name.text),
+          did_you_mean(node.name.span, node.name.text, known,
+                       fmt::format("known: {}", known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")))));
+    }
+    for (const auto& other : declared.node->perceptual) {
+      if (&other == &node) break;
+      if (other.name.text == node.name.text)
+        return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text),
+                      Advice("keep one of them").see(other.name.span, "asked for here first"));
+    }
+    AskedPercept asked{node.name.text, 0, 0, node.span};
+    if (node.level_name) {
+      asked.span = node.level_name->span;
+      const auto named = named_level(declarations, node.name.text, *node.level_name);
+      if (!named) return;
+      asked.level = *named;
+    } else if (node.value) {
+      asked.span = declared.tree->span(*node.value);
+      const auto known = constant(declared, *node.value);
+      if (!known) return;
+      asked.level = *known;
+    } else {
+      return;  // reported by the parser
+    }
+    if (!(asked.level >= 0 && asked.level <= 1))
+      return report(Code::level_out_of_range, asked.span,
+                    fmt::format("a level of {:.4g} is outside 0 .. 1", asked.level),
+                    Advice(asked.level > 1 && asked.level <= 100
+                               ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`",
+                                             node.name.text, asked.level, asked.level / 100)
+                               : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text))
+                        .fact("low", 0)
+                        .fact("high", 1)
+                        .fix(as_percentage(declared, node, asked.level)));
+    if (node.tolerance) {
+      const auto tolerance = constant(declared, *node.tolerance);
+      if (!tolerance) return;
+      if (!(*tolerance >= 0 && *tolerance <= 1))
+        return report(Code::level_out_of_range, declared.tree->span(*node.tolerance),
+                      "a tolerance is a difference of levels, from 0 to 1",
+                      Advice("write, for example, `0.6 ± 0.1`").fact("low", 0).fact("high", 1));
+      asked.tolerance = *tolerance;
+    }
+    const auto taken_over = std::ranges::find(percepts, asked.name, &AskedPercept::name);
+    if (taken_over == percepts.end())
+      percepts.push_back(asked);
+    else
+      *taken_over = asked;
+  }
+
+  /// `60` written as a level was meant in percent.
+  static std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const PerceptStatement& node,
+                                        double level) {
+    if (!node.value || !(level > 1 && level <= 100)) return {};
+    const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
+    if (!literal || !literal->suffix.empty()) return {};
+    return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
+  }
+
+  std::optional<double> named_level(const Declarations& declarations, const std::string& percept, const Word& word) {
+    std::vector<std::string> candidates;
+    for (const auto* levels : declarations.levels()) {
+      if (levels->percept != percept) continue;
+      for (const auto& level : levels->levels) {
+        if (level.name == word.text) return level.value;
+        candidates.push_back(level.name);
+      }
+    }
+    report(Code::unknown_name, word.span, fmt::format("no level of {} is called `{}`", percept, word.text),
+           did_you_mean(word.span, word.text, candidates,
+                        fmt::format("there are: {}; or give a number from 0 to 1",
+                                    candidates.empty() ? "none" : fmt::format("{}", fmt::join(candidates, ", ")))));
+    return std::nullopt;
+  }
+
+  void report(Code code, Span span, std::string message, Advice advice) {
+    surroundings_.diagnostics.report(std::move(advice).about(code, span, std::move(message)));
+  }
+
+  const Surroundings& surroundings_;
+  std::vector<const MaterialDecl*> path_;
+  std::size_t statements_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<const AssembledMaterial> assemble(const Declared<MaterialDecl>& material,
+                                                  const Surroundings& surroundings) {
+  return Assembler(surroundings).assemble(material);
+}
+
+}  // namespace wale

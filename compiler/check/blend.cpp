@@ -1,0 +1,156 @@
+#include "compiler/check/blend.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wale {
+
+std::optional<Value> Blender::compose(const AssembledMaterial& assembled, StatementChecker& own) {
+  Superposition sum;
+  for (const auto& component : assembled.components) superpose(component, sum);
+  if (!sum.textures.empty()) add_textures(sum);
+  own.check(assembled.statements);
+  for (const auto& layer : own.layers()) sum.force = add(sum.force, layer.force);
+  return sum.force;
+}
+
+void Blender::superpose(const AssembledMaterial::Component& component, Superposition& sum) {
+  const std::size_t first_carrier = checker_.carriers().size();
+  StatementChecker statements(material_, checker_, surroundings_, component.name);
+  const std::size_t errors_before = surroundings_.diagnostics.error_count();
+  const auto force = compose(*component.material, statements);
+  if (!force) {
+    if (surroundings_.diagnostics.error_count() == errors_before)
+      surroundings_.diagnostics.report(
+          {.code = Code::different_structures,
+           .span = span_,
+           .message =
+               fmt::format("`{}` says how it feels and not how it pushes, so it has nothing to blend", component.name),
+           .help = "give it a `physical` block, or leave it out and ask for its percepts in the blend"});
+    return;
+  }
+  // The force is a sum; its textures are told apart from the rest.
+  std::vector<Value> waiting{*force};
+  while (!waiting.empty()) {
+    const Value leaf = waiting.back();
+    waiting.pop_back();
+    const Term x = material_.terms[leaf.x], y = material_.terms[leaf.y];
+    const auto is_carrier = [&](const Carrier& carrier) {
+      return carrier.force_x == leaf.x && carrier.force_y == leaf.y;
+    };
+    const bool carried = std::any_of(checker_.carriers().begin() + static_cast<std::ptrdiff_t>(first_carrier),
+                                     checker_.carriers().end(), is_carrier);
+    const bool is_sum = x.kind == TermKind::operation && x.operation == Operation::add &&
+                        y.kind == TermKind::operation && y.operation == Operation::add;
+    if (carried || !is_sum) {
+      add_leaf(component.weight, component.name, leaf, first_carrier, sum);
+      continue;
+    }
+    for (const auto& [a, b] : {std::pair{x.b, y.b}, std::pair{x.a, y.a}}) {
+      Value part = leaf;
+      part.x = a, part.y = b;
+      waiting.push_back(part);
+    }
+  }
+}
+
+void Blender::add_leaf(double weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
+                       Superposition& sum) {
+  auto& carriers = checker_.carriers();
+  const auto found =
+      std::find_if(carriers.begin() + static_cast<std::ptrdiff_t>(first_carrier), carriers.end(),
+                   [&](const Carrier& carrier) { return carrier.force_x == leaf.x && carrier.force_y == leaf.y; });
+  if (found != carriers.end() && found->open) {
+    sum.textures.push_back({weight, *found});
+    carriers.erase(found);
+    return;
+  }
+  if (found == carriers.end() && material_.terms.dependence(leaf.x).open) {
+    surroundings_.diagnostics.report(
+        {.code = Code::different_structures,
+         .span = span_,
+         .message = fmt::format("the open texture of `{}` is not a term of its own in its force", name),
+         .help = "let its force be a sum with the texture as one term, or give the texture an amplitude"});
+    return;
+  }
+  const Value weighed = scaled(leaf, weight);
+  if (found != carriers.end()) {
+    found->size = material_.terms.apply(Operation::multiply, found->size, material_.terms.literal(weight));
+    found->force_x = weighed.x;
+    found->force_y = weighed.y;
+  }
+  sum.force = add(sum.force, weighed);
+}
+
+/// One texture in place of several: the same force function over the blended height, its size open again.
+void Blender::add_textures(Superposition& sum) {
+  const auto textures = sum.textures;
+  const std::string function_name = textures.front().carrier.name.substr(0, textures.front().carrier.name.find(' '));
+  for (const auto& texture : textures) {
+    if (texture.carrier.relief && texture.carrier.name == textures.front().carrier.name) continue;
+    surroundings_.diagnostics.report(
+        {.code = Code::different_structures,
+         .span = span_,
+         .message = fmt::format("`{}` is left open in one material and `{}` in another", textures.front().carrier.name,
+                                texture.carrier.name),
+         .help = "only textures over heights blend while they are open; give the others their sizes"});
+    return;
+  }
+  for (const auto& texture : textures) material_.blended_opens.insert(material_.terms[texture.carrier.size].index);
+  const auto* function = surroundings_.declarations.functions.find(function_name);
+  const auto height = blended_height(textures);
+  if (!function || !height) return;
+  std::vector<ExpressionChecker::Actual> actuals(function->node->parameters.size());
+  for (std::size_t i = 0; i < actuals.size(); ++i)
+    if (function->node->parameters[i].name.text == "height")
+      actuals[i] = {.value = *height, .span = span_, .given = true};
+  Scope scope;
+  scope.hand = true;
+  const Value force = checker_.call_with(*function, std::move(actuals), scope, span_);
+  if (!force.failed()) sum.force = add(sum.force, force);
+}
+
+/// Each height over its own steepest slope (the 99th percentile, as for its amplitude) is a length; those add by
+/// weight.
+std::optional<Value> Blender::blended_height(const std::vector<Texture>& textures) {
+  Terms& terms = material_.terms;
+  double whole = 0;
+  for (const auto& texture : textures) whole += texture.weight;
+  std::optional<TermId> height;
+  for (const auto& [weight, carrier] : textures) {
+    const TermId along_x = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 0, .span = span_});
+    const TermId along_y = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 1, .span = span_});
+    const TermId squares = terms.apply(Operation::add, terms.apply(Operation::multiply, along_x, along_x, span_),
+                                       terms.apply(Operation::multiply, along_y, along_y, span_), span_);
+    const TermId slope = terms.apply(Operation::square_root, squares, span_);
+    const TermId steepest = terms.add({.kind = TermKind::peak, .a = slope, .span = span_});
+    const TermId share =
+        terms.apply(Operation::multiply, terms.apply(Operation::divide, *carrier.relief, steepest, span_),
+                    terms.literal(weight / whole, span_), span_);
+    height = height ? terms.apply(Operation::add, *height, share, span_) : share;
+  }
+  if (!height) return std::nullopt;
+  return Value{.type = Value::Type::number,
+               .x = *height,
+               .dimension = surroundings_.declarations.dimension("length"),
+               .span = span_};
+}
+
+Value Blender::scaled(const Value& vector, double weight) {
+  Value result = vector;
+  const TermId factor = material_.terms.literal(weight, span_);
+  result.x = material_.terms.apply(Operation::multiply, factor, vector.x, span_);
+  result.y = material_.terms.apply(Operation::multiply, factor, vector.y, span_);
+  return result;
+}
+
+Value Blender::add(const std::optional<Value>& left, const Value& right) {
+  if (!left) return right;
+  Value result = right;
+  result.x = material_.terms.apply(Operation::add, left->x, right.x, span_);
+  result.y = material_.terms.apply(Operation::add, left->y, right.y, span_);
+  return result;
+}
+
+}  // namespace wale

@@ -1,0 +1,53 @@
+#include "compiler/check/check.hpp"
+
+#include "compiler/check/check_material.hpp"
+#include "compiler/check/check_names.hpp"
+
+namespace wale {
+
+namespace {
+
+/// Constants are otherwise read only where they are used: an unused one must not hide an error.
+void check_constants(const SyntaxTree& tree, const Surroundings& surroundings) {
+  Terms terms;
+  std::vector<HeightTable> tables;
+  ExpressionChecker checker(surroundings, terms, tables);
+  for (const auto& declaration : tree.declarations)
+    if (const auto* constant = std::get_if<Constant>(&declaration)) {
+      Scope scope;
+      const auto* declared = surroundings.declarations.constants.find(constant->name.text);
+      if (declared && declared->node == constant) checker.named(constant->name, scope);
+    }
+}
+
+}  // namespace
+
+const CheckedMaterial* CheckedModule::material(const std::string& name) const {
+  for (const auto& material : materials)
+    if (name.empty() || material.name == name) return &material;
+  return nullptr;
+}
+
+CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
+  CheckedModule checked;
+  checked.modules = std::move(modules);
+  const ModuleSet& all = checked.modules;
+  const SyntaxTree* own = all.modules.empty() ? nullptr : &all.modules.back()->tree;
+  for (const auto& tree : all.common->trees)
+    if (tree->source == all.source) own = tree.get();
+  if (!own) return checked;
+
+  const Surroundings surroundings{sources, checked.declarations(), diagnostics, &resolver};
+  const bool whole = !diagnostics.has_errors();
+  check_constants(*own, surroundings);
+  check_functions(*own, surroundings);
+  for (const auto& declaration : own->declarations)
+    if (const auto* node = std::get_if<MaterialDecl>(&declaration))
+      if (const auto* declared = checked.declarations().materials.find(node->name.text);
+          declared && declared->node == node)
+        checked.materials.push_back(check_material(*declared, surroundings, whole));
+  if (whole && !diagnostics.has_errors() && !all.modules.empty()) warn_of_unused_declarations(all, surroundings);
+  return checked;
+}
+
+}  // namespace wale

@@ -1,0 +1,158 @@
+#include "compiler/check/check_material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/check/blend.hpp"
+#include "compiler/check/check_statements.hpp"
+
+namespace wale {
+
+namespace {
+
+class MaterialChecker {
+ public:
+  MaterialChecker(const Declared<MaterialDecl>& declared, const Surroundings& surroundings, bool whole)
+      : tree_(*declared.tree),
+        node_(*declared.node),
+        declared_(declared),
+        surroundings_(surroundings),
+        checker_(surroundings, material_.terms, material_.tables),
+        whole_(whole),
+        errors_before_(surroundings.diagnostics.error_count()) {}
+
+  CheckedMaterial check() {
+    material_.name = node_.name.text;
+    material_.span = node_.name.span;
+    const auto assembled = assemble(declared_, surroundings_);
+    check_representative(assembled.get());
+    if (assembled) {
+      material_.percepts = assembled->percepts;
+      compose(*assembled);
+    }
+    const auto& sources = surroundings_.sources;
+    if (node_.perceptual_span) material_.layers.perceptual = sources.text(*node_.perceptual_span);
+    if (node_.physical_span) material_.layers.physical = sources.text(*node_.physical_span);
+    if (!node_.physical_span && node_.derived_from)
+      material_.layers.physical = sources.text(tree_.span(*node_.derived_from));
+    material_.layers.documentation = node_.documentation;
+    material_.carriers = checker_.carriers();
+    material_.open_spans = checker_.open_spans();
+    material_.states = checker_.states();
+    material_.periods = checker_.periods();
+    return std::move(material_);
+  }
+
+ private:
+  /// The forces of the material and of all that it blends.
+  void compose(const AssembledMaterial& assembled) {
+    Blender blender(material_, checker_, surroundings_, node_.name.span);
+    StatementChecker own(material_, checker_, surroundings_, "");
+    const auto force = blender.compose(assembled, own);
+    if (force) {
+      material_.force = {force->x, force->y};
+      material_.force_span = own.layers().empty() ? node_.name.span : own.layers().front().span;
+    }
+    // What stands in an expression that could not be read or checked may be the use that is missed.
+    if (whole_ && surroundings_.diagnostics.error_count() == errors_before_) own.warn_of_unused_names(node_.span);
+    if (!material_.relief) find_relief(own);
+    if (force) warn_of_scaled_textures();
+  }
+
+  /// `2 * lateral(h)`: the percept is solved for `lateral(h)`, so the handle would give twice as much. What changes
+  /// from tick to tick may scale a texture; that is a matter of the moment.
+  void warn_of_scaled_textures() {
+    const Terms& terms = material_.terms;
+    for (const auto& carrier : checker_.carriers()) {
+      if (!carrier.open) continue;
+      for (TermId id = carrier.force_x + 1; id < terms.size(); ++id) {
+        const Term& term = terms[id];
+        const bool product = term.kind == TermKind::operation && term.operation == Operation::multiply;
+        const bool quotient = term.kind == TermKind::operation && term.operation == Operation::divide;
+        if (!(product && term.b == carrier.force_x) && !(quotient && term.a == carrier.force_x)) continue;
+        if (terms.dependence(product ? term.a : term.b).in_tick()) continue;
+        surroundings_.diagnostics.report(
+            {.code = Code::scaled_texture,
+             .span = term.span,
+             .message = "the amplitude is solved from what the material feels like, and then changed by a factor",
+             .help = "leave the factor out and ask for more or less of the percept"});
+      }
+    }
+  }
+
+  /// The surface as it looks where the author does not say: what the textures push by, or else the last height of the
+  /// text.
+  void find_relief(const StatementChecker& own) {
+    const Dimension length = surroundings_.declarations.dimension("length");
+    for (const auto& carrier : checker_.carriers()) {
+      if (!carrier.relief) continue;
+      material_.relief_is_length = carrier.relief_dimension == length;
+      material_.relief = material_.relief ? material_.terms.apply(Operation::add, *material_.relief, *carrier.relief)
+                                          : *carrier.relief;
+    }
+    if (material_.relief || !own.last_height()) return;
+    material_.relief = own.last_height()->x;
+    material_.relief_is_length = own.last_height()->dimension == length;
+  }
+
+  void check_representative(const AssembledMaterial* assembled) {
+    bool has_kind = false;
+    for (const auto& setting : node_.representative) {
+      const auto& key = setting.key.text;
+      if (key == "like") continue;  // `assemble` has read it
+      if (key != "title" && key != "called" && key != "kind") {
+        report(Code::unknown_setting, setting.key.span, fmt::format("a representative block has no setting `{}`", key),
+               did_you_mean(setting.key.span, key, {"title", "called", "kind", "like"},
+                            "it has: title, called, kind, like"));
+        continue;
+      }
+      has_kind = has_kind || key == "kind";
+      const auto first = std::ranges::find(node_.representative, key, [](const auto& each) { return each.key.text; });
+      if (&*first != &setting)
+        report(Code::declared_twice, setting.key.span, fmt::format("`{}` is set twice", key),
+               Advice("put all into one").see(first->key.span, "set here first"));
+      material_.layers.representative.emplace_back(key, texts_of(setting, tree_));
+    }
+    if (!has_kind && assembled && assembled->kind)
+      material_.layers.representative.emplace_back("kind", texts_of(*assembled->kind, *assembled->kind_tree));
+  }
+
+  std::vector<std::string> texts_of(const Setting& setting, const SyntaxTree& tree) {
+    const bool kind = setting.key.text == "kind";
+    std::vector<std::string> texts;
+    for (const auto& item : setting.items) {
+      const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
+      if (kind && item.words.size() == 1 && !item.value)
+        texts.push_back(item.words[0].text);
+      else if (!kind && literal)
+        texts.push_back(literal->text);
+      else
+        report(Code::wrong_type, item.span,
+               fmt::format("`{}` takes {}", setting.key.text, kind ? "a word" : "texts in quotes"),
+               kind ? "write, for example, `kind fabric.woven`" : fmt::format("write `{} \"…\"`", setting.key.text));
+    }
+    return texts;
+  }
+
+  void report(Code code, Span span, std::string message, Advice advice) {
+    surroundings_.diagnostics.report(std::move(advice).about(code, span, std::move(message)));
+  }
+
+  const SyntaxTree& tree_;
+  const MaterialDecl& node_;
+  const Declared<MaterialDecl>& declared_;
+  const Surroundings& surroundings_;
+  CheckedMaterial material_;
+  ExpressionChecker checker_;
+  bool whole_;
+  std::size_t errors_before_;
+};
+
+}  // namespace
+
+CheckedMaterial check_material(const Declared<MaterialDecl>& declared, const Surroundings& surroundings, bool whole) {
+  return MaterialChecker(declared, surroundings, whole).check();
+}
+
+}  // namespace wale

@@ -1,0 +1,332 @@
+#include "compiler/check/check_statements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wale {
+
+StatementChecker::StatementChecker(CheckedMaterial& material, ExpressionChecker& checker,
+                                   const Surroundings& surroundings, std::string prefix)
+    : material_(material), checker_(checker), surroundings_(surroundings), prefix_(std::move(prefix)) {
+  scope_.hand = true;
+}
+
+void StatementChecker::check(const std::vector<AssembledStatement>& statements) {
+  for (const auto& assembled : statements) {
+    statement_ = &assembled;
+    checker_.read(*assembled.home);
+    std::visit(*this, assembled.statement->what);
+  }
+}
+
+// ---- values -------------------------------------------------------------------------------------------------------
+
+void StatementChecker::operator()(const LetStatement& node) {
+  declare(node.name, checker_.check(tree(), node.value, scope_));
+}
+
+void StatementChecker::operator()(const HeightStatement& node) {
+  Value value = checker_.check(tree(), node.value, scope_);
+  if (value.failed()) return declare_failed(node.name);
+  if (value.type != Value::Type::number) {
+    report(Code::wrong_type, value.span,
+           fmt::format("a height is a number at each place, not {}", type_words(value.type)),
+           value.type == Value::Type::field ? "ask it at a place, as in `relief(…)(hand)` by way of a `let`"
+                                            : "give it by `x` and `y`, as in `grating(x, period: 2.5 mm)`");
+    return declare_failed(node.name);
+  }
+  const Dimension length = declarations().dimension("length");
+  if (!value.dimension.plain() && value.dimension != length) {
+    const auto& names = declarations().names();
+    const auto sides = names.side_by_side(length, value.dimension);
+    surroundings_.diagnostics.report(
+        {.code = Code::wrong_dimension,
+         .span = value.span,
+         .message = fmt::format("a height is a length or a plain number, found {}", names.words(value.dimension)),
+         .label = names.unit(value.dimension),
+         .expected = sides[0],
+         .found = sides[1],
+         .help = fmt::format("only its shape matters to `lateral`: make it plain, as in `/ 1 {}`",
+                             customary_unit(declarations(), value.dimension)),
+         .facts = {{"expected", names.words(length)}, {"found", names.words(value.dimension)}}});
+    return declare_failed(node.name);
+  }
+  if (const auto dependence = material_.terms.dependence(value.x); dependence.changing()) {
+    report(Code::wrong_rate, value.span,
+           fmt::format("a height is a matter of place, and this changes with {}", what_changes(dependence)),
+           "use `x` and `y` only; let what changes multiply the force");
+    return declare_failed(node.name);
+  }
+  last_height_ = value;
+  declare(node.name, value);
+}
+
+void StatementChecker::operator()(const ForceStatement& node) {
+  const Span span = statement_->statement->span;
+  if (!node.name && whole_force_)
+    report(Code::declared_twice, span, "a material has one `force = …`",
+           Advice("add the terms up, or give each a name: `force texture = …`, `force drag = …`")
+               .see(*whole_force_, "the first one"));
+  if (!node.name && !whole_force_) whole_force_ = span;
+  const Value value =
+      checker_.check_as(tree(), node.value, scope_, Value::Type::vector, declarations().dimension("force"));
+  if (!value.failed()) layers_.push_back({value, tree().span(node.value)});
+  if (!node.name) return;
+  declare(*node.name, value);
+  if (auto* binding = scope_.find(node.name->text)) binding->used = true;
+}
+
+void StatementChecker::operator()(const PatchStatement& node) {
+  const Span span = statement_->statement->span;
+  if (node.sizes.size() != 2)
+    return report(Code::wrong_type, span, "a patch has a width and a height",
+                  "write, for example, `patch 95 mm, 95 mm`");
+  std::array<double, 2> sizes{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto size = checker_.constant(tree(), node.sizes[side], scope_, declarations().dimension("length"));
+    if (!size) return;
+    if (!(*size > 0))
+      return report(Code::value_out_of_range, tree().span(node.sizes[side]), "a patch must be larger than nothing",
+                    "write, for example, `patch 95 mm, 95 mm`");
+    sizes[side] = *size;
+  }
+  if (std::exchange(patch_seen_, true))
+    return report(Code::declared_twice, span, "a material has one patch",
+                  Advice("keep one of them").see(material_.patch_span, "the first one"));
+  // A blend is as large as its largest component, unless it says itself.
+  for (std::size_t side = 0; side < 2 && !prefix_.empty(); ++side)
+    sizes[side] = material_.patch ? std::max(sizes[side], (*material_.patch)[side]) : sizes[side];
+  material_.patch = sizes;
+  material_.patch_span = span;
+}
+
+void StatementChecker::operator()(const ShowStatement& node) {
+  ShowChecker(material_, checker_, surroundings_, scope_).check(tree(), node.value);
+}
+
+// ---- parameters ---------------------------------------------------------------------------------------------------
+
+void StatementChecker::operator()(const ParamStatement& node) {
+  const Value value = checker_.check(tree(), node.value, scope_);
+  if (value.failed() || lacks_its_unit(node, value)) return declare_failed(node.name);
+  if (value.type != Value::Type::number) {
+    report(Code::wrong_type, value.span, fmt::format("a parameter is a number, not {}", type_words(value.type)),
+           "use one `param` for each part");
+    return declare_failed(node.name);
+  }
+  const auto number = parameter_value(node, value.dimension);
+  if (!number) return declare_failed(node.name);
+  Parameter parameter{.name = node.name.text,
+                      .description = node.description.empty() ? node.documentation : node.description};
+  parameter.value = static_cast<float>(*number);
+  double low = *number, high = *number;
+  const Span default_span = statement_->value
+                                ? statement_->value->parts.front().tree->span(statement_->value->parts.front().value)
+                                : tree().span(node.value);
+  if (node.range) {
+    const auto from = checker_.constant(tree(), node.range->low, scope_, value.dimension);
+    const auto to = checker_.constant(tree(), node.range->high, scope_, value.dimension);
+    if (!from || !to) return declare_failed(node.name);
+    low = *from, high = *to;
+    if (low > high)
+      report(Code::value_out_of_range, tree().span(node.range->low), "the range runs from high to low",
+             "exchange its ends");
+    else if (!(*number >= low && *number <= high)) {
+      const Span range = {tree().source, tree().span(node.range->low).begin, tree().span(node.range->high).end};
+      const auto [unit, size] = written_unit(node, value.dimension);
+      report(Code::value_out_of_range, default_span,
+             statement_->value ? fmt::format("this lies outside the range of `{}`", node.name.text)
+                               : fmt::format("the default of `{}` lies outside its range", node.name.text),
+             Advice(statement_->value ? fmt::format("its range is {}", surroundings_.sources.text(range))
+                                      : "widen the range or change the default")
+                 .see(range, "the range")
+                 .fact("low", low / size, unit)
+                 .fact("high", high / size, unit));
+    }
+  }
+  parameter.low = static_cast<float>(low);
+  parameter.high = static_cast<float>(high);
+  std::tie(parameter.unit, parameter.unit_in_si) = written_unit(node, value.dimension);
+  parameter.si_unit = declarations().names().unit(value.dimension);
+  check_soft_range(node, value.dimension, *number, parameter);
+
+  const auto taken = [&](const std::string& name) {
+    return std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
+  };
+  parameter.name = free_name(parameter.name, taken);
+  const auto index = static_cast<std::uint32_t>(material_.parameters.size());
+  declare(node.name, {.type = Value::Type::number,
+                      .x = material_.terms.parameter(index, node.name.span),
+                      .dimension = value.dimension,
+                      .span = node.name.span});
+  if (taken(parameter.name)) return;  // reported as declared twice
+  material_.parameters.push_back(std::move(parameter));
+  material_.parameter_spans.push_back(node.name.span);
+}
+
+/// The name, in a component of a blend with the component's before it where another has taken it.
+std::string StatementChecker::free_name(const std::string& name,
+                                        const std::function<bool(const std::string&)>& taken) const {
+  if (prefix_.empty() || !taken(name)) return name;
+  const std::string longer = prefix_ + "_" + name;
+  std::string numbered = longer;
+  for (int count = 2; taken(numbered); ++count) numbered = fmt::format("{}_{}", longer, count);
+  return numbered;
+}
+
+/// The default: the parameter's own, or what an instance or a mixture says instead.
+std::optional<double> StatementChecker::parameter_value(const ParamStatement& node, const Dimension& dimension) {
+  if (!statement_->value) return checker_.constant(tree(), node.value, scope_, dimension);
+  double sum = 0;
+  for (const auto& part : statement_->value->parts) {
+    Scope outside;
+    checker_.read(*part.home);
+    const bool own = part.tree == statement_->tree && part.value == node.value;
+    const auto value = checker_.constant(*part.tree, part.value, own ? scope_ : outside, dimension);
+    if (!value) return std::nullopt;
+    sum += part.weight * *value;
+  }
+  checker_.read(declarations());
+  return sum;
+}
+
+/// The usual range, for a slider: the hard one where the author gives none.
+void StatementChecker::check_soft_range(const ParamStatement& node, const Dimension& dimension, double value,
+                                        Parameter& parameter) {
+  parameter.soft_low = parameter.low;
+  parameter.soft_high = parameter.high;
+  if (!node.soft_range) return;
+  const auto from = checker_.constant(tree(), node.soft_range->low, scope_, dimension);
+  const auto to = checker_.constant(tree(), node.soft_range->high, scope_, dimension);
+  if (!from || !to) return;
+  const Span span = {tree().source, tree().span(node.soft_range->low).begin, tree().span(node.soft_range->high).end};
+  if (!(*from <= *to) || static_cast<float>(*from) < parameter.low || static_cast<float>(*to) > parameter.high)
+    return report(Code::value_out_of_range, span,
+                  *from <= *to ? "the soft range reaches beyond the hard one" : "the range runs from high to low",
+                  *from <= *to ? "widen the range behind `in`, or narrow this one" : "exchange its ends");
+  parameter.soft_low = static_cast<float>(*from);
+  parameter.soft_high = static_cast<float>(*to);
+  if (!(value >= *from && value <= *to)) {
+    const Span at = statement_->value
+                        ? statement_->value->parts.front().tree->span(statement_->value->parts.front().value)
+                        : tree().span(node.value);
+    const auto [unit, size] = written_unit(node, dimension);
+    report(Code::beyond_soft_range, at, fmt::format("`{}` is outside its usual range here", node.name.text),
+           Advice(fmt::format("usual is {}", surroundings_.sources.text(span)))
+               .see(span, "the usual range")
+               .fact("low", *from / size, unit)
+               .fact("high", *to / size, unit));
+  }
+}
+
+/// A default without a unit in a range that has one is one mistake, and not two of the range's.
+bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& value) {
+  if (!node.range || value.type != Value::Type::number || !value.dimension.plain()) return false;
+  const Value low = checker_.check(tree(), node.range->low, scope_);
+  if (low.failed()) return true;
+  if (low.type != Value::Type::number || low.dimension.plain()) return false;
+  const auto& names = declarations().names();
+  const std::string unit = written_unit(node, low.dimension).first;
+  const auto sides = names.side_by_side(low.dimension, value.dimension);
+  const std::string text(surroundings_.sources.text(value.span));
+  Diagnostic diagnostic = Advice(fmt::format("write `{} {}`", text, unit))
+                              .fix(append_unit(tree(), node.value, unit, surroundings_.sources))
+                              .see(tree().span(node.range->low), with_article(names.words(low.dimension)))
+                              .fact("expected", names.words(low.dimension))
+                              .fact("found", names.words(value.dimension))
+                              .about(Code::wrong_dimension, value.span,
+                                     fmt::format("`{}` is {}, and its default has no unit", node.name.text,
+                                                 with_article(names.words(low.dimension))));
+  diagnostic.expected = sides[0];
+  diagnostic.found = sides[1];
+  surroundings_.diagnostics.report(std::move(diagnostic));
+  return true;
+}
+
+/// The unit that the author wrote for a parameter, and its size in SI.
+std::pair<std::string, double> StatementChecker::written_unit(const ParamStatement& node,
+                                                              const Dimension& dimension) const {
+  std::vector<ExprId> written{node.value};
+  if (node.range) written.insert(written.end(), {node.range->low, node.range->high});
+  for (ExprId expr : written) {
+    while (const auto* unary = std::get_if<Unary>(&tree().expr(expr))) expr = unary->operand;
+    const auto* literal = std::get_if<NumberLiteral>(&tree().expr(expr));
+    if (!literal || literal->suffix.empty()) continue;
+    double factor = 1;
+    std::string text;
+    bool known = true;
+    for (const auto& part : literal->suffix) {
+      const Unit* found = declarations().units.find(part.name.text);
+      if (!found) {
+        known = false;
+        break;
+      }
+      factor *= std::pow(found->factor, part.divides ? -part.exponent : part.exponent);
+      text += (text.empty() ? (part.divides ? "1/" : "") : part.divides ? "/" : " ") + part.name.text;
+      if (part.exponent != 1) text += fmt::format("^{}", part.exponent);
+    }
+    if (known) return {text, factor};
+  }
+  return {declarations().names().unit(dimension), 1.0};
+}
+
+// ---- names --------------------------------------------------------------------------------------------------------
+
+void StatementChecker::declare(const Word& name, Value value) {
+  if (name.text == "open")
+    return report(Code::declared_twice, name.span, "`open` is the word for what is left to be solved",
+                  "give it another name");
+  if (names_hand_or_patch(name.text))
+    return report(Code::declared_twice, name.span,
+                  fmt::format("`{}` already means the hand's or the patch's own", name.text), "give it another name");
+  if (const auto* other = scope_.find(name.text)) {
+    const unsigned line = surroundings_.sources.place(other->declared).line;
+    return report(Code::declared_twice, name.span, fmt::format("`{}` is declared already, on line {}", name.text, line),
+                  Advice("give one of them another name").see(other->declared, "declared here first"));
+  }
+  if (const auto* hidden = declarations().constants.entry(name.text)) {
+    const bool here = hidden->declared.source == name.span.source;
+    report(Code::shadowed_name, name.span, fmt::format("`{}` hides the constant of that name", name.text),
+           Advice(fmt::format("give it another name; the constant is {}",
+                              here ? fmt::format("on line {}", surroundings_.sources.place(hidden->declared).line)
+                                   : fmt::format("in {}", surroundings_.sources[hidden->declared.source].name)))
+               .see(hidden->declared, "the constant that it hides"));
+  }
+  scope_.names[name.text] = {.value = std::move(value), .declared = name.span, .unit = {}};
+}
+
+/// Keeps a name whose value is in error, so that its uses are not errors too.
+void StatementChecker::declare_failed(const Word& name) {
+  declare(name, {});
+  if (auto* binding = scope_.find(name.text)) binding->used = true;
+}
+
+void StatementChecker::warn_of_unused_names(Span own) const {
+  std::vector<std::pair<std::string, Span>> unused;
+  for (const auto& [name, binding] : scope_.names) {
+    const bool written_here =
+        binding.declared.source == own.source && binding.declared.begin >= own.begin && binding.declared.end <= own.end;
+    if (written_here && !binding.used && !binding.value.failed()) unused.emplace_back(name, binding.declared);
+  }
+  std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
+  for (const auto& [name, span] : unused) {
+    const bool parameter =
+        std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
+    surroundings_.diagnostics.report(
+        {.code = Code::unused_name,
+         .span = span,
+         .message = parameter
+                        ? fmt::format("the parameter `{}` does nothing: no height and no force depends on it", name)
+                        : fmt::format("nothing uses `{}`", name),
+         .help = "use it or leave it out"});
+  }
+}
+
+void StatementChecker::report(Code code, Span span, std::string message, Advice advice) {
+  surroundings_.diagnostics.report(std::move(advice).about(code, span, std::move(message)));
+}
+
+}  // namespace wale

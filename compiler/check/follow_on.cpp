@@ -1,0 +1,161 @@
+#include "compiler/check/follow_on.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "compiler/text/characters.hpp"
+#include "compiler/text/embedded_files.hpp"
+
+namespace wale {
+namespace {
+
+/// W01xx: what lexer and parser report.
+bool is_unread(const Diagnostic& diagnostic) { return static_cast<unsigned>(diagnostic.code) < 200; }
+
+/// Where errors are, for asking whether a span holds one.
+class Places {
+ public:
+  void add(Span span) { begins_[span.source].insert(span.begin); }
+  bool any_in(Span span) const {
+    const auto source = begins_.find(span.source);
+    if (source == begins_.end()) return false;
+    const auto first = source->second.lower_bound(span.begin);
+    return first != source->second.end() && *first <= span.end;
+  }
+
+ private:
+  std::map<SourceId, std::set<std::uint32_t>> begins_;
+};
+
+/// A declaration by its name and the text that it takes.
+struct Stretch {
+  Word name;
+  Span span;
+  bool is_record = false;
+  bool declares = true;  ///< rather than saying more of what another declares, as a map and levels do
+};
+
+/// The declarations whose failure leaves a name unknown; what a constant or function fails to be is known to `check`.
+std::vector<Stretch> stretches(const SyntaxTree& tree) {
+  std::vector<Stretch> result;
+  for (const Declaration& declaration : tree.declarations) {
+    if (const auto* record = std::get_if<RecordDecl>(&declaration)) {
+      result.push_back(
+          {record->name, record->span, true, record->keyword.text != "map" && record->keyword.text != "levels"});
+    } else if (const auto* unit = std::get_if<UnitDecl>(&declaration)) {
+      const std::uint32_t end = unit->definition  ? tree.span(*unit->definition).end
+                                : unit->dimension ? unit->dimension->span.end
+                                                  : unit->name.span.end;
+      result.push_back({unit->name, {tree.source, unit->name.span.begin, end}});
+    } else if (const auto* dimension = std::get_if<DimensionDecl>(&declaration)) {
+      const std::uint32_t end =
+          dimension->definition ? tree.span(*dimension->definition).end : dimension->name.span.end;
+      result.push_back({dimension->name, {tree.source, dimension->name.span.begin, end}});
+    }
+  }
+  return result;
+}
+
+/// The words of the line up to and with the place that could not be read: one of them may be what the line declares.
+void add_words(Span span, const SourceSet& sources, std::set<std::string>& words) {
+  const std::string_view line = sources.line(span);
+  const auto begin = static_cast<std::size_t>(line.data() - sources[span.source].text.data());
+  const std::size_t end = std::min(line.size(), std::max<std::size_t>(span.end, begin) - begin);
+  constexpr std::size_t longest_line = 256;  // that people write; of others only what is near
+  for (std::size_t at = end > longest_line ? end - longest_line : 0; at < end;) {
+    std::size_t after = at;
+    if (begins_name(line[at]))
+      while (after < end && continues_name(line[after])) ++after;
+    if (after > at) words.emplace(line.substr(at, after - at));
+    at = std::max(after, at + 1);
+  }
+}
+
+bool is_embedded(SourceId source, const SourceSet& sources) {
+  return source >= first_embedded_source ||
+         std::ranges::find(embedded_files(), sources[source].name, &EmbeddedFile::name) != embedded_files().end();
+}
+
+/// The same again at another place: said there, and mended there with the first.
+void add_repetition(Diagnostic& first, const Diagnostic& again) {
+  if (again.span.begin < first.span.begin) {
+    Diagnostic earlier = again;
+    std::swap(first, earlier);
+    first.secondary.insert(first.secondary.end(), earlier.secondary.begin(), earlier.secondary.end());
+    return add_repetition(first, earlier);
+  }
+  constexpr std::size_t most_shown = 4;
+  if (first.secondary.size() < most_shown) first.secondary.push_back({again.span, "and here"});
+  for (Fix& fix : first.fixes)
+    for (const Fix& other : again.fixes)
+      if (other.title == fix.title) fix.edits.insert(fix.edits.end(), other.edits.begin(), other.edits.end());
+}
+
+/// The name that the message is about: what stands between its first backticks.
+std::string subject(const Diagnostic& diagnostic) {
+  const std::size_t begin = diagnostic.message.find('`');
+  const std::size_t end = diagnostic.message.find('`', begin + 1);
+  return end == std::string::npos ? "" : diagnostic.message.substr(begin + 1, end - begin - 1);
+}
+
+}  // namespace
+
+Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector<const SyntaxTree*>& trees,
+                               const SourceSet& sources, SourceId checked) {
+  if (!diagnostics.has_errors()) return diagnostics;
+  Places errors, unread;
+  std::set<std::string> unread_words;
+  for (const Diagnostic& each : diagnostics.all()) {
+    if (severity_of(each.code) != Severity::error) continue;
+    errors.add(each.span);
+    if (!is_unread(each)) continue;
+    unread.add(each.span);
+    add_words(each.span, sources, unread_words);
+  }
+  std::multimap<std::string, Span> failed;
+  std::vector<Span> torn_records;
+  for (const SyntaxTree* tree : trees)
+    for (const Stretch& each : stretches(*tree)) {
+      if (each.declares && errors.any_in(each.span)) failed.emplace(each.name.text, each.span);
+      if (each.is_record && unread.any_in(each.span)) torn_records.push_back(each.span);
+    }
+
+  const bool own_errors = std::ranges::any_of(diagnostics.all(), [&](const Diagnostic& each) {
+    return each.span.source == checked && severity_of(each.code) == Severity::error;
+  });
+
+  const auto is_echo = [&](const Diagnostic& each) {
+    if (own_errors && each.span.source != checked && is_embedded(each.span.source, sources)) return true;
+    if (each.code == Code::missing_setting)
+      return std::ranges::any_of(torn_records, [&](const Span& record) {
+        return each.span.source == record.source && record.begin <= each.span.begin && each.span.begin <= record.end;
+      });
+    if (each.code != Code::unknown_name && each.code != Code::unknown_unit) return false;
+    const std::string name = subject(each);
+    if (unread_words.contains(name)) return true;
+    const auto [first, last] = failed.equal_range(name);
+    return std::any_of(first, last, [&](const auto& declared) {
+      // What is used above its declaration is unknown whether the declaration is right or not.
+      return declared.second.source != each.span.source || declared.second.end < each.span.begin;
+    });
+  };
+  std::vector<Diagnostic> kept;
+  std::map<std::pair<SourceId, std::string>, std::size_t> first_of;
+  for (const Diagnostic& each : diagnostics.all()) {
+    if (is_echo(each)) continue;
+    const bool unknown = each.code == Code::unknown_name || each.code == Code::unknown_unit;
+    const auto [first, is_new] = first_of.emplace(std::pair(each.span.source, each.message), kept.size());
+    if (unknown && !is_new && kept[first->second].code == each.code)
+      add_repetition(kept[first->second], each);
+    else
+      kept.push_back(each);
+  }
+  Diagnostics result;
+  for (Diagnostic& each : kept) result.report(std::move(each));
+  return result.has_errors() == diagnostics.has_errors() ? result : diagnostics;
+}
+
+}  // namespace wale

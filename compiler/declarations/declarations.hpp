@@ -1,0 +1,219 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/declarations/dimension.hpp"
+#include "compiler/graph/term.hpp"
+#include "compiler/parse/syntax_tree.hpp"
+#include "schema/device_profile.hpp"
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+struct Declarations;
+
+/// Where a declaration's syntax stands: its expressions are read in `tree`, with the names of `home`.
+template <typename Node>
+struct Declared {
+  const SyntaxTree* tree = nullptr;
+  const Node* node = nullptr;
+  const Declarations* home = nullptr;
+};
+
+/// The names of one kind that a file may use: its own and those it imports, and beneath them what every file knows.
+template <typename T>
+class Names {
+ public:
+  struct Entry {
+    T what;
+    Span declared;          ///< the name where it was declared
+    bool exported = false;  ///< whoever imports the file may use it
+    bool imported = false;  ///< it came with an import
+  };
+
+  /// What is found when nothing here has the name.
+  void stand_on(const Names& common) { common_ = &common; }
+
+  const Entry* entry(const std::string& name) const {
+    const auto found = own_.find(name);
+    if (found != own_.end()) return &found->second;
+    return common_ ? common_->entry(name) : nullptr;
+  }
+  const T* find(const std::string& name) const {
+    const Entry* found = entry(name);
+    return found ? &found->what : nullptr;
+  }
+  bool contains(const std::string& name) const { return entry(name) != nullptr; }
+
+  /// Enters a name that is not there yet.
+  void add(const std::string& name, Entry entry) { own_.emplace(name, std::move(entry)); }
+
+  /// What the file itself has or imports, by name.
+  const std::map<std::string, Entry>& own() const { return own_; }
+
+  /// Everything, what every file knows first.
+  void each(const std::function<void(const std::string&, const T&)>& visit) const {
+    if (common_) common_->each(visit);
+    for (const auto& [name, entry] : own_) visit(name, entry.what);
+  }
+  std::vector<std::string> spellings() const {
+    std::vector<std::string> all;
+    each([&](const std::string& name, const T&) { all.push_back(name); });
+    return all;
+  }
+
+ private:
+  std::map<std::string, Entry> own_;
+  const Names* common_ = nullptr;
+};
+
+/// The bounds of a dimension's states, where its declaration gives them.
+struct DimensionBounds {
+  const SyntaxTree* tree = nullptr;
+  std::optional<Range> range;
+};
+
+struct Unit {
+  double factor = 1;  ///< in SI
+  Dimension dimension;
+};
+
+/// A percept's scale: level 1 is the magnitude of a carrier of size `one` by any map tied to it.
+struct Percept {
+  std::string name;
+  std::string carrier;  ///< "lateral amplitude": the argument `amplitude` of the function `lateral`
+  Dimension carrier_dimension;
+  double one = 0;                ///< the carrier's size at level 1, SI
+  std::string reference_device;  ///< on which the reference stimulus was felt
+  double near_threshold = 0;     ///< level below which the percept is near or below threshold
+  std::string documentation;
+  Span span;
+};
+
+/// A psychophysical map: an equation between a percept's magnitude and a carrier's size, and what is known of it.
+struct Map {
+  std::string percept;
+  std::string from;  ///< the carrier's name in the law, "amplitude"
+  Terms terms;       ///< of the law, in `magnitude` and `carrier`
+  TermId left = 0, right = 0;
+  double valid_low = 0, valid_high = 0;  ///< of the carrier's size, SI
+  double scatter = 0;
+  Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
+  std::string device;
+  std::string source;
+  std::vector<std::string> validity;  ///< the conditions as written, "period 0.7 mm .. 10 mm"
+  Span span;
+  bool exported = false;
+};
+
+struct DeviceDeclaration {
+  DeviceProfile profile;
+  std::string source;
+  std::string documentation;
+  std::vector<std::string> assumed;  ///< settings that nobody measured
+  struct Realisation {
+    const SyntaxTree* tree = nullptr;
+    ExprId force = 0;
+    const Declarations* home = nullptr;
+  };
+  std::map<std::string, Realisation> realise;  ///< a force for a percept alone
+  Span span;
+};
+
+/// Named levels of one percept, in the order written.
+struct Levels {
+  struct Level {
+    std::string name;
+    double value;
+    Span span;
+  };
+  std::string percept;
+  std::vector<Level> levels;
+  Span span;
+  bool exported = false;
+};
+
+/// A simulated hand and how it explores; SI units.
+struct HandDeclaration {
+  std::string name;
+  double mass = 0, damping = 0, stiffness = 0;
+  double lateral_amplitude = 0, lateral_frequency = 0;
+  double circular_radius = 0, circular_frequency = 0;
+  std::string source;
+  Span span;
+};
+
+/// Everything that one file may refer to by name. What every file knows (the embedded files) lies beneath, in `common`.
+struct Declarations {
+  /// Of the whole compilation, so that a base dimension has one place in every file.
+  std::shared_ptr<DimensionNames> shared_names = std::make_shared<DimensionNames>();
+  const Declarations* common = nullptr;
+  Names<Dimension> dimensions;
+  Names<DimensionBounds> dimension_bounds;
+  Names<Unit> units;
+  Names<Declared<Constant>> constants;
+  Names<Declared<FunctionDecl>> functions;
+  Names<Percept> percepts;
+  Names<DeviceDeclaration> devices;
+  Names<HandDeclaration> hands;
+  Names<Declared<MaterialDecl>> materials;
+  /// What imported files keep to themselves, and where: to tell it from what is unknown.
+  std::map<std::string, Span> private_names;
+  std::vector<Map> own_maps;
+  std::vector<Levels> own_levels;
+
+  Declarations() = default;
+  /// A file's own names over those that every file knows.
+  explicit Declarations(const Declarations& beneath);
+  Declarations& operator=(const Declarations&) = delete;
+
+  DimensionNames& names() { return *shared_names; }
+  const DimensionNames& names() const { return *shared_names; }
+
+  /// Maps and levels have no names of their own; what every file knows comes first.
+  std::vector<const Map*> maps() const;
+  std::vector<const Levels*> levels() const;
+
+  /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
+  Dimension dimension(const std::string& name) const {
+    const auto* found = dimensions.find(name);
+    return found ? *found : Dimension{};
+  }
+};
+
+/// A file and what it declares and imports.
+struct Module {
+  SyntaxTree tree;
+  Declarations declarations;
+  std::string name;  ///< as diagnostics show it
+
+  Module(SyntaxTree syntax, const Declarations& common) : tree(std::move(syntax)), declarations(common) {}
+};
+
+/// What every file knows: the embedded files, one list of names for all of them.
+struct CommonModules {
+  std::vector<std::unique_ptr<SyntaxTree>> trees;
+  Declarations declarations;
+};
+
+/// A parsed file, what every file knows, and all that it imports, everything declared.
+///
+/// Declarations point into it, so it neither moves its parts nor is it copied.
+struct ModuleSet {
+  SourceId source = 0;  ///< of the file itself
+  std::shared_ptr<const CommonModules> common;
+  std::vector<std::shared_ptr<const Module>> modules;  ///< each after those it imports; the file itself is the last,
+                                                       ///< unless it is one of the common ones
+  std::map<const Import*, std::shared_ptr<const Module>> imports;  ///< of all modules: what each import brought
+  /// The names that the file itself may use.
+  const Declarations& declarations() const {
+    return modules.empty() ? common->declarations : modules.back()->declarations;
+  }
+};
+
+}  // namespace wale

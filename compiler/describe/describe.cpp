@@ -1,0 +1,157 @@
+#include "compiler/describe/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "compiler/measure/rehearsal.hpp"
+
+namespace wale {
+
+namespace {
+
+constexpr double normal_95 = 1.96;  // standard deviations on either side that hold 95 % of a normal distribution
+
+DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
+  const PatchProgram& program = bank.program().description();
+  const PerceptRecord& record = program.percepts[index];
+  DescribedPercept percept{.name = record.name,
+                           .carrier = record.carrier,
+                           .asked = {},
+                           .alone = record.alone,
+                           .slope = record.slope,
+                           .anchor = record.anchor,
+                           .handle = record.handle,
+                           .worst = std::max({record.slope, record.anchor, record.handle}),
+                           .map = record.map,
+                           .device = record.device,
+                           .source = record.source};
+  const float aimed = amplitude(bank, index);
+  const float most = static_cast<float>(program.device.force_newton);
+  percept.saturated = aimed > most;
+  percept.amplitude = std::min(aimed, most);
+  const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
+  percept.level = prediction.level;
+  percept.magnitude = prediction.magnitude;
+  percept.low = percept.level * std::pow(10, -normal_95 * record.scatter);
+  percept.high = percept.level * std::pow(10, normal_95 * record.scatter);
+  if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
+  constexpr float rounding = 1e-5f;
+  percept.outside_validity =
+      percept.amplitude < record.valid_low * (1 - rounding) || percept.amplitude > record.valid_high * (1 + rounding);
+  return percept;
+}
+
+/// Whether code reads one of some registers.
+bool reads(std::span<const Instruction> code, RegisterNumber first, std::size_t count) {
+  return std::ranges::any_of(code, [&](const Instruction& instruction) {
+    const std::string_view fields = facts(static_cast<Operation>(instruction.operation)).fields;
+    const std::array operands = {instruction.a, instruction.b, instruction.c};
+    for (std::size_t i = 0; i < operands.size(); ++i)
+      if (fields[i] == 'r' && operands[i] >= first && operands[i] < first + count) return true;
+    return false;
+  });
+}
+
+/// "its speed", "time", …: what the force depends on besides place, as its code reads it.
+std::vector<std::string> dependences(const PatchProgram& program) {
+  struct Dependence {
+    const char* words;
+    std::initializer_list<Input> inputs;
+  };
+  const auto any = [&](std::initializer_list<Input> inputs) {
+    return std::ranges::any_of(inputs,
+                               [&](Input input) { return reads(program.tick, static_cast<RegisterNumber>(input), 1); });
+  };
+  std::vector<std::string> found;
+  for (const Dependence& each : std::initializer_list<Dependence>{
+           {"the hand's velocity",
+            {Input::velocity_x, Input::velocity_y, Input::raw_velocity_x, Input::raw_velocity_y}},
+           {"the hand's acceleration",
+            {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}},
+           {"time", {Input::time}},
+           {"the button", {Input::button}}})
+    if (any(each.inputs)) found.emplace_back(each.words);
+  if (!program.states.empty() || !program.grids.empty()) found.emplace_back("what it remembers");
+  return found;
+}
+
+/// Why no percept is told, in a line; empty where one is.
+std::string why_nothing(const PatchProgram& program, const Measured& force) {
+  if (!program.percepts.empty()) return {};
+  if (force.max_newton == 0) return "it pushes nowhere";
+  const auto found = dependences(program);
+  if (found.empty()) return "its force is a field of places, of no carrier that a percept's map knows";
+  std::string text;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
+  return fmt::format("its force depends on {}, so it is not one texture", text);
+}
+
+}  // namespace
+
+std::string evidence_word(Evidence evidence) {
+  switch (evidence) {
+    case Evidence::measured: return "measured";
+    case Evidence::published: return "published";
+    case Evidence::estimated: return "estimated";
+    case Evidence::recalled: return "recalled";
+    case Evidence::transferred: return "transferred";
+  }
+  return "unknown";
+}
+
+std::string mark_word(MarkKind kind) {
+  switch (kind) {
+    case MarkKind::point: return "point";
+    case MarkKind::circle: return "circle";
+    case MarkKind::box: return "box";
+    case MarkKind::line: return "line";
+    case MarkKind::spring: return "spring";
+    case MarkKind::trajectory: return "trajectory";
+  }
+  return "unknown";
+}
+
+Description describe(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  Description description{
+      .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
+  for (std::size_t i = 0; i < program.percepts.size(); ++i) description.percepts.push_back(describe_percept(bank, i));
+  description.force = measure(bank);
+  // What a program remembers pushes too, once it has something to remember.
+  if (remembers(program))
+    for (const Force force : rehearse(bank).forces)
+      if (const float size = std::hypot(force.x, force.y); size > description.force.max_newton)
+        description.force.max_newton = size;
+  description.no_percept = why_nothing(program, description.force);
+  description.parameters = program.parameters;
+  description.states = program.states;
+  description.memories = program.grids;
+  // Without a surface of its own a program's relief is a constant.
+  const RegisterNumber relief = program.picture.relief;
+  description.shows_relief = relief < first_constant || relief >= program.first_parameter();
+  description.shows_colour = program.picture.colour.has_value();
+  description.marks = program.picture.marks;
+  for (std::size_t i = 0; i < program.parameters.size(); ++i)
+    description.parameters[i].value = bank.registers()[program.first_parameter() + i];
+  auto& code = description.code;
+  code.setup = program.setup.size(), code.setup_cost = cost_of(program.setup);
+  code.enter = program.enter.size(), code.enter_cost = cost_of(program.enter);
+  code.frame = program.picture.frame.size(), code.frame_cost = cost_of(program.picture.frame);
+  code.tick = program.tick.size(), code.tick_cost = cost_of(program.tick);
+  code.picture = program.picture.code.size(), code.picture_cost = cost_of(program.picture.code);
+  for (const auto& peak : program.peaks) {
+    code.peaks += peak.code.size();
+    code.peak_cost += cost_of(peak.code) * peak.points;
+  }
+  description.bytes = write_patch_program(program).size();
+  return description;
+}
+
+}  // namespace wale

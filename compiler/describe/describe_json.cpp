@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
+
+namespace wale {
+namespace {
+
+nlohmann::ordered_json to_json(const Parameter& parameter) {
+  nlohmann::ordered_json json = {{"name", parameter.name},
+                                 {"unit", parameter.unit},
+                                 {"value", shown(parameter.value, parameter.unit_in_si)},
+                                 {"min", shown(parameter.low, parameter.unit_in_si)},
+                                 {"max", shown(parameter.high, parameter.unit_in_si)}};
+  if (parameter.soft_low != parameter.low || parameter.soft_high != parameter.high) {
+    json["soft_min"] = shown(parameter.soft_low, parameter.unit_in_si);
+    json["soft_max"] = shown(parameter.soft_high, parameter.unit_in_si);
+  }
+  json["description"] = parameter.description;
+  return json;
+}
+
+nlohmann::ordered_json to_json(const Description& description) {
+  nlohmann::ordered_json json;
+  json["material"] = description.material;
+  json["device"] = description.device.name;
+  auto& representative = json["representative"] = nlohmann::ordered_json::object();
+  for (const auto& [key, values] : description.layers.representative) {
+    if (key == "called")
+      representative[key] = values;
+    else
+      representative[key] = values.empty() ? "" : values.front();
+  }
+  json["documentation"] = description.layers.documentation;
+  auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
+  for (const auto& percept : description.percepts) {
+    auto& entry = percepts[percept.name];
+    entry["level"] = figure(percept.level);
+    entry["magnitude"] = figure(percept.magnitude);
+    entry["low"] = figure(percept.low);
+    entry["high"] = figure(percept.high);
+    entry["carrier"] = percept.carrier;
+    entry["amplitude_newton"] = figure(percept.amplitude);
+    if (percept.asked) entry["asked"] = figure(*percept.asked);
+    entry["saturated"] = percept.saturated;
+    entry["outside_validity"] = percept.outside_validity;
+    entry["alone"] = percept.alone;
+    entry["evidence"] = evidence_word(percept.worst);
+    entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
+                            {"anchor", evidence_word(percept.anchor)},
+                            {"handle", evidence_word(percept.handle)}};
+    entry["map"] = percept.map;
+    entry["measured_on"] = percept.device;
+    entry["source"] = percept.source;
+  }
+  if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
+  json["force"] = {{"max_newton", figure(description.force.max_newton)},
+                   {"p99_newton", figure(description.force.p99_newton)},
+                   {"rms_newton", figure(description.force.rms_newton)}};
+  auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
+  for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
+  auto& states = json["states"] = nlohmann::ordered_json::array();
+  for (const auto& state : description.states)
+    states.push_back({{"name", state.name}, {"min_si", figure(state.low)}, {"max_si", figure(state.high)}});
+  auto& memories = json["memories"] = nlohmann::ordered_json::array();
+  for (const auto& grid : description.memories)
+    memories.push_back({{"name", grid.name},
+                        {"min_si", figure(grid.low)},
+                        {"max_si", figure(grid.high)},
+                        {"initial_si", figure(grid.initial)},
+                        {"columns", grid.columns},
+                        {"rows", grid.rows},
+                        {"bytes", bytes_of(grid)}});
+  auto& shows = json["shows"] = {{"relief", description.shows_relief}, {"colour", description.shows_colour}};
+  auto& marks = shows["marks"] = nlohmann::ordered_json::array();
+  for (const auto& mark : description.marks)
+    marks.push_back({{"kind", mark_word(mark.kind)}, {"colour", fmt::format("#{:06x}", mark.colour & 0xffffff)}});
+  json["patch"] = {{"width_m", figure(description.patch.width)},
+                   {"height_m", figure(description.patch.height)},
+                   {"rim_m", figure(description.patch.rim)}};
+  json["instructions"] = description.code.tick;
+  auto& sections = json["sections"];
+  const auto section = [&](const char* name, std::size_t instructions, long cost) {
+    sections[name] = {{"instructions", instructions}, {"cost", cost}};
+  };
+  const auto& code = description.code;
+  section("setup", code.setup, code.setup_cost);
+  section("peak", code.peaks, code.peak_cost);
+  section("enter", code.enter, code.enter_cost);
+  section("tick", code.tick, code.tick_cost);
+  section("picture", code.picture, code.picture_cost);
+  section("frame", code.frame, code.frame_cost);
+  json["bytes"] = description.bytes;
+  return json;
+}
+
+}  // namespace
+
+std::string descriptions_json(const std::vector<Description>& descriptions) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& description : descriptions) json.push_back(to_json(description));
+  // Names may hold any text a file brought along; what is no UTF-8 is replaced rather than thrown about.
+  return (descriptions.size() == 1 ? json.front() : json)
+             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+         "\n";
+}
+
+}  // namespace wale

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
+
+namespace wale {
+namespace {
+
+std::string heading(const Description& description) {
+  for (const auto& [key, values] : description.layers.representative)
+    if (key == "title" && !values.empty()) return fmt::format("{} ({})", values.front(), description.material);
+  return description.material;
+}
+
+void write_percepts(std::string& text, const Description& description) {
+  text += "\nfeels\n";
+  if (description.percepts.empty()) {
+    text += fmt::format("  none that can be told: {}\n", description.no_percept);
+    return;
+  }
+  for (const auto& percept : description.percepts) {
+    text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
+                        percept.level, percept.low, percept.high, percept.magnitude);
+    text += fmt::format(
+        "  {:<12} {} {:.3f} N{}\n", "", percept.carrier, percept.amplitude,
+        percept.asked ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked) : ", fixed by the author");
+    if (percept.saturated)
+      text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
+    if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
+    if (!percept.alone) text += fmt::format("  {:<12} other forces push too; a run cannot read it back\n", "");
+    text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
+                        evidence_word(percept.anchor), evidence_word(percept.handle));
+    text += fmt::format("  {:<12} {} ({}, on {})\n", "", percept.source, percept.map, percept.device);
+  }
+}
+
+/// The comment above the material, as its author broke the lines.
+void write_documentation(std::string& text, const std::string& documentation) {
+  for (std::size_t at = 0; at < documentation.size();) {
+    const std::size_t end = std::min(documentation.find('\n', at), documentation.size());
+    text += fmt::format("  {}\n", documentation.substr(at, end - at));
+    at = end + 1;
+  }
+}
+
+std::string range_text(const Parameter& parameter, float low, float high) {
+  return fmt::format("{} .. {}{}{}", shown(low, parameter.unit_in_si), shown(high, parameter.unit_in_si),
+                     parameter.unit.empty() ? "" : " ", parameter.unit);
+}
+
+void write_parameters(std::string& text, const std::vector<Parameter>& parameters) {
+  text += "\nparameters\n";
+  if (parameters.empty()) text += "  none\n";
+  for (const auto& parameter : parameters) {
+    const bool usual = parameter.soft_low != parameter.low || parameter.soft_high != parameter.high;
+    text += fmt::format("  {:<12} {:<12} {:<20} {}\n", parameter.name,
+                        fmt::format("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
+                        range_text(parameter, parameter.low, parameter.high), parameter.description);
+    if (usual)
+      text += fmt::format("  {:<12} {:<12} usually {}\n", "", "",
+                          range_text(parameter, parameter.soft_low, parameter.soft_high));
+  }
+}
+
+/// A program does not know the units of its states; in SI every figure means one thing.
+void write_memory(std::string& text, const Description& description) {
+  if (description.states.empty() && description.memories.empty()) return;
+  text += "\nremembers (in SI units)\n";
+  for (const auto& state : description.states)
+    text += fmt::format("  {:<12} {:.6g} .. {:.6g}\n", state.name, state.low, state.high);
+  for (const auto& grid : description.memories)
+    text += fmt::format("  {:<12} {:.6g} .. {:.6g}, {:.6g} at first; {} x {} cells, {} bytes\n", grid.name, grid.low,
+                        grid.high, grid.initial, grid.columns, grid.rows, bytes_of(grid));
+}
+
+void write_shown(std::string& text, const Description& description) {
+  std::vector<std::string> shown;
+  if (description.shows_relief) shown.emplace_back("its relief");
+  if (description.shows_colour) shown.emplace_back("colours of its own");
+  for (const auto& mark : description.marks)
+    shown.push_back(fmt::format("{} #{:06x}", mark_word(mark.kind), mark.colour & 0xffffff));
+  if (!shown.empty()) text += fmt::format("\nshows\n  {}\n", fmt::join(shown, ", "));
+}
+
+}  // namespace
+
+std::string description_text(const Description& description) {
+  std::string text = fmt::format("{}\n  built for {}, {:.3g} N at {:.4g} Hz\n", heading(description),
+                                 description.device.name, description.device.force_newton, description.device.rate);
+  write_documentation(text, description.layers.documentation);
+  for (const auto& [key, values] : description.layers.representative)
+    if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
+  write_percepts(text, description);
+  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
+                      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  write_parameters(text, description.parameters);
+  write_memory(text, description);
+  write_shown(text, description);
+  const auto& code = description.code;
+  text += fmt::format("\npatch\n  {:.4g} mm x {:.4g} mm, fading over {:.3g} mm at its edge\n",
+                      1e3 * description.patch.width, 1e3 * description.patch.height, 1e3 * description.patch.rim);
+  text += fmt::format("\nprogram\n  tick {} instructions (cost {}), setup {} ({}), peaks {} ({:.2g} with all points)",
+                      code.tick, code.tick_cost, code.setup, code.setup_cost, code.peaks,
+                      static_cast<double>(code.peak_cost));
+  if (code.enter > 0) text += fmt::format(", enter {} ({})", code.enter, code.enter_cost);
+  text += fmt::format(", picture {} ({})", code.picture, code.picture_cost);
+  if (code.frame > 0) text += fmt::format(", frame {} ({})", code.frame, code.frame_cost);
+  text += fmt::format("; {} bytes\n", description.bytes);
+  return text;
+}
+
+}  // namespace wale

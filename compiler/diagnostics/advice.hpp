@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostic.hpp"
+#include "compiler/diagnostics/fix.hpp"
+
+namespace wale {
+
+/// What a diagnostic says beyond what is wrong: the proposal, with the fixes that carry it out, and the places, facts
+/// and the rule that have to do with it. Where a proposal alone will do, a text is enough.
+class Advice {
+ public:
+  Advice(std::string help) : about_{.help = std::move(help)} {}
+  Advice(const char* help) : Advice(std::string(help)) {}
+
+  /// Another place to look at: "declared here first".
+  Advice see(Span span, std::string label) &&;
+  Advice fact(std::string name, std::string value) &&;
+  Advice fact(std::string name, double value, std::string unit = {}) &&;
+  Advice because(std::string rule) &&;
+  Advice fix(Fix fix) &&;
+  Advice fix(std::vector<Fix> fixes) &&;
+
+  /// Puts something before the proposal.
+  Advice behind(const std::string& text) &&;
+
+  Diagnostic about(Code code, Span span, std::string message) &&;
+
+ private:
+  Diagnostic about_;
+};
+
+/// "Did you mean `X`?" with the fix that writes it (`respell`), or `otherwise` when no candidate is near.
+Advice did_you_mean(Span span, std::string_view word, const std::vector<std::string>& candidates, Advice otherwise,
+                    bool may_be_safe = true);
+
+}  // namespace wale

@@ -1,0 +1,89 @@
+#include "compiler/emit/lower.hpp"
+
+#include "compiler/graph/term.hpp"
+
+namespace wale {
+
+namespace {
+
+/// Whether each term is needed to work out the roots; as char, since bits are slower to look at one by one.
+std::vector<char> reachable(const Terms& terms, const std::vector<TermId>& roots) {
+  std::vector<char> needed(terms.size(), false);
+  for (const TermId root : roots) needed[root] = true;
+  for (TermId id = static_cast<TermId>(terms.size()); id-- > 0;) {
+    if (!needed[id]) continue;
+    for (const TermId operand : operands(terms[id])) needed[operand] = true;
+  }
+  return needed;
+}
+
+/// Every term that a program computes.
+std::vector<TermId> roots_of(const SolvedMaterial& material) {
+  std::vector<TermId> roots{material.force[0], material.force[1]};
+  if (material.relief) roots.push_back(*material.relief);
+  if (material.colour) roots.insert(roots.end(), material.colour->begin(), material.colour->end());
+  for (const auto& state : material.states) roots.insert(roots.end(), {state.initial, state.next});
+  for (const auto& write : material.writes) roots.insert(roots.end(), {write.u, write.v, write.value});
+  for (const auto& mark : material.marks) roots.insert(roots.end(), mark.operands.begin(), mark.operands.end());
+  for (const auto& percept : material.percepts)
+    roots.insert(roots.end(), {percept.amplitude, percept.magnitude, percept.level});
+  return roots;
+}
+
+}  // namespace
+
+LoweredMaterial lower(const SolvedMaterial& material) {
+  const Terms& terms = material.terms;
+  const auto needed = reachable(terms, roots_of(material));
+
+  LoweredMaterial lowered;
+  Graph& graph = lowered.graph;
+  graph.reserve(2 * terms.size());  // gradients add to what the terms become
+  // The patch less its rim: where peaks are taken.
+  const NodeId rim = graph.input(Input::patch_rim);
+  const NodeId half_width = graph.apply(Operation::subtract, graph.input(Input::patch_half_width), rim);
+  const NodeId half_height = graph.apply(Operation::subtract, graph.input(Input::patch_half_height), rim);
+
+  std::vector<NodeId> nodes(terms.size(), 0);
+  Derivatives derivative(graph);
+  for (TermId id = 0; id < terms.size(); ++id) {
+    if (!needed[id]) continue;
+    const Term& term = terms[id];
+    switch (term.kind) {
+      case TermKind::literal: nodes[id] = graph.constant(static_cast<float>(term.value)); break;
+      case TermKind::input: nodes[id] = graph.input(term.input(), term.span); break;
+      case TermKind::parameter: nodes[id] = graph.parameter(term.index, term.span); break;
+      case TermKind::state: nodes[id] = graph.state(term.index, term.span); break;
+      case TermKind::operation:
+        nodes[id] = graph.apply(term.operation, nodes[term.a], nodes[term.b], nodes[term.c], term.index, term.span);
+        break;
+      case TermKind::component: nodes[id] = graph.component(nodes[term.a], term.index, term.span); break;
+      case TermKind::gradient: nodes[id] = derivative(nodes[term.a], static_cast<int>(term.index)); break;
+      case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height, term.span); break;
+      case TermKind::open:
+      case TermKind::cells:
+      case TermKind::magnitude:
+      case TermKind::carrier: break;  // solved away
+    }
+  }
+
+  lowered.ceiling = graph.constant(static_cast<float>(material.device.force_newton));
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    lowered.force[axis] = graph.output_limit(nodes[material.force[axis]], lowered.ceiling, material.force_span);
+  const auto node_of = [&](TermId id) { return nodes[id]; };
+  if (material.relief) lowered.relief = node_of(*material.relief);
+  if (material.colour)
+    lowered.colour = {node_of((*material.colour)[0]), node_of((*material.colour)[1]), node_of((*material.colour)[2])};
+  for (const auto& state : material.states) lowered.states.push_back({node_of(state.initial), node_of(state.next)});
+  for (const auto& write : material.writes)
+    lowered.writes.push_back({node_of(write.u), node_of(write.v), node_of(write.value)});
+  for (const auto& mark : material.marks) {
+    auto& operands = lowered.marks.emplace_back();
+    for (const TermId operand : mark.operands) operands.push_back(node_of(operand));
+  }
+  for (const auto& percept : material.percepts)
+    lowered.percepts.push_back({node_of(percept.amplitude), node_of(percept.magnitude), node_of(percept.level)});
+  return lowered;
+}
+
+}  // namespace wale

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/expression/checked.hpp"
+#include "compiler/text/resolver.hpp"
+
+namespace wale {
+
+/// What surrounds the expressions of one material or declaration while they are checked.
+struct Surroundings {
+  const SourceSet& sources;
+  const Declarations& declarations;  ///< of the file whose expressions are checked
+  Diagnostics& diagnostics;
+  Resolver* resolver = nullptr;  ///< for images; none where no file may be read
+};
+
+/// Gives expressions their types and dimensions and turns them into terms, inlining functions on the way.
+///
+/// One checker serves one material: its terms, its tables and what its calls leave behind.
+class ExpressionChecker {
+ public:
+  ExpressionChecker(Surroundings surroundings, Terms& terms, std::vector<HeightTable>& tables)
+      : surroundings_(surroundings), terms_(terms), tables_(tables) {}
+
+  /// An actual argument of a function of the language, already checked.
+  struct Actual {
+    Value value;
+    Span span;
+    bool given = false;
+  };
+
+  /// The expression's value; what is wrong is reported, and the value then is `failed`.
+  Value check(const SyntaxTree& tree, ExprId expr, Scope& scope);
+
+  /// The same, and of this type and dimension, or reported: "force expected, found energy".
+  Value check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type, const Dimension& dimension);
+
+  /// The value of a name that the parser has left as a word.
+  Value named(const Word& word, Scope& scope) { return name(word, scope); }
+
+  /// The value in SI of an expression of that dimension that needs nothing but literals; otherwise reported.
+  std::optional<double> constant(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& dimension);
+
+  /// A call of a declared function with arguments that are values already, in the order of its formals; those not
+  /// given take their defaults.
+  Value call_with(const Declared<FunctionDecl>& function, std::vector<Actual> actuals, const Scope& scope, Span span);
+
+  /// Reads another file's expressions, with its names, from now on.
+  void read(const Declarations& declarations) { declarations_ = &declarations; }
+  const Declarations& declarations() const { return *declarations_; }
+
+  const std::vector<Carrier>& carriers() const { return carriers_; }
+  std::vector<Carrier>& carriers() { return carriers_; }
+  const std::vector<Span>& open_spans() const { return open_spans_; }
+  /// Accumulators that calls of `phase` ask for.
+  std::vector<CheckedState>& states() { return states_; }
+  const std::vector<CheckedPeriod>& periods() const { return periods_; }
+
+  /// The value of a field at an argument of the type and dimension that it takes.
+  Value at(const Field& field, const Value& argument, Span span);
+  /// Where a place lies in a memory: columns and rows from the centre of its first cell.
+  std::array<TermId, 2> memory_place(std::uint32_t memory, const Value& place, Span span);
+
+  /// Reports a name that an imported file has and keeps to itself; nothing when there is none.
+  std::optional<Value> private_name(const Word& word);
+
+ private:
+  friend struct BuiltinFunctions;
+
+  Value number(const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal, Scope& scope);
+  Value name(const Word& word, Scope& scope);
+  Value unary(const SyntaxTree& tree, ExprId expr, const Unary& unary, Scope& scope);
+  Value binary(const SyntaxTree& tree, ExprId expr, const Binary& binary, Scope& scope);
+  Value conditional(const SyntaxTree& tree, ExprId expr, const Conditional& conditional, Scope& scope);
+  Value part(const SyntaxTree& tree, const Part& node, Scope& scope);
+  Value call(const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope);
+  Value call_function(const SyntaxTree& tree, ExprId expr, const Call& call, const Declared<FunctionDecl>& function,
+                      Scope& scope);
+  Value call_field(const SyntaxTree& tree, ExprId expr, const Call& call, const Value& field, Scope& scope);
+  Value curve(const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope);
+  Value unknown_function(const Call& call, Scope& scope);
+  bool may_expand(const std::string& name, Span callee, Span span);
+  std::optional<Dimension> dimension_of(const FormalParameter& formal, const Declarations& home) const;
+  std::uint32_t add_table(HeightTable table);
+  std::optional<Value> input(const Word& word, const Scope& scope);
+  std::optional<Value> constant_named(const Word& word);
+  std::optional<Value> part_of_vector(const Word& word, Scope& scope);
+  bool has_meaning(const std::string& name, const Scope& scope) const;
+  bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string>& formals, Scope& scope,
+                      std::vector<Actual>& actuals);
+  void record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span);
+
+  Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
+                       Span span);
+  Value multiply(const Value& left, const Value& right, Span span);
+  Value divide(const Value& left, const Value& right, Span span);
+  Value raise(const Value& base, const Value& exponent, Span span);
+
+  Value failed(Span span) const;
+  Value report(Code code, Span span, std::string message, std::string label = {}, Advice advice = "");
+  void say(Diagnostic diagnostic);
+  void report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value,
+                        const Dimension& expected);
+  Advice dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
+                        const Dimension& found);
+  Advice factor_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
+                     const Dimension& ratio);
+  Advice spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise) const;
+  Value ambiguous_unit(const Word& word, Span declared);
+  void mismatched_sides(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
+                        Span span);
+  /// Where to point: inside a function of another file, at the call that led there.
+  Span blame(Span span) const { return call_sites_.empty() || at_home(span) ? span : call_sites_.front(); }
+  bool at_home(Span span) const { return !call_sites_.empty() && span.source == call_sites_.front().source; }
+  std::string inside(Span span) const;       ///< " (inside `grating`)", where the place does not say so
+  std::string called_from(Span span) const;  ///< "called on line 12", for a place inside a function of the same file
+  const DimensionNames& names() const { return declarations_->names(); }
+  const Unit* unit(const std::string& name) const { return declarations_->units.find(name); }
+
+  Surroundings surroundings_;
+  const Declarations* declarations_ = &surroundings_.declarations;  ///< changes inside functions of other files
+  Terms& terms_;
+  std::vector<HeightTable>& tables_;
+  std::vector<Carrier> carriers_;
+  std::vector<Span> open_spans_;
+  std::vector<CheckedState> states_;
+  std::map<TermId, TermId> phases_;  ///< by frequency
+  std::vector<CheckedPeriod> periods_;
+  std::map<const Constant*, Value> constants_;
+  std::vector<Span> ambiguous_;  ///< declarations of names that are units too, reported
+  bool too_large_ = false;       ///< reported
+  std::vector<Span> call_sites_;
+  std::vector<std::string> callees_;
+};
+
+/// What makes a value change while the hand rests, in words.
+std::string what_changes(const Dependence& dependence);
+
+/// Definitions lead to one another at most so deep.
+inline constexpr std::size_t deepest_call = 64;
+
+/// Whether the compiler itself defines a function of that name.
+bool is_builtin_function(const std::string& name);
+
+/// Whether the language itself gives this name a meaning on a patch: the hand's place and motion, the patch's extents,
+/// time.
+bool names_hand_or_patch(std::string_view name);
+
+/// The value of a term that depends on nothing, in double precision, or nothing. With `parameters` it may depend on
+/// those too.
+std::optional<double> constant_value(const Terms& terms, TermId id, const std::vector<Parameter>* parameters = nullptr);
+
+/// The unit that people would write a quantity of this dimension in: "mm" for a length, the coherent unit otherwise.
+std::string customary_unit(const Declarations& declarations, const Dimension& dimension);
+
+/// The fix that writes a unit behind a bare number, for who forgot it; none where the expression is something else.
+std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources);
+
+/// What to write in the place of a word that is no unit: the symbol of one written out, or the nearest.
+Advice unit_mend(const Word& word, const Declarations& declarations);
+
+}  // namespace wale

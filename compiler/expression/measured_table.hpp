@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "compiler/declarations/declarations.hpp"
+
+namespace wale {
+
+/// A relation that was measured, equally spaced: sample i is the value at `first + i * step`; all in SI.
+struct MeasuredTable {
+  Dimension from, to;
+  double first = 0, step = 0;
+  double low = 0, high = 0;  ///< what the codes 0 and 65535 stand for
+  HeightTable table;         ///< two equal rows
+};
+
+/// Why a table cannot be read: the line (0 for the file as a whole), and what to do.
+struct TableProblem {
+  std::size_t line = 0;
+  std::string reason, mend;
+};
+
+/// Reads comma-separated values whose first line names the columns and their units, `x (mm), force (N)`; a column
+/// without a unit holds plain numbers. `from` and `to` name the columns, empty for the first and the second. The places
+/// rise from line to line; where they are not equally spaced, the table is resampled by straight lines. Lines that are
+/// empty or begin with `#` are passed over.
+std::variant<MeasuredTable, TableProblem> read_measured_table(std::string_view text, const std::string& from,
+                                                              const std::string& to, const Declarations& declarations);
+
+}  // namespace wale

@@ -1,0 +1,151 @@
+#include "compiler/graph/graph.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "compiler/graph/term.hpp"
+#include "runtime/machine/floating_point_mode.hpp"
+#include "runtime/machine/meaning.hpp"
+
+namespace wale {
+
+namespace {
+
+// Not inlined: the compiler does not know that arithmetic depends on the mode in which it runs.
+[[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
+  // clang-format off
+  switch (operation) {
+#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+  case Operation::name: return Meaning<Operation::name>::of(a, b, c);
+#define SPECIAL(number, name, fields, results, cost) \
+  case Operation::name: break;
+#include "schema/instruction.def"
+  }
+  // clang-format on
+  return 0;
+}
+
+/// The operation on constants, in the machine's arithmetic and its treatment of denormals.
+float fold(Operation operation, float a, float b, float c) {
+  const FloatingPointMode mode;
+  return evaluate(operation, a, b, c);
+}
+
+using Key = std::array<std::uint64_t, 3>;
+
+/// Whatever makes a value what it is; where it came from and how often it is worked out do not.
+Key key_of(const Node& node) {
+  return {static_cast<std::uint64_t>(node.kind) << 40 | static_cast<std::uint64_t>(node.operation) << 32 |
+              std::bit_cast<std::uint32_t>(node.value),
+          std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index};
+}
+
+std::size_t hash_of(const Key& key) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, a word at a time
+  for (const auto word : key) hash = (hash ^ word) * 1099511628211u, hash ^= hash >> 29;
+  return hash;
+}
+
+}  // namespace
+
+void Graph::reserve(std::size_t nodes) {
+  nodes_.reserve(nodes);
+  if (2 * nodes > table_.size()) enlarge_table(std::bit_ceil(2 * nodes));
+}
+
+void Graph::enlarge_table(std::size_t slots) {
+  const std::vector<NodeId> entries = std::move(table_);
+  table_.assign(slots, none);
+  for (const NodeId id : entries) {
+    if (id == none) continue;
+    std::size_t slot = hash_of(key_of(nodes_[id])) & (table_.size() - 1);
+    while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
+    table_[slot] = id;
+  }
+}
+
+NodeId Graph::add(const Node& node) {
+  if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
+  const Key key = key_of(node);
+  std::size_t slot = hash_of(key) & (table_.size() - 1);
+  for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
+    if (key_of(nodes_[table_[slot]]) == key) return table_[slot];
+  table_[slot] = static_cast<NodeId>(nodes_.size());
+  ++in_table_;
+  nodes_.push_back(node);
+  return table_[slot];
+}
+
+NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }
+
+NodeId Graph::input(Input input, Span span) {
+  const bool patch = input == Input::patch_half_width || input == Input::patch_half_height ||
+                     input == Input::patch_rim || input == Input::seconds_per_tick;
+  return add({.kind = Node::Kind::input,
+              .index = static_cast<std::uint32_t>(input),
+              .rate = patch ? Rate::setup : Rate::tick,
+              .span = span});
+}
+
+NodeId Graph::parameter(std::uint32_t index, Span span) {
+  return add({.kind = Node::Kind::parameter, .index = index, .rate = Rate::setup, .span = span});
+}
+
+NodeId Graph::state(std::uint32_t index, Span span) {
+  return add({.kind = Node::Kind::state, .index = index, .rate = Rate::tick, .span = span});
+}
+
+NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, Span span) {
+  const NodeId operands[] = {a, b, c};
+  const int count = facts(operation).operands;
+  const bool recalls = operation == Operation::recall || operation == Operation::cell;
+  bool constants = operation != Operation::sample && !recalls;
+  Rate rate = recalls ? Rate::tick : Rate::constant;
+  for (int i = 0; i < count; ++i) {
+    constants = constants && nodes_[operands[i]].kind == Node::Kind::constant;
+    rate = std::max(rate, nodes_[operands[i]].rate);
+  }
+  const auto value = [&](int i) { return i < count ? nodes_[operands[i]].value : 0.0f; };
+  if (constants) return constant(fold(operation, value(0), value(1), value(2)));
+
+  // Only what is exact for every float is simplified: the value must not depend on what the compiler knew.
+  if (operation == Operation::multiply && is_constant(b, 1)) return a;
+  if (operation == Operation::multiply && is_constant(a, 1)) return b;
+  if (operation == Operation::divide && is_constant(b, 1)) return a;
+  if (operation == Operation::subtract && is_constant(b, 0)) return a;
+  if (operation == Operation::negate && nodes_[a].kind == Node::Kind::operation &&
+      nodes_[a].operation == Operation::negate)
+    return nodes_[a].a;
+  if (operation == Operation::select && nodes_[a].kind == Node::Kind::constant) return nodes_[a].value != 0 ? b : c;
+  return add({.kind = Node::Kind::operation,
+              .operation = operation,
+              .a = a,
+              .b = count > 1 ? b : 0,
+              .c = count > 2 ? c : 0,
+              .index = table,
+              .rate = rate,
+              .span = span});
+}
+
+NodeId Graph::component(NodeId sample, std::uint32_t index, Span span) {
+  return add({.kind = Node::Kind::component, .a = sample, .index = index, .rate = nodes_[sample].rate, .span = span});
+}
+
+NodeId Graph::peak(NodeId value, NodeId half_width, NodeId half_height, Span span) {
+  if (nodes_[value].rate != Rate::tick) return value;  // the same everywhere on the patch
+  return add(
+      {.kind = Node::Kind::peak, .a = value, .b = half_width, .c = half_height, .rate = Rate::setup, .span = span});
+}
+
+NodeId Graph::output_limit(NodeId value, NodeId ceiling, Span span) {
+  nodes_.push_back({.kind = Node::Kind::operation,
+                    .operation = Operation::limit,
+                    .a = value,
+                    .b = ceiling,
+                    .rate = Rate::tick,
+                    .span = span});
+  return static_cast<NodeId>(nodes_.size() - 1);
+}
+
+}  // namespace wale

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "compiler/text/source.hpp"
+#include "schema/instruction.hpp"
+
+namespace wale {
+
+/// How often a value has to be worked out: once by the compiler, on the control thread when a parameter or the patch
+/// changes, or at every tick, lattice point or pixel.
+enum class Rate : std::uint8_t { constant, setup, tick };
+
+using NodeId = std::uint32_t;
+
+/// One value of a program in single assignment form, and where in the source it came from.
+struct Node {
+  enum class Kind : std::uint8_t {
+    constant,   ///< `value`
+    input,      ///< number `index`
+    parameter,  ///< number `index`
+    state,      ///< number `index`, as it was when the tick began
+    operation,  ///< of a, b, c; `sample` reads table `index`, `recall` and `cell` grid `index`
+    component,  ///< result `index` of the sample `a`
+    peak,       ///< percentile of `a` over the box of half extents b and c
+  };
+  Kind kind = Kind::constant;
+  Operation operation = Operation::add;
+  NodeId a = 0, b = 0, c = 0;
+  float value = 0;
+  std::uint32_t index = 0;
+  Rate rate = Rate::constant;
+  Span span;
+};
+
+/// The nodes that a node is worked out from, at most three.
+struct Operands {
+  std::array<NodeId, 3> nodes{};
+  std::size_t count = 0;
+
+  std::size_t size() const { return count; }
+  NodeId operator[](std::size_t i) const { return nodes[i]; }
+  const NodeId* begin() const { return nodes.data(); }
+  const NodeId* end() const { return nodes.data() + count; }
+};
+
+/// The values of a program. Equal values are one node; values of constants are folded by the machine's own operations,
+/// so that a change of rate changes no bit. Operands stand before what uses them.
+class Graph {
+ public:
+  const Node& operator[](NodeId id) const { return nodes_[id]; }
+  std::size_t size() const { return nodes_.size(); }
+  /// Makes room for so many nodes; there may be more.
+  void reserve(std::size_t nodes);
+
+  NodeId constant(float value);
+  NodeId input(Input input, Span span = {});
+  NodeId parameter(std::uint32_t index, Span span = {});
+  NodeId state(std::uint32_t index, Span span = {});
+  NodeId apply(Operation operation, NodeId a, NodeId b = 0, NodeId c = 0, std::uint32_t table = 0, Span span = {});
+  NodeId component(NodeId sample, std::uint32_t index, Span span = {});
+  NodeId peak(NodeId value, NodeId half_width, NodeId half_height, Span span = {});
+  /// The `limit` that ends an output: never folded or shared, and always worked out in the tick.
+  NodeId output_limit(NodeId value, NodeId ceiling, Span span = {});
+
+  bool is_constant(NodeId id, float value) const {
+    return nodes_[id].kind == Node::Kind::constant &&
+           std::bit_cast<std::uint32_t>(nodes_[id].value) == std::bit_cast<std::uint32_t>(value);
+  }
+  Operands operands(NodeId id) const;
+
+ private:
+  NodeId add(const Node& node);
+  void enlarge_table(std::size_t slots);
+
+  static constexpr NodeId none = ~NodeId{0};
+
+  std::vector<Node> nodes_;
+  /// Finds equal nodes: a power of two of slots, each a node or `none`. A node stands in the first free slot from the
+  /// one that its hash names.
+  std::vector<NodeId> table_;
+  std::size_t in_table_ = 0;
+};
+
+inline Operands Graph::operands(NodeId id) const {
+  const Node& node = nodes_[id];
+  switch (node.kind) {
+    case Node::Kind::operation:
+      return {{node.a, node.b, node.c}, static_cast<std::size_t>(facts(node.operation).operands)};
+    case Node::Kind::component: return {{node.a}, 1};
+    case Node::Kind::peak: return {{node.a, node.b, node.c}, 3};
+    default: return {};
+  }
+}
+
+/// Derivatives of a graph's nodes along x (axis 0) and y (axis 1), by the rules of the instruction table: exact but for
+/// rounding. What has been derived once is remembered: slopes of one height are asked for again and again.
+class Derivatives {
+ public:
+  explicit Derivatives(Graph& graph) : graph_(graph) {}
+
+  NodeId operator()(NodeId of, int axis);
+
+ private:
+  static constexpr NodeId none = ~NodeId{0};
+
+  Graph& graph_;
+  std::array<std::vector<NodeId>, 2> known_;  ///< by axis and node; `none` where nobody has asked
+};
+
+}  // namespace wale

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "compiler/text/source.hpp"
+#include "schema/instruction.hpp"
+
+namespace wale {
+
+/// A checked expression is a graph of terms: dimensions have been checked and left behind, vectors have been taken
+/// apart, functions inlined, names resolved; all values are in SI units. A `let` used twice is one term used twice.
+using TermId = std::uint32_t;
+
+enum class TermKind : std::uint8_t {
+  literal,    ///< `value`
+  input,      ///< `input`
+  parameter,  ///< parameter number `index`
+  open,       ///< a quantity left open, number `index`; `solve` replaces it
+  magnitude,  ///< in a map's law: the perceived magnitude
+  carrier,    ///< in a map's law: the size of the carrier
+  state,      ///< state number `index` as it was when the tick began
+  cells,      ///< how many columns (index 2 g) or rows (2 g + 1) memory number g has; `solve` replaces it
+  operation,  ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`, `recall` and
+              ///< `cell` grid number `index`
+  component,  ///< result `index` of the sample or recall `a`
+  gradient,   ///< derivative of `a` along axis `index` (0 x, 1 y)
+  peak,       ///< 99th percentile of `a` over the patch less its rim
+};
+
+struct Term {
+  TermKind kind = TermKind::literal;
+  Operation operation = Operation::add;
+  TermId a = 0, b = 0, c = 0;
+  double value = 0;
+  std::uint32_t index = 0;
+  Span span;
+
+  Input input() const { return static_cast<Input>(index); }
+};
+
+/// What a term's value changes with.
+struct Dependence {
+  bool parameter = false, position = false, velocity = false, open = false;
+  bool moment = false;  ///< time, acceleration, the button, the hand's place on the workspace
+  bool state = false;   ///< states and memories
+  bool constant() const { return !parameter && !open && !in_tick(); }
+  bool in_tick() const { return position || changing(); }
+  /// Not the same at the same place: no height, and nothing to take a peak of.
+  bool changing() const { return velocity || moment || state; }
+};
+
+/// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
+class Terms {
+ public:
+  const Term& operator[](TermId id) const { return terms_[id]; }
+  std::size_t size() const { return terms_.size(); }
+  /// Makes room for so many terms; there may be more.
+  void reserve(std::size_t terms);
+
+  TermId add(const Term& term);
+  TermId literal(double value, Span span = {});
+  TermId input(Input input, Span span = {});
+  TermId parameter(std::uint32_t index, Span span = {});
+  TermId apply(Operation operation, TermId a, Span span = {});
+  TermId apply(Operation operation, TermId a, TermId b, Span span = {});
+  TermId apply(Operation operation, TermId a, TermId b, TermId c, Span span = {});
+
+  Dependence dependence(TermId id) const { return dependences_[id]; }
+
+ private:
+  std::vector<Term> terms_;
+  std::vector<Dependence> dependences_;
+};
+
+/// The terms that a term is worked out from: a, b, c as far as it has them.
+struct TermOperands {
+  std::array<TermId, 3> terms{};
+  std::size_t count = 0;
+
+  std::size_t size() const { return count; }
+  TermId operator[](std::size_t i) const { return terms[i]; }
+  const TermId* begin() const { return terms.data(); }
+  const TermId* end() const { return terms.data() + count; }
+};
+
+inline TermOperands operands(const Term& term) {
+  switch (term.kind) {
+    case TermKind::operation:
+      return {{term.a, term.b, term.c}, static_cast<std::size_t>(facts(term.operation).operands)};
+    case TermKind::component:
+    case TermKind::gradient:
+    case TermKind::peak: return {{term.a}, 1};
+    default: return {};
+  }
+}
+
+}  // namespace wale

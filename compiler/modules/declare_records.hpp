@@ -1,0 +1,53 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compiler/expression/check_expression.hpp"
+
+namespace wale {
+
+/// Reads the settings of one record: each is asked for by its key, once; what nobody asked for is reported at the end.
+class RecordReader {
+ public:
+  RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources,
+               const Declarations& declarations, Diagnostics& diagnostics);
+
+  std::vector<const Setting*> settings(const std::string& key);                 ///< all of that key
+  const Setting* setting(const std::string& key);                               ///< the only one, or none
+  const Setting* required(const std::string& key, const std::string& example);  ///< or none, reported
+
+  /// Item `index` of a setting as a quantity of the named dimension ("number" for a plain one), in SI.
+  std::optional<double> quantity(const Setting& setting, std::size_t index, const std::string& dimension);
+  /// The same, of a setting that must be there and be more than nothing.
+  double positive(const std::string& key, std::size_t index, const std::string& dimension, const std::string& example);
+  std::string text(const std::string& key);  ///< empty when not written
+  /// An expression's value in SI, of the dimension.
+  std::optional<double> value(ExprId expr, const Dimension& dimension);
+
+  void report(Code code, Span span, std::string message, Advice advice);
+  /// The same about the record as a whole, whose settings then are not read.
+  void reject(Code code, Span span, std::string message, Advice advice);
+  void report_unknown_settings();
+
+  const SyntaxTree& tree;
+  const RecordDecl& record;
+  const SourceSet& sources;
+  const Declarations& declarations;
+  Diagnostics& diagnostics;
+
+ private:
+  std::set<const Setting*> read_;
+  std::set<std::string> asked_;
+  bool rejected_ = false;
+};
+
+/// Each enters one record of its kind.
+void declare_percept(RecordReader& reader, Declarations& declarations);
+void declare_map(RecordReader& reader, Declarations& declarations);
+void declare_device(RecordReader& reader, Declarations& declarations);
+void declare_levels(RecordReader& reader, Declarations& declarations);
+void declare_hand(RecordReader& reader, Declarations& declarations);
+
+}  // namespace wale

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string_view>
+
+#include "compiler/parse/lex.hpp"
+
+namespace wale {
+
+/// What people type, or their word processor makes, instead of a token of Wale.
+struct Lookalike {
+  std::string_view text;
+  std::string_view called;
+  std::string_view meant;
+  TokenKind kind;  ///< what it is read as; `unreadable` when it may mean several things
+};
+
+inline constexpr Lookalike lookalikes[] = {
+    {"...", "three dots", "`..`", TokenKind::range},
+    {"…", "an ellipsis", "`..`", TokenKind::range},
+    {"==", "a doubled equals sign", "`=` to define; values are compared with `<`, `<=`, `>` and `>=`",
+     TokenKind::unreadable},
+    {"!=", "an unequal sign", "`<` or `>`: values are compared with `<`, `<=`, `>` and `>=`", TokenKind::unreadable},
+    {"**", "a doubled asterisk", "`^` for a power", TokenKind::caret},
+    {"&&", "a doubled ampersand", "one `if` inside the other", TokenKind::unreadable},
+    {"||", "a doubled bar", "one `if` inside the other", TokenKind::unreadable},
+    {"×", "a multiplication sign", "`*`", TokenKind::star},
+    {"·", "a middle dot", "`*` between values, a space between units", TokenKind::unreadable},
+    {"⋅", "a dot operator", "`*` between values, a space between units", TokenKind::unreadable},
+    {"÷", "a division sign", "`/`", TokenKind::slash},
+    {"∕", "a division slash", "`/`", TokenKind::slash},
+    {"⁄", "a fraction slash", "`/`", TokenKind::slash},
+    {"−", "a typographic minus", "`-`", TokenKind::minus},
+    {"–", "a dash", "`-`", TokenKind::minus},
+    {"—", "a long dash", "`-`", TokenKind::minus},
+    {"‐", "a typographic hyphen", "`-`", TokenKind::minus},
+    {"≤", "a less-or-equal sign", "`<=`", TokenKind::less_equal},
+    {"≥", "a greater-or-equal sign", "`>=`", TokenKind::greater_equal},
+    {"’", "a typographic apostrophe", "`'`", TokenKind::prime},
+    {"‘", "a typographic quote", "`'`", TokenKind::prime},
+    {"′", "a prime", "`'`", TokenKind::prime},
+};
+
+/// Characters that stand for an ASCII spelling of two tokens or of a name.
+struct Abbreviation {
+  std::string_view text;
+  std::string_view called;
+  std::string_view meant;
+};
+
+inline constexpr Abbreviation abbreviations[] = {
+    {"²", "a raised 2", "^2"}, {"³", "a raised 3", "^3"}, {"°", "a degree sign", "deg"}};
+
+inline constexpr std::string_view typographic_quotes[] = {"“", "”", "„", "«", "»", "‟"};
+
+}  // namespace wale

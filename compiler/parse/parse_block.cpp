@@ -1,0 +1,417 @@
+#include <fmt/format.h>
+
+#include "compiler/diagnostics/fix.hpp"
+#include "compiler/parse/parser.hpp"
+#include "compiler/text/spelling.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::string_view sections[] = {"representative", "perceptual", "physical"};
+const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
+
+/// What begins a physical statement; `x' = …` has no word of its own.
+const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch",
+                                                 "state", "memory", "next",   "show"};
+
+template <class List>
+bool holds(const List& list, std::string_view word) {
+  for (const auto& each : list) {
+    if (each == word) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+/// `valid amplitude 9 pu .. 194 pu, period 0.7 mm .. 10 mm`.
+Setting Parser::setting() {
+  const std::size_t begin = at_;
+  const bool is_key = here().kind == TokenKind::name || here().kind == TokenKind::word_on;
+  if (!is_key) {
+    // Here the statement has only begun, so whatever stands here belongs to it although it begins a line.
+    complain_at(Code::unexpected_token, span_of(here()), "a setting begins with its name", "a name", shown(here()), {});
+    throw Abandon{};
+  }
+  Setting setting;
+  setting.key = take_word();
+  in_setting_ = true;
+  if (at(TokenKind::equals) || at(TokenKind::colon)) {
+    const Token& next = token(at_ + 1);
+    complain(fmt::format("a setting has no {} after its name", shown(here())), "a value",
+             fmt::format("write `{} {}`", setting.key.text, spelling(next)), drop_here());
+    advance();
+  }
+  setting.items.push_back(setting_item());
+  while (at(TokenKind::comma)) {
+    advance();
+    setting.items.push_back(setting_item());
+  }
+  if (at(TokenKind::word_on)) {
+    advance();
+    if (!at(TokenKind::name)) fail("expected the name of a device" + after_previous(), "a name", {});
+    setting.on = take_word();
+  }
+  setting.span = since(begin);
+  return setting;
+}
+
+/// A name is a word of its own unless it is called or an operator says that it is a value. A sign is the next value's:
+/// `amplitude -3 N .. 3 N`.
+bool Parser::is_leading_word() const {
+  if (!at(TokenKind::name)) return false;
+  for (const TokenKind operation :
+       {TokenKind::left_parenthesis, TokenKind::star, TokenKind::slash, TokenKind::caret, TokenKind::range}) {
+    if (followed_by(operation)) return false;
+  }
+  return true;
+}
+
+SettingItem Parser::setting_item() {
+  const std::size_t begin = at_;
+  SettingItem item;
+  while (is_leading_word()) item.words.push_back(take_word());
+  const bool has_value =
+      !ends_statement(at_) && !at(TokenKind::comma) && !at(TokenKind::word_on) && !at(TokenKind::equals);
+  if (has_value) {
+    item.value = expression();
+    if (at(TokenKind::range)) {
+      advance();
+      item.range_end = expression();
+    }
+  }
+  if (item.words.empty() && !item.value)
+    fail("expected a value" + after_previous(), "a value", mend_here(), fixes_here());
+  if (at(TokenKind::equals)) {
+    advance();
+    item.equals = expression();
+  }
+  while (at(TokenKind::name)) item.trailing.push_back(take_word());
+  item.span = since(begin);
+  return item;
+}
+
+/// Whether the lines of a material's sections follow although no `{` stands here.
+bool Parser::has_sections_below() const {
+  std::size_t index = at_;
+  while (!token(index).starts_line && kind(index) != TokenKind::left_brace && kind(index) != TokenKind::end) ++index;
+  return kind(index) == TokenKind::left_brace ||
+         (kind(index) == TokenKind::name && kind(index + 1) == TokenKind::left_brace &&
+          holds(sections, spelling(token(index))));
+}
+
+/// `representative { … }`, `perceptual { … }` or `physical { … }`.
+void Parser::material_section(MaterialDecl& material, bool& misplaced) {
+  std::string section = spelling(here());
+  const bool opens = kind(at_ + 1) == TokenKind::left_brace;
+  if (here().kind != TokenKind::name || !holds(sections, section)) {
+    const auto meant = opens ? nearest_spelling(section, section_names) : std::nullopt;
+    if (!meant) return stray_statement(material, misplaced);
+    complain_at(Code::unexpected_token, span_of(here()), fmt::format("a material has no `{}`", section),
+                "`representative`, `perceptual` or `physical`", "`" + section + "`",
+                fmt::format("did you mean `{}`?", *meant), respell_here(section_names), {}, {{"meant", *meant}});
+    section = *meant;
+  }
+  if ((section == "perceptual" && material.perceptual_span) || (section == "physical" && material.physical_span))
+    complain_at(Code::declared_twice, span_of(here()), fmt::format("a material has one `{}` block", section), "", "",
+                "put all its statements into one block", {},
+                {{section == "physical" ? *material.physical_span : *material.perceptual_span, "the first one"}});
+  advance();
+  if (section == "representative") {
+    block(true, [&] {
+      material.representative.push_back(setting());
+      end_statement();
+    });
+  } else if (section == "perceptual") {
+    material.perceptual_span = block(true, [&] {
+      material.perceptual.push_back(percept_statement());
+      end_statement();
+    });
+  } else {
+    material.physical_span = block(true, [&] {
+      material.physical.push_back(physical_statement());
+      end_statement();
+    });
+  }
+}
+
+/// What stands in a material but in none of its sections. A physical statement is read where it is, and only the first
+/// statement reported: they were all meant to be in the same section, or one ended too early.
+void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
+  const bool physical =
+      here().kind == TokenKind::name && (holds(physical_words, spelling(here())) || kind(at_ + 1) == TokenKind::prime);
+  if (misplaced) {
+    reported_ = true;
+  } else {
+    complain_at(Code::unexpected_token, span_of(here()),
+                fmt::format("{} stands outside the sections of the material", shown(here())),
+                "`representative`, `perceptual` or `physical`", shown(here()),
+                physical ? "put it into `physical { … }`" : "put it into the section that it belongs to");
+  }
+  misplaced = true;
+  if (!physical) throw Abandon{};
+  material.physical.push_back(physical_statement());
+  end_statement();
+}
+
+PerceptStatement Parser::percept_statement() {
+  const std::size_t begin = at_;
+  PerceptStatement percept;
+  if (is_word(at_, "essential") && followed_by(TokenKind::name)) {
+    percept.essential = true;
+    advance();
+  }
+  if (here().kind != TokenKind::name) {
+    complain_at(Code::unexpected_token, span_of(here()), "expected the name of a percept",
+                "a percept, as in `roughness 0.6`", shown(here()), {});
+    throw Abandon{};
+  }
+  percept.name = take_word();
+  if (at(TokenKind::equals) || at(TokenKind::colon)) {
+    const Token& next = token(at_ + 1);
+    complain(fmt::format("a percept's level has no {} before it", shown(here())), "a level",
+             fmt::format("write `{} {}`", percept.name.text, spelling(next)), drop_here());
+    advance();
+  }
+  const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus;
+  if (at(TokenKind::name) && alone) {
+    percept.level_name = take_word();
+  } else if (ends_statement(at_)) {
+    complain("expected a level" + after_previous(), "a level from 0 to 1, or its name",
+             fmt::format("write `{} 0.5`", percept.name.text));
+    percept.value = erroneous(begin);
+  } else {
+    percept.value = expression();
+  }
+  if (at(TokenKind::plus_minus)) {
+    advance();
+    percept.tolerance = expression();
+  }
+  percept.span = since(begin);
+  if (at(TokenKind::range)) {
+    complain("a level is one number, with a tolerance if need be", "`±`, or the end of the line", "write `0.5 ± 0.1`");
+    skip_statement();
+    percept.value = erroneous(begin);
+  }
+  return percept;
+}
+
+/// Which statement stands here, by its first word; a misspelt one is reported and read as what it was meant to be.
+std::string_view Parser::physical_keyword() {
+  const auto word_of_table = [](std::string_view word) -> std::string_view {
+    for (const std::string& each : physical_words) {
+      if (each == word) return each;
+    }
+    return {};
+  };
+  if (here().kind == TokenKind::name) {
+    const std::string word = spelling(here());
+    const bool defines = followed_by(TokenKind::equals);
+    if (followed_by(TokenKind::prime)) return "'";
+    if (const auto known = word_of_table(word); !known.empty()) return known;
+    const std::vector<std::string> candidates = defines ? std::vector<std::string>{"force"} : physical_words;
+    const auto meant = nearest_spelling(word, candidates);
+    const bool plausible = meant && (defines || followed_by(TokenKind::name) || *meant == "patch");
+    if (plausible) {
+      complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word),
+                  "`" + *meant + "`", "`" + word + "`", fmt::format("did you mean `{}`?", *meant),
+                  respell_here(candidates), {}, {{"meant", *meant}});
+      return word_of_table(*meant);
+    }
+    if (defines) {
+      complain_at(Code::unexpected_token, span_of(here()), fmt::format("`{}` is defined without saying as what", word),
+                  "`let`, `param`, `height` or `state`", "`" + word + "`", fmt::format("write `let {} = …`", word),
+                  {insert_before(span_of(here()), "let ", {}, false)});
+      return "=";
+    }
+  }
+  const bool operation = here().kind >= TokenKind::plus && here().kind <= TokenKind::greater_equal;
+  complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with {}", shown(here())),
+              "`param`, `let`, `height`, `state`, `memory`, `force`, `patch`, `next`, `show` or `name' = …`",
+              shown(here()), operation ? "to go on in the next line, end the line above with the operator" : "",
+              operation ? move_operator_up() : std::vector<Fix>{});
+  throw Abandon{};
+}
+
+PhysicalStatement Parser::physical_statement() {
+  const std::size_t begin = at_;
+  const std::string_view keyword = physical_keyword();
+  PhysicalStatement result;
+  if (keyword == "'" || keyword == "next") {
+    result.what = update();
+  } else if (keyword == "param") {
+    result.what = param();
+  } else if (keyword == "state") {
+    result.what = state();
+  } else if (keyword == "memory") {
+    result.what = memory();
+  } else if (keyword == "patch") {
+    result.what = patch();
+  } else if (keyword == "show") {
+    advance();
+    result.what = ShowStatement{expression()};
+  } else if (keyword == "force") {
+    advance();
+    ForceStatement force{};
+    if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
+    expect(TokenKind::equals, "`=`", "write `force = …`", insert_equals());
+    force.value = expression();
+    result.what = std::move(force);
+  } else {
+    if (keyword != "=") advance();
+    Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
+    expect(TokenKind::equals, "`=`",
+           fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text), insert_equals());
+    const ExprId value = expression();
+    if (keyword == "height") {
+      result.what = HeightStatement{std::move(name), value};
+    } else {
+      result.what = LetStatement{std::move(name), value};
+    }
+  }
+  result.span = since(begin);
+  return result;
+}
+
+/// `param wale = 2.5 mm in 1 mm .. 5 mm "distance between ribs"`.
+ParamStatement Parser::param() {
+  ParamStatement param;
+  param.documentation = documentation_here();
+  advance();
+  param.name = declared_name("parameter");
+  expect(TokenKind::equals, "`=`", fmt::format("write `param {} = …`", param.name.text), insert_equals());
+  param.value = expression();
+  param.range = optional_range();
+  if (at(TokenKind::comma) && is_word(at_ + 1, "soft")) {
+    advance();
+    advance();
+    param.soft_range = range();
+  }
+  if (at(TokenKind::text)) {
+    param.description = input_.texts[here().value];
+    advance();
+  }
+  return param;
+}
+
+/// `state p : position = hand in -60 mm .. 60 mm`.
+StateStatement Parser::state() {
+  advance();
+  StateStatement state;
+  state.name = declared_name("state");
+  state.dimension = optional_dimension();
+  expect(TokenKind::equals, "`=`", fmt::format("a state begins somewhere: write `state {} = …`", state.name.text),
+         insert_equals());
+  state.value = expression();
+  state.range = optional_range();
+  return state;
+}
+
+/// `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
+MemoryStatement Parser::memory() {
+  advance();
+  MemoryStatement memory{};
+  memory.name = declared_name("memory");
+  memory.dimension = optional_dimension();
+  expect(TokenKind::equals, "`=`", fmt::format("write `memory {} = …`", memory.name.text));
+  memory.value = expression();
+  memory.range = optional_range();
+  if (!at(TokenKind::comma) || !is_word(at_ + 1, "cell"))
+    fail("expected `, cell`" + after_previous(), "`, cell` and a length",
+         "say how wide its cells are, as in `memory track = 0 in 0 .. 1, cell 1 mm`");
+  advance();
+  advance();
+  memory.cell = expression();
+  return memory;
+}
+
+std::optional<Word> Parser::optional_dimension() {
+  if (!at(TokenKind::colon)) return std::nullopt;
+  advance();
+  if (!at(TokenKind::name)) fail("expected a dimension" + after_previous(), "a dimension, as in `: length`", {});
+  return take_word();
+}
+
+/// `v' = …`, or `next v = …`.
+UpdateStatement Parser::update() {
+  UpdateStatement update{};
+  update.derivative = kind(at_ + 1) == TokenKind::prime;
+  if (!update.derivative) advance();
+  update.name = update.derivative ? take_word() : declared_name("state");
+  if (update.derivative) advance();
+  expect(TokenKind::equals, "`=`", fmt::format("write `next {} = …`", update.name.text), insert_equals());
+  update.value = expression();
+  return update;
+}
+
+PatchStatement Parser::patch() {
+  advance();
+  if (at(TokenKind::equals)) {
+    complain("the size of the patch has no `=` before it", "a length",
+             fmt::format("write `patch {}`", spelling(token(at_ + 1))), drop_here());
+    advance();
+  }
+  PatchStatement patch{{expression()}};
+  while (at(TokenKind::comma)) {
+    advance();
+    patch.sizes.push_back(expression());
+  }
+  return patch;
+}
+
+std::optional<Range> Parser::optional_range() {
+  if (!at(TokenKind::word_in)) return std::nullopt;
+  advance();
+  return range();
+}
+
+Range Parser::range() {
+  Range range{};
+  range.low = expression();
+  expect(TokenKind::range, "`..`", "a range is written `in 1 mm .. 5 mm`", insert_range());
+  range.high = expression();
+  return range;
+}
+
+/// Goes behind the `{` of a block. When it is missing the block is read all the same, from the next line on, or else
+/// each of its statements would seem to stand in the wrong place; so is a block with a `{` too many.
+void Parser::open_block() {
+  if (here().kind == TokenKind::left_brace) {
+    advance();
+    if (here().kind != TokenKind::left_brace) return;
+    complain_at(Code::unexpected_token, span_of(here()), "a second `{`", "a statement", "`{`",
+                "a block has one; remove it", {replace(span_of(here()), "")});
+    return advance();
+  }
+  complain("expected `{`" + after_previous(), "`{`", "a block stands in braces", insert_opening_brace());
+  while (here().kind != TokenKind::left_brace && here().kind != TokenKind::right_brace &&
+         here().kind != TokenKind::end && !here().starts_line)
+    advance();
+  if (here().kind == TokenKind::left_brace) return advance();
+  brace_missing_ = true;  // how many it should be is now a guess
+}
+
+/// Whether the block must have been meant to end before this token although no `}` says so.
+bool Parser::ends_block_by_mistake(bool in_section) const {
+  if (here().kind == TokenKind::end || begins_declaration(at_)) return true;
+  return in_section && here().kind == TokenKind::name && kind(at_ + 1) == TokenKind::left_brace &&
+         holds(sections, spelling(here()));
+}
+
+void Parser::missing_brace(std::size_t open) {
+  if (brace_missing_) return;
+  brace_missing_ = true;
+  reported_ = false;
+  const Place opened = sources_.place(span_of(token(open)));
+  const std::string owner = open > 0 ? shown(token(open - 1)) : "";
+  const bool at_end = here().kind == TokenKind::end;
+  const Span last = span_of(token(at_ - 1));
+  complain_at(
+      Code::unexpected_token, at_end ? Span{last.source, last.end, last.end} : span_of(here()),
+      at_end ? "expected `}` before the end of the file" : fmt::format("expected `}}` before {}", shown(here())), "`}`",
+      at_end ? "the end of the file" : shown(here()),
+      fmt::format("close the `{{` after {} in line {}, column {}", owner, opened.line, opened.column),
+      insert_brace(open), {{span_of(token(open)), "opened here"}});
+}
+
+}  // namespace wale

@@ -1,0 +1,311 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/parse/parser.hpp"
+
+namespace wale {
+
+bool continues(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::comma:
+    case TokenKind::equals:
+    case TokenKind::range:
+    case TokenKind::plus:
+    case TokenKind::minus:
+    case TokenKind::star:
+    case TokenKind::slash:
+    case TokenKind::caret:
+    case TokenKind::less:
+    case TokenKind::less_equal:
+    case TokenKind::greater:
+    case TokenKind::greater_equal:
+    case TokenKind::plus_minus:
+    case TokenKind::word_and:
+    case TokenKind::word_or:
+    case TokenKind::word_not:
+    case TokenKind::word_if:
+    case TokenKind::word_then:
+    case TokenKind::word_else: return true;
+    default: return false;
+  }
+}
+
+namespace {
+
+bool ends_value(TokenKind kind) {
+  return kind == TokenKind::name || kind == TokenKind::part_x || kind == TokenKind::part_y ||
+         kind == TokenKind::number || kind == TokenKind::right_parenthesis || kind == TokenKind::percent;
+}
+
+}  // namespace
+
+bool Parser::is_word(std::size_t index, std::string_view word) const {
+  return kind(index) == TokenKind::name && sources_.text(span_of(token(index))) == word;
+}
+
+bool Parser::ends_statement(std::size_t index) const {
+  const Token& next = token(index);
+  if (next.kind == TokenKind::end || next.kind == TokenKind::semicolon || next.kind == TokenKind::right_brace)
+    return true;
+  if (!next.starts_line || !open_parentheses_.empty()) return false;
+  // No statement begins with these, so they may also begin the second line of a long conditional.
+  if (next.kind == TokenKind::word_then || next.kind == TokenKind::word_else) return false;
+  return index > 0 && !continues(kind(index - 1));
+}
+
+/// Whether a line that begins at the token can only be a new statement. Asked where an expression is incomplete, so
+/// that the mistake in one line does not swallow the next.
+bool Parser::begins_statement(std::size_t index) const {
+  if (kind(index) != TokenKind::name) return false;
+  const TokenKind next = kind(index + 1);
+  if (next == TokenKind::prime) return kind(index + 2) == TokenKind::equals;
+  if (next == TokenKind::equals) return is_word(index, "force");
+  if (is_word(index, "force") && next == TokenKind::name) return kind(index + 2) == TokenKind::equals;
+  if (next == TokenKind::number) return is_word(index, "patch");
+  if (next == TokenKind::left_brace) {
+    return is_word(index, "representative") || is_word(index, "perceptual") || is_word(index, "physical");
+  }
+  if (next != TokenKind::name || token(index + 1).starts_line) return false;
+  for (const std::string_view word : {"param", "let", "height", "state", "memory", "next", "show", "essential"}) {
+    if (is_word(index, word)) return true;
+  }
+  return begins_declaration(index);
+}
+
+/// Whether a statement begins a declaration even inside a block that nobody closed.
+bool Parser::begins_declaration(std::size_t index) const {
+  if (kind(index) != TokenKind::name || kind(index + 1) != TokenKind::name) return false;
+  const TokenKind third = kind(index + 2);
+  if (is_word(index, "export")) return token(index + 1).starts_line == false;
+  if (is_word(index, "material")) return third == TokenKind::left_brace || third == TokenKind::equals;
+  if (is_word(index, "function")) return third == TokenKind::left_parenthesis;
+  if (is_word(index, "map")) return third == TokenKind::word_from || third == TokenKind::left_brace;
+  for (const std::string_view word : {"percept", "device", "levels", "hand"}) {
+    if (is_word(index, word)) return third == TokenKind::left_brace;
+  }
+  return false;
+}
+
+Word Parser::take_word() {
+  Word word{spelling(here()), span_of(here())};
+  advance();
+  return word;
+}
+
+/// The name that a declaration gives to something: "param", "state" and the like say what for.
+Word Parser::declared_name(std::string_view declares) {
+  const bool reserved = here().kind >= TokenKind::word_if && here().kind <= TokenKind::word_not;
+  if (reserved && !ends_statement(at_)) {
+    complain(fmt::format("`{}` is a word of the language and cannot be a name", spelling(here())), "a name",
+             fmt::format("call the {} something else", declares));
+    return take_word();
+  }
+  if (!at(TokenKind::name)) {
+    std::string help;
+    if (at(TokenKind::number)) help = "names begin with a letter";
+    if (at(TokenKind::text)) help = "names are written without quotes";
+    fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help),
+         unquote(false));
+  }
+  Word name = take_word();
+  if (name.text.find('.') != std::string::npos) {
+    complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} has no dots", declares),
+                "a plain name", "`" + name.text + "`", "dots lead to what another module declares; write `_` instead");
+  }
+  return name;
+}
+
+/// Takes the token. When it is missing, says so and goes on as if it had been there.
+void Parser::expect(TokenKind expected, std::string_view spelling, std::string help, std::vector<Fix> fixes) {
+  if (at(expected)) return advance();
+  if (here().kind == TokenKind::unreadable && !ends_statement(at_)) throw Abandon{};
+  complain(fmt::format("expected {}{}", spelling, after_previous()), std::string(spelling), std::move(help),
+           std::move(fixes));
+}
+
+Span Parser::since(std::size_t first_token) const {
+  const Token& first = token(first_token);
+  const Token& last = token(at_ > first_token ? at_ - 1 : first_token);
+  return {tree_.source, first.begin, std::max(first.begin, last.end)};
+}
+
+std::string Parser::spelling(const Token& token) const {
+  if (token.kind == TokenKind::name && token.value > 0) return input_.texts[token.value - 1];
+  return std::string(sources_.text(span_of(token)));
+}
+
+/// A token as messages quote it: cut short, since it may be a text of any length.
+std::string Parser::shown(const Token& token) const {
+  constexpr std::size_t longest = 40;
+  std::string text = spelling(token);
+  if (text.size() > longest) {
+    std::size_t cut = longest;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;
+    text = text.substr(0, cut) + "…";
+  }
+  return "`" + text + "`";
+}
+
+std::string Parser::found_here() const {
+  if (here().kind == TokenKind::end) return "the end of the file";
+  const bool brace_here = here().kind == TokenKind::right_brace && !here().starts_line;
+  if (!ends_statement(at_) || brace_here) return shown(here());
+  return here().kind == TokenKind::semicolon ? "`;`" : "the end of the line";
+}
+
+std::string Parser::after_previous() const { return at_ == 0 ? "" : " after " + shown(token(at_ - 1)); }
+
+std::string Parser::documentation_here() const {
+  auto found = input_.documentation.find(at_);
+  // What is exported has its comment above the word `export`.
+  if (found == input_.documentation.end() && at_ > 0 && is_word(at_ - 1, "export"))
+    found = input_.documentation.find(at_ - 1);
+  return found == input_.documentation.end() ? std::string() : found->second;
+}
+
+void Parser::complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,
+                      std::vector<SecondarySpan> secondary) {
+  Span span = span_of(here());
+  const bool after_last = here().starts_line || here().kind == TokenKind::end;
+  if (ends_statement(at_) && after_last && at_ > 0) span.begin = span.end = token(at_ - 1).end;
+  complain_at(Code::unexpected_token, span, std::move(message), std::move(expected), found_here(), std::move(help),
+              std::move(fixes), std::move(secondary));
+}
+
+void Parser::complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
+                         std::string help, std::vector<Fix> fixes, std::vector<SecondarySpan> secondary,
+                         std::vector<Fact> facts) {
+  // What the lexer could not read has been reported by the lexer.
+  if (here().kind == TokenKind::unreadable) reported_ = true;
+  if (reported_) return;
+  reported_ = true;
+  diagnostics_.report({.code = code,
+                       .span = span,
+                       .message = std::move(message),
+                       .expected = std::move(expected),
+                       .found = std::move(found),
+                       .help = std::move(help),
+                       .secondary = std::move(secondary),
+                       .facts = std::move(facts),
+                       .fixes = std::move(fixes)});
+  // Nothing more is said about a file with this many errors: what is left of it is skipped.
+  if (diagnostics_.all().size() >= error_limit) {
+    give_up();
+  }
+}
+
+/// Skips the rest of the file, and says no more about it.
+void Parser::give_up() {
+  at_ = tokens_.size() - 1;
+  brace_missing_ = true;
+  throw Abandon{};
+}
+
+void Parser::count_statement() {
+  if (++statements_ <= most_statements) return;
+  reported_ = false;
+  diagnostics_.report({.code = Code::too_long,
+                       .span = span_of(here()),
+                       .message = fmt::format("this file has more than {} statements", most_statements),
+                       .help = "keep measurements in an image or a table of their own, or split the file and `import` "
+                               "its parts",
+                       .facts = {{"limit", NumberWithUnit{static_cast<double>(most_statements), ""}}}});
+  give_up();
+}
+
+void Parser::fail(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,
+                  std::vector<SecondarySpan> secondary) {
+  complain(std::move(message), std::move(expected), std::move(help), std::move(fixes), std::move(secondary));
+  throw Abandon{};
+}
+
+/// What to write instead of the token here, when it follows a complete value and cannot.
+std::string Parser::mend_here() const {
+  const Token& next = here();
+  const Token& previous = token(at_ == 0 ? 0 : at_ - 1);
+  const Token& after = token(at_ + 1);
+  const bool touching = previous.end == next.begin;
+  switch (next.kind) {
+    case TokenKind::name:
+    case TokenKind::number:
+    case TokenKind::left_parenthesis:
+      if (!ends_value(previous.kind)) return {};
+      if (next.kind == TokenKind::left_parenthesis)
+        return fmt::format("to multiply, write `{} * (…)`", spelling(previous));
+      return fmt::format("to multiply, write `{} * {}{}`", spelling(previous), spelling(next),
+                         after.kind == TokenKind::left_parenthesis ? "(…)" : "");
+    case TokenKind::comma:
+      if (previous.kind == TokenKind::number && touching && after.kind == TokenKind::number &&
+          after.begin == next.end) {
+        return fmt::format("decimals are written with a point: `{}.{}`", spelling(previous), spelling(after));
+      }
+      return {};
+    case TokenKind::equals: return "`=` defines; values are compared with `<`, `<=`, `>` and `>=`";
+    case TokenKind::less:
+    case TokenKind::less_equal:
+    case TokenKind::greater:
+    case TokenKind::greater_equal: return "comparisons do not chain; join two of them with `and`";
+    case TokenKind::plus_minus: return "a tolerance belongs to a percept; to subtract, write `-`";
+    case TokenKind::range: return "a range follows `in`: `in 1 mm .. 5 mm`";
+    case TokenKind::colon: return "named arguments stand in the parentheses of a call";
+    case TokenKind::right_parenthesis: return "there is no `(` that it could close; remove it";
+    case TokenKind::word_then:
+    case TokenKind::word_else: return "a conditional is written `if … then … else …`";
+    default: return {};
+  }
+}
+
+void Parser::end_statement() {
+  if (!ends_statement(at_)) {
+    // What was read of the value is not what was meant: `2` of `2 sin(x)`.
+    if (last_expression_) tree_.exprs[*last_expression_] = Erroneous{};
+    fail("expected the end of the line" + after_previous(), "the end of the line", mend_here(), fixes_here());
+  }
+  if (here().kind == TokenKind::semicolon) advance();
+}
+
+/// Whether the `}` here stands where something else was meant: in the middle of a line that goes on as no line does
+/// behind a block.
+bool Parser::is_stray_brace() const {
+  const Token& next = token(at_ + 1);
+  if (here().starts_line || next.starts_line) return false;
+  switch (next.kind) {
+    case TokenKind::end:
+    case TokenKind::semicolon:
+    case TokenKind::right_brace: return false;
+    case TokenKind::name:
+      return token(at_ + 2).starts_line || (kind(at_ + 2) != TokenKind::left_brace && kind(at_ + 2) != TokenKind::name);
+    default: return true;
+  }
+}
+
+/// Goes to the end of a statement in which something was wrong: past the parentheses that it opened if they are closed,
+/// past a block if it has one, and to the next line.
+void Parser::skip_statement() {
+  const bool at_next = here().starts_line && at_ > statement_begin_ && begins_statement(at_);
+  if (!open_parentheses_.empty() && !at_next) {
+    at_ = std::max<std::size_t>(at_, token(open_parentheses_.front()).value);
+  }
+  open_parentheses_.clear();
+  for (;; advance()) {
+    switch (here().kind) {
+      case TokenKind::end:
+      case TokenKind::semicolon: return;
+      case TokenKind::right_brace:
+        if (is_stray_brace()) continue;
+        return;
+      case TokenKind::left_brace:
+        at_ = here().value > 0 ? here().value : tokens_.size() - 1;
+        advance();
+        return;
+      default: break;
+    }
+    const bool next_line = here().starts_line && at_ > statement_begin_;
+    if (next_line && (ends_statement(at_) || begins_statement(at_))) return;
+    const bool opens = here().kind == TokenKind::left_parenthesis || here().kind == TokenKind::left_bracket;
+    if (opens && here().value > 0) at_ = here().value;
+  }
+}
+
+}  // namespace wale

@@ -1,0 +1,351 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/diagnostics/fix.hpp"
+#include "compiler/parse/parser.hpp"
+
+namespace wale {
+namespace {
+
+struct InfixOperator {
+  TokenKind token;
+  BinaryOperator op;
+  int precedence;
+};
+
+/// Higher binds tighter. `not` stands between `and` and the comparisons; a power binds tighter still, and to the right:
+/// see `power`.
+constexpr int disjunction_precedence = 1, conjunction_precedence = 2, comparison_precedence = 3, sum_precedence = 4,
+              product_precedence = 5;
+constexpr InfixOperator infix_operators[] = {
+    {TokenKind::word_or, BinaryOperator::disjunction, disjunction_precedence},
+    {TokenKind::word_and, BinaryOperator::conjunction, conjunction_precedence},
+    {TokenKind::less, BinaryOperator::less, comparison_precedence},
+    {TokenKind::less_equal, BinaryOperator::less_equal, comparison_precedence},
+    {TokenKind::greater, BinaryOperator::greater, comparison_precedence},
+    {TokenKind::greater_equal, BinaryOperator::greater_equal, comparison_precedence},
+    {TokenKind::plus, BinaryOperator::add, sum_precedence},
+    {TokenKind::minus, BinaryOperator::subtract, sum_precedence},
+    {TokenKind::star, BinaryOperator::multiply, product_precedence},
+    {TokenKind::slash, BinaryOperator::divide, product_precedence},
+};
+
+const InfixOperator* infix(TokenKind kind) {
+  const auto found = std::find_if(std::begin(infix_operators), std::end(infix_operators),
+                                  [&](const InfixOperator& each) { return each.token == kind; });
+  return found == std::end(infix_operators) ? nullptr : found;
+}
+
+/// How well a number is known, where a declaration says so: these words are no units.
+constexpr std::string_view evidence_words[] = {"measured", "published",   "estimated",
+                                               "recalled", "transferred", "assumed"};
+
+std::vector<Fact> limit_fact(std::size_t limit) { return {{"limit", NumberWithUnit{static_cast<double>(limit), ""}}}; }
+
+}  // namespace
+
+/// A whole expression. One that cannot be read becomes `Erroneous`, so that what it defines is still declared.
+ExprId Parser::expression() {
+  const std::size_t begin = at_;
+  const std::size_t nesting = nesting_;
+  try {
+    last_expression_ = operation(0);
+  } catch (const Abandon&) {
+    nesting_ = nesting;
+    skip_statement();
+    last_expression_ = erroneous(begin);
+  }
+  return *last_expression_;
+}
+
+ExprId Parser::operation(int least_precedence) {
+  int most_precedence = product_precedence;
+  ExprId left;
+  if (at(TokenKind::word_not) && least_precedence <= comparison_precedence) {
+    left = complement();
+    most_precedence = conjunction_precedence;
+  } else {
+    left = signed_operand();
+  }
+  while (!ends_statement(at_)) {
+    const InfixOperator* found = infix(here().kind);
+    if (found == nullptr || found->precedence < least_precedence || found->precedence > most_precedence) break;
+    advance();
+    const ExprId right = operation(found->precedence + 1);
+    left = add(Binary{found->op, left, right}, joined(tree_.span(left), tree_.span(right)), {left, right});
+    // `a < b < c` compares a truth with a number; nobody means that.
+    if (found->precedence <= comparison_precedence) most_precedence = conjunction_precedence;
+  }
+  return left;
+}
+
+void Parser::nest() {
+  if (++nesting_ <= deepest_nesting) return;
+  complain_at(Code::nested_too_deep, span_of(here()),
+              fmt::format("an expression nested more than {} deep", deepest_nesting), {}, {},
+              "name parts of it with `let`", {}, {}, limit_fact(deepest_nesting));
+  throw Abandon{};
+}
+
+/// `not a < b` is `not (a < b)`.
+ExprId Parser::complement() {
+  nest();
+  const std::size_t begin = at_;
+  advance();
+  const ExprId operand = operation(comparison_precedence);
+  --nesting_;
+  return add(Unary{UnaryOperator::complement, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
+}
+
+/// Everything else that nests passes through here, so this is where depth is counted.
+ExprId Parser::signed_operand() {
+  nest();
+  const std::size_t begin = at_;
+  ExprId result;
+  if (at(TokenKind::minus) || at(TokenKind::plus)) {
+    const UnaryOperator op = at(TokenKind::minus) ? UnaryOperator::negate : UnaryOperator::plus;
+    advance();
+    const ExprId operand = signed_operand();
+    result = add(Unary{op, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
+  } else {
+    result = power();
+  }
+  --nesting_;
+  return result;
+}
+
+/// `-2^2` is -4, `2^-1` a half, `2^3^2` two to the ninth.
+ExprId Parser::power() {
+  ExprId base = operand();
+  while (at(TokenKind::part_x) || at(TokenKind::part_y)) {
+    const char part = at(TokenKind::part_x) ? 'x' : 'y';
+    const Span span = joined(tree_.span(base), span_of(here()));
+    advance();
+    base = add(Part{base, part}, span, {base});
+  }
+  if (!at(TokenKind::caret)) return base;
+  advance();
+  const ExprId exponent = signed_operand();
+  return add(Binary{BinaryOperator::power, base, exponent}, joined(tree_.span(base), tree_.span(exponent)),
+             {base, exponent});
+}
+
+ExprId Parser::operand() {
+  const bool next_statement = here().starts_line && begins_statement(at_);
+  if (!ends_statement(at_) && !next_statement) {
+    switch (here().kind) {
+      case TokenKind::number: return number();
+      case TokenKind::text: return text();
+      case TokenKind::name: return name_or_call();
+      case TokenKind::left_parenthesis: return parenthesised();
+      case TokenKind::word_if: return conditional();
+      default: break;
+    }
+  }
+  const std::string message = "expected a value" + after_previous();
+  if (next_statement) {
+    const Span end = span_of(token(at_ - 1));
+    complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, "a value", "the end of the line", {});
+    throw Abandon{};
+  }
+  std::string help;
+  switch (here().kind) {
+    case TokenKind::left_bracket: help = "vectors are written `vector(a, b)`"; break;
+    case TokenKind::word_not: help = "`not` is of a condition: put it and its condition in parentheses"; break;
+    case TokenKind::star:
+    case TokenKind::slash: help = "an operator stands between two values; a value is missing before it"; break;
+    case TokenKind::plus_minus: help = "write `-`, or `+` and a space before the `-`"; break;
+    case TokenKind::word_in:
+    case TokenKind::word_on:
+    case TokenKind::word_from:
+    case TokenKind::word_then:
+    case TokenKind::word_else:
+      help = fmt::format("`{}` is a word of the language, not a name", spelling(here()));
+      break;
+    default:
+      if (!open_parentheses_.empty() && token(open_parentheses_.back()).value == 0) help = unclosed_parenthesis();
+  }
+  fail(message, "a value", std::move(help));
+}
+
+ExprId Parser::number() {
+  const std::size_t begin = at_;
+  NumberLiteral literal{input_.numbers[here().value], {}};
+  advance();
+  while (suffix_factor(literal.suffix)) {
+  }
+  return add(std::move(literal), since(begin));
+}
+
+/// Whether the token may be a unit behind a number. Whether it is one, `check` decides.
+bool Parser::is_suffix_name(std::size_t index) const {
+  if (ends_statement(index)) return false;
+  if (kind(index) == TokenKind::percent) return true;
+  if (kind(index) != TokenKind::name) return false;
+  if (token(index).starts_line && begins_statement(index)) return false;
+  const TokenKind next = kind(index + 1);
+  if (!ends_statement(index + 1) && (next == TokenKind::left_parenthesis || next == TokenKind::colon)) return false;
+  const auto is_this = [&](std::string_view word) { return is_word(index, word); };
+  return !in_setting_ || std::none_of(std::begin(evidence_words), std::end(evidence_words), is_this);
+}
+
+/// One of the names behind a number: `N`, `/ s`, `m^2`, `s^-1`. `/ x^2.5` is an ordinary division and left alone.
+bool Parser::suffix_factor(std::vector<SuffixFactor>& suffix) {
+  const bool divides = at(TokenKind::slash);
+  const std::size_t name = at_ + (divides ? 1 : 0);
+  if (!is_suffix_name(name)) return false;
+  SuffixFactor factor{{spelling(token(name)), span_of(token(name))}, divides, 1};
+  std::size_t next = name + 1;
+  if (kind(next) == TokenKind::caret && !ends_statement(next)) {
+    const bool negative = kind(next + 1) == TokenKind::minus;
+    const Token& digits = token(next + (negative ? 2 : 1));
+    constexpr double largest_exponent = 99;
+    const double exponent = digits.kind == TokenKind::number ? input_.numbers[digits.value] : 0.5;
+    const bool whole = exponent == std::floor(exponent) && exponent <= largest_exponent;
+    if (!whole && divides) return false;
+    if (!whole) {
+      at_ = next + 1;
+      fail(fmt::format("the power of `{}` behind a number is a whole number", factor.name.text), "a whole number",
+           fmt::format("if `{0}` is no unit, write `* {0}^…`", factor.name.text));
+    }
+    factor.exponent = static_cast<int>(negative ? -exponent : exponent);
+    next += negative ? 3 : 2;
+  }
+  suffix.push_back(std::move(factor));
+  at_ = next;
+  return true;
+}
+
+ExprId Parser::text() {
+  const std::size_t begin = at_;
+  TextLiteral literal{input_.texts[here().value]};
+  advance();
+  return add(std::move(literal), since(begin));
+}
+
+ExprId Parser::name_or_call() {
+  const std::size_t begin = at_;
+  if (!followed_by(TokenKind::left_parenthesis)) {
+    Word name = take_word();
+    return add(NameUse{std::move(name.text)}, name.span);
+  }
+  Call call{take_word(), {}};
+  call.arguments.reserve(4);  // few calls have more
+  open_parentheses_.push_back(at_);
+  advance();
+  std::size_t highest = 0;
+  ExprId highest_argument = 0;
+  bool named = false;
+  while (!at(TokenKind::right_parenthesis)) {
+    const std::size_t argument_begin = at_;
+    call.arguments.push_back(argument());
+    const Argument& last = call.arguments.back();
+    if (named && !last.name) {
+      const std::size_t after = at_;
+      at_ = argument_begin - 1;  // the comma, for it may have been meant as a decimal point
+      std::string help = mend_here();
+      std::vector<Fix> fixes = fixes_here();
+      at_ = after;
+      complain_at(Code::unexpected_token, tree_.span(last.value), "arguments without a name come before those with one",
+                  "`name: value`", shown(token(argument_begin)), std::move(help), std::move(fixes));
+      throw Abandon{};
+    }
+    named = named || last.name;
+    const ExprId value = call.arguments.back().value;
+    if (heights_[value] > highest) highest = heights_[value], highest_argument = value;
+    if (!at(TokenKind::comma)) break;
+    advance();
+  }
+  close_parenthesis("`,` or `)`");
+  const Span span = since(begin);
+  if (highest == 0) return add(std::move(call), span);
+  return add(std::move(call), span, {highest_argument});
+}
+
+Argument Parser::argument() {
+  if (!at(TokenKind::name) || !followed_by(TokenKind::colon)) return {std::nullopt, operation(0)};
+  Word name = take_word();
+  advance();
+  return {std::move(name), operation(0)};
+}
+
+ExprId Parser::parenthesised() {
+  const std::size_t begin = at_;
+  open_parentheses_.push_back(at_);
+  advance();
+  const ExprId inner = operation(0);
+  if (at(TokenKind::comma)) {
+    fail("expected `)`" + after_previous(), "`)`",
+         mend_here().empty() ? "vectors are written `vector(a, b)`" : mend_here(),
+         mend_here().empty() ? std::vector{insert_before(span_of(token(begin)), "vector", {}, false)} : fixes_here());
+  }
+  close_parenthesis("`)`");
+  tree_.expr_spans[inner] = since(begin);
+  return inner;
+}
+
+void Parser::close_parenthesis(std::string_view expected) {
+  if (!at(TokenKind::right_parenthesis)) {
+    const std::string message = fmt::format("expected {}{}", expected, after_previous());
+    const bool closed_later = token(open_parentheses_.back()).value > 0;
+    if (here().starts_line && (begins_statement(at_) || !closed_later)) {
+      const Span end = span_of(token(at_ - 1));
+      complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, std::string(expected),
+                  "the end of the line", unclosed_parenthesis(), {insert_after(end, ")", {}, false)},
+                  {{span_of(token(open_parentheses_.back())), "opened here"}});
+      throw Abandon{};
+    }
+    std::string help = mend_here();
+    if (here().starts_line && closed_later) help = "arguments are separated by commas";
+    if (help.empty()) help = unclosed_parenthesis();
+    if (here().kind == TokenKind::name && expected.starts_with("`,`")) help += ", and commas between arguments";
+    fail(message, std::string(expected), std::move(help), fixes_here(),
+         {{span_of(token(open_parentheses_.back())), "opened here"}});
+  }
+  advance();
+  open_parentheses_.pop_back();
+}
+
+std::string Parser::unclosed_parenthesis() const {
+  const Place opened = sources_.place(span_of(token(open_parentheses_.back())));
+  return fmt::format("close the `(` in line {}, column {}", opened.line, opened.column);
+}
+
+ExprId Parser::conditional() {
+  const std::size_t begin = at_;
+  advance();
+  const ExprId condition = operation(0);
+  if (!at(TokenKind::word_then)) {
+    std::string help = mend_here();
+    if (help.empty()) help = "a conditional is written `if … then … else …`";
+    fail("expected `then`" + after_previous(), "`then`", std::move(help), fixes_here());
+  }
+  advance();
+  const ExprId yes = operation(0);
+  if (!at(TokenKind::word_else)) {
+    fail("expected `else`" + after_previous(), "`else`",
+         "an `if` says what the value is otherwise: `if … then … else …`");
+  }
+  advance();
+  const ExprId no = operation(0);
+  return add(Conditional{condition, yes, no}, since(begin), {condition, yes, no});
+}
+
+ExprId Parser::add(Expr expr, Span span, std::initializer_list<ExprId> children) {
+  std::uint32_t height = 1;
+  for (const ExprId child : children) height = std::max(height, heights_[child] + 1);
+  if (height > highest_expression) {
+    complain_at(Code::nested_too_deep, span,
+                fmt::format("an expression of more than {} steps in a row", highest_expression), {}, {},
+                "name parts of it with `let`", {}, {}, limit_fact(highest_expression));
+    throw Abandon{};
+  }
+  tree_.exprs.push_back(std::move(expr));
+  tree_.expr_spans.push_back(span);
+  heights_.push_back(height);
+  return static_cast<ExprId>(tree_.exprs.size() - 1);
+}
+
+}  // namespace wale

@@ -1,0 +1,163 @@
+// Fixes for what the parser cannot read. They look at the tokens around the place where it stands.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/diagnostics/fix.hpp"
+#include "compiler/parse/parser.hpp"
+#include "compiler/text/characters.hpp"
+
+namespace wale {
+namespace {
+
+bool begins_value(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::name:
+    case TokenKind::number:
+    case TokenKind::text:
+    case TokenKind::minus:
+    case TokenKind::left_parenthesis:
+    case TokenKind::word_if: return true;
+    default: return false;
+  }
+}
+
+/// The blanks that the line of the byte `at` begins with.
+std::string_view indentation(std::string_view text, std::size_t at) {
+  const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+  const std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
+  std::size_t end = begin;
+  while (end < at && (text[end] == ' ' || text[end] == '\t')) ++end;
+  return text.substr(begin, end - begin);
+}
+
+/// How the lines of the text end: a file from another system keeps its own way.
+std::string_view line_end(std::string_view text) {
+  const std::size_t newline = text.find('\n');
+  return newline != std::string_view::npos && newline > 0 && text[newline - 1] == '\r' ? "\r\n" : "\n";
+}
+
+}  // namespace
+
+/// The same cases as `mend_here`, where what it says can be done.
+std::vector<Fix> Parser::fixes_here() const {
+  if (at_ == 0) return {};
+  const Token& previous = token(at_ - 1);
+  const Token& next = here();
+  const Token& after = token(at_ + 1);
+  const bool number_before = previous.kind == TokenKind::number;
+  const bool call = next.kind == TokenKind::name && after.kind == TokenKind::left_parenthesis;
+  switch (next.kind) {
+    case TokenKind::name:
+    case TokenKind::left_parenthesis:
+      if (mend_here().empty()) return {};
+      // `2 sin(x)` and `2 (a + b)` can only be products; `k hand` may lack any operator.
+      return {insert_after(span_of(previous), " *", "multiply with `*`",
+                           number_before && (call || next.kind == TokenKind::left_parenthesis))};
+    case TokenKind::comma:
+      if (!mend_here().starts_with("decimals")) return {};
+      // Among arguments the comma may have been meant as one.
+      return {replace(span_of(next), ".", "write a decimal point", open_parentheses_.empty())};
+    case TokenKind::right_parenthesis:
+      if (!open_parentheses_.empty()) return {};
+      return {replace(span_of(next), "", {}, false)};
+    default: return {};
+  }
+}
+
+/// ` =` between a name and its value, unless the statement has a `=` of its own further on.
+std::vector<Fix> Parser::insert_equals() const {
+  if (at_ == 0 || ends_statement(at_) || !begins_value(here().kind)) return {};
+  for (std::size_t index = at_; !ends_statement(index); ++index)
+    if (kind(index) == TokenKind::equals) return {};
+  return {insert_after(span_of(token(at_ - 1)), " =", "write `=`")};
+}
+
+/// ` ..` between two numbers that stand behind `in`.
+std::vector<Fix> Parser::insert_range() const {
+  const bool number = at(TokenKind::number) || (at(TokenKind::minus) && followed_by(TokenKind::number));
+  return number ? std::vector{insert_after(span_of(token(at_ - 1)), " ..", "write `..`")} : std::vector<Fix>{};
+}
+
+/// Removes the token here; what stood to both sides of it stays apart.
+std::vector<Fix> Parser::drop_here() const {
+  const std::string what = spelling(here());
+  const Token& previous = token(at_ - 1);
+  const Token& next = token(at_ + 1);
+  if (ends_statement(at_ + 1)) return {};
+  const bool apart = previous.end < here().begin || here().end < next.begin;
+  const Span both = {tree_.source, previous.end < here().begin ? previous.end : here().begin, here().end};
+  return {replace(apart ? both : span_of(here()), apart && here().end < next.begin ? "" : " ",
+                  fmt::format("leave out the `{}`", what))};
+}
+
+/// An operator that begins a line goes to the end of the line above: no statement begins with one.
+std::vector<Fix> Parser::move_operator_up() const {
+  const Token& next = token(at_ + 1);
+  if (at_ == 0 || next.starts_line || !begins_value(next.kind) || kind(at_ - 1) == TokenKind::left_brace) return {};
+  Fix fix = insert_after(span_of(token(at_ - 1)), " " + spelling(here()), "end the line above with the operator");
+  fix.edits.push_back({{tree_.source, here().begin, next.begin}, ""});
+  return {fix};
+}
+
+/// ` {` at the end of a block's heading.
+std::vector<Fix> Parser::insert_opening_brace() const {
+  const bool heads_lines = here().starts_line && kind(at_) == TokenKind::name && !begins_declaration(at_);
+  return heads_lines ? std::vector{insert_after(span_of(token(at_ - 1)), " {", "open the block")} : std::vector<Fix>{};
+}
+
+/// `}` in a line of its own below what stands in the block, or before what stands behind it in the same line.
+std::vector<Fix> Parser::insert_brace(std::size_t open) const {
+  const std::string_view text = sources_[tree_.source].text;
+  const std::size_t last = token(at_ - 1).end;
+  const std::size_t newline = std::min(text.find('\n', last), text.size());
+  if (here().kind != TokenKind::end && here().begin < newline)
+    return {insert_before(span_of(here()), "} ", "close the block")};
+  // Behind a comment that runs over several lines the end of this line is inside the comment.
+  if (text.substr(last, newline - last).find("/*") != std::string_view::npos) return {};
+  const auto end = static_cast<std::uint32_t>(newline > last && text[newline - 1] == '\r' ? newline - 1 : newline);
+  return {insert_before({tree_.source, end, end},
+                        fmt::format("{}{}}}", line_end(text), indentation(text, token(open).begin)),
+                        "close the block")};
+}
+
+/// A name that stands in quotes; a module's may be a path.
+std::vector<Fix> Parser::unquote(bool is_module) const {
+  if (!at(TokenKind::text)) return {};
+  std::string name = input_.texts[here().value];
+  if (is_module) {
+    constexpr std::string_view extension = ".wale";
+    if (name.ends_with(extension)) name.resize(name.size() - extension.size());
+    std::ranges::replace(name, '/', '.');
+  }
+  bool at_begin = true;
+  for (const char c : name) {
+    const bool fits = at_begin ? begins_name(c) : continues_name(c) || (is_module && c == '.');
+    if (!fits) return {};
+    at_begin = c == '.';
+  }
+  if (name.empty() || at_begin) return {};
+  return {replace(span_of(here()), name)};
+}
+
+/// `wale 1` above everything else, or in the place of a version that is incomplete. What does not begin with a
+/// declaration may be no Wale file at all.
+std::vector<Fix> Parser::state_version(bool is_wale, bool has_number, bool is_declaration) const {
+  const std::string_view text = sources_[tree_.source].text;
+  if (!is_wale) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    const std::uint32_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    return {insert_before({tree_.source, begin, begin}, fmt::format("wale 1{}", line_end(text)),
+                          "write `wale 1` in the first line", is_declaration)};
+  }
+  // `wale 0` was meant as something; what, nobody knows.
+  const bool known = !has_number || input_.numbers[token(at_ + 1).value] == 1;
+  const Span span = {tree_.source, here().begin, has_number ? token(at_ + 1).end : here().end};
+  return {replace(span, "wale 1", {}, known)};
+}
+
+std::vector<Fix> Parser::respell_here(const std::vector<std::string>& candidates) const {
+  return respell(span_of(here()), spelling(here()), candidates);
+}
+
+}  // namespace wale

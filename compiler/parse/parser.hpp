@@ -1,0 +1,206 @@
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/parse/lex.hpp"
+#include "compiler/parse/syntax_tree.hpp"
+
+namespace wale {
+
+/// Thrown where a statement cannot be read any further, caught where the next one begins. Never leaves the parser.
+struct Abandon {};
+
+/// Whether a line that ends in such a token goes on in the next.
+bool continues(TokenKind kind);
+
+/// How deep parentheses, calls, signs, powers and conditionals may stand in each other.
+constexpr std::size_t deepest_nesting = 200;
+/// How high the tree of one expression may grow, a sum of many terms included: later stages walk it recursively.
+constexpr std::size_t highest_expression = 1000;
+
+/// Statements of one file. People write hundreds; later stages compare each name with all others.
+constexpr std::size_t most_statements = 12000;
+
+/// Recursive descent over the tokens of one file; `parse.hpp` is the way in, schema/wale.grammar the authority.
+///
+/// At most one error is reported for a statement, since what follows the first is guesswork.
+class Parser {
+ public:
+  Parser(const SourceSet& sources, const Tokens& input, SyntaxTree& tree, Diagnostics& diagnostics)
+      : sources_(sources), input_(input), tokens_(input.tokens), tree_(tree), diagnostics_(diagnostics) {}
+
+  void file();
+  std::vector<ExprId> expression_list();
+
+ private:
+  // parse.cpp: declarations
+  bool version();
+  void declaration();
+  bool ends_lostness() const;
+  void import_module();
+  void dimension(bool exported);
+  void unit(bool exported);
+  void constant(bool exported);
+  void function(bool exported);
+  FormalParameter formal_parameter();
+  void record(bool exported);
+  void material();
+
+  // parse_block.cpp: what stands in braces
+  Setting setting();
+  SettingItem setting_item();
+  bool is_leading_word() const;
+  void material_section(MaterialDecl& material, bool& misplaced);
+  bool has_sections_below() const;
+  void stray_statement(MaterialDecl& material, bool& misplaced);
+  PerceptStatement percept_statement();
+  PhysicalStatement physical_statement();
+  std::string_view physical_keyword();
+  ParamStatement param();
+  StateStatement state();
+  MemoryStatement memory();
+  std::optional<Word> optional_dimension();
+  UpdateStatement update();
+  PatchStatement patch();
+  std::optional<Range> optional_range();
+  Range range();
+  void open_block();
+  void missing_brace(std::size_t open);
+  bool ends_block_by_mistake(bool in_section) const;
+  template <class Body>
+  Span block(bool in_section, Body body);
+
+  // parse_expression.cpp
+  ExprId expression();
+  ExprId operation(int least_precedence);
+  ExprId complement();
+  ExprId signed_operand();
+  void nest();
+  ExprId power();
+  ExprId operand();
+  ExprId number();
+  ExprId text();
+  ExprId name_or_call();
+  Argument argument();
+  ExprId parenthesised();
+  ExprId conditional();
+  bool suffix_factor(std::vector<SuffixFactor>& suffix);
+  bool is_suffix_name(std::size_t index) const;
+  void close_parenthesis(std::string_view expected);
+  std::string unclosed_parenthesis() const;
+  ExprId add(Expr expr, Span span, std::initializer_list<ExprId> children = {});
+
+  // parse_mend.cpp: what a program can mend of it
+  std::vector<Fix> fixes_here() const;
+  std::vector<Fix> insert_equals() const;
+  std::vector<Fix> insert_range() const;
+  std::vector<Fix> drop_here() const;
+  std::vector<Fix> move_operator_up() const;
+  std::vector<Fix> insert_opening_brace() const;
+  std::vector<Fix> insert_brace(std::size_t open) const;
+  std::vector<Fix> unquote(bool is_module) const;
+  std::vector<Fix> state_version(bool is_wale, bool has_number, bool is_declaration) const;
+  std::vector<Fix> respell_here(const std::vector<std::string>& candidates) const;
+
+  // parse_cursor.cpp: where the parser stands, what it says, where it goes on
+  const Token& here() const { return tokens_[at_]; }
+  const Token& token(std::size_t index) const { return index < tokens_.size() ? tokens_[index] : tokens_.back(); }
+  TokenKind kind(std::size_t index) const { return token(index).kind; }
+  /// A token of that kind stands here and belongs to this statement.
+  bool at(TokenKind kind) const { return here().kind == kind && !ends_statement(at_); }
+  bool followed_by(TokenKind next) const { return kind(at_ + 1) == next && !ends_statement(at_ + 1); }
+  bool is_word(std::size_t index, std::string_view word) const;
+  bool ends_statement(std::size_t index) const;
+  bool begins_statement(std::size_t index) const;
+  bool begins_declaration(std::size_t index) const;
+  void advance() { at_ += at_ + 1 < tokens_.size() ? 1 : 0; }
+  Word take_word();
+  Word declared_name(std::string_view declares);
+  void expect(TokenKind kind, std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
+
+  Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
+  Span since(std::size_t first_token) const;
+  Span joined(Span first, Span last) const { return {first.source, first.begin, last.end}; }
+  std::string spelling(const Token& token) const;
+  std::string shown(const Token& token) const;
+  std::string found_here() const;
+  std::string after_previous() const;
+  std::string documentation_here() const;
+
+  /// Reports what stands here, or the place just after the last token when the statement has ended.
+  void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
+                std::vector<SecondarySpan> secondary = {});
+  void complain_at(Code code, Span span, std::string message, std::string expected, std::string found, std::string help,
+                   std::vector<Fix> fixes = {}, std::vector<SecondarySpan> secondary = {},
+                   std::vector<Fact> facts = {});
+  [[noreturn]] void fail(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
+                         std::vector<SecondarySpan> secondary = {});
+  ExprId erroneous(std::size_t first_token) { return add(Erroneous{}, since(first_token)); }
+  std::string mend_here() const;
+  void end_statement();
+  [[noreturn]] void give_up();
+  void count_statement();
+  bool is_stray_brace() const;
+  void skip_statement();
+  /// Reads one statement and stands at the beginning of the next, whatever happens.
+  template <class Body>
+  void statement(Body body);
+
+  const SourceSet& sources_;
+  const Tokens& input_;
+  const std::vector<Token>& tokens_;
+  SyntaxTree& tree_;
+  Diagnostics& diagnostics_;
+  std::vector<std::uint32_t> heights_;         ///< of the tree below every expression
+  std::vector<std::size_t> open_parentheses_;  ///< tokens; newlines inside are white space
+  std::size_t at_ = 0;
+  std::size_t statement_begin_ = 0;
+  std::size_t nesting_ = 0;
+  std::optional<ExprId> last_expression_;  ///< of this statement
+  bool reported_ = false;                  ///< this statement has had its error
+  bool brace_missing_ = false;             ///< this declaration has had its error about braces
+  std::size_t statements_ = 0;
+  bool lost_ = false;        ///< outside all declarations; one error has said so
+  bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
+};
+
+template <class Body>
+void Parser::statement(Body body) {
+  const std::size_t begin = at_;
+  statement_begin_ = begin;
+  reported_ = in_setting_ = false;
+  last_expression_.reset();
+  open_parentheses_.clear();
+  nesting_ = 0;
+  try {
+    count_statement();
+    body();
+  } catch (const Abandon&) {
+    skip_statement();
+  }
+  if (at_ == begin) advance();
+}
+
+/// `{`, statements, `}`. The body reads one statement with its end.
+template <class Body>
+Span Parser::block(bool in_section, Body body) {
+  const std::size_t open = at_;
+  open_block();
+  for (;;) {
+    while (here().kind == TokenKind::semicolon) advance();
+    if (here().kind == TokenKind::right_brace) break;
+    if (ends_block_by_mistake(in_section)) {
+      missing_brace(open);
+      return since(open);
+    }
+    statement(body);
+  }
+  advance();
+  return since(open);
+}
+
+}  // namespace wale

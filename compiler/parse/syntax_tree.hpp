@@ -1,0 +1,247 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "compiler/text/source.hpp"
+
+namespace wale {
+
+/// A word of the text and where it stands. Dotted names ("fabric.woven") are one word.
+struct Word {
+  std::string text;
+  Span span;
+};
+
+using ExprId = std::uint32_t;
+
+/// One unit name of a literal's suffix: `N s/m^2` is N, s, /m^2. Whether a name is a unit is `check`'s business, since
+/// `0.3 denim` is a product.
+struct SuffixFactor {
+  Word name;
+  bool divides = false;
+  int exponent = 1;
+};
+
+struct NumberLiteral {
+  double value = 0;
+  std::vector<SuffixFactor> suffix;
+};
+struct TextLiteral {
+  std::string text;
+};
+struct NameUse {
+  std::string name;
+};
+
+enum class UnaryOperator { negate, plus, complement };  // complement: `not`
+enum class BinaryOperator {
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  conjunction,  // `and`
+  disjunction,  // `or`
+};
+
+struct Unary {
+  UnaryOperator op;
+  ExprId operand;
+};
+struct Binary {
+  BinaryOperator op;
+  ExprId left, right;
+};
+struct Argument {
+  std::optional<Word> name;
+  ExprId value;
+};
+struct Call {
+  Word callee;
+  std::vector<Argument> arguments;
+};
+struct Conditional {
+  ExprId condition, yes, no;
+};
+/// `grad(h).x`: one part of a vector that has no name. `hand.x` is a dotted name.
+struct Part {
+  ExprId whole;
+  char part;  ///< 'x' or 'y'
+};
+/// What stands where an expression was expected and none could be read; already reported.
+struct Erroneous {};
+
+using Expr = std::variant<NumberLiteral, TextLiteral, NameUse, Unary, Binary, Call, Conditional, Part, Erroneous>;
+
+/// `a .. b`.
+struct Range {
+  ExprId low, high;
+};
+
+/// One item of a setting: leading words, then perhaps a value, a range or an equation, as in
+/// `slope measured` | `10 N` | `amplitude 9 pu .. 194 pu` | `log10(magnitude) = 0.76 * ...` | `roughness =
+/// lateral(...)`.
+struct SettingItem {
+  std::vector<Word> words;
+  std::optional<ExprId> value;
+  std::optional<ExprId> range_end;  ///< value .. range_end
+  std::optional<ExprId> equals;     ///< value = equals, or words = equals
+  std::vector<Word> trailing;       ///< words behind all that: `0.3 kg assumed`
+  Span span;
+};
+
+/// One statement of a declarative block: a key, items separated by commas, perhaps `on DEVICE`.
+struct Setting {
+  Word key;
+  std::vector<SettingItem> items;
+  std::optional<Word> on;
+  Span span;
+};
+
+/// `percept`, `map`, `device`, `levels`, `hand` and the like: a keyword, a name, a block of settings.
+struct RecordDecl {
+  Word keyword;
+  Word name;
+  std::optional<Word> from;  ///< `map roughness from amplitude`
+  std::vector<Setting> settings;
+  std::string documentation;
+  Span span;
+  bool exported = false;
+};
+
+struct Import {
+  Word module;
+};
+/// Declarations other than materials and imports are their file's own unless `export` stands before them.
+struct DimensionDecl {
+  Word name;
+  std::optional<ExprId> definition;  ///< none: a base dimension
+  std::optional<Range> range;        ///< the bounds of states of this dimension that have none of their own
+  bool exported = false;
+};
+/// `unit m : length` (a base unit) or `unit N = 1 kg m/s^2`.
+struct UnitDecl {
+  Word name;
+  std::optional<Word> dimension;
+  std::optional<ExprId> definition;
+  std::string documentation;
+  bool exported = false;
+};
+struct Constant {
+  Word name;
+  ExprId value;
+  std::string documentation;
+  bool exported = false;
+};  ///< `let` outside a material
+struct FormalParameter {
+  Word name;
+  std::optional<Word> dimension;
+  std::optional<ExprId> default_value;
+};
+struct FunctionDecl {
+  Word name;
+  std::vector<FormalParameter> parameters;
+  ExprId body;
+  std::string documentation;
+  bool exported = false;
+};
+
+/// `roughness 0.6`, `essential softness 0.8 ± 0.1`, `roughness coarse`.
+struct PerceptStatement {
+  Word name;
+  bool essential = false;
+  std::optional<ExprId> value;
+  std::optional<Word> level_name;
+  std::optional<ExprId> tolerance;
+  Span span;
+};
+
+struct ParamStatement {
+  Word name;
+  ExprId value;
+  std::optional<Range> range;
+  std::optional<Range> soft_range;
+  std::string description;
+  std::string documentation;
+};
+struct LetStatement {
+  Word name;
+  ExprId value;
+};
+struct HeightStatement {
+  Word name;
+  ExprId value;
+};
+/// `force = …`, or a layer of it, `force texture = …`.
+struct ForceStatement {
+  std::optional<Word> name;
+  ExprId value;
+};
+/// `patch 95 mm, 95 mm`: the patch's width and height.
+struct PatchStatement {
+  std::vector<ExprId> sizes;
+};
+struct StateStatement {
+  Word name;
+  std::optional<Word> dimension;
+  ExprId value;
+  std::optional<Range> range;
+};
+/// `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
+struct MemoryStatement {
+  Word name;
+  std::optional<Word> dimension;
+  ExprId value;
+  std::optional<Range> range;
+  ExprId cell;
+};
+struct UpdateStatement {
+  Word name;
+  bool derivative;
+  ExprId value;
+};  ///< `x' = …` or `next x = …`
+struct ShowStatement {
+  ExprId value;
+};
+
+struct PhysicalStatement {
+  std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, StateStatement,
+               MemoryStatement, UpdateStatement, ShowStatement>
+      what;
+  Span span;
+};
+
+/// `material NAME { … }`, `material NAME = EXPRESSION` or `material NAME = EXPRESSION { … }`.
+struct MaterialDecl {
+  Word name;
+  std::optional<ExprId> derived_from;
+  std::vector<Setting> representative;
+  std::vector<PerceptStatement> perceptual;
+  std::vector<PhysicalStatement> physical;
+  std::optional<Span> perceptual_span, physical_span;  ///< the blocks with their braces, absent when not written
+  std::string documentation;
+  Span span;
+};
+
+using Declaration = std::variant<Import, DimensionDecl, UnitDecl, Constant, FunctionDecl, RecordDecl, MaterialDecl>;
+
+/// One parsed file. Expressions live in `exprs` and are named by index; `expr_spans` runs beside it.
+struct SyntaxTree {
+  SourceId source = 0;
+  std::vector<Expr> exprs;
+  std::vector<Span> expr_spans;
+  std::vector<Declaration> declarations;
+
+  const Expr& expr(ExprId id) const { return exprs[id]; }
+  Span span(ExprId id) const { return expr_spans[id]; }
+};
+
+}  // namespace wale

@@ -1,0 +1,238 @@
+#include "compiler/preview/preview.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/measure/rehearsal.hpp"
+#include "compiler/preview/axis.hpp"
+#include "compiler/preview/canvas.hpp"
+#include "compiler/preview/exhibit.hpp"
+#include "compiler/preview/field.hpp"
+#include "compiler/preview/marks.hpp"
+#include "compiler/preview/plot.hpp"
+#include "compiler/preview/relief.hpp"
+#include "compiler/preview/style.hpp"
+
+namespace wale {
+namespace {
+
+constexpr int page_width = 1600, page_height = 1000;
+constexpr double margin = 64;
+constexpr PageBox picture = {margin, 196, margin + 580, 776};
+constexpr PageBox upper_plot = {764, 226, page_width - margin, 456};
+constexpr PageBox lower_plot = {764, 534, page_width - margin, 776};
+// Where both have an axis of their own below.
+constexpr PageBox upper_of_two = {764, 226, page_width - margin, 438};
+constexpr PageBox lower_of_two = {764, 564, page_width - margin, 776};
+constexpr PageBox tall_plot = {764, 226, page_width - margin, 776};
+constexpr int curve_points = 1801;
+constexpr double stroking_speed = 0.1;  // m/s; of the second force curve, where motion is resisted
+
+const char* axis_name(const Exhibit& exhibit) { return exhibit.axis == 0 ? "x" : "y"; }
+
+/// A bar of a round length at the lower left of the picture.
+void draw_scale_bar(Canvas& canvas, double across, const Notation& notation) {
+  const double shown = across * notation.per_si;
+  const double length = round_number(shown / 3.5);
+  const double left = picture.left, right = left + length / shown * picture.width(), at = picture.bottom + 19;
+  canvas.line({left + 1, at}, {right - 1, at}, {3, style::ink});
+  canvas.line({left + 1, at - 6}, {left + 1, at + 6}, {2, style::ink});
+  canvas.line({right - 1, at - 6}, {right - 1, at + 6}, {2, style::ink});
+  canvas.write({right + 13, at + 5.5}, fmt::format("{} {}", shown_number(length), notation.unit), style::heading);
+}
+
+void write_caption(Canvas& canvas, const std::string& text) {
+  canvas.write({picture.right, picture.bottom + 24.5}, text, style::label, Align::right);
+}
+
+/// Where on the relief the curves beside it were taken.
+void mark_section(Canvas& canvas, const Exhibit& exhibit) {
+  const double aside = exhibit.aside / exhibit.side * picture.width();
+  const double x = (picture.left + picture.right) / 2 + aside, y = (picture.top + picture.bottom) / 2 - aside;
+  const Pen thin = {1.3, style::ink, 0.55f, 6}, thick = {2, style::ink};
+  if (exhibit.axis == 0) {
+    canvas.line({picture.left, y}, {picture.right, y}, thin);
+    canvas.line({picture.left - 12, y}, {picture.left - 3, y}, thick);
+    canvas.line({picture.right + 3, y}, {picture.right + 12, y}, thick);
+  } else {
+    canvas.line({x, picture.top}, {x, picture.bottom}, thin);
+    canvas.line({x, picture.top - 12}, {x, picture.top - 3}, thick);
+    canvas.line({x, picture.bottom + 3}, {x, picture.bottom + 12}, thick);
+  }
+}
+
+double largest_of(const std::vector<Curve>& curves) {
+  double largest = 0;
+  for (const Curve& curve : curves) {
+    for (double value : curve.profile.values) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+Plot height_plot(const Bank& bank, const Memory& memory, const Exhibit& exhibit) {
+  Plot plot;
+  plot.title = fmt::format("Height along {}", axis_name(exhibit));
+  plot.x_notation = length_notation(exhibit.side);
+  plot.curves = {{height_along(bank, &memory, exhibit, curve_points), style::height, ""}};
+  const auto& values = plot.curves[0].profile.values;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (bank.program().description().picture.relief_is_length) plot.y_notation = length_notation(*most - *least);
+  plot.shaded = true;
+  return plot;
+}
+
+Plot force_plot(const Bank& bank, const Exhibit& exhibit) {
+  Plot plot;
+  plot.title = fmt::format("Force along {}", axis_name(exhibit));
+  plot.x_name = fmt::format("position {}", axis_name(exhibit));
+  plot.x_notation = length_notation(exhibit.side);
+  plot.curves = {{force_along(bank, exhibit, 0, curve_points), style::force, "on a hand at rest"}};
+  if (exhibit.resists_motion) {
+    plot.curves.push_back({force_along(bank, exhibit, stroking_speed, curve_points), style::moving,
+                           fmt::format("moving at {} m/s", shown_number(stroking_speed))});
+  }
+  plot.y_notation = force_notation(largest_of(plot.curves));
+  plot.balanced = true;
+  return plot;
+}
+
+Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
+  Plot plot;
+  plot.title = fmt::format("Force along {} against velocity, at the centre", axis_name(exhibit));
+  plot.x_name = fmt::format("velocity along {}", axis_name(exhibit));
+  plot.x_notation = speed_notation(exhibit.speed);
+  plot.curves = {{force_against_speed(bank, exhibit, curve_points), style::moving, ""}};
+  plot.y_notation = force_notation(largest_of(plot.curves));
+  plot.balanced = true;
+  return plot;
+}
+
+/// Where the hand was along x while it rubbed.
+Plot stroke_plot(const Rehearsal& rehearsal) {
+  Plot plot;
+  plot.title = "The hand along x, rubbing to and fro";
+  plot.x_notation = {"s", 1};
+  Profile profile{rehearsal.times, {}};
+  for (glm::vec2 place : rehearsal.places) profile.values.push_back(place.x);
+  plot.curves = {{std::move(profile), style::height, ""}};
+  plot.y_notation = length_notation(largest_of(plot.curves));
+  plot.balanced = true;
+  return plot;
+}
+
+/// What it felt meanwhile.
+Plot felt_plot(const Rehearsal& rehearsal) {
+  Plot plot;
+  plot.title = "Force on the hand";
+  plot.x_name = "time";
+  plot.x_notation = {"s", 1};
+  for (int axis : {0, 1}) {
+    Profile profile{rehearsal.times, {}};
+    for (Force force : rehearsal.forces) profile.values.push_back(std::isfinite(force[axis]) ? force[axis] : 0);
+    plot.curves.push_back(
+        {std::move(profile), axis == 0 ? style::force : style::moving, axis == 0 ? "along x" : "along y"});
+  }
+  plot.y_notation = force_notation(largest_of(plot.curves));
+  plot.balanced = true;
+  return plot;
+}
+
+void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  const bool in_time = remembers(bank.program().description());
+  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit);
+  if (exhibit.has_relief) mark_section(canvas, exhibit);
+  draw_marks(canvas, picture, exhibit, rehearsal);
+  const Notation length = length_notation(exhibit.side);
+  draw_scale_bar(canvas, exhibit.side, length);
+  std::string caption =
+      exhibit.has_relief ? (exhibit.period ? "lit from the upper left" : "relief, lit from the upper left") : "";
+  if (in_time) caption = fmt::format("after {} s under the hand (ring)", shown_number(rehearsal.seconds));
+  if (exhibit.period) {
+    caption =
+        fmt::format("period {}{}{}", shown_quantity(*exhibit.period, length), caption.empty() ? "" : " · ", caption);
+  }
+  write_caption(canvas, caption);
+}
+
+void draw_field_and_scale(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
+  const double strongest = draw_field(canvas, picture, bank, exhibit, of_velocity);
+  if (of_velocity) {
+    draw_scale_bar(canvas, 2 * exhibit.speed, speed_notation(exhibit.speed));
+  } else {
+    draw_scale_bar(canvas, exhibit.side, length_notation(exhibit.side));
+  }
+  if (strongest > 0) {
+    write_caption(canvas, fmt::format("force over {}, longest arrow {}", of_velocity ? "velocity" : "position",
+                                      shown_quantity(strongest, force_notation(strongest))));
+  } else {
+    write_caption(canvas, "no force anywhere");
+  }
+}
+
+/// Beside what has neither relief nor memory: how it pushes, and how it resists.
+void draw_force_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
+  if (of_velocity) return draw_plot(canvas, tall_plot, speed_plot(bank, exhibit));
+  Plot at_rest = force_plot(bank, exhibit);
+  if (!exhibit.resists_motion) return draw_plot(canvas, tall_plot, at_rest);
+  at_rest.curves.resize(1);
+  draw_plot(canvas, upper_of_two, at_rest);
+  draw_plot(canvas, lower_of_two, speed_plot(bank, exhibit));
+}
+
+void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
+  const double width = page_width - 2 * margin;
+  const std::string& device = bank.program().description().device.name;
+  const PatchSize size = bank.size();
+  const std::string place = fmt::format("patch {} × {} mm{}", shown_number(size.width * 1e3),
+                                        shown_number(size.height * 1e3), device.empty() ? "" : " on " + device);
+  canvas.write_within({margin, 104}, width, text.title, style::title);
+  canvas.write_within({margin, 146}, width - 420, text.names, style::names);
+  canvas.write_within({page_width - margin, 146}, 400, place, style::label, Align::right);
+
+  const double top = 848;
+  canvas.line({margin, top}, {page_width - margin, top}, {1, style::rule});
+  const std::size_t count = std::min<std::size_t>(text.figures.size(), 6);
+  const double column = width / static_cast<double>(std::max<std::size_t>(count, 4));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double left = margin + static_cast<double>(i) * column;
+    canvas.write_within({left, top + 30}, column - 24, text.figures[i].word, style::word);
+    canvas.write_within({left, top + 70}, column - 24, text.figures[i].value, style::value);
+  }
+  canvas.write_within({margin, 957}, width, text.evidence, style::label);
+}
+
+}  // namespace
+
+Drawing draw_preview(const Bank& bank, const PreviewText& text) {
+  const PatchProgram& program = bank.program().description();
+  const Rehearsal rehearsal = rehearse(bank);
+  const Exhibit exhibit = exhibit_of(bank, &rehearsal.memory);
+  const bool of_velocity = !exhibit.pushes_at_rest && exhibit.resists_motion;
+  Canvas canvas(page_width, page_height, style::paper);
+  write_words(canvas, bank, text);
+  if (exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() || remembers(program)) {
+    draw_surface(canvas, bank, exhibit, rehearsal);
+  } else {
+    draw_field_and_scale(canvas, bank, exhibit, of_velocity);
+  }
+  if (remembers(program) && exhibit.has_relief) {
+    Plot heights = height_plot(bank, rehearsal.memory, exhibit);
+    heights.x_name = fmt::format("position {}", axis_name(exhibit));
+    draw_plot(canvas, upper_of_two, heights);
+    draw_plot(canvas, lower_of_two, felt_plot(rehearsal));
+  } else if (remembers(program)) {
+    draw_plot(canvas, upper_plot, stroke_plot(rehearsal));
+    draw_plot(canvas, lower_plot, felt_plot(rehearsal));
+  } else if (exhibit.has_relief) {
+    draw_plot(canvas, upper_plot, height_plot(bank, rehearsal.memory, exhibit));
+    draw_plot(canvas, lower_plot, force_plot(bank, exhibit));
+  } else {
+    draw_force_plots(canvas, bank, exhibit, of_velocity);
+  }
+  canvas.outline(picture, {1, style::rule});
+  return canvas.finish();
+}
+
+}  // namespace wale

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/preview/axis.hpp"
+#include "compiler/preview/preview.hpp"
+
+namespace wale {
+namespace {
+
+std::string joined(const std::vector<std::string>& words, std::string_view between) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += between;
+    text += word;
+  }
+  return text;
+}
+
+/// What the representative layer says under a word, empty when it does not.
+std::vector<std::string> said(const Layers& layers, std::string_view word) {
+  for (const auto& [name, values] : layers.representative) {
+    if (name == word) return values;
+  }
+  return {};
+}
+
+/// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of observers' means within 0.48 .. 0.75": the worst
+/// of the three grades, where it comes from and how sure it is.
+std::string evidence_of(const DescribedPercept& percept) {
+  std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.worst));
+  if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
+  if (!percept.device.empty()) text += " on " + percept.device;
+  if (percept.low < percept.high)
+    text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.low, percept.high);
+  if (percept.saturated) text += ", all that the device can push";
+  if (percept.outside_validity) text += ", outside the measured range";
+  return text;
+}
+
+}  // namespace
+
+PreviewText preview_text(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  PreviewText text;
+  text.title = joined(said(program.layers, "title"), " ");
+  if (text.title.empty()) {
+    text.title = program.material;
+    std::ranges::replace(text.title, '_', ' ');
+  }
+  text.names = joined(said(program.layers, "called"), " · ");
+
+  const Description description = describe(bank);
+  std::vector<std::string> evidence;
+  for (const DescribedPercept& percept : description.percepts) {
+    text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
+    text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, force_notation(percept.amplitude))});
+    evidence.push_back(evidence_of(percept));
+  }
+  text.evidence = evidence.empty() ? "described by its physics alone: no percept" : joined(evidence, " · ");
+  text.figures.push_back(
+      {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
+
+  std::vector<bool> is_level(program.parameters.size(), false);
+  for (const PerceptRecord& percept : program.percepts) {
+    if (percept.parameter) is_level[*percept.parameter] = true;
+  }
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    const Parameter& parameter = description.parameters[i];
+    if (is_level[i]) continue;
+    text.figures.push_back(
+        {parameter.name, shown_quantity(parameter.value, {parameter.unit, 1 / parameter.unit_in_si})});
+  }
+  return text;
+}
+
+}  // namespace wale

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostic.hpp"
+#include "compiler/expression/checked.hpp"
+#include "compiler/text/resolver.hpp"
+
+namespace wale {
+
+/// A percept of a solved material: what the program carries of it, and the terms that the program computes.
+struct SolvedPercept {
+  PerceptRecord record;             ///< all but its code and registers
+  std::optional<double> asked;      ///< the level that the author wrote
+  TermId amplitude = 0;             ///< the carrier's size
+  TermId magnitude = 0, level = 0;  ///< of a carrier of the size in the `probe` input
+};
+
+/// What becomes of the cell of a memory that is nearest to (u, v), in cells from the centre of its first one.
+struct SolvedWrite {
+  std::uint16_t memory = 0;
+  TermId u = 0, v = 0, value = 0;
+};
+
+/// A material with nothing left open, for one device.
+struct SolvedMaterial {
+  std::string name;
+  Span span;
+  Terms terms;
+  std::vector<HeightTable> tables;
+  std::vector<Parameter> parameters;  ///< the author's, then one for each solved percept
+  std::array<TermId, 2> force{};
+  Span force_span;
+  std::optional<TermId> relief;
+  bool relief_is_length = false;
+  std::optional<std::array<TermId, 3>> colour;
+  std::vector<CheckedState> states;
+  std::vector<Grid> memories;
+  std::vector<SolvedWrite> writes;
+  std::vector<CheckedMark> marks;
+  std::vector<SolvedPercept> percepts;
+  DeviceProfile device;
+  double patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m
+  Layers layers;
+};
+
+/// Chooses maps for the device and puts their inverse laws, as expressions in a live level, where quantities were left
+/// open; a material that says only what it feels like gets the device's own realisation. Purely symbolic but for
+/// warnings about the level asked for. The result is fit for `lower` only when no error was reported.
+SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
+                     const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
+
+/// The equation `left = right` solved for the one place where the unknown stands, or nothing where its inverse is not
+/// known or it stands in several places. `unknown` is a term of `terms`; new terms are added there.
+std::optional<TermId> isolate(Terms& terms, TermId left, TermId right, TermId unknown);
+
+}  // namespace wale

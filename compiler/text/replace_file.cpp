@@ -1,0 +1,75 @@
+#include "compiler/text/replace_file.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file beside another that disappears unless it is renamed.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& beside)
+      : name_((beside.parent_path() / ("." + beside.filename().string() + ".XXXXXX")).string()),
+        descriptor_(mkstemp(name_.data())) {}
+  ~Temporary() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (descriptor_ >= 0 && !kept_) unlink(name_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  bool open() const { return descriptor_ >= 0; }
+
+  bool write(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+  }
+
+  /// The owner stays if that is allowed; the permissions must.
+  bool take_permissions_of(const struct stat& other) {
+    if (fchown(descriptor_, other.st_uid, other.st_gid) != 0) errno = 0;
+    return fchmod(descriptor_, other.st_mode & 07777) == 0;
+  }
+
+  bool rename_to(const fs::path& path) {
+    kept_ = fsync(descriptor_) == 0 && std::rename(name_.c_str(), path.c_str()) == 0;
+    return kept_;
+  }
+
+ private:
+  std::string name_;
+  int descriptor_ = -1;
+  bool kept_ = false;
+};
+
+}  // namespace
+
+std::optional<std::string> replace_file(const std::string& path, std::string_view bytes) {
+  std::error_code error;
+  const fs::path target = fs::canonical(path, error);
+  if (error) return error.message();
+  struct stat status {};
+  if (stat(target.c_str(), &status) != 0) return std::strerror(errno);
+  if (!S_ISREG(status.st_mode)) return "this is not a regular file";
+  if (access(target.c_str(), W_OK) != 0) return std::strerror(errno);
+  Temporary temporary(target);
+  if (!temporary.open() || !temporary.write(bytes) || !temporary.take_permissions_of(status) ||
+      !temporary.rename_to(target))
+    return std::strerror(errno);
+  return std::nullopt;
+}
+
+}  // namespace wale

@@ -1,0 +1,121 @@
+#include "compiler/text/resolver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "compiler/text/source.hpp"
+
+namespace wale {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t largest_file = std::uintmax_t{512} << 20;
+
+/// Each file that is imported may import another, and they are followed recursively.
+constexpr std::size_t most_modules = 1000;
+
+class FileResolver final : public Resolver {
+ public:
+  explicit FileResolver(std::vector<std::string> roots) : roots_(std::move(roots)) {}
+
+  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) override {
+    std::string relative = path;
+    std::ranges::replace(relative, '.', '/');
+    auto found = look_for(relative + ".wale", from);
+    auto* file = std::get_if<ResolvedFile>(&found);
+    if (!file) return found;
+    if (file->bytes.size() > largest_source)
+      return ResolveProblem{fmt::format("`{}` has {:.1f} MB; Wale reads up to {} MB", file->name,
+                                        file->bytes.size() / 1048576.0, largest_source >> 20)};
+    modules_.insert(file->name);
+    if (modules_.size() > most_modules)
+      return ResolveProblem{fmt::format("more than {} files would be imported", most_modules)};
+    return found;
+  }
+
+  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) override {
+    return look_for(name, from);
+  }
+
+ private:
+  std::variant<ResolvedFile, ResolveProblem> look_for(const std::string& name, const std::string& from) {
+    std::vector<fs::path> candidates{fs::path(from).parent_path() / name};
+    if (const auto project = project_of(from)) candidates.push_back(*project / name);
+    for (const auto& root : roots_) candidates.push_back(fs::path(root) / name);
+    for (const auto& candidate : candidates) {
+      std::error_code ignored;
+      if (fs::exists(candidate, ignored)) return read_file(candidate.lexically_normal().string());
+    }
+    std::string searched;
+    std::set<std::string> said;  // the file may stand beside its project's mark
+    for (const auto& candidate : candidates)
+      if (const auto shown = candidate.lexically_normal().string(); said.insert(shown).second)
+        searched += fmt::format("{}`{}`", searched.empty() ? "" : ", ", shown);
+    return ResolveProblem{fmt::format("no such file; looked for {}", searched)};
+  }
+
+  /// Found once for each folder: a file's imports ask for it again and again.
+  const std::optional<fs::path>& project_of(const std::string& from) {
+    const fs::path folder = fs::path(from).parent_path();
+    const auto [known, added] = projects_.try_emplace(folder.string());
+    if (!added) return known->second;
+    std::error_code ignored;
+    fs::path above = fs::absolute(folder.empty() ? fs::path(".") : folder, ignored).lexically_normal();
+    fs::path shown = folder.empty() ? fs::path(".") : folder;  // names stay relative where the file's was
+    while (!above.empty()) {
+      if (fs::is_regular_file(above / project_marker, ignored)) {
+        known->second = shown;
+        break;
+      }
+      if (above == above.root_path()) break;
+      above = above.has_filename() ? above.parent_path() : above.parent_path().parent_path();
+      shown /= "..";
+    }
+    return known->second;
+  }
+
+  std::vector<std::string> roots_;
+  std::map<std::string, std::optional<fs::path>> projects_;
+  std::set<std::string> modules_;  ///< all that were asked for
+};
+
+}  // namespace
+
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots) {
+  return std::make_unique<FileResolver>(std::move(roots));
+}
+
+std::variant<ResolvedFile, ResolveProblem> read_file(const std::string& path) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (!fs::exists(status)) return ResolveProblem{"no such file"};
+  if (fs::is_directory(status)) return ResolveProblem{"this is a folder"};
+  // A pipe has no size and may never end; only regular files are measured before they are read.
+  if (fs::is_regular_file(status)) {
+    const auto size = fs::file_size(path, error);
+    if (!error && size > largest_file) return ResolveProblem{fmt::format("{} bytes are more than Wale reads", size)};
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return ResolveProblem{std::strerror(errno)};
+  ResolvedFile file{path, {}};
+  char block[1 << 16];
+  while (stream.read(block, sizeof block), stream.gcount() > 0) {
+    file.bytes.append(block, static_cast<std::size_t>(stream.gcount()));
+    if (file.bytes.size() > largest_file) return ResolveProblem{"more bytes than Wale reads"};
+  }
+  if (stream.bad()) return ResolveProblem{std::strerror(errno)};
+  return file;
+}
+
+}  // namespace wale
