@@ -72,7 +72,7 @@ void StatementChecker::operator()(const StateStatement& node) {
     return declare_failed(node.name);
   }
   if (dimension && !fits(initial, node.value, *dimension)) return declare_failed(node.name);
-  if (material_.terms.dependence(initial.x).state) {
+  if (material_.terms.dependence(initial.x).on(Dependence::state)) {
     report(Code::wrong_rate, initial.span, "a state begins with what is known as the hand enters, and this is a state",
            "use the hand, parameters and constants; write the other state's own beginning here");
     return declare_failed(node.name);

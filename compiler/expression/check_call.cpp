@@ -16,7 +16,9 @@ constexpr std::size_t most_terms = std::size_t{1} << 18;
 }  // namespace
 
 std::string what_changes(const Dependence& dependence) {
-  return dependence.velocity ? "velocity" : dependence.state ? "what the material remembers" : "time";
+  return dependence.on(Dependence::velocity) ? "velocity"
+         : dependence.on(Dependence::state)  ? "what the material remembers"
+                                             : "time";
 }
 
 Advice ExpressionChecker::spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise) const {
@@ -260,7 +262,7 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
       continue;
     }
     const auto* height = formals.find("height");
-    if (height && !terms_.dependence(height->value.x).position) {
+    if (height && !terms_.dependence(height->value.x).on(Dependence::position)) {
       report(Code::flat_height, span, "this height is the same everywhere, and a flat height pushes nothing", "",
              "let it change with `x` or `y`, as in `grating(x, period: 2.5 mm)`");
       continue;

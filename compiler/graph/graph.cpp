@@ -41,10 +41,10 @@ Key key_of(const Node& node) {
           std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index};
 }
 
-std::size_t hash_of(const Key& key) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, a word at a time
-  for (const auto word : key) hash = (hash ^ word) * 1099511628211u, hash ^= hash >> 29;
-  return hash;
+/// Multiplies each word by an odd number of its own; what is above goes into what is below.
+std::uint32_t hash_of(const Key& key) {
+  const std::uint64_t hash = key[0] * 0x9e3779b97f4a7c15u ^ key[1] * 0xbf58476d1ce4e5b9u ^ key[2] * 0x94d049bb133111ebu;
+  return static_cast<std::uint32_t>(hash ^ hash >> 32);
 }
 
 }  // namespace
@@ -55,26 +55,27 @@ void Graph::reserve(std::size_t nodes) {
 }
 
 void Graph::enlarge_table(std::size_t slots) {
-  const std::vector<NodeId> entries = std::move(table_);
-  table_.assign(slots, none);
-  for (const NodeId id : entries) {
-    if (id == none) continue;
-    std::size_t slot = hash_of(key_of(nodes_[id])) & (table_.size() - 1);
-    while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
-    table_[slot] = id;
+  const std::vector<Slot> entries = std::move(table_);
+  table_.assign(slots, {});
+  for (const Slot& entry : entries) {
+    if (entry.node == none) continue;
+    std::size_t at = entry.hash & (table_.size() - 1);
+    while (table_[at].node != none) at = (at + 1) & (table_.size() - 1);
+    table_[at] = entry;
   }
 }
 
 NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
   const Key key = key_of(node);
-  std::size_t slot = hash_of(key) & (table_.size() - 1);
-  for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
-    if (key_of(nodes_[table_[slot]]) == key) return table_[slot];
-  table_[slot] = static_cast<NodeId>(nodes_.size());
+  const std::uint32_t hash = hash_of(key);
+  std::size_t at = hash & (table_.size() - 1);
+  for (; table_[at].node != none; at = (at + 1) & (table_.size() - 1))
+    if (table_[at].hash == hash && key_of(nodes_[table_[at].node]) == key) return table_[at].node;
+  table_[at] = {hash, static_cast<NodeId>(nodes_.size())};
   ++in_table_;
   nodes_.push_back(node);
-  return table_[slot];
+  return table_[at].node;
 }
 
 NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }

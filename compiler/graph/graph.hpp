@@ -81,7 +81,11 @@ class Graph {
   std::vector<Node> nodes_;
   /// Finds equal nodes: a power of two of slots, each a node or `none`. A node stands in the first free slot from the
   /// one that its hash names.
-  std::vector<NodeId> table_;
+  struct Slot {
+    std::uint32_t hash = 0;
+    NodeId node = none;
+  };
+  std::vector<Slot> table_;
   std::size_t in_table_ = 0;
 };
 

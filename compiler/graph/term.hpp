@@ -40,15 +40,34 @@ struct Term {
   Input input() const { return static_cast<Input>(index); }
 };
 
-/// What a term's value changes with.
-struct Dependence {
-  bool parameter = false, position = false, velocity = false, open = false;
-  bool moment = false;  ///< time, acceleration, the button, the hand's place on the workspace
-  bool state = false;   ///< states and memories
-  bool constant() const { return !parameter && !open && !in_tick(); }
-  bool in_tick() const { return position || changing(); }
+/// What a term's value changes with, a bit each.
+class Dependence {
+ public:
+  enum Cause : std::uint8_t {
+    parameter = 1,
+    position = 2,
+    velocity = 4,
+    open = 8,
+    moment = 16,  ///< time, acceleration, the button, the hand's place on the workspace
+    state = 32,   ///< states and memories
+  };
+
+  Dependence() = default;
+  /// On one cause, or several joined by `|`.
+  Dependence(int causes) : causes_(static_cast<std::uint8_t>(causes)) {}
+
+  /// On any of them.
+  bool on(int causes) const { return (causes_ & causes) != 0; }
+  Dependence without(Cause cause) const { return causes_ & ~cause; }
+  void operator|=(Dependence other) { causes_ |= other.causes_; }
+
+  bool constant() const { return causes_ == 0; }
+  bool in_tick() const { return on(position) || changing(); }
   /// Not the same at the same place: no height, and nothing to take a peak of.
-  bool changing() const { return velocity || moment || state; }
+  bool changing() const { return on(velocity | moment | state); }
+
+ private:
+  std::uint8_t causes_ = 0;
 };
 
 /// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
@@ -70,6 +89,8 @@ class Terms {
   Dependence dependence(TermId id) const { return dependences_[id]; }
 
  private:
+  Dependence dependence_of(const Term& term) const;
+
   std::vector<Term> terms_;
   std::vector<Dependence> dependences_;
 };

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <initializer_list>
+#include <vector>
 
 #include "runtime/machine/verify_figures.hpp"
 #include "schema/refuse.hpp"
@@ -22,7 +22,8 @@ struct Section {
   bool grids = false;                    ///< it may hold `recall` and `cell` instructions
 };
 
-using Registers = std::bitset<register_limit>;
+/// Whether each register of the program is defined; as char, since bits are slower to look at one by one.
+using Registers = std::vector<char>;
 
 constexpr std::initializer_list<Input> patch_inputs = {Input::patch_half_width, Input::patch_half_height,
                                                        Input::patch_rim, Input::seconds_per_tick};
@@ -52,7 +53,11 @@ constexpr std::initializer_list<Input> prediction_inputs = {Input::patch_half_wi
 /// Follows code in order and refuses the first instruction that breaks a rule.
 class Verifier {
  public:
-  explicit Verifier(const PatchProgram& program) : program_(program), register_count_(program.register_count()) {
+  explicit Verifier(const PatchProgram& program)
+      : program_(program),
+        register_count_(program.register_count()),
+        defined_(register_count_, false),
+        proved_(register_count_, false) {
     for (std::size_t i = first_constant; i < program.first_setup(); ++i) defined_[i] = true;
   }
 
@@ -302,7 +307,7 @@ class Verifier {
     if (last->b != output.ceiling) {
       refuse(name, " is limited by register ", last->b, " and declares register ", output.ceiling, " its ceiling");
     }
-    const bool proved = output.ceiling < register_limit && proved_[output.ceiling];
+    const bool proved = output.ceiling < register_count_ && proved_[output.ceiling];
     if (!is_ceiling_constant(output.ceiling) && !proved) {
       refuse(name, " has register ", output.ceiling, " for its ceiling, which is neither a constant above 0 and up to ",
              program_.device.force_newton, " N nor limited by one in setup");
