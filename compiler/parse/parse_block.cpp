@@ -102,7 +102,7 @@ bool Parser::has_sections_below() const {
 
 /// `representative { … }`, `perceptual { … }` or `physical { … }`.
 void Parser::material_section(MaterialDecl& material, bool& misplaced) {
-  std::string section = spelling(here());
+  std::string section(spelling(here()));
   const bool opens = kind(at_ + 1) == TokenKind::left_brace;
   if (here().kind != TokenKind::name || !holds(sections, section)) {
     const auto meant = opens ? nearest_spelling(section, section_names) : std::nullopt;
@@ -205,7 +205,7 @@ std::string_view Parser::physical_keyword() {
     return {};
   };
   if (here().kind == TokenKind::name) {
-    const std::string word = spelling(here());
+    const std::string word(spelling(here()));
     const bool defines = followed_by(TokenKind::equals);
     if (followed_by(TokenKind::prime)) return "'";
     if (const auto known = word_of_table(word); !known.empty()) return known;
