@@ -52,7 +52,7 @@ class StatementChecker {
   const Declarations& declarations() const { return *statement_->home; }
   const SyntaxTree& tree() const { return *statement_->tree; }
 
-  std::optional<double> parameter_value(const ParamStatement& node, const Dimension& dimension);
+  std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
   bool lacks_its_unit(const ParamStatement& node, const Value& value);
   std::pair<std::string, double> written_unit(const ParamStatement& node, const Dimension& dimension) const;
@@ -68,7 +68,7 @@ class StatementChecker {
   void update_memory(const UpdateStatement& node, KnownMemory& known);
 
   std::string free_name(const std::string& name, const std::function<bool(const std::string&)>& taken) const;
-  void declare(const Word& name, Value value);
+  void declare(const Word& name, const Value& value);
   void declare_failed(const Word& name);
   void report(Code code, Span span, std::string message, Advice advice);
 
