@@ -38,7 +38,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
 
   LoweredMaterial lowered;
   Graph& graph = lowered.graph;
-  graph.reserve(2 * terms.size());  // gradients add to what the terms become
+  graph.reserve(terms.size() + terms.size() / 4);  // about as many: gradients add some, constants fold
   // The patch less its rim: where peaks are taken.
   const NodeId rim = graph.input(Input::patch_rim);
   const NodeId half_width = graph.apply(Operation::subtract, graph.input(Input::patch_half_width), rim);

@@ -1,7 +1,6 @@
 #include "compiler/graph/graph.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 #include "compiler/graph/term.hpp"
@@ -32,18 +31,21 @@ float fold(Operation operation, float a, float b, float c) {
   return evaluate(operation, a, b, c);
 }
 
-using Key = std::array<std::uint64_t, 3>;
-
-/// Whatever makes a value what it is; where it came from and how often it is worked out do not.
-Key key_of(const Node& node) {
-  return {static_cast<std::uint64_t>(node.kind) << 40 | static_cast<std::uint64_t>(node.operation) << 32 |
-              std::bit_cast<std::uint32_t>(node.value),
-          std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index};
+/// Whether they are one value. Where it came from and how often it is worked out do not make it what it is.
+bool same(const Node& a, const Node& b) {
+  return a.a == b.a && a.b == b.b && a.c == b.c && a.operation == b.operation && a.kind == b.kind &&
+         a.index == b.index && std::bit_cast<std::uint32_t>(a.value) == std::bit_cast<std::uint32_t>(b.value);
 }
 
-/// Multiplies each word by an odd number of its own; what is above goes into what is below.
-std::uint32_t hash_of(const Key& key) {
-  const std::uint64_t hash = key[0] * 0x9e3779b97f4a7c15u ^ key[1] * 0xbf58476d1ce4e5b9u ^ key[2] * 0x94d049bb133111ebu;
+/// Of what `same` compares: each word times an odd number of its own; what is above goes into what is below.
+std::uint32_t hash_of(const Node& node) {
+  const std::uint64_t what = static_cast<std::uint64_t>(node.kind) << 40 |
+                             static_cast<std::uint64_t>(node.operation) << 32 |
+                             std::bit_cast<std::uint32_t>(node.value);
+  const std::uint64_t a_and_b = std::uint64_t{node.a} << 32 | node.b;
+  const std::uint64_t c_and_index = std::uint64_t{node.c} << 32 | node.index;
+  const std::uint64_t hash =
+      what * 0x9e3779b97f4a7c15u ^ a_and_b * 0xbf58476d1ce4e5b9u ^ c_and_index * 0x94d049bb133111ebu;
   return static_cast<std::uint32_t>(hash ^ hash >> 32);
 }
 
@@ -67,11 +69,10 @@ void Graph::enlarge_table(std::size_t slots) {
 
 NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
-  const Key key = key_of(node);
-  const std::uint32_t hash = hash_of(key);
+  const std::uint32_t hash = hash_of(node);
   std::size_t at = hash & (table_.size() - 1);
   for (; table_[at].node != none; at = (at + 1) & (table_.size() - 1))
-    if (table_[at].hash == hash && key_of(nodes_[table_[at].node]) == key) return table_[at].node;
+    if (table_[at].hash == hash && same(nodes_[table_[at].node], node)) return table_[at].node;
   table_[at] = {hash, static_cast<NodeId>(nodes_.size())};
   ++in_table_;
   nodes_.push_back(node);

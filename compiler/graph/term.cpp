@@ -2,11 +2,6 @@
 
 namespace wale {
 
-void Terms::reserve(std::size_t terms) {
-  terms_.reserve(terms);
-  dependences_.reserve(terms);
-}
-
 Dependence Terms::dependence_of(const Term& term) const {
   switch (term.kind) {
     case TermKind::literal: return {};
@@ -32,23 +27,23 @@ Dependence Terms::dependence_of(const Term& term) const {
     case TermKind::carrier: return Dependence::parameter;
     case TermKind::open: return Dependence::open | Dependence::parameter;
     case TermKind::operation: {
-      Dependence dependence;
-      for (const TermId operand : operands(term)) dependence |= dependences_[operand];
-      if (term.operation == Operation::recall || term.operation == Operation::cell) dependence |= Dependence::state;
-      return dependence;
+      Dependence all;
+      for (const TermId operand : operands(term)) all |= dependence(operand);
+      if (term.operation == Operation::recall || term.operation == Operation::cell) all |= Dependence::state;
+      return all;
     }
     case TermKind::component:
-    case TermKind::gradient: return dependences_[term.a];
+    case TermKind::gradient: return dependence(term.a);
     case TermKind::peak:
       // The patch's extents are setup inputs: the peak may change with them even if nothing else does.
-      return Dependence::parameter | (dependences_[term.a].on(Dependence::open) ? Dependence::open : 0);
+      return Dependence::parameter | (dependence(term.a).on(Dependence::open) ? Dependence::open : 0);
   }
   return {};
 }
 
 TermId Terms::add(const Term& term) {
-  dependences_.push_back(dependence_of(term));
-  terms_.push_back(term);
+  Term& added = terms_.emplace_back(term);
+  added.dependence = dependence_of(added);
   return static_cast<TermId>(terms_.size() - 1);
 }
 

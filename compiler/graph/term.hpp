@@ -29,17 +29,6 @@ enum class TermKind : std::uint8_t {
   peak,       ///< 99th percentile of `a` over the patch less its rim
 };
 
-struct Term {
-  TermKind kind = TermKind::literal;
-  Operation operation = Operation::add;
-  TermId a = 0, b = 0, c = 0;
-  double value = 0;
-  std::uint32_t index = 0;
-  Span span;
-
-  Input input() const { return static_cast<Input>(index); }
-};
-
 /// What a term's value changes with, a bit each.
 class Dependence {
  public:
@@ -70,13 +59,25 @@ class Dependence {
   std::uint8_t causes_ = 0;
 };
 
+struct Term {
+  TermKind kind = TermKind::literal;
+  Operation operation = Operation::add;
+  Dependence dependence;  ///< what `Terms::add` finds
+  TermId a = 0, b = 0, c = 0;
+  double value = 0;
+  std::uint32_t index = 0;
+  Span span;
+
+  Input input() const { return static_cast<Input>(index); }
+};
+
 /// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
 class Terms {
  public:
   const Term& operator[](TermId id) const { return terms_[id]; }
   std::size_t size() const { return terms_.size(); }
   /// Makes room for so many terms; there may be more.
-  void reserve(std::size_t terms);
+  void reserve(std::size_t terms) { terms_.reserve(terms); }
 
   TermId add(const Term& term);
   TermId literal(double value, Span span = {});
@@ -86,13 +87,12 @@ class Terms {
   TermId apply(Operation operation, TermId a, TermId b, Span span = {});
   TermId apply(Operation operation, TermId a, TermId b, TermId c, Span span = {});
 
-  Dependence dependence(TermId id) const { return dependences_[id]; }
+  Dependence dependence(TermId id) const { return terms_[id].dependence; }
 
  private:
   Dependence dependence_of(const Term& term) const;
 
   std::vector<Term> terms_;
-  std::vector<Dependence> dependences_;
 };
 
 /// The terms that a term is worked out from: a, b, c as far as it has them.
