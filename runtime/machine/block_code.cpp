@@ -148,12 +148,14 @@ const std::array<Variants, operation_table.size()> all_variants = [] {
 }  // namespace
 
 BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
-  constexpr auto first_four = static_cast<RegisterNumber>(Input::velocity_y);
-  constexpr auto others = static_cast<RegisterNumber>(Input::acceleration_x);
-  constexpr auto last = static_cast<RegisterNumber>(Input::button);
-  static_assert(first_four + 1 + last - others + 1 == input_rows);
-  if (number <= first_four) return {number, false};
-  if (number >= others && number <= last) return {static_cast<std::uint16_t>(number - others + first_four + 1), false};
+  // Of each input, how many before it change from tick to tick.
+  static constexpr auto row_of_input = [] {
+    std::array<std::uint16_t, first_constant> rows{};
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      rows[i] = static_cast<std::uint16_t>(rows[i - 1] + input_table[i - 1].changes);
+    return rows;
+  }();
+  if (number < first_constant && input_table[number].changes) return {row_of_input[number], false};
   if (number < first_state) return {number, true};
   return {static_cast<std::uint16_t>(input_rows + number - first_state), false};
 }

@@ -43,7 +43,7 @@ using BlockCode = std::vector<BlockInstruction>;
 
 /// Rows of lanes stand for the inputs that change from tick to tick, the states and the temporaries, in this order; all
 /// else is uniform.
-inline constexpr std::uint16_t input_rows = 14;
+inline constexpr std::uint16_t input_rows = changing_inputs;
 
 /// Where a register is found by a block of a program whose states begin at register `first_state`.
 BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number);

@@ -38,7 +38,7 @@ std::vector<Input> tick_inputs_of(const PatchProgram& program) {
   for (const GridWrite& write : program.writes) reads(write.u), reads(write.v), reads(write.value);
   std::vector<Input> inputs;
   for (RegisterNumber number = 0; number < first_constant; ++number) {
-    if (read[number] && !block_operand(program, number).uniform) inputs.push_back(static_cast<Input>(number));
+    if (read[number] && input_table[number].changes) inputs.push_back(static_cast<Input>(number));
   }
   return inputs;
 }

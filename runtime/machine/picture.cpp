@@ -11,22 +11,14 @@
 namespace wale {
 namespace {
 
-constexpr std::array<Input, 14> hand_inputs = {
-    Input::x,
-    Input::y,
-    Input::velocity_x,
-    Input::velocity_y,
-    Input::acceleration_x,
-    Input::acceleration_y,
-    Input::raw_velocity_x,
-    Input::raw_velocity_y,
-    Input::raw_acceleration_x,
-    Input::raw_acceleration_y,
-    Input::workspace_x,
-    Input::workspace_y,
-    Input::time,
-    Input::button,
-};
+/// All that a hand brings.
+constexpr auto hand_inputs = [] {
+  std::array<Input, changing_inputs> inputs{};
+  std::size_t count = 0;
+  for (RegisterNumber number = 0; number < first_constant; ++number)
+    if (input_table[number].changes) inputs[count++] = static_cast<Input>(number);
+  return inputs;
+}();
 
 bool belongs(const Memory* memory, const Bank& bank) {
   return memory != nullptr && &memory->program().decoded() == &bank.program().decoded();
