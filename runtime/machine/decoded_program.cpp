@@ -51,6 +51,10 @@ DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(ve
   grids = shapes_of(description.grids);
   initial_cells = initial_cells_of(description.grids);
   tick_inputs = tick_inputs_of(description);
+  hand_reader = HandReader(tick_inputs, envelope);
+  lane_enter = decode_threaded(description.enter);
+  lane_tick = decode_threaded(description.tick);
+  lane_frame = decode_threaded(description.picture.frame);
   const auto block = [this](std::span<const Instruction> code) {
     return decode_block(description, splines, grids, code);
   };

@@ -21,7 +21,7 @@ void Memory::enter(Bank& bank, const Hand& hand) noexcept {
   const DecodedProgram& program = program_.decoded();
   if (&program != &bank.program().decoded() || states_.empty()) return;
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.envelope, registers);
+  program.hand_reader(hand, registers);
   {
     const FloatingPointMode mode;
     enter_lane(program, registers);

@@ -5,7 +5,6 @@
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/inputs.hpp"
-#include "runtime/machine/lane.hpp"
 #include "runtime/machine/states.hpp"
 
 namespace wale {
@@ -28,7 +27,7 @@ bool belongs(const Memory* memory, const Bank& bank) {
 std::vector<float> registers_at(const Bank& bank, const Memory* memory, const Hand& hand) {
   const DecodedProgram& program = bank.program().decoded();
   std::vector<float> registers(bank.registers().begin(), bank.registers().end());
-  place_hand(hand_inputs, hand, program.envelope, registers.data());
+  HandReader(hand_inputs, program.envelope)(hand, registers.data());
   if (memory != nullptr) {
     std::copy(memory->states().begin(), memory->states().end(), registers.begin() + program.description.first_state());
   } else {
@@ -91,8 +90,8 @@ std::vector<ShownMark> show(const Bank& bank, const Memory& memory, const Hand& 
   std::vector<float> registers = registers_at(bank, own, hand);
   {
     const FloatingPointMode mode;
-    run_lane(program, picture.frame, registers.data(),
-             own != nullptr ? own->cells().data() : program.initial_cells.data());
+    const float* cells = own != nullptr ? own->cells().data() : program.initial_cells.data();
+    run_threaded(program.lane_frame, program.lookups(cells), registers.data());
   }
   std::vector<ShownMark> shown;
   for (const Mark& mark : picture.marks) {

@@ -15,8 +15,9 @@ inline float initial_state(float value, const State& state) {
 }
 
 /// Runs `enter` over registers that hold the hand already, and sets the state registers.
-/// Real-time as `run_lane` is. The caller holds a `FloatingPointMode`.
-void enter_lane(const DecodedProgram& program, float* registers);
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw. The caller holds a
+/// `FloatingPointMode`.
+void enter_lane(const DecodedProgram& program, float* registers) noexcept;
 
 /// The same over a block. The caller holds a `FloatingPointMode`.
 void enter_block(const DecodedProgram& program, Block& block, const float* registers);

@@ -3,7 +3,6 @@
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/inputs.hpp"
-#include "runtime/machine/lane.hpp"
 #include "runtime/machine/states.hpp"
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
@@ -13,11 +12,11 @@ namespace wale {
 Force tick(Bank& bank, const Hand& hand) noexcept {
   const DecodedProgram& program = bank.program().decoded();
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.envelope, registers);
+  program.hand_reader(hand, registers);
   {
     const FloatingPointMode mode;
     if (!program.description.states.empty()) enter_lane(program, registers);
-    run_lane(program, program.description.tick, registers, program.initial_cells.data());
+    run_threaded(program.lane_tick, program.lookups(program.initial_cells.data()), registers);
   }
   return {registers[program.force_x], registers[program.force_y]};
 }
@@ -26,11 +25,11 @@ Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept {
   const DecodedProgram& program = bank.program().decoded();
   if (&program != &memory.program_.decoded()) return tick(bank, hand);
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.envelope, registers);
+  program.hand_reader(hand, registers);
   std::copy(memory.states_.begin(), memory.states_.end(), registers + program.description.first_state());
   {
     const FloatingPointMode mode;
-    run_lane(program, program.description.tick, registers, memory.cells_.data());
+    run_threaded(program.lane_tick, program.lookups(memory.cells_.data()), registers);
     memory.remember(registers);
   }
   return {registers[program.force_x], registers[program.force_y]};
