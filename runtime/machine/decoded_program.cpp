@@ -62,6 +62,8 @@ DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(ve
   tick = block(description.tick);
   picture = block(description.picture.code);
   for (const Peak& peak : description.peaks) peaks.push_back(block(peak.code));
+  first_state = description.first_state();
+  for (const State& state : description.states) state_rules.push_back({state.low, state.high, state.next});
   for (const Output& output : description.outputs) (output.axis == 0 ? force_x : force_y) = output.value;
 }
 

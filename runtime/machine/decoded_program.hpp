@@ -11,6 +11,12 @@
 
 namespace wale {
 
+/// What becomes of a state at the end of a tick, without its name.
+struct StateRule {
+  float low, high;
+  RegisterNumber next;
+};
+
 /// A verified program made ready: what `Program` points to.
 ///
 /// What runs at the device's rate is decoded twice, for one lane and for blocks of lanes; setup and predictions run
@@ -29,6 +35,8 @@ struct DecodedProgram {
   BlockCode enter, tick, picture;
   std::vector<BlockCode> peaks;
   RegisterNumber force_x = 0, force_y = 0;  ///< the output registers
+  RegisterNumber first_state = 0;
+  std::vector<StateRule> state_rules;
 
   LaneLookups lookups(const float* cells) const { return {splines.data(), grids.data(), cells}; }
 };

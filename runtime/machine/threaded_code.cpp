@@ -32,7 +32,7 @@ template <Operation operation, unsigned forwarded>
 [[gnu::always_inline]] inline float step(const ThreadedInstruction& i, [[maybe_unused]] float last, float* registers,
                                          [[maybe_unused]] const LaneLookups& lookups) {
   const float a = (forwarded & 1) != 0 ? last : registers[i.a];
-  const float b = (forwarded & 2) != 0 ? last : registers[i.b];
+  [[maybe_unused]] const float b = (forwarded & 2) != 0 ? last : registers[i.b];
   float* results = registers + i.destination;
   const auto three = [results](const auto& sample) {
     results[0] = sample.value;
@@ -48,6 +48,13 @@ template <Operation operation, unsigned forwarded>
     return *results = lookups.cells[cell_at(lookups.grids[i.c], a, b)];
   } else if constexpr (operation == Operation::peak) {
     return last;  // setup's alone, which is not decoded
+  } else if constexpr (operation == Operation::limit) {
+    // What is within stays as it is. The branch is foreseen, where a minimum and a maximum would be waited for. These
+    // flush subnormals, so such are left to them.
+    const bool within = a >= -b && a <= b && absolute(a) >= arithmetic::least_normal;
+    if (within) [[likely]]
+      return *results = a;
+    return *results = limited(a, b);
   } else {
     return *results = Meaning<operation>::of(a, b, registers[i.c]);
   }

@@ -26,7 +26,8 @@ Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept {
   if (&program != &memory.program_.decoded()) return tick(bank, hand);
   float* registers = bank.registers().data();
   program.hand_reader(hand, registers);
-  std::copy(memory.states_.begin(), memory.states_.end(), registers + program.description.first_state());
+  float* state = registers + program.first_state;
+  for (const float value : memory.states_) *state++ = value;
   {
     const FloatingPointMode mode;
     run_threaded(program.lane_tick, program.lookups(memory.cells_.data()), registers);
