@@ -11,6 +11,7 @@
 
 #include "schema/device_profile.hpp"
 #include "schema/instruction.hpp"
+#include "schema/shared_heights.hpp"
 
 namespace wale {
 
@@ -20,8 +21,8 @@ struct Parameter {
   std::string name;
   std::string unit;  ///< as the author wrote it, "mm"; empty for a plain number
   double unit_in_si = 1;
-  float value = 0;          ///< the default
-  float low = 0, high = 0;  ///< hard range, low <= value <= high
+  float value = 0;                    ///< the default
+  float low = 0, high = 0;            ///< hard range, low <= value <= high
   float soft_low = 0, soft_high = 0;  ///< the usual range, for a slider; low <= soft_low <= soft_high <= high
   std::string description;
   std::string si_unit;  ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
@@ -47,7 +48,7 @@ struct Peak {
 /// A sampled height map, row-major from the top left; code 0 is the lowest and 65535 the highest.
 struct HeightTable {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint16_t> heights;
+  SharedHeights heights;
 
   friend bool operator==(const HeightTable&, const HeightTable&) = default;
 };
@@ -67,8 +68,9 @@ struct Output {
 /// A quantity that a program remembers from tick to tick: one register, read by tick, frame and picture code as it was
 /// when the tick began.
 ///
-/// It begins at `initial` (a register of the `enter` section) when the hand enters the patch, becomes `next` (a register
-/// of the tick) at the end of each tick, and is held in low .. high; not-a-number gives the initial value again.
+/// It begins at `initial` (a register of the `enter` section) when the hand enters the patch, becomes `next` (a
+/// register of the tick) at the end of each tick, and is held in low .. high; not-a-number gives the initial value
+/// again.
 struct State {
   std::string name;
   float low = 0, high = 0;

@@ -46,8 +46,11 @@ std::vector<Input> tick_inputs_of(const PatchProgram& program) {
 }  // namespace
 
 DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(verified)), envelope(description.device) {
-  splines.reserve(description.tables.size());
-  for (const HeightTable& table : description.tables) splines.emplace_back(table);
+  for (HeightTable& table : description.tables) {
+    maps.push_back(shared_map(table));
+    splines.emplace_back(maps.back()->spline);
+    table = maps.back()->table;
+  }
   grids = shapes_of(description.grids);
   initial_cells = initial_cells_of(description.grids);
   tick_inputs = tick_inputs_of(description);

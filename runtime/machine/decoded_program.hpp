@@ -1,21 +1,19 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "runtime/machine/block_code.hpp"
 #include "runtime/machine/grid.hpp"
+#include "runtime/machine/held_state.hpp"
 #include "runtime/machine/inputs.hpp"
+#include "runtime/machine/shared_maps.hpp"
 #include "runtime/machine/spline.hpp"
 #include "runtime/machine/threaded_code.hpp"
 #include "schema/patch_program.hpp"
 
 namespace wale {
-
-/// What becomes of a state at the end of a tick, without its name.
-struct StateRule {
-  float low, high;
-  RegisterNumber next;
-};
 
 /// A verified program made ready: what `Program` points to.
 ///
@@ -25,9 +23,10 @@ struct DecodedProgram {
   explicit DecodedProgram(PatchProgram verified);
 
   PatchProgram description;
-  std::vector<Spline> splines;       ///< one for each table
-  std::vector<GridShape> grids;      ///< one for each grid
-  std::vector<float> initial_cells;  ///< of all grids, as they are when the program is placed
+  std::vector<std::shared_ptr<const SharedMap>> maps;         ///< one for each table
+  std::vector<std::reference_wrapper<const Spline>> splines;  ///< theirs
+  std::vector<GridShape> grids;                               ///< one for each grid
+  std::vector<float> initial_cells;                           ///< of all grids, as they are when the program is placed
   Envelope envelope;
   std::vector<Input> tick_inputs;  ///< that change from tick to tick and are read by tick, enter or what follows them
   HandReader hand_reader;          ///< of these

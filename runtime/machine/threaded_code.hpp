@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,7 @@ static_assert(sizeof(ThreadedInstruction) == 16);
 
 /// What code looks into besides registers: the program's tables and grids, and the cells of all grids.
 struct LaneLookups {
-  const Spline* splines = nullptr;
+  const std::reference_wrapper<const Spline>* splines = nullptr;
   const GridShape* grids = nullptr;
   const float* cells = nullptr;
 };

@@ -85,7 +85,8 @@ class Bank {
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 Force tick(Bank& bank, const Hand& hand) noexcept;
 
-/// The same for many hands, in blocks of lanes; bit-identical to `tick`. `forces` is as long as `hands`.
+/// The same for many hands, in blocks of lanes and, where it is worth it, on all cores; bit-identical to `tick`.
+/// `forces` is as long as `hands`. wale/batch.hpp has hands that remember.
 void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces);
 
 /// The height of the surface (the picture section) at many positions, in m or as a plain number, with states as after
