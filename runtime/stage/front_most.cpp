@@ -1,10 +1,10 @@
 #include "runtime/stage/front_most.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
-#include <set>
+#include <unordered_set>
 
 namespace wale {
 namespace {
@@ -43,6 +43,21 @@ std::uint32_t open_from(std::vector<std::uint32_t>& next_open, std::size_t row, 
 
 }  // namespace
 
+/// Of equal rectangles only the one in front can be felt.
+void FrontMost::drop_repeated(std::vector<Entry>& front_first) {
+  const auto hash = [](const PatchOutline& each) {
+    std::size_t mixed = 0;
+    for (const float value : {each.position.x, each.position.y, each.width, each.height})
+      mixed = (mixed ^ std::hash<float>()(value)) * 0x9e3779b97f4a7c15u;
+    return mixed;
+  };
+  const auto equal = [](const PatchOutline& one, const PatchOutline& other) {
+    return one.position == other.position && one.width == other.width && one.height == other.height;
+  };
+  std::unordered_set<PatchOutline, decltype(hash), decltype(equal)> seen(2 * front_first.size(), hash, equal);
+  std::erase_if(front_first, [&seen](const Entry& entry) { return !seen.insert(entry.outline).second; });
+}
+
 FrontMost::FrontMost(std::span<const PatchOutline> patches) {
   std::vector<Entry> front_first;
   for (std::uint32_t number = 0; number < patches.size(); ++number) {
@@ -54,12 +69,7 @@ FrontMost::FrontMost(std::span<const PatchOutline> patches) {
     if (one.outline.layer != other.outline.layer) return one.outline.layer > other.outline.layer;
     return one.number > other.number;
   });
-  // Of equal rectangles only the first can be felt.
-  std::set<std::array<float, 4>> seen;
-  std::erase_if(front_first, [&seen](const Entry& entry) {
-    const PatchOutline& outline = entry.outline;
-    return !seen.insert({outline.position.x, outline.position.y, outline.width, outline.height}).second;
-  });
+  drop_repeated(front_first);
   glm::dvec2 high(0.0);
   for (std::size_t i = 0; i < front_first.size(); ++i) {
     const PatchOutline& outline = front_first[i].outline;

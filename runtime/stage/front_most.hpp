@@ -48,6 +48,7 @@ class FrontMost {
 
   /// The column or row of a coordinate along `axis`, which is held in the grid; it never falls as the coordinate rises.
   std::uint32_t cell(double coordinate, int axis) const noexcept;
+  static void drop_repeated(std::vector<Entry>& front_first);
   /// Lists everything on `side_` cells a side; false when there is too much of it.
   bool list(std::span<const Entry> front_first);
 
