@@ -2,10 +2,6 @@
 
 #include "tests/bench/yardstick.hpp"
 
-#define FAUSTFLOAT float
-
-namespace {
-
 // What the translation derives from and reports to, as little of it as it calls.
 struct Meta {
   void declare(const char*, const char*) {}
@@ -24,9 +20,7 @@ class dsp {
 
 #include FAUST_TEXT
 
-Grating grating;
-
-}  // namespace
+static Grating grating;
 
 void yardstick_begin() { grating.init(900); }
 
@@ -34,7 +28,7 @@ std::size_t yardstick_state_size() { return 0; }
 
 void yardstick_enter(const wale::Hand*, float*) {}
 
-void yardstick_tick(const wale::Hand* hand, float*, wale::Force* force) { yardstick_batch(hand, nullptr, force, 1); }
+void yardstick_tick(const wale::Hand* hand, float* state, wale::Force* force) { yardstick_batch(hand, state, force, 1); }
 
 void yardstick_batch(const wale::Hand* hands, float*, wale::Force* forces, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -2,7 +2,9 @@
 //
 //   bench_machine ticks PROGRAM.wpp YARDSTICK.so    dependent ticks, hot and paced; a batch; one line each
 //   bench_machine foreign PROGRAM.wpp YARDSTICK.so  ticks beside a yardstick that may round otherwise
-//   bench_machine count PROGRAM.wpp TICKS           only ticks, for an instruction counter; prints their length
+//   bench_machine count PROGRAM.wpp TICKS [YARDSTICK.so]
+//                                                   only ticks, the machine's or the yardstick's, for a counter of
+//                                                   instructions; prints how many of bytecode a tick has
 //
 // A line is: what, yardstick in ns, machine in ns, ratio.
 
@@ -255,7 +257,7 @@ int main(int argc, char** argv) {
     bench.paced_ticks();
   } else if (what == "foreign" && argc == 4) {
     Bench(argv[2], argv[3]).dependent_ticks();
-  } else if (what == "count" && argc == 4) {
+  } else if (what == "count" && (argc == 4 || argc == 5)) {
     const wale::Program program = load(argv[2]);
     wale::Bank bank(program);
     wale::Memory memory(program);
@@ -263,7 +265,19 @@ int main(int argc, char** argv) {
     memory.enter(bank, hands[0]);
     float sum = 0;
     const long count = std::atol(argv[3]);
-    for (long i = 0; i < count; ++i) sum += tick(bank, memory, hands[static_cast<std::size_t>(i) % 2048]).x;
+    if (argc == 5) {
+      const Yardstick yardstick(argv[4]);
+      yardstick.begin();
+      std::vector<float> state(yardstick.state_size() + 1);
+      yardstick.enter(&hands[0], state.data());
+      wale::Force force;
+      for (long i = 0; i < count; ++i) {
+        yardstick.tick(&hands[static_cast<std::size_t>(i) % hands.size()], state.data(), &force);
+        sum += force.x;
+      }
+    } else {
+      for (long i = 0; i < count; ++i) sum += tick(bank, memory, hands[static_cast<std::size_t>(i) % hands.size()]).x;
+    }
     std::printf("%zu\n", program.description().tick.size());
     return std::isnan(sum) ? 1 : 0;  // and so the ticks are needed
   } else {
