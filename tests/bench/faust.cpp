@@ -28,7 +28,9 @@ std::size_t yardstick_state_size() { return 0; }
 
 void yardstick_enter(const wale::Hand*, float*) {}
 
-void yardstick_tick(const wale::Hand* hand, float* state, wale::Force* force) { yardstick_batch(hand, state, force, 1); }
+void yardstick_tick(const wale::Hand* hand, float* state, wale::Force* force) {
+  yardstick_batch(hand, state, force, 1);
+}
 
 void yardstick_batch(const wale::Hand* hands, float*, wale::Force* forces, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
