@@ -8,7 +8,7 @@ namespace wale {
 
 /// The operations of a patch program; numbers are those of the file format.
 enum class Operation : std::uint8_t {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) name = number,
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) name = number,
 #define SPECIAL(number, name, fields, results, cost) name = number,
 #include "schema/instruction.def"
 };
@@ -26,7 +26,7 @@ struct OperationFacts {
 inline constexpr auto operation_table = [] {
   std::array<OperationFacts, 256> table{};
   // clang-format off
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   table[number] = {#name, fields, results, cost};
 #define SPECIAL(number, name, fields, results, cost) \
   table[number] = {#name, fields, results, cost};

@@ -49,7 +49,7 @@ Expression derivative_of(Operation operation, Graph& graph, Expression r, Expres
   };
   // clang-format off
   switch (operation) {
-#define INSTRUCTION(number_, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number_, name, fields, results, cost, meaning, range, derivative) \
   case Operation::name: return derivative;
 #define SPECIAL(number_, name, fields, results, cost) \
   case Operation::name: break;

@@ -16,7 +16,7 @@ namespace {
 [[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
   // clang-format off
   switch (operation) {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   case Operation::name: return Meaning<Operation::name>::of(a, b, c);
 #define SPECIAL(number, name, fields, results, cost) \
   case Operation::name: break;

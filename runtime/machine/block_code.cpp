@@ -136,7 +136,7 @@ Variants variants() {
 const std::array<Variants, operation_table.size()> all_variants = [] {
   std::array<Variants, operation_table.size()> all{};
   // clang-format off
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   all[number] = variants<Operation::name>();
 #define SPECIAL(number, name, fields, results, cost) \
   all[number] = variants<Operation::name>();
