@@ -64,7 +64,8 @@ class Program {
 class Bank {
  public:
   /// Runs setup and its peaks. `parameters` in SI units, clamped to their ranges, not-a-number to the default; sizes
-  /// that are not positive are replaced by the default. Allocates; takes as long as the peaks need.
+  /// that are not positive are replaced by the default, longer ones than the workspace's diameter by that. Allocates;
+  /// takes as long as the peaks need.
   Bank(const Program& program, std::span<const float> parameters, PatchSize size);
   /// At the defaults.
   explicit Bank(const Program& program);
