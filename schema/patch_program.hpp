@@ -209,9 +209,19 @@ struct PatchProgram {
   friend bool operator==(const PatchProgram&, const PatchProgram&) = default;
 };
 
+/// An instruction that has to do with a refusal.
+struct RefusedInstruction {
+  std::string section;     ///< "tick", "peak 0"
+  std::size_t number = 0;  ///< in its section, from 0 on
+  std::string text;        ///< as a listing has it: "r45 = multiply r45 r41"
+  std::string place;       ///< in its source, "corduroy.wale:9:13"; empty when that is not known
+};
+
 /// Why bytes are not a patch program, or a patch program may not run.
 struct Refusal {
   std::string reason;
+  /// The few that led to it, in the order in which they run, the one that is refused last. Empty when no code is.
+  std::vector<RefusedInstruction> instructions;
 };
 
 /// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md): the same program gives the same bytes everywhere.
