@@ -158,6 +158,12 @@ Enclosure enclose(Operation operation, const Enclosure& a, const Enclosure& b, c
       if (a.range.low >= b.range.high) return chosen(a);
       if (b.range.low > a.range.high && !b.range.maybe_nan) return chosen(b);
       break;
+    case Operation::floor: {  // a, less a fraction in [0, 1)
+      if (!finite) break;
+      Enclosure below = combined(a, 1, {}, 0);
+      below.centre -= 0.5;
+      return finished(below, range, 0.5);
+    }
     case Operation::select:
       if (!a.range.has_zero()) return chosen(b);
       if (a.range == Interval{}) return chosen(c);

@@ -31,7 +31,8 @@ struct Lower {
 
 class Splitting {
  public:
-  Splitting(const Program& program, const ForceSlice& slice) : machine_(program), slice_(slice) {
+  Splitting(const Program& program, const ForceSlice& slice)
+      : machine_(program), slice_(slice), relations_(program.description(), slice.tick) {
     machine_.replace_peaks(slice.peaks);
     for (const Output& output : program.description().outputs) values_[output.axis] = output.value;
   }
@@ -39,9 +40,10 @@ class Splitting {
   Part evaluated(const Domain& domain) {
     machine_.start(domain, slice_.quantities);
     machine_.run(slice_.setup);
-    machine_.run(slice_.tick);
+    machine_.run(slice_.tick, relations_);
     const Interval x = machine_.range(values_[0]), y = machine_.range(values_[1]);
-    return {domain, x, y, length_bound(x, y), evaluations_++};
+    return {domain, x, y, std::min(length_bound(x, y), machine_.length(relations_, values_[0], values_[1])),
+            evaluations_++};
   }
 
   /// Where to split `part`: the quantity without whose spread the bound would be lowest. None when there is nothing to
@@ -89,6 +91,7 @@ class Splitting {
 
   RangeMachine machine_;
   const ForceSlice& slice_;
+  Relations relations_;
   std::array<RegisterNumber, 2> values_{};
   Domain whole_;
   long evaluations_ = 0;

@@ -1,16 +1,12 @@
 #include "compiler/prove/prove.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "compiler/prove/range_machine.hpp"
+#include "compiler/prove/relations.hpp"
 #include "compiler/prove/slice.hpp"
 
 namespace wale {
-
-double length_bound(const Interval& x, const Interval& y) {
-  const double a = x.largest(), b = y.largest();
-  return std::sqrt(a * a + b * b) * (1 + 0x1p-50);  // two roundings of the sum and one of the root
-}
 
 Proof prove(const Program& program, const Domain& domain) {
   const PatchProgram& description = program.description();
@@ -35,20 +31,26 @@ Proof prove(const Program& program, const Domain& domain) {
     machine.run({&instruction, 1}, {&proof.setup.emplace_back(), 1});
   }
   proof.enter = run(description.enter);
-  proof.tick = run(description.tick);
+  const Relations relations(description, description.tick);
+  proof.tick.resize(description.tick.size());
+  machine.run(description.tick, relations, proof.tick);
+  std::array<RegisterNumber, 2> values{};
   for (const Output& output : description.outputs) {
     proof.force[output.axis] = machine.range(output.value);
     proof.ceiling[output.axis] = machine.range(output.ceiling);
+    values[output.axis] = output.value;
   }
+  proof.bound_newton =
+      std::min(length_bound(proof.force[0], proof.force[1]), machine.length(relations, values[0], values[1]));
   for (const Output& output : description.outputs) {
     // The last instruction that writes it is its limit. What that is given is what a run up to it leaves, since
     // registers are used again.
     std::size_t limit = description.tick.size() - 1;
     while (description.tick[limit].destination != output.value) --limit;
-    machine.run({description.tick.data(), limit});
+    const std::span before(description.tick.data(), limit);
+    machine.run(before, Relations(description, before));
     proof.unlimited[output.axis] = machine.range(description.tick[limit].a);
   }
-  proof.bound_newton = length_bound(proof.force[0], proof.force[1]);
   proof.picture = run(description.picture.code);
   proof.frame = run(description.picture.frame);
   for (const PerceptRecord& percept : description.percepts) proof.predictions.push_back(run(percept.prediction));

@@ -47,6 +47,47 @@ void RangeMachine::start(const Domain& domain, std::span<const Quantity> quantit
 }
 
 void RangeMachine::run(std::span<const Instruction> code, std::span<ResultRanges> results) {
+  run(code, nullptr, results);
+}
+
+void RangeMachine::run(std::span<const Instruction> code, const Relations& relations, std::span<ResultRanges> results) {
+  known_.assign(3 * code.size(), {});
+  run(code, &relations, results);
+}
+
+double RangeMachine::length(const Relations& relations, RegisterNumber x, RegisterNumber y) const {
+  return relations.length(relations.last(x), relations.last(y), known());
+}
+
+Enclosure RangeMachine::related(const Instruction& i, std::size_t number, const Relations& relations) const {
+  const auto operation = static_cast<Operation>(i.operation);
+  const Enclosure& a = registers_[i.a];
+  if (operation == Operation::select) {
+    if (const auto guarded = relations.guarded(number, known())) {
+      // The form of a choice without a bound says nothing; what its guard leaves of it does.
+      const Enclosure& choice = registers_[guarded->operand == 1 ? i.b : i.c];
+      Enclosure narrowed = choice.range.is_finite() ? choice : Enclosure::of(guarded->range);
+      narrowed.range = intersection(choice.range, guarded->range);
+      return guarded->operand == 1 ? enclose(operation, a, narrowed, registers_[i.c], false)
+                                   : enclose(operation, a, registers_[i.b], narrowed, false);
+    }
+  }
+  Enclosure result = enclose(operation, a, registers_[i.b], registers_[i.c], i.a == i.b);
+  std::optional<Interval> more;
+  if (operation == Operation::divide) more = relations.quotient(number, known());
+  if (operation == Operation::subtract && relations.is_fraction(number)) more = Interval{0, 1, true};
+  if (!more) return result;
+  const Interval range = intersection(result.range, *more);
+  if (!result.range.is_finite()) return Enclosure::of(range);
+  result.range = range;
+  return result;
+}
+
+void RangeMachine::run(std::span<const Instruction> code, const Relations* relations, std::span<ResultRanges> results) {
+  const auto note = [&](std::size_t number, std::size_t result, const Interval& range) {
+    if (relations != nullptr) known_[3 * number + result] = range;
+    if (!results.empty()) results[number][result] = range;
+  };
   for (std::size_t number = 0; number < code.size(); ++number) {
     const Instruction& i = code[number];
     const auto operation = static_cast<Operation>(i.operation);
@@ -57,16 +98,18 @@ void RangeMachine::run(std::span<const Instruction> code, std::span<ResultRanges
       case Operation::cell: found[0] = cell_range(description_.grids[i.c]); break;
       case Operation::peak: found[0] = peak_range(i.a); break;
       default: {
-        const bool same = i.a == i.b;
-        registers_[i.destination] = enclose(operation, registers_[i.a], registers_[i.b], registers_[i.c], same);
-        if (!results.empty()) results[number] = {range(i.destination)};
+        Enclosure result = relations != nullptr
+                               ? related(i, number, *relations)
+                               : enclose(operation, registers_[i.a], registers_[i.b], registers_[i.c], i.a == i.b);
+        note(number, 0, result.range);
+        registers_[i.destination] = result;
         continue;
       }
     }
-    for (int result = 0; result < facts(operation).results; ++result) {
-      registers_[i.destination + result] = Enclosure::of(found[static_cast<std::size_t>(result)]);
+    for (std::size_t result = 0; result < static_cast<std::size_t>(facts(operation).results); ++result) {
+      registers_[i.destination + result] = Enclosure::of(found[result]);
+      note(number, result, found[result]);
     }
-    if (!results.empty()) results[number] = found;
   }
 }
 

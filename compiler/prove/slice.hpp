@@ -17,7 +17,4 @@ struct ForceSlice {
 
 ForceSlice force_slice(const PatchProgram& program);
 
-/// No vector of x and y is longer; rounded up.
-double length_bound(const Interval& x, const Interval& y);
-
 }  // namespace wale
