@@ -73,9 +73,7 @@ Enclosure RangeMachine::related(const Instruction& i, std::size_t number, const 
     }
   }
   Enclosure result = enclose(operation, a, registers_[i.b], registers_[i.c], i.a == i.b);
-  std::optional<Interval> more;
-  if (operation == Operation::divide) more = relations.quotient(number, known());
-  if (operation == Operation::subtract && relations.is_fraction(number)) more = Interval{0, 1, true};
+  const std::optional<Interval> more = relations.bound(number, known());
   if (!more) return result;
   const Interval range = intersection(result.range, *more);
   if (!result.range.is_finite()) return Enclosure::of(range);

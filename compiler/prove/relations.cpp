@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/prove/rounding.hpp"
 #include "runtime/machine/arithmetic.hpp"
 
 namespace wale {
@@ -84,15 +85,62 @@ Interval Relations::quotient_above(const Definition& quotient, float least, cons
   return is_length_of(r, x) ? intersection(range, {-one, one, true}) : range;
 }
 
-std::optional<Interval> Relations::quotient(std::size_t number, const KnownRanges& known) const {
-  const Definition& quotient = operands_[number];
-  if (!(known(quotient.operands[1]).low > 0) || !is_length_of(quotient.operands[1], quotient.operands[0])) return {};
-  return Interval{-one, one, true};
+/// x - p floor(x / p), which is in [0, p] but for the rounding of the quotient and the product: each as large as a
+/// float's last place of x.
+std::optional<Interval> Relations::remainder(const Definition& difference, const KnownRanges& known) const {
+  const ValueNumber x = difference.operands[0];
+  const Definition* product = made_by(difference.operands[1], Operation::multiply);
+  if (product == nullptr) return {};
+  for (const std::size_t i : {0u, 1u}) {
+    const ValueNumber period = product->operands[1 - i];
+    const Definition* whole = made_by(product->operands[i], Operation::floor);
+    const Definition* quotient = whole != nullptr ? made_by(whole->operands[0], Operation::divide) : nullptr;
+    if (quotient == nullptr || quotient->operands[0] != x || quotient->operands[1] != period) continue;
+    // Where the quotient or the product overflows there is no remainder.
+    if (!(known(period).low > 0) || !known(x).is_finite() || !known(whole->operands[0]).is_finite() ||
+        !known(difference.operands[1]).is_finite()) {
+      continue;
+    }
+    const double error = known(x).largest() * roundings + flushed_squares;
+    return outward(-error, known(period).high * (1 + roundings) + error, true);
+  }
+  return {};
 }
 
-bool Relations::is_fraction(std::size_t number) const {
-  const Definition* whole = made_by(operands_[number].operands[1], Operation::floor);
-  return whole != nullptr && whole->operands[0] == operands_[number].operands[0];
+bool Relations::is_smooth_step(const Definition& product, const KnownRanges& known) const {
+  const auto is = [&](ValueNumber value, float number) { return known(value) == Interval::of(number); };
+  for (const std::size_t i : {0u, 1u}) {
+    const Definition* square = made_by(product.operands[i], Operation::multiply);
+    const Definition* rest = made_by(product.operands[1 - i], Operation::subtract);
+    if (square == nullptr || rest == nullptr || square->operands[0] != square->operands[1]) continue;
+    const Definition* twice = made_by(rest->operands[1], Operation::multiply);
+    if (twice == nullptr || !is(rest->operands[0], 3)) continue;
+    const ValueNumber t = square->operands[0];
+    const auto& [first, second, unused] = twice->operands;
+    if (!(first == t && is(second, 2)) && !(second == t && is(first, 2))) continue;
+    if (known(t).low >= 0 && known(t).high <= 1) return true;
+  }
+  return false;
+}
+
+std::optional<Interval> Relations::bound(std::size_t number, const KnownRanges& known) const {
+  const Definition& made = operands_[number];
+  switch (made.operation) {
+    case Operation::divide:
+      if (known(made.operands[1]).low > 0 && is_length_of(made.operands[1], made.operands[0])) {
+        return Interval{-one, one, true};
+      }
+      return {};
+    case Operation::subtract: {
+      const Definition* whole = made_by(made.operands[1], Operation::floor);
+      if (whole != nullptr && whole->operands[0] == made.operands[0]) return Interval{0, 1, true};
+      return remainder(made, known);
+    }
+    case Operation::multiply:
+      if (is_smooth_step(made, known)) return Interval{0, one, true};
+      return {};
+    default: return {};
+  }
 }
 
 std::optional<Relations::Guarded> Relations::guarded(std::size_t number, const KnownRanges& known) const {

@@ -37,11 +37,10 @@ class Relations {
   ValueNumber last(RegisterNumber number) const { return last_[number]; }
   std::size_t instructions() const { return operands_.size(); }
 
-  /// What is known of the quotient of `divide` instruction `number` besides its operands' ranges: [-1, 1], a few
-  /// roundings wider, when it is a component over a length that is not zero.
-  std::optional<Interval> quotient(std::size_t number, const KnownRanges& known) const;
-  /// Whether `subtract` instruction number `number` leaves the fraction x - floor(x), which is in [0, 1].
-  bool is_fraction(std::size_t number) const;
+  /// What is known of the result of instruction `number` besides what its operands' ranges tell, a few roundings wider:
+  /// a component over its length, where that is not zero, is within [-1, 1]; a fraction x - floor(x) within [0, 1], a
+  /// remainder x - p floor(x / p) within [0, p], the smooth step t t (3 - 2 t) of a t in [0, 1] within [0, 1].
+  std::optional<Interval> bound(std::size_t number, const KnownRanges& known) const;
   /// For `select` instruction `number` whose condition compares the divisor of one of its choices with a bound: the
   /// range of that choice, 1 (b) or 2 (c), where it is taken.
   struct Guarded {
@@ -65,6 +64,8 @@ class Relations {
   /// The components of the vector whose length the value is; none when it is no length.
   std::vector<ValueNumber> components(ValueNumber length) const;
   bool is_length_of(ValueNumber length, ValueNumber component) const;
+  std::optional<Interval> remainder(const Definition& difference, const KnownRanges& known) const;
+  bool is_smooth_step(const Definition& product, const KnownRanges& known) const;
   Interval quotient_above(const Definition& quotient, float least, const KnownRanges& known) const;
   std::optional<double> limited_length(ValueNumber x, ValueNumber y, std::optional<ValueNumber> ceiling,
                                        const KnownRanges& known) const;

@@ -107,7 +107,12 @@ class VectorProgram {
       }
       case 4: return {write(add, v.x, w.x), write(add, v.y, w.y)};
       case 5: return {write(subtract, v.x, w.x), write(subtract, v.y, w.y)};
-      case 6: return {write(negate, v.y), write(negate, v.x)};
+      case 6: {
+        if (pick(2) == 0) return {write(negate, v.y), write(negate, v.x)};
+        const unsigned p = any_factor();  // remainders
+        return {write(subtract, v.x, write(multiply, p, write(floor, write(divide, v.x, p)))),
+                write(subtract, v.y, write(multiply, write(floor, write(divide, v.y, p)), p))};
+      }
       case 7: {
         const unsigned condition = write(less, any_factor(), any_factor());
         return {write(select, condition, v.x, w.x), write(select, condition, v.y, w.y)};
@@ -202,6 +207,65 @@ PatchProgram central(float guard, bool limited) {
   p.outputs = {{OutputQuantity::force, 0, static_cast<RegisterNumber>(t + 14), 33},
                {OutputQuantity::force, 1, static_cast<RegisterNumber>(t + 15), 33}};
   return p;
+}
+
+// x - p floor(x / p), where x / p is near whole numbers of all sizes.
+TEST(Vectors, RemaindersAreWithinTheirDivisor) {
+  const Parameter period{"period", "", 1, 0.5f, 1e-3f, 0.7f, 0.5f, 0.5f, ""};
+  const PatchProgram p = prove_test::pushing({}, {period}, [](unsigned t) {
+    return std::vector{instruction(divide, t, 2, 34), instruction(floor, t, t), instruction(multiply, t, 34, t),
+                       instruction(subtract, t, 2, t)};
+  });
+  const Program program = loaded(p);
+  Values values(2);
+  for (int round = 0; round < 300; ++round) {
+    const float size = std::exp2(std::uniform_real_distribution<float>(-9.9f, -0.6f)(values.random()));
+    Domain domain = whole_domain(p);
+    domain.parameters[0] = Interval::of(size);
+    const Proof proof = prove(program, domain);
+    EXPECT_NEAR(proof.bound_newton, size, 1e-5);
+    Bank bank(program, std::vector<float>{size}, program.default_size());
+    for (int i = 0; i < 200; ++i) {
+      const float whole = size * static_cast<float>(static_cast<int>(values.random()() % 4000) - 2000);
+      const float near = whole * (1 + static_cast<float>(static_cast<int>(values.random()() % 9) - 4) * 0x1p-24f);
+      ASSERT_TRUE(proof.force[0].contains(tick(bank, {.velocity = {near, 0}}).x)) << near << " " << size;
+    }
+  }
+}
+
+// A quotient that overflows leaves minus infinity, and no remainder is proved.
+TEST(Vectors, RemaindersThatOverflowHaveNoRange) {
+  PatchProgram p = prove_test::pushing({1e38f, 1e-10f}, {}, [](unsigned t) {
+    return std::vector{instruction(multiply, t + 1, 2, 34), instruction(divide, t, t + 1, 35), instruction(floor, t, t),
+                       instruction(multiply, t, 35, t), instruction(subtract, t, t + 1, t)};
+  });
+  const Program program = loaded(p);
+  Bank bank(program);
+  const Force force = tick(bank, {.velocity = {1, 0}});
+  EXPECT_EQ(force.x, -10);
+  EXPECT_TRUE(prove(program).force[0].contains(force.x));
+}
+
+// t t (3 - 2 t) for every t in steps of 2^-16 and random ones, in each order of its factors.
+TEST(Vectors, SmoothStepsAreWithinOne) {
+  for (const bool swapped : {false, true}) {
+    PatchProgram p = prove_test::pushing({1.0f, 2.0f, 3.0f}, {}, [](unsigned t) {
+      return std::vector{instruction(maximum, t, 0, 32),          instruction(minimum, t, t, 34),
+                         instruction(multiply, t + 1, t, t),      instruction(multiply, t + 2, 35, t),
+                         instruction(subtract, t + 2, 36, t + 2), instruction(multiply, t, t + 1, t + 2)};
+    });
+    p.device.workspace_diameter = 1;
+    if (swapped) std::swap(p.tick[3].a, p.tick[3].b), std::swap(p.tick[5].a, p.tick[5].b);
+    const Program program = loaded(p);
+    const Proof proof = prove(program);
+    EXPECT_NEAR(proof.bound_newton, 1, 2e-6);
+    EXPECT_EQ(proof.force[0].low, 0);
+    Bank bank(program);
+    for (int i = 0; i <= 65536; ++i) {
+      const Force force = tick(bank, {.position = {static_cast<float>(i) / 65536, 0}});
+      ASSERT_TRUE(proof.force[0].contains(force.x)) << i;
+    }
+  }
 }
 
 TEST(Vectors, WhoseLengthIsLimitedAreThatLong) { EXPECT_NEAR(prove(loaded(central(0, true))).bound_newton, 6, 1e-4); }
