@@ -1,5 +1,7 @@
 #include "compiler/prove/interval.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -98,6 +100,12 @@ Interval intersection(const Interval& a, const Interval& b) {
   const float low = std::max(a.low, b.low), high = std::min(a.high, b.high);
   if (low > high) return {0, 0, a.maybe_nan && b.maybe_nan};
   return {low, high, a.maybe_nan && b.maybe_nan};
+}
+
+std::string shown(const Interval& interval) {
+  const std::string nan = interval.maybe_nan ? " or nan" : "";
+  if (interval.low == interval.high) return fmt::format("{:.6g}{}", interval.low + 0.0f, nan);
+  return fmt::format("{:.6g} .. {:.6g}{}", interval.low + 0.0f, interval.high + 0.0f, nan);  // no negative zeros
 }
 
 namespace ranges {

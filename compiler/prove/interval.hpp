@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "schema/instruction.hpp"
 
 namespace wale {
@@ -38,6 +40,9 @@ Interval hull(const Interval& a, const Interval& b);
 
 /// What is in both, which have a value in common: two statements about the same register.
 Interval intersection(const Interval& a, const Interval& b);
+
+/// As a listing shows it, to six digits: "-1 .. 2.5", "3", "0 .. inf or nan".
+std::string shown(const Interval& interval);
 
 /// The rules of the column `range` in `schema/instruction.def`: for all values in A, B and C that an instruction may
 /// find in its operands, the machine's result lies in the interval that the rule gives.

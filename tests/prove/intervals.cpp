@@ -153,5 +153,11 @@ TEST(Intervals, ReachZeroWhereResultsMayBeFlushed) {
   EXPECT_TRUE(Interval::of(1e-40f).contains(1e-40f));
 }
 
+TEST(Intervals, AreShownAsTheyAreRead) {
+  EXPECT_EQ(shown({-1, 2.5f, false}), "-1 .. 2.5");
+  EXPECT_EQ(shown({3, 3, false}), "3");
+  EXPECT_EQ(shown({-0.0f, inf, true}), "0 .. inf or nan");
+}
+
 }  // namespace
 }  // namespace wale
