@@ -18,7 +18,7 @@ struct Proof {
   std::array<Interval, 2> force;      ///< x and y as commanded, N
   std::array<Interval, 2> unlimited;  ///< what the outputs' limits are given, N
   std::array<Interval, 2> ceiling;    ///< what they are limited by, N
-  double bound_newton = 0;            ///< no |force| is larger
+  double bound_newton = 0;            ///< no |force| is larger, subnormals counting as zero
 
   /// Whether the limit of force x (0) or y (1) can change anything.
   bool limit_matters(std::size_t axis) const {
