@@ -173,7 +173,12 @@ class Emitter {
       if (node.kind == Node::Kind::input) registers_[id] = static_cast<RegisterNumber>(node.index);
       if (node.kind == Node::Kind::parameter)
         registers_[id] = static_cast<RegisterNumber>(first_parameter + node.index);
-      if (node.rate == Rate::setup && in_code(node)) registers_[id] = static_cast<RegisterNumber>(next++);
+      if (node.rate == Rate::setup && node.kind == Node::Kind::component)
+        registers_[id] = static_cast<RegisterNumber>(registers_[node.a] + node.index);
+      if (node.rate == Rate::setup && in_code(node)) {
+        registers_[id] = static_cast<RegisterNumber>(next);
+        next += node.kind == Node::Kind::operation ? static_cast<std::size_t>(facts(node.operation).results) : 1;
+      }
     }
     const std::size_t setup_registers = next - first_parameter - program_.parameters.size();
     program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(setup_registers, register_limit));

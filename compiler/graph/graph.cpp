@@ -101,7 +101,8 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
   const int count = facts(operation).operands;
   const bool recalls = operation == Operation::recall || operation == Operation::cell;
   bool constants = operation != Operation::sample && !recalls;
-  Rate rate = recalls ? Rate::tick : Rate::constant;
+  // A table is not there while the compiler folds.
+  Rate rate = recalls ? Rate::tick : operation == Operation::sample ? Rate::setup : Rate::constant;
   for (int i = 0; i < count; ++i) {
     constants = constants && nodes_[operands[i]].kind == Node::Kind::constant;
     rate = std::max(rate, nodes_[operands[i]].rate);
