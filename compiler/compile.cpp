@@ -25,27 +25,32 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
   return checked;
 }
 
+const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
+                                       Diagnostics& diagnostics) {
+  if (const CheckedMaterial* material = module.material(name)) return material;
+  std::vector<std::string> candidates;
+  for (const auto& other : module.materials) candidates.push_back(other.name);
+  const auto near = nearest_spelling(name, candidates);
+  diagnostics.report(
+      {.code = Code::unknown_material,
+       .span = {source, 0, 0},
+       .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
+       .help = near                 ? fmt::format("did you mean `{}`?", *near)
+               : candidates.empty() ? "add one, as in `material corduroy { … }`"
+                                    : fmt::format("it has `{}`", candidates.front())});
+  return nullptr;
+}
+
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& name, const std::string& device,
                                         const SourceSet& sources, SourceId source, Resolver& resolver,
                                         Diagnostics& diagnostics) {
-  const CheckedMaterial* material = module.material(name);
-  if (!material) {
-    std::vector<std::string> candidates;
-    for (const auto& other : module.materials) candidates.push_back(other.name);
-    const auto near = nearest_spelling(name, candidates);
-    diagnostics.report(
-        {.code = Code::unknown_material,
-         .span = {source, 0, 0},
-         .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
-         .help = near                 ? fmt::format("did you mean `{}`?", *near)
-                 : candidates.empty() ? "add one, as in `material corduroy { … }`"
-                                      : fmt::format("it has `{}`", candidates.front())});
-    return std::nullopt;
-  }
+  const CheckedMaterial* material = chosen_material(module, name, source, diagnostics);
+  if (!material) return std::nullopt;
   SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
 
-  auto program = emit(lower(solved), solved, diagnostics);
+  const SourceLines lines(sources, module.modules);
+  auto program = emit(lower(solved), solved, diagnostics, &lines);
   if (!program) return std::nullopt;
 
   auto loaded = Program::load(std::move(*program));

@@ -173,6 +173,37 @@ struct Layers {
   friend bool operator==(const Layers&, const Layers&) = default;
 };
 
+/// The sections of code, in the order in which the format lists their places. There is one of each, but as many peaks
+/// and predictions as the program has peaks and percepts.
+enum class CodeSection : std::uint8_t { setup, peak, enter, tick, picture, frame, prediction };
+
+/// A line of Wale.
+struct SourceLine {
+  std::string file;        ///< the name under which it was imported, "fabric.denim", else its own without its folder
+  std::uint32_t line = 0;  ///< from 1
+
+  friend bool operator==(const SourceLine&, const SourceLine&) = default;
+};
+
+/// Which lines of Wale the instructions come from: kept for listings and for what is said of a program, never executed.
+///
+/// What a function of another file does is placed where the material's own file calls it.
+struct SourcePlaces {
+  /// So many instructions in a row come from one line.
+  struct Run {
+    std::uint32_t instructions = 0;
+    std::uint16_t file = 0;  ///< of `files`
+    std::uint32_t line = 0;  ///< from 1
+
+    friend bool operator==(const Run&, const Run&) = default;
+  };
+  std::vector<std::string> files;  ///< as `SourceLine::file`
+  /// Setup, each peak, enter, tick, picture, frame, each percept's prediction: runs that cover the section's code.
+  std::vector<std::vector<Run>> sections;
+
+  friend bool operator==(const SourcePlaces&, const SourcePlaces&) = default;
+};
+
 /// A compiled material: everything a `.wpp` file holds. Plain data; `verify` says whether it may be run.
 ///
 /// Registers lie in this order: 32 inputs, constants, parameters, `setup_registers` results of setup, states, then
@@ -197,6 +228,13 @@ struct PatchProgram {
   DeviceProfile device;
   std::vector<PerceptRecord> percepts;
   Layers layers;
+  SourcePlaces places;  ///< empty where nobody recorded them
+
+  /// The code of a section; peaks and predictions have the `index` of their peak or percept, the others 0.
+  const std::vector<Instruction>& code(CodeSection section, std::size_t index = 0) const;
+  /// The line that an instruction comes from, where it is known; also when code has been changed since, if there is
+  /// such an instruction.
+  std::optional<SourceLine> place_of(CodeSection section, std::size_t index, std::size_t instruction) const;
 
   RegisterNumber first_parameter() const { return static_cast<RegisterNumber>(first_constant + constants.size()); }
   RegisterNumber first_setup() const { return static_cast<RegisterNumber>(first_parameter() + parameters.size()); }

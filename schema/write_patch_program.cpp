@@ -183,6 +183,19 @@ void write_layers(ByteWriter& out, const Layers& layers) {
   out.text(layers.documentation);
 }
 
+void write_places(ByteWriter& out, const SourcePlaces& places) {
+  out.u32(places.files.size());
+  for (const std::string& file : places.files) out.text(file);
+  for (const auto& runs : places.sections) {
+    out.u32(runs.size());
+    for (const SourcePlaces::Run& run : runs) {
+      out.u32(run.instructions);
+      out.u16(run.file);
+      out.u32(run.line);
+    }
+  }
+}
+
 /// The bytes of one section; nothing for one that may be left out and would be empty.
 std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& program) {
   ByteWriter out;
@@ -215,6 +228,7 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
   if (kind == "DEVI") write_device(out, program.device);
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
   if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
+  if (kind == "PLAC" && program.places != SourcePlaces{}) write_places(out, program.places);
   return std::move(out.result());
 }
 

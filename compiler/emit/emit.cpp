@@ -132,6 +132,29 @@ class Emitter {
     }
   }
 
+  /// The lines that the instructions come from.
+  SourcePlaces places(const SourceLines& lines) const {
+    SourcePlaces places;
+    std::map<SourceId, std::uint16_t> files;
+    const auto runs_of = [&](const std::vector<Span>& spans) {
+      std::vector<SourcePlaces::Run> runs;
+      for (const Span& known : spans) {
+        const Span span = known == Span{} ? material_.span : known;
+        const auto [file, added] = files.try_emplace(span.source, static_cast<std::uint16_t>(places.files.size()));
+        if (added) places.files.push_back(lines.file(span.source));
+        const SourcePlaces::Run run{1, file->second, lines.line(span)};
+        if (!runs.empty() && runs.back().file == run.file && runs.back().line == run.line)
+          ++runs.back().instructions;
+        else
+          runs.push_back(run);
+      }
+      return runs;
+    };
+    places.sections.push_back(runs_of(setup_spans_));
+    for (const auto& spans : section_spans_) places.sections.push_back(runs_of(spans));
+    return places;
+  }
+
   std::size_t registers_needed() const { return first_temporary_ + most_temporaries_; }
 
  private:
@@ -207,6 +230,7 @@ class Emitter {
     for (NodeId id = 0; id < graph_.size(); ++id) {
       const Node& node = graph_[id];
       if (!needed_[id] || node.rate != Rate::setup || !in_code(node)) continue;
+      setup_spans_.push_back(node.span);
       if (node.kind == Node::Kind::operation) {
         program_.setup.push_back(instruction(id));
         continue;
@@ -258,6 +282,7 @@ class Emitter {
     TemporaryAllocator temporaries;
     std::vector<Instruction> code;
     code.reserve(order.size());
+    auto& spans = section_spans_.emplace_back();
     const auto width = [&](NodeId id) { return static_cast<std::size_t>(facts(graph_[id].operation).results); };
     for (std::size_t i = 0; i < order.size(); ++i) {
       const NodeId id = order[i];
@@ -267,6 +292,7 @@ class Emitter {
       } else {
         registers_[id] = static_cast<RegisterNumber>(first_temporary_ + temporaries.take(width(id)));
         code.push_back(instruction(id));
+        spans.push_back(node.span);
       }
       const auto finish = [&](NodeId done) {  // giving back twice is giving back once
         if (wanted_in_[done] == section_ && last_use_[done] <= i)
@@ -292,14 +318,17 @@ class Emitter {
   std::size_t most_temporaries_ = 0;
   static constexpr NodeId zero_ = ~NodeId{0};  ///< stands for the constant 0 where a program has no relief
   RegisterNumber zero_register_ = 0;
+  std::vector<Span> setup_spans_;                 ///< of setup's instructions
+  std::vector<std::vector<Span>> section_spans_;  ///< of the other sections', which are made in the format's order
 };
 
 }  // namespace
 
 std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material,
-                                 Diagnostics& diagnostics) {
+                                 Diagnostics& diagnostics, const SourceLines* lines) {
   Emitter emitter(lowered, material);
   PatchProgram program = emitter.emit();
+  if (lines) program.places = emitter.places(*lines);
   if (emitter.registers_needed() > register_limit) {
     diagnostics.report({.code = Code::program_too_large,
                         .span = material.span,

@@ -39,6 +39,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
   LoweredMaterial lowered;
   Graph& graph = lowered.graph;
   graph.reserve(2 * terms.size());  // gradients add to what the terms become
+  graph.attribute(material.span);
   // The patch less its rim: where peaks are taken.
   const NodeId rim = graph.input(Input::patch_rim);
   const NodeId half_width = graph.apply(Operation::subtract, graph.input(Input::patch_half_width), rim);
@@ -49,6 +50,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
   for (TermId id = 0; id < terms.size(); ++id) {
     if (!needed[id]) continue;
     const Term& term = terms[id];
+    graph.attribute(term.span == Span{} ? material.span : term.span);
     switch (term.kind) {
       case TermKind::literal: nodes[id] = graph.constant(static_cast<float>(term.value)); break;
       case TermKind::input: nodes[id] = graph.input(term.input(), term.span); break;

@@ -223,10 +223,10 @@ Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::
   }
   Value result = failed(span);
   if (good) {
-    call_sites_.push_back(span);
+    enter_call(span);
     callees_.push_back(declaration.name.text);
     result = check(*function.tree, declaration.body, inner);
-    call_sites_.pop_back();
+    leave_call();
     callees_.pop_back();
   }
   declarations_ = outside_names;

@@ -115,6 +115,17 @@ class ExpressionChecker {
   Value ambiguous_unit(const Word& word, Span declared);
   void mismatched_sides(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
                         Span span);
+  /// A definition is read because it is used at `span`: what it adds from another file comes from the outermost use,
+  /// unless all that this checker reads is attributed to some place already.
+  void enter_call(Span span) {
+    if (call_sites_.empty()) outside_ = terms_.attributed();
+    call_sites_.push_back(span);
+    if (!outside_) terms_.attribute(call_sites_.front());
+  }
+  void leave_call() {
+    call_sites_.pop_back();
+    if (call_sites_.empty()) terms_.attribute(outside_);
+  }
   /// Where to point: inside a function of another file, at the call that led there.
   Span blame(Span span) const { return call_sites_.empty() || at_home(span) ? span : call_sites_.front(); }
   bool at_home(Span span) const { return !call_sites_.empty() && span.source == call_sites_.front().source; }
@@ -136,6 +147,7 @@ class ExpressionChecker {
   std::vector<Span> ambiguous_;  ///< declarations of names that are units too, reported
   bool too_large_ = false;       ///< reported
   std::vector<Span> call_sites_;
+  std::optional<Span> outside_;  ///< what terms were attributed to before the outermost call
   std::vector<std::string> callees_;
 };
 

@@ -86,12 +86,12 @@ std::optional<Value> ExpressionChecker::constant_named(const Word& word) {
                     fmt::format("more than {} definitions lead to one another here", deepest_call), "",
                     "write some of them out");
     callees_.push_back(guard);
-    call_sites_.push_back(word.span);
+    enter_call(word.span);
     const auto* outside_names = std::exchange(declarations_, found->home);
     Scope outside;
     const Value value = check(*found->tree, found->node->value, outside);
     declarations_ = outside_names;
-    call_sites_.pop_back();
+    leave_call();
     callees_.pop_back();
     constants_[found->node] = value;
   }

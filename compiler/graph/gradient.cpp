@@ -79,6 +79,7 @@ NodeId Derivatives::operator()(NodeId of, int axis) {
   for (NodeId id = 0; id <= of; ++id) {
     if (!needed[id] || graph[id].rate != Rate::tick) continue;
     const Node node = graph[id];  // a copy: the graph grows below
+    graph.attribute(node.span);
     switch (node.kind) {
       case Node::Kind::input: {
         const auto along = axis == 0 ? Input::x : Input::y;

@@ -74,6 +74,7 @@ NodeId Graph::add(const Node& node) {
   table_[slot] = static_cast<NodeId>(nodes_.size());
   ++in_table_;
   nodes_.push_back(node);
+  if (node.span == Span{}) nodes_.back().span = place_;
   return table_[slot];
 }
 

@@ -56,6 +56,9 @@ class Graph {
   /// Makes room for so many nodes; there may be more.
   void reserve(std::size_t nodes);
 
+  /// From now on, what is made without a span comes from this one.
+  void attribute(Span place) { place_ = place; }
+
   NodeId constant(float value);
   NodeId input(Input input, Span span = {});
   NodeId parameter(std::uint32_t index, Span span = {});
@@ -83,6 +86,7 @@ class Graph {
   /// one that its hash names.
   std::vector<NodeId> table_;
   std::size_t in_table_ = 0;
+  Span place_;
 };
 
 inline Operands Graph::operands(NodeId id) const {

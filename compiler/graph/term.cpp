@@ -60,6 +60,7 @@ TermId Terms::add(const Term& term) {
       break;
   }
   terms_.push_back(term);
+  if (place_ && (term.span == Span{} || term.span.source != place_->source)) terms_.back().span = *place_;
   dependences_.push_back(dependence);
   return static_cast<TermId>(terms_.size() - 1);
 }

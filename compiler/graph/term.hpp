@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compiler/text/source.hpp"
@@ -67,11 +68,17 @@ class Terms {
   TermId apply(Operation operation, TermId a, TermId b, Span span = {});
   TermId apply(Operation operation, TermId a, TermId b, TermId c, Span span = {});
 
+  /// From now on, what is added from another file than `place`'s, or from nowhere, is said to come from `place`: what a
+  /// function of another file does belongs where the author calls it. Nothing: each term keeps its own span.
+  void attribute(std::optional<Span> place) { place_ = place; }
+  std::optional<Span> attributed() const { return place_; }
+
   Dependence dependence(TermId id) const { return dependences_[id]; }
 
  private:
   std::vector<Term> terms_;
   std::vector<Dependence> dependences_;
+  std::optional<Span> place_;
 };
 
 /// The terms that a term is worked out from: a, b, c as far as it has them.

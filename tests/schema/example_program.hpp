@@ -102,6 +102,9 @@ inline PatchProgram program() {
   p.layers.perceptual = "roughness 0.6";
   p.layers.physical = "force = lateral(sin(x))";
   p.layers.documentation = "A grating for the bench.";
+  p.places.files = {"bench.wale", "std.grain"};
+  p.places.sections = {{{4, 0, 7}}, {{4, 0, 8}}, {{1, 0, 9}}, {{5, 0, 8}, {2, 1, 70000}},
+                       {{4, 0, 8}}, {{2, 0, 9}}, {{2, 0, 3}}};
   return p;
 }
 
