@@ -250,6 +250,9 @@ DeviceProfile read_device(ByteReader& in) {
   figure(device.mass, "the mass");
   figure(device.damping, "the damping");
   figure(device.friction, "the friction");
+  figure(device.delay, "the delay");
+  device.damping_known = in.boolean("whether the damping is known");
+  device.friction_known = in.boolean("whether the friction is known");
   return device;
 }
 

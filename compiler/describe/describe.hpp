@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "wale/program.hpp"
 
@@ -32,6 +33,7 @@ struct Description {
   std::vector<DescribedPercept> percepts;
   std::string no_percept;             ///< why there is none, in a line; empty when there is one
   Measured force;                     ///< `max_newton` also of a rehearsal, when the program remembers
+  Grade grade;                        ///< how stable the loop is
   std::vector<Parameter> parameters;  ///< with the values described
   std::vector<State> states;          ///< a vector is two of them, "p.x" and "p.y"
   std::vector<Grid> memories;

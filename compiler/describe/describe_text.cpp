@@ -5,6 +5,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/describe_grade.hpp"
 
 namespace wale {
 namespace {
@@ -96,6 +97,7 @@ std::string description_text(const Description& description) {
   write_percepts(text, description);
   text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
                       description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  text += "\nstability\n" + grade_text(description.grade, description.device);
   write_parameters(text, description.parameters);
   write_memory(text, description);
   write_shown(text, description);

@@ -302,9 +302,15 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   optional("mass", "mass", profile.mass);
   optional("damping", "viscosity", profile.damping);
   optional("friction", "force", profile.friction);
+  optional("delay", "time", profile.delay);
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed")) device.assumed.push_back(setting.key.text);
+  const auto known = [&](const char* key) {
+    return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end();
+  };
+  profile.damping_known = known("damping");
+  profile.friction_known = known("friction");
   for (const Setting* setting : reader.settings("realise"))
     for (const auto& item : setting->items) {
       if (item.words.size() == 1 && item.equals)

@@ -28,6 +28,8 @@ inline DeviceProfile device() {
   device.mass = 0.3;
   device.damping = 1;
   device.friction = 0.15;
+  device.delay = 0.0005;
+  device.damping_known = true;
   return device;
 }
 
