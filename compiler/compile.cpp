@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "compiler/check/follow_on.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
+#include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
@@ -12,6 +16,27 @@
 #include "compiler/text/spelling.hpp"
 
 namespace wale {
+
+namespace {
+
+constexpr double least_declared_watt = 0.01;  // below, rounding up would say nothing
+
+/// A program that gives energy says how much.
+void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, Diagnostics& diagnostics) {
+  const Energy energy = energy_of(bank);
+  if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
+  const double watt = std::max(energy.watt(), least_declared_watt);
+  const std::string mend = fmt::format("active {:.2g} W", std::ceil(watt * 100) / 100);
+  diagnostics.report({.code = Code::undeclared_energy,
+                      .span = material.force_span,
+                      .message = fmt::format("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
+                                             material.name, energy.watt(), energy.reasons.front()),
+                      .help = material.active_watt > 0
+                                  ? fmt::format("it declares {:.2g} W; write `{}`", material.active_watt, mend)
+                                  : fmt::format("say so: `{}` in its physical block", mend)});
+}
+
+}  // namespace
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
   SyntaxTree tree = parse(sources, source, diagnostics);
@@ -57,13 +82,15 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
          .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
-  if (measure(Bank(std::get<Program>(loaded))).flat) {
+  const Bank bank(std::get<Program>(loaded));
+  if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,
                         .span = solved.force_span,
                         .message = "this height is flat, and a flat height pushes nothing",
                         .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
     return std::nullopt;
   }
+  warn_of_undeclared_energy(bank, solved, diagnostics);
   return std::get<Program>(std::move(loaded));
 }
 

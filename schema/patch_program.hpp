@@ -173,6 +173,9 @@ struct Layers {
   friend bool operator==(const Layers&, const Layers&) = default;
 };
 
+/// A program may give no more than this by itself, W.
+inline constexpr float most_active_watt = 100;
+
 /// A compiled material: everything a `.wpp` file holds. Plain data; `verify` says whether it may be run.
 ///
 /// Registers lie in this order: 32 inputs, constants, parameters, `setup_registers` results of setup, states, then
@@ -194,6 +197,7 @@ struct PatchProgram {
   Picture picture;
   std::vector<HeightTable> tables;
   float patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m; default size of the patch
+  float active_watt = 0;  ///< W, 0 .. most_active_watt: what the author lets the program give to the hand by itself
   DeviceProfile device;
   std::vector<PerceptRecord> percepts;
   Layers layers;

@@ -329,6 +329,7 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
     program.patch_width = in.finite_f32("the patch's width");
     program.patch_height = in.finite_f32("the patch's height");
     program.patch_rim = in.finite_f32("the patch's rim");
+    program.active_watt = in.finite_f32("the power of what is active");
   }
   if (kind == "DEVI") program.device = read_device(in);
   if (kind == "PERC") program.percepts = read_percepts(in);

@@ -214,6 +214,7 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
     out.f32(program.patch_width);
     out.f32(program.patch_height);
     out.f32(program.patch_rim);
+    out.f32(program.active_watt);
   }
   if (kind == "DEVI") write_device(out, program.device);
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);

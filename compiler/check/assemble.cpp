@@ -25,6 +25,7 @@ std::string replaced_by(const PhysicalStatement& statement) {
                         [](const HeightStatement& node) { return node.name.text; },
                         [](const ForceStatement& node) { return node.name ? node.name->text : std::string("force ="); },
                         [](const PatchStatement&) { return std::string("patch ="); },
+                        [](const ActiveStatement&) { return std::string("active ="); },
                         [](const StateStatement& node) { return node.name.text; },
                         [](const MemoryStatement& node) { return node.name.text; },
                         [](const UpdateStatement& node) { return node.name.text + "'"; },

@@ -103,6 +103,22 @@ void StatementChecker::operator()(const PatchStatement& node) {
   material_.patch_span = span;
 }
 
+void StatementChecker::operator()(const ActiveStatement& node) {
+  const Span span = statement_->statement->span;
+  const auto power = checker_.constant(tree(), node.power, scope_, declarations().dimension("power"));
+  if (!power) return;
+  if (!(*power > 0 && *power <= most_active_watt))
+    return report(Code::value_out_of_range, tree().span(node.power),
+                  fmt::format("the power of what is active is more than nothing and at most {} W", most_active_watt),
+                  "write, for example, `active 0.3 W`");
+  if (std::exchange(active_seen_, true))
+    return report(Code::declared_twice, span, "a material says once how active it is",
+                  Advice("keep one of them").see(material_.active_span, "the first one"));
+  // What the components of a blend give adds up.
+  material_.active_watt = prefix_.empty() ? *power : std::min(double{most_active_watt}, material_.active_watt + *power);
+  material_.active_span = span;
+}
+
 void StatementChecker::operator()(const ShowStatement& node) {
   ShowChecker(material_, checker_, surroundings_, scope_).check(tree(), node.value);
 }

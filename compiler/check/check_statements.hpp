@@ -35,6 +35,7 @@ class StatementChecker {
   void operator()(const HeightStatement& node);
   void operator()(const ForceStatement& node);
   void operator()(const PatchStatement& node);
+  void operator()(const ActiveStatement& node);
   void operator()(const StateStatement& node);
   void operator()(const MemoryStatement& node);
   void operator()(const UpdateStatement& node);
@@ -81,7 +82,7 @@ class StatementChecker {
   std::vector<Layer> layers_;
   std::optional<Value> last_height_;
   std::optional<Span> whole_force_;  ///< where it stands
-  bool patch_seen_ = false;
+  bool patch_seen_ = false, active_seen_ = false;
   struct KnownState {
     std::uint32_t first = 0;   ///< index of the state, or of a vector's x
     Value updated;             ///< what later updates read; failed before the first

@@ -65,9 +65,9 @@ std::string resolution_line(const Grade& grade) {
 std::string grade_text(const Grade& grade, const DeviceProfile& device) {
   std::string text = line(standing_word(grade.standing), standing_line(grade, device));
   if (grade.standing == Standing::not_analysed) return text;
-  for (const auto& reason : grade.reasons) text += line("", reason);
-  if (grade.standing == Standing::active && grade.watt() > 0)
-    text += line("", fmt::format("up to {:.2g} W in a hand at its own pace", grade.watt()));
+  for (const auto& reason : grade.energy.reasons) text += line("", reason);
+  if (grade.standing == Standing::active && grade.energy.watt() > 0)
+    text += line("", fmt::format("up to {:.2g} W in a hand at its own pace", grade.energy.watt()));
   if (grade.required_damping > 0) text += line("", fmt::format("most at {}", place_words(grade.worst)));
   if (grade.stiffness > 0)
     text += line("stiffness", fmt::format("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));

@@ -45,9 +45,9 @@ nlohmann::ordered_json to_json(const Grade& grade) {
   json["counts_per_period"] = figure(grade.counts_per_period);
   json["fastest_hand"] = figure(grade.fastest_hand);
   json["force_levels"] = figure(grade.force_levels);
-  json["conservative"] = grade.conservative;
-  json["watt"] = figure(grade.watt());
-  json["reasons"] = grade.reasons;
+  json["conservative"] = grade.energy.conservative;
+  json["watt"] = figure(grade.energy.watt());
+  json["reasons"] = grade.energy.reasons;
   return json;
 }
 

@@ -63,6 +63,7 @@ class Emitter {
     program_.patch_width = static_cast<float>(material_.patch_width);
     program_.patch_height = static_cast<float>(material_.patch_height);
     program_.patch_rim = static_cast<float>(material_.patch_rim);
+    program_.active_watt = static_cast<float>(material_.active_watt);
     program_.device = material_.device;
     program_.layers = material_.layers;
 

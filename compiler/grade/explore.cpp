@@ -57,7 +57,8 @@ Exploration explore(Bank bank, const GradingHand& hand) {
       moved += std::abs(joule);
       gained = std::max(gained, work);
     }
-    if (gained > exploration.gained_joule) exploration.gained_joule = gained, exploration.moved_joule = moved;
+    exploration.gained_joule = std::max(exploration.gained_joule, gained);
+    exploration.moved_joule = std::max(exploration.moved_joule, moved);
   }
   return exploration;
 }

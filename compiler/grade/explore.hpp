@@ -12,7 +12,7 @@ struct Exploration {
   std::vector<float> states;   ///< before that tick, hand by hand
   std::vector<char> changing;  ///< for each state, whether it changed after it was entered
   double gained_joule = 0;     ///< the most that the program had given the hand, net, at any moment of either second
-  double moved_joule = 0;      ///< the sum of what went either way, of the same second
+  double moved_joule = 0;      ///< the sum of what went either way, of the second in which that is more
 };
 
 /// Runs the program under such hands at its device's rate, by its own ticks, guarded by nothing. The hand's radius is

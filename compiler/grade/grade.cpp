@@ -22,7 +22,8 @@ constexpr int climbs = 14;               // each with half the step of the one b
 constexpr std::size_t candidates = 12;   // of each kind whose required damping is worked out
 constexpr std::size_t tiles = 4;         // of the patch along each side, for the mean of the curl
 constexpr double significant = 4;        // standard errors of a mean
-constexpr double share_of_slope = 0.01;  // of the mean slope: curl below is rounding and clipping
+constexpr double share_of_slope = 0.02;  // of the usual slope: curl below is rounding and clipping
+constexpr double share_of_hand = 0.01;   // of what the hand takes up itself at its pace: less energy than that is none
 constexpr double share_of_work = 0.01;   // of what went either way: energy below is rounding
 constexpr double sharp_over_step = 1.5;  // a slope so much above what a step between counts gives is a tip
 constexpr double jump_over_slope = 1.5;  // a step between counts so much above what the slope gives is a jump
@@ -45,27 +46,46 @@ class Grader {
     grade_.hand_damping = hand_.damping;
     if (!slopes_.fits()) return grade_;
     choose_hands();
+    at_ = slopes_.by_place(hands_, states_);
+    find_energy();
     find_stiffness();
     find_steps();
     find_resolution();
-    find_curl();
-    find_motion_power();
-    find_sources();
-    find_required_damping();
-    decide();
+    if (find_required_damping()) decide();
     return grade_;
+  }
+
+  Energy energy() {
+    if (!slopes_.fits()) return {};
+    choose_hands();
+    at_ = slopes_.by_place(hands_, states_);
+    find_energy();
+    return grade_.energy;
   }
 
  private:
   std::optional<Exploration> explored() const {
-    if (program_.states.empty()) return std::nullopt;
+    if (program_.states.empty() && !stores_motion()) return std::nullopt;
     return explore(bank_, hand_);
+  }
+
+  /// Whether the tick reads accelerations: what a mass takes up it gives back, so that one moment says nothing.
+  bool stores_motion() const {
+    return std::ranges::any_of(program_.tick, [](const Instruction& instruction) {
+      const int operands = facts(static_cast<Operation>(instruction.operation)).operands;
+      const RegisterNumber from[] = {instruction.a, instruction.b, instruction.c};
+      return std::any_of(from, from + operands, [](RegisterNumber number) {
+        const auto input = static_cast<Input>(number);
+        return input == Input::acceleration_x || input == Input::acceleration_y || input == Input::raw_acceleration_x ||
+               input == Input::raw_acceleration_y;
+      });
+    });
   }
 
   /// A program that remembers is looked at where a second of exploring leads it, any other all over its patch.
   void choose_hands() {
     extent_ = 0.5f * glm::vec2(bank_.size().width, bank_.size().height);
-    if (exploration_) {
+    if (!program_.states.empty()) {
       hands_ = exploration_->hands;
       states_ = exploration_->states;
       return;
@@ -78,12 +98,14 @@ class Grader {
   /// Of a hand that circles at its own pace, m/s.
   double peak_speed() const { return 2 * pi * hand_.frequency * hand_.radius; }
 
+  /// What the hand itself takes up at its pace, and some of it.
+  double least_watt() const { return share_of_hand * hand_.damping * peak_speed() * peak_speed(); }
+
   std::span<const float> states_of(std::size_t hand) const {
     return std::span(states_).subspan(hand * program_.states.size(), program_.states.size());
   }
 
   void find_stiffness() {
-    at_ = slopes_.by_place(hands_, states_);
     std::vector<std::size_t> steepest(hands_.size());
     for (std::size_t i = 0; i < steepest.size(); ++i) steepest[i] = i;
     const std::size_t count = std::min(climbers, steepest.size());
@@ -92,7 +114,6 @@ class Grader {
                                 return std::pair(stiffness(at_[a]), b) > std::pair(stiffness(at_[b]), a);
                               });
     steepest.resize(count);
-    for (const auto& here : at_) largest_force_ = std::max(largest_force_, glm::length(here.force));
     climb(steepest);
   }
 
@@ -179,6 +200,13 @@ class Grader {
     grade_.force_levels = largest_force_ / device_.force_step();
   }
 
+  void find_energy() {
+    for (const auto& here : at_) largest_force_ = std::max(largest_force_, glm::length(here.force));
+    find_curl();
+    find_motion_power();
+    find_sources();
+  }
+
   /// A loop gains the integral of the curl over what it goes round. Clipped textures have a little curl of either sign
   /// everywhere, which no loop gathers; so what counts is its mean over a part of the patch.
   /// For a program that remembers, where the hand is says too little: what it gave while it was explored does.
@@ -188,7 +216,7 @@ class Grader {
       double count = 0, sum = 0, squares = 0;
     };
     std::array<Sum, tiles * tiles> sums;
-    double slope = 0;
+    double squares = 0;
     std::size_t counted = 0;
     for (std::size_t i = 0; i < hands_.size(); ++i) {
       const Hand& hand = hands_[i];
@@ -202,25 +230,28 @@ class Grader {
       };
       Sum& sum = sums[tile(hand.position.y, extent_.y) * tiles + tile(hand.position.x, extent_.x)];
       sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
-      slope += stiffness(at_[i]);
+      squares += stiffness(at_[i]) * stiffness(at_[i]);
       ++counted;
     }
-    const double mean_slope = counted > 0 ? slope / static_cast<double>(counted) : 0;
+    const double usual_slope = counted > 0 ? std::sqrt(squares / static_cast<double>(counted)) : 0;
     double most = 0;
     for (const Sum& sum : sums) {
       if (sum.count < 8) continue;
       const double mean = sum.sum / sum.count;
       const double error = std::sqrt(std::max(0.0, sum.squares / sum.count - mean * mean) / sum.count);
-      if (std::abs(mean) > significant * error && std::abs(mean) > share_of_slope * mean_slope)
+      if (std::abs(mean) > significant * error && std::abs(mean) > share_of_slope * usual_slope)
         most = std::max(most, std::abs(mean));
     }
-    grade_.conservative = most == 0;
-    grade_.curl_watt = most * pi * hand_.radius * hand_.radius * hand_.frequency;
+    const double watt = most * pi * hand_.radius * hand_.radius * hand_.frequency;
+    grade_.energy.conservative = watt < least_watt();
+    if (grade_.energy.conservative) return;
+    grade_.energy.curl_watt = watt;
+    grade_.energy.reasons.push_back("the field turns: a hand that goes round gains energy");
   }
 
   /// What the force adds when the same hand moves, against what it is at rest. Likewise.
   void find_motion_power() {
-    if (!slopes_.depends_on_motion() || !program_.states.empty()) return;
+    if (!slopes_.depends_on_motion() || exploration_) return;
     std::vector<Hand> resting(hands_.begin(), hands_.end());
     for (Hand& hand : resting)
       hand.velocity = hand.raw_velocity = hand.acceleration = hand.raw_acceleration = glm::vec2(0.0f);
@@ -230,23 +261,42 @@ class Grader {
       const glm::dvec2 velocity(hands_[i].velocity);
       worst = std::max(worst, glm::dot(at_[i].force - still[i].force, velocity));
     }
-    const double rounding = 1e-4 * largest_force_ * peak_speed();
-    if (worst > rounding) grade_.motion_watt = worst;
+    if (worst <= least_watt()) return;
+    grade_.energy.motion_watt = worst;
+    grade_.energy.reasons.push_back("it pushes along the hand's motion");
   }
 
+  /// What is remembered, and what moves by itself unless it only ever resists.
   void find_sources() {
-    if (!slopes_.moves_by_itself() && program_.states.empty()) return;
+    const bool moves = slopes_.moves_by_itself() && pushes_along();
+    if (!moves && !exploration_) return;
     if (!exploration_) exploration_ = explore(bank_, hand_);
-    if (exploration_->gained_joule > share_of_work * exploration_->moved_joule)
-      grade_.source_watt = exploration_->gained_joule;  // of a second
+    if (exploration_->gained_joule > std::max(least_watt(), share_of_work * exploration_->moved_joule))
+      grade_.energy.source_watt = exploration_->gained_joule;  // of a second
+    if (moves) {
+      grade_.energy.reasons.push_back("something in it moves by itself");
+      // A hand that went along with it could have half of what went either way.
+      grade_.energy.source_watt = std::max(grade_.energy.source_watt, exploration_->moved_joule / 2);
+    } else if (grade_.energy.source_watt > 0) {
+      grade_.energy.reasons.push_back("what it remembers gives more energy than it was given");
+    }
   }
 
-  void find_required_damping() {
+  /// Whether the force ever goes along with the hand's motion.
+  bool pushes_along() const {
+    for (std::size_t i = 0; i < hands_.size(); ++i)
+      if (glm::dot(at_[i].force, glm::dvec2(hands_[i].velocity)) > least_watt()) return true;
+    return false;
+  }
+
+  /// False when there are more derivatives than the machine has registers for.
+  bool find_required_damping() {
     std::vector<Hand> hands = steepest_hands_;
     std::vector<float> states = steepest_states_;
     if (slopes_.depends_on_motion() || !program_.states.empty()) {
       // Those of the lattice where either kind of slope, or both together, is greatest; and some of all others.
       const auto all = slopes_.at(hands_, states_);
+      if (all.empty()) return false;
       const auto motion = [&](std::size_t i) {
         const HandSlopes& direct = all[i].linear.direct;
         return spectral_norm(direct.velocity) + spectral_norm(direct.raw_velocity);
@@ -271,6 +321,7 @@ class Grader {
     }
     const LoopTiming timing(device_);
     const auto all = slopes_.at(hands, states);
+    if (all.empty()) return false;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!is_smooth(all[i].linear) || stiffness(all[i]) > sharp_over_step * grade_.stiffness) continue;
       const double needed = required_damping(all[i].linear, timing);
@@ -279,11 +330,12 @@ class Grader {
       grade_.worst = {hands[i].position, hands[i].velocity};
     }
     // Across a jump the sampled loop sees the slope between two counts.
-    if (!grade_.jumps) return;
+    if (!grade_.jumps) return true;
     const double needed = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.delay);
-    if (needed <= grade_.required_damping) return;
+    if (needed <= grade_.required_damping) return true;
     grade_.required_damping = needed;
     grade_.worst = {worst_step_.position, worst_step_.velocity};
+    return true;
   }
 
   /// Whether there are slopes at all: at the middle of a cone there are none.
@@ -301,15 +353,8 @@ class Grader {
   }
 
   void decide() {
-    auto& reasons = grade_.reasons;
-    if (!grade_.conservative) reasons.push_back("the field turns: a hand that goes round gains energy");
-    if (grade_.motion_watt > 0) reasons.push_back("it pushes along the hand's motion");
-    if (slopes_.moves_by_itself())
-      reasons.push_back("something in it moves by itself");
-    else if (grade_.source_watt > 0)
-      reasons.push_back("what it remembers gives more energy than it was given");
     const double with_hand = grade_.device_damping + grade_.hand_damping;
-    if (!reasons.empty())
+    if (grade_.energy.active())
       grade_.standing = Standing::active;
     else if (grade_.required_damping == 0)
       grade_.standing = Standing::passive;
@@ -324,7 +369,7 @@ class Grader {
   const Bank& bank_;
   const PatchProgram& program_;
   const DeviceProfile& device_;
-  const GradingHand& hand_;
+  const GradingHand hand_;
   std::optional<Exploration> exploration_;
   ProgramSlopes slopes_;
   Grade grade_;
@@ -337,6 +382,13 @@ class Grader {
   Hand worst_step_;
   double largest_force_ = 0;
 };
+
+GradingHand normal_hand() {
+  GradingHand hand{.name = "normal"};
+  if (const HandDeclaration* declared = common_modules()->declarations.hands.find(hand.name))
+    hand = {declared->damping, declared->circular_radius, declared->circular_frequency, declared->name};
+  return hand;
+}
 
 }  // namespace
 
@@ -352,7 +404,7 @@ std::string_view standing_word(Standing standing) {
   return "unknown";
 }
 
-double Grade::watt() const { return std::max({curl_watt, motion_watt, source_watt}); }
+double Energy::watt() const { return std::max({curl_watt, motion_watt, source_watt}); }
 
 std::optional<double> Grade::margin() const {
   if (!damping_known) return std::nullopt;
@@ -361,11 +413,8 @@ std::optional<double> Grade::margin() const {
 
 Grade grade(const Bank& bank, const GradingHand& hand) { return Grader(bank, hand).grade(); }
 
-Grade grade(const Bank& bank) {
-  GradingHand hand{.name = "normal"};
-  if (const HandDeclaration* declared = common_modules()->declarations.hands.find(hand.name))
-    hand = {declared->damping, declared->circular_radius, declared->circular_frequency, declared->name};
-  return grade(bank, hand);
-}
+Grade grade(const Bank& bank) { return grade(bank, normal_hand()); }
+
+Energy energy_of(const Bank& bank) { return Grader(bank, normal_hand()).energy(); }
 
 }  // namespace wale

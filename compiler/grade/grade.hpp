@@ -37,6 +37,20 @@ struct GradingHand {
   std::string name;      ///< of its declaration
 };
 
+/// Energy that a program gives to the hand by itself, at a hand's own pace.
+struct Energy {
+  bool conservative = true;  ///< the force at rest has no curl, so that no loop gains energy
+  double curl_watt = 0;      ///< what a hand gains that circles where the field turns most
+  double motion_watt = 0;    ///< the largest power of what the force adds when the hand moves
+  double source_watt = 0;    ///< net power over a second of exploring, of what is remembered or moves by itself; of the
+                             ///< latter at least half of the energy that went either way
+  std::vector<std::string> reasons;  ///< why it gives energy, in words; none where it does not
+
+  bool active() const { return !reasons.empty(); }
+  /// What it gives at most, by these figures.
+  double watt() const;
+};
+
 /// What a program's force does to the stability of the loop, from the program alone. SI units.
 struct Grade {
   Standing standing = Standing::not_analysed;
@@ -64,17 +78,14 @@ struct Grade {
   double fastest_hand = 0;       ///< m/s: from which on less than two ticks fall into it
   double force_levels = 0;       ///< command steps that the largest force uses
 
-  bool conservative = true;          ///< the force at rest has no curl, so that no loop gains energy
-  double curl_watt = 0;              ///< what a hand gains that circles at its own pace where the field turns most
-  double motion_watt = 0;            ///< the largest power of what the force adds when the hand moves, at its own pace
-  double source_watt = 0;            ///< net power over a second of exploring, of what moves by itself or is remembered
-  std::vector<std::string> reasons;  ///< why it is active, in words
+  Energy energy;
 
-  /// What an active program gives at most, by these figures.
-  double watt() const;
   /// Known damping less what is required; only where it is known.
   std::optional<double> margin() const;
 };
+
+/// The part of a grade that says whether a program must say `active`: quicker.
+Energy energy_of(const Bank& bank);
 
 /// Grades a program at a bank's parameters, in the hand called `normal` (calibration/hands.wale), or in another.
 /// Deterministic; some milliseconds.

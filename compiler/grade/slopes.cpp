@@ -42,10 +42,10 @@ bool is_of_the_hand(const Node& node) { return node.kind == Node::Kind::input &&
 
 }  // namespace
 
-void ProgramSlopes::find_dependences(const LiftedTick& lifted, const std::vector<char>& changing) {
-  const Graph& graph = lifted.graph;
+void ProgramSlopes::find_dependences(const std::vector<char>& changing) {
+  const Graph& graph = lifted_.graph;
   const auto either = [&](const std::vector<char>& depends) {
-    return depends[lifted.force[0]] || depends[lifted.force[1]];
+    return depends[lifted_.force[0]] || depends[lifted_.force[1]];
   };
   depends_on_motion_ = either(depending(graph, [](const Node& node) {
     return is_input(
@@ -60,7 +60,7 @@ void ProgramSlopes::find_dependences(const LiftedTick& lifted, const std::vector
       return is_of_the_hand(node) || (node.kind == Node::Kind::state && driven[node.index]);
     });
     for (std::size_t state = 0; state < states_; ++state)
-      if (!driven[state] && depends[lifted.next[state]]) driven[state] = more = true;
+      if (!driven[state] && depends[lifted_.next[state]]) driven[state] = more = true;
   }
   const auto is_source = [&](const Node& node) {
     if (is_input(node, {Input::time})) return true;
@@ -73,19 +73,28 @@ void ProgramSlopes::find_dependences(const LiftedTick& lifted, const std::vector
       depending(graph, [&](const Node& node) { return node.kind == Node::Kind::state && driven[node.index]; });
   if (either(through_states))
     for (std::size_t state = 0; state < states_; ++state)
-      moves_by_itself_ = moves_by_itself_ || (driven[state] && by_itself[lifted.next[state]]);
+      moves_by_itself_ = moves_by_itself_ || (driven[state] && by_itself[lifted_.next[state]]);
 }
 
 ProgramSlopes::ProgramSlopes(const Bank& bank, const std::vector<char>& changing)
-    : states_(bank.program().description().states.size()) {
+    : bank_(bank), states_(bank.program().description().states.size()) {
   if (states_ > most_graded_states) return;
-  LiftedTick lifted = lift(bank);
-  find_dependences(lifted, changing);
-  Graph& graph = lifted.graph;
-  std::vector<NodeId> roots{lifted.force[0], lifted.force[1]};
-  // Of the force and of what each state becomes.
-  std::vector<NodeId> results = roots;
-  results.insert(results.end(), lifted.next.begin(), lifted.next.end());
+  lifted_ = lift(bank);
+  find_dependences(changing);
+  std::vector<NodeId> roots(lifted_.force.begin(), lifted_.force.end());
+  for (int axis = 0; axis < 2; ++axis) {
+    Derivatives derivative(lifted_.graph, Derivatives::place(axis), slope_difference);
+    for (const NodeId force : lifted_.force) roots.push_back(derivative(force));
+  }
+  place_field_.emplace(lifted_.graph, roots, bank_);
+}
+
+/// Of the force and of what each state becomes, by all that they depend on.
+void ProgramSlopes::derive_all() {
+  Graph& graph = lifted_.graph;
+  std::vector<NodeId> results(lifted_.force.begin(), lifted_.force.end());
+  results.insert(results.end(), lifted_.next.begin(), lifted_.next.end());
+  std::vector<NodeId> roots(lifted_.force.begin(), lifted_.force.end());
   const NodeId size = static_cast<NodeId>(graph.size());
   const auto reads = [&](const Derivatives::By& by) {
     for (NodeId id = 0; id < size; ++id)
@@ -98,23 +107,19 @@ ProgramSlopes::ProgramSlopes(const Bank& bank, const std::vector<char>& changing
     Derivatives derivative(graph, by, slope_difference);
     for (const NodeId result : results) roots.push_back(derivative(result));
   };
-  std::vector<NodeId> place_roots;
   for (const HandQuantity& quantity : hand_quantities()) {
-    const bool place = quantity.slopes == &HandSlopes::place;
-    if (!place && !reads(quantity.by[0]) && !reads(quantity.by[1])) continue;
+    if (!reads(quantity.by[0]) && !reads(quantity.by[1])) continue;
     quantities_.push_back(quantity.slopes);
     derive(quantity.by[0]);
     derive(quantity.by[1]);
-    if (!place) continue;
-    const std::size_t count = results.size();
-    place_roots = {roots[0], roots[1], roots[2], roots[3], roots[2 + count], roots[3 + count]};
   }
   for (std::uint32_t state = 0; state < states_; ++state) derive({.inputs = {}, .state = state});
-  field_.emplace(graph, roots, bank);
-  place_field_.emplace(graph, place_roots, bank);
+  field_.emplace(graph, roots, bank_);
 }
 
 std::vector<ProgramSlopes::At> ProgramSlopes::at(std::span<const Hand> hands, std::span<const float> states) {
+  if (!field_) derive_all();
+  if (!field_->fits()) return {};
   field_->evaluate(hands, states, values_);
   const std::size_t results = 2 + states_;
   std::vector<At> all(hands.size());

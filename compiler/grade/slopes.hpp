@@ -19,14 +19,15 @@ class ProgramSlopes {
   /// `changing`: for each state, whether it was ever seen to change.
   ProgramSlopes(const Bank& bank, const std::vector<char>& changing);
 
-  /// Whether the machine has registers enough for the derivatives; otherwise nothing below may be called.
-  bool fits() const { return field_ && field_->fits(); }
+  /// Whether the machine has registers enough for derivatives by place; otherwise nothing below may be called.
+  bool fits() const { return place_field_ && place_field_->fits(); }
 
   struct At {
     glm::dvec2 force{0.0};
     LinearProgram linear;
   };
-  /// One for each hand; `states` as for `Field::evaluate`.
+  /// One for each hand; `states` as for `Field::evaluate`. None when the machine has not registers enough for so many
+  /// derivatives.
   std::vector<At> at(std::span<const Hand> hands, std::span<const float> states);
   /// Force and slope by place alone, which is quicker: `linear` has nothing else.
   std::vector<At> by_place(std::span<const Hand> hands, std::span<const float> states);
@@ -36,8 +37,12 @@ class ProgramSlopes {
   bool moves_by_itself() const { return moves_by_itself_; }
 
  private:
-  void find_dependences(const LiftedTick& lifted, const std::vector<char>& changing);
+  void find_dependences(const std::vector<char>& changing);
 
+  void derive_all();
+
+  Bank bank_;
+  LiftedTick lifted_;
   std::size_t states_ = 0;
   bool depends_on_motion_ = false, moves_by_itself_ = false;
   std::vector<Slopes HandSlopes::*> quantities_;  ///< that the tick depends on

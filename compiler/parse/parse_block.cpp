@@ -11,7 +11,7 @@ constexpr std::string_view sections[] = {"representative", "perceptual", "physic
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
 /// What begins a physical statement; `x' = …` has no word of its own.
-const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch",
+const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch", "active",
                                                  "state", "memory", "next",   "show"};
 
 template <class List>
@@ -247,6 +247,8 @@ PhysicalStatement Parser::physical_statement() {
     result.what = memory();
   } else if (keyword == "patch") {
     result.what = patch();
+  } else if (keyword == "active") {
+    result.what = active();
   } else if (keyword == "show") {
     advance();
     result.what = ShowStatement{expression()};
@@ -357,6 +359,16 @@ PatchStatement Parser::patch() {
     patch.sizes.push_back(expression());
   }
   return patch;
+}
+
+ActiveStatement Parser::active() {
+  advance();
+  if (at(TokenKind::equals)) {
+    complain("the power of what is active has no `=` before it", "a power",
+             fmt::format("write `active {}`", spelling(token(at_ + 1))), drop_here());
+    advance();
+  }
+  return {expression()};
 }
 
 std::optional<Range> Parser::optional_range() {

@@ -66,6 +66,7 @@ class Parser {
   std::optional<Word> optional_dimension();
   UpdateStatement update();
   PatchStatement patch();
+  ActiveStatement active();
   std::optional<Range> optional_range();
   Range range();
   void open_block();

@@ -42,6 +42,7 @@ class Solver {
     solved_.device = device_->profile;
     solved_.parameters = material_.parameters;
     solved_.layers = material_.layers;
+    solved_.active_watt = material_.active_watt;
     solved_.patch_width = material_.patch ? (*material_.patch)[0] : device_->profile.patch_width;
     solved_.patch_height = material_.patch ? (*material_.patch)[1] : device_->profile.patch_height;
     solved_.patch_rim =

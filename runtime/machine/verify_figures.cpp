@@ -129,6 +129,9 @@ void verify_patch(const PatchProgram& program) {
   if (!(program.patch_rim >= 0 && program.patch_rim < half)) {
     refuse("the patch's rim is ", program.patch_rim, " m and must leave a middle of its ", 2 * half);
   }
+  if (!(program.active_watt >= 0 && program.active_watt <= most_active_watt)) {
+    refuse("the program gives ", program.active_watt, " W by itself and must give 0 .. ", most_active_watt);
+  }
 }
 
 void verify_device(const DeviceProfile& device) {

@@ -32,7 +32,7 @@ TEST_P(Table22, IsReproduced) {
   EXPECT_NEAR(grade.finest_period, 1e-3 * row.period_mm, 0.03e-3 * row.period_mm);
   EXPECT_NEAR(grade.force_levels, row.program_units * 4, 0.02 * row.program_units * 4);  // 512 units, 2048 counts
   EXPECT_EQ(grade.standing, Standing::ungraded);
-  EXPECT_TRUE(grade.conservative);
+  EXPECT_TRUE(grade.energy.conservative);
   EXPECT_FALSE(grade.jumps);
 }
 
@@ -74,7 +74,7 @@ TEST(Grade, SpringsOilAndPotentialsAreNotActive) {
                                "    force = -200 N/m * hand * exp(-(length(hand) / 20 mm)^2) - 1 N s/m * velocity"}) {
     const Grade grade = graded(physical);
     EXPECT_EQ(grade.standing, Standing::ungraded) << physical;
-    EXPECT_EQ(grade.watt(), 0) << physical;
+    EXPECT_EQ(grade.energy.watt(), 0) << physical;
   }
 }
 
@@ -89,8 +89,8 @@ TEST(Grade, NothingAsksForNothing) {
 TEST(Grade, AFieldThatTurnsGivesItsCurlTimesTheArea) {
   const Grade grade = graded("    let k = 15 N/m\n    force = vector(-k * y, k * x)");
   EXPECT_EQ(grade.standing, Standing::active);
-  EXPECT_FALSE(grade.conservative);
-  EXPECT_NEAR(grade.watt(), 30 * pi * 0.04 * 0.04, 1e-3);  // curl 2 k, circles of 40 mm at 1 Hz
+  EXPECT_FALSE(grade.energy.conservative);
+  EXPECT_NEAR(grade.energy.watt(), 30 * pi * 0.04 * 0.04, 1e-3);  // curl 2 k, circles of 40 mm at 1 Hz
 }
 
 TEST(Grade, AntiViscosityGivesItsPower) {
@@ -98,7 +98,7 @@ TEST(Grade, AntiViscosityGivesItsPower) {
   EXPECT_EQ(grade.standing, Standing::active);
   EXPECT_NEAR(grade.required_damping, 2, 0.01);
   const double speed = 2 * pi * 0.04;  // of the hand along each axis, so that both together are looked at
-  EXPECT_NEAR(grade.watt(), 2 * 2 * speed * speed, 0.1 * 2 * 2 * speed * speed);
+  EXPECT_NEAR(grade.energy.watt(), 2 * 2 * speed * speed, 0.1 * 2 * 2 * speed * speed);
 }
 
 TEST(Grade, WhatMovesByItselfIsActiveAndWhatTheHandDrivesIsNot) {
@@ -128,7 +128,7 @@ TEST(Grade, WhatGivesMoreThanItWasGivenIsActive) {
       "    let pull = 120 N/m * (hand - p)\n    v' = (pull + 4 N s/m * v) / 0.3 kg\n    p' = v\n"
       "    force = -pull");
   EXPECT_EQ(grade.standing, Standing::active);
-  EXPECT_GT(grade.watt(), 0);
+  EXPECT_GT(grade.energy.watt(), 0);
 }
 
 TEST(Grade, AJumpIsSeenByItsStep) {

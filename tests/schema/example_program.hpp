@@ -79,7 +79,9 @@ inline PatchProgram program() {
   p.tables = {{3, 2, {0, 65535, 100, 7, 8, 9}}};
   p.patch_width = 0.1f;
   p.patch_height = 0.08f;
+  p.active_watt = 0.25f;
   p.patch_rim = 0.005f;
+  p.active_watt = 0.25f;
   p.device = device();
   PerceptRecord percept;
   percept.name = "roughness";
