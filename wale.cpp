@@ -22,6 +22,7 @@
 
 #include "calibration/felt_report.hpp"
 #include "compiler/build_all.hpp"
+#include "compiler/build_stage.hpp"
 #include "compiler/check_files.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/describe/describe.hpp"
@@ -251,6 +252,20 @@ int build(const Choice& choice, const std::string& out) {
   return 0;
 }
 
+/// What a material is after one of the compiler's stages.
+int show_stage(const Choice& choice, const std::string& name, const std::string& out) {
+  const auto known = std::ranges::find(stage_names, name, &StageName::name);
+  auto opened = open(choice);
+  if (!opened) return refused;
+  std::string refusal;
+  const auto text = build_stage(*opened, choice.request(), choice.material, known->stage, opened->diagnostics, refusal);
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
+  if (!refusal.empty()) return refuse(refusal);
+  if (!text) return refused;
+  if (const auto problem = write_file(out, *text)) return refuse(*problem);
+  return 0;
+}
+
 /// Every material of a file to a program of its own; says of each what became of it.
 int build_collection(const Choice& choice, const std::string& folder) {
   const auto opened = open(choice);
@@ -451,13 +466,29 @@ int main(int argc, char** argv) {
                  "changes nothing; lists the files that would change and fails if there are any");
   verb->callback([&] { status = format(files, check_only); });
 
-  verb = app.add_subcommand("build", "compiles a material to a patch program");
+  verb = app.add_subcommand("build", "compiles a material to a patch program, or shows what a stage makes of it");
   choice.offer(*verb);
   bool all = false, exports = false;
-  verb->add_option("-o,--output", out, "the patch program to write (.wpp); with --all, a folder for them")->required();
+  std::string stage;
+  std::vector<std::string> stages;
+  for (const auto& known : stage_names) stages.emplace_back(known.name);
+  verb->add_option("-o,--output", out,
+                   "the patch program to write (.wpp); with --all, a folder for them; with --emit, the text (default: "
+                   "standard output)");
   verb->add_flag("--all", all, "builds every material of the file, each to NAME.wpp in the folder")
       ->excludes("--material");
-  verb->callback([&] { status = all ? build_collection(choice, out) : build(choice, out); });
+  verb->add_option("--emit", stage,
+                   "writes the material as it is after a stage instead: its tree, checked, its values (ir), the "
+                   "machine's listing, or C++")
+      ->check(CLI::IsMember(stages))
+      ->type_name("STAGE")
+      ->excludes("--all");
+  verb->callback([&] {
+    if (out.empty() && stage.empty()) throw CLI::RequiredError("--output");
+    status = !stage.empty() ? show_stage(choice, stage, out.empty() ? "-" : out)
+             : all          ? build_collection(choice, out)
+                            : build(choice, out);
+  });
 
   verb =
       app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");

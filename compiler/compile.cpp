@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "compiler/check/follow_on.hpp"
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
+#include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
@@ -12,6 +16,27 @@
 #include "compiler/text/spelling.hpp"
 
 namespace wale {
+
+namespace {
+
+constexpr double least_declared_watt = 0.01;  // below, rounding up would say nothing
+
+/// A program that gives energy says how much.
+void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, Diagnostics& diagnostics) {
+  const Energy energy = energy_of(bank);
+  if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
+  const double watt = std::max(energy.watt(), least_declared_watt);
+  const std::string mend = fmt::format("active {:.2g} W", std::ceil(watt * 100) / 100);
+  diagnostics.report({.code = Code::undeclared_energy,
+                      .span = material.force_span,
+                      .message = fmt::format("`{}` gives energy to the hand, up to {:.2g} W at an ordinary pace: {}",
+                                             material.name, energy.watt(), energy.reasons.front()),
+                      .help = material.active_watt > 0
+                                  ? fmt::format("it declares {:.2g} W; write `{}`", material.active_watt, mend)
+                                  : fmt::format("say so: `{}` in its physical block", mend)});
+}
+
+}  // namespace
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
   SyntaxTree tree = parse(sources, source, diagnostics);
@@ -25,27 +50,32 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
   return checked;
 }
 
+const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
+                                       Diagnostics& diagnostics) {
+  if (const CheckedMaterial* material = module.material(name)) return material;
+  std::vector<std::string> candidates;
+  for (const auto& other : module.materials) candidates.push_back(other.name);
+  const auto near = nearest_spelling(name, candidates);
+  diagnostics.report(
+      {.code = Code::unknown_material,
+       .span = {source, 0, 0},
+       .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
+       .help = near                 ? fmt::format("did you mean `{}`?", *near)
+               : candidates.empty() ? "add one, as in `material corduroy { … }`"
+                                    : fmt::format("it has `{}`", candidates.front())});
+  return nullptr;
+}
+
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& name, const std::string& device,
                                         const SourceSet& sources, SourceId source, Resolver& resolver,
                                         Diagnostics& diagnostics) {
-  const CheckedMaterial* material = module.material(name);
-  if (!material) {
-    std::vector<std::string> candidates;
-    for (const auto& other : module.materials) candidates.push_back(other.name);
-    const auto near = nearest_spelling(name, candidates);
-    diagnostics.report(
-        {.code = Code::unknown_material,
-         .span = {source, 0, 0},
-         .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
-         .help = near                 ? fmt::format("did you mean `{}`?", *near)
-                 : candidates.empty() ? "add one, as in `material corduroy { … }`"
-                                      : fmt::format("it has `{}`", candidates.front())});
-    return std::nullopt;
-  }
+  const CheckedMaterial* material = chosen_material(module, name, source, diagnostics);
+  if (!material) return std::nullopt;
   SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
 
-  auto program = emit(lower(solved), solved, diagnostics);
+  const SourceLines lines(sources, module.modules);
+  auto program = emit(lower(solved), solved, diagnostics, &lines);
   if (!program) return std::nullopt;
 
   auto loaded = Program::load(std::move(*program));
@@ -57,13 +87,15 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
          .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
-  if (measure(Bank(std::get<Program>(loaded))).flat) {
+  const Bank bank(std::get<Program>(loaded));
+  if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,
                         .span = solved.force_span,
                         .message = "this height is flat, and a flat height pushes nothing",
                         .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
     return std::nullopt;
   }
+  warn_of_undeclared_energy(bank, solved, diagnostics);
   return std::get<Program>(std::move(loaded));
 }
 

@@ -16,6 +16,11 @@ inline constexpr const char* default_device = "sandpaper";
 /// Text to checked module: everything that can be known without choosing a material and a device.
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics);
 
+/// The material of that name, or without a name the file's only or first one; nothing when there is none, which is
+/// reported.
+const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
+                                       Diagnostics& diagnostics);
+
 /// One material of a checked module to a program that runs: solve, lower, emit, verify, measure. None when there were
 /// errors. Without a name, the file's only or first material.
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& material,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -8,7 +9,7 @@ namespace wale {
 
 /// The operations of a patch program; numbers are those of the file format.
 enum class Operation : std::uint8_t {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) name = number,
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) name = number,
 #define SPECIAL(number, name, fields, results, cost) name = number,
 #include "schema/instruction.def"
 };
@@ -26,7 +27,7 @@ struct OperationFacts {
 inline constexpr auto operation_table = [] {
   std::array<OperationFacts, 256> table{};
   // clang-format off
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   table[number] = {#name, fields, results, cost};
 #define SPECIAL(number, name, fields, results, cost) \
   table[number] = {#name, fields, results, cost};
@@ -76,11 +77,11 @@ constexpr Instruction decode(std::uint64_t word) {
 
 /// The registers that the runtime fills before a section runs; numbers never change.
 ///
-/// Position, velocity and acceleration are the hand's, from the patch's centre, in m, m/s and m/s^2, through the device's
-/// filter; the raw ones are plain differences of positions. `workspace_x` and `workspace_y` are the hand's position from
-/// the workspace's centre. `time` is in s since the stage began to run, `seconds_per_tick` the device's period, `button`
-/// 1 while it is pressed and else 0. `probe` is what a percept's prediction is asked about (for roughness, a lateral
-/// amplitude in N).
+/// Position, velocity and acceleration are the hand's, from the patch's centre, in m, m/s and m/s^2, through the
+/// device's filter; the raw ones are plain differences of positions. `workspace_x` and `workspace_y` are the hand's
+/// position from the workspace's centre. `time` is in s since the stage began to run, `seconds_per_tick` the device's
+/// period, `button` 1 while it is pressed and else 0. `probe` is what a percept's prediction is asked about (for
+/// roughness, a lateral amplitude in N).
 enum class Input : RegisterNumber {
   x = 0,
   y = 1,
@@ -105,5 +106,38 @@ enum class Input : RegisterNumber {
 
 /// Registers 0 .. 31 are inputs, named or reserved; constants begin at 32.
 inline constexpr RegisterNumber first_constant = 32;
+
+/// What is to be known of an input besides its meaning: who sets it, and which code may read it.
+struct InputFacts {
+  bool changes = false;     ///< from tick to tick, with the hand; else it stays as the bank, or who predicts, has it
+  bool setup = false;       ///< setup and the extents of peaks may read it
+  bool picture = false;     ///< picture code and peaks may
+  bool tick = false;        ///< tick, enter and frame code may
+  bool prediction = false;  ///< a percept's prediction may
+};
+
+/// The facts of all inputs, by number; of those that are reserved nothing is true.
+inline constexpr auto input_table = [] {
+  std::array<InputFacts, first_constant> table{};
+  const auto at = [&table](Input input) -> InputFacts& { return table[static_cast<RegisterNumber>(input)]; };
+  for (const Input place : {Input::x, Input::y}) at(place) = {.changes = true, .picture = true, .tick = true};
+  for (const Input motion :
+       {Input::velocity_x, Input::velocity_y, Input::acceleration_x, Input::acceleration_y, Input::raw_velocity_x,
+        Input::raw_velocity_y, Input::raw_acceleration_x, Input::raw_acceleration_y, Input::workspace_x,
+        Input::workspace_y, Input::time, Input::button})
+    at(motion) = {.changes = true, .tick = true};
+  for (const Input patch :
+       {Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::seconds_per_tick})
+    at(patch) = {.setup = true, .picture = true, .tick = true, .prediction = true};
+  at(Input::probe) = {.prediction = true};
+  return table;
+}();
+
+/// How many inputs change from tick to tick.
+inline constexpr std::size_t changing_inputs = [] {
+  std::size_t count = 0;
+  for (const InputFacts& input : input_table) count += input.changes;
+  return count;
+}();
 
 }  // namespace wale

@@ -12,7 +12,47 @@ long cost_of(std::span<const Instruction> code) {
   return cost;
 }
 
+const std::vector<Instruction>& PatchProgram::code(CodeSection section, std::size_t index) const {
+  switch (section) {
+    case CodeSection::setup: return setup;
+    case CodeSection::peak: return peaks[index].code;
+    case CodeSection::enter: return enter;
+    case CodeSection::tick: return tick;
+    case CodeSection::picture: return picture.code;
+    case CodeSection::frame: return picture.frame;
+    case CodeSection::prediction: return percepts[index].prediction;
+  }
+  return setup;
+}
+
+std::optional<SourceLine> PatchProgram::place_of(CodeSection section, std::size_t index,
+                                                 std::size_t instruction) const {
+  // One section each but for peaks, which come second, and predictions, which come last.
+  std::size_t number = static_cast<std::size_t>(section) + index;
+  if (section > CodeSection::peak) number += peaks.size() - 1;
+  if (number >= places.sections.size()) return std::nullopt;
+  for (const SourcePlaces::Run& run : places.sections[number]) {
+    if (instruction < run.instructions) {
+      if (run.file >= places.files.size()) return std::nullopt;
+      return SourceLine{places.files[run.file], run.line};
+    }
+    instruction -= run.instructions;
+  }
+  return std::nullopt;
+}
+
 namespace patch_program_format {
+
+std::vector<CodeAt> code_of(const PatchProgram& program) {
+  std::vector<CodeAt> all{{CodeSection::setup, 0}};
+  for (std::size_t i = 0; i < program.peaks.size(); ++i) all.push_back({CodeSection::peak, i});
+  for (const CodeSection one : {CodeSection::enter, CodeSection::tick, CodeSection::picture, CodeSection::frame}) {
+    all.push_back({one, 0});
+  }
+  for (std::size_t i = 0; i < program.percepts.size(); ++i) all.push_back({CodeSection::prediction, i});
+  return all;
+}
+
 namespace {
 
 constexpr std::array<std::uint32_t, 256> make_crc_table() {

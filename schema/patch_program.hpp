@@ -11,6 +11,7 @@
 
 #include "schema/device_profile.hpp"
 #include "schema/instruction.hpp"
+#include "schema/shared_heights.hpp"
 
 namespace wale {
 
@@ -20,8 +21,8 @@ struct Parameter {
   std::string name;
   std::string unit;  ///< as the author wrote it, "mm"; empty for a plain number
   double unit_in_si = 1;
-  float value = 0;          ///< the default
-  float low = 0, high = 0;  ///< hard range, low <= value <= high
+  float value = 0;                    ///< the default
+  float low = 0, high = 0;            ///< hard range, low <= value <= high
   float soft_low = 0, soft_high = 0;  ///< the usual range, for a slider; low <= soft_low <= soft_high <= high
   std::string description;
   std::string si_unit;  ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
@@ -47,7 +48,7 @@ struct Peak {
 /// A sampled height map, row-major from the top left; code 0 is the lowest and 65535 the highest.
 struct HeightTable {
   std::uint32_t width = 0, height = 0;
-  std::vector<std::uint16_t> heights;
+  SharedHeights heights;
 
   friend bool operator==(const HeightTable&, const HeightTable&) = default;
 };
@@ -67,8 +68,9 @@ struct Output {
 /// A quantity that a program remembers from tick to tick: one register, read by tick, frame and picture code as it was
 /// when the tick began.
 ///
-/// It begins at `initial` (a register of the `enter` section) when the hand enters the patch, becomes `next` (a register
-/// of the tick) at the end of each tick, and is held in low .. high; not-a-number gives the initial value again.
+/// It begins at `initial` (a register of the `enter` section) when the hand enters the patch, becomes `next` (a
+/// register of the tick) at the end of each tick, and is held in low .. high; not-a-number gives the initial value
+/// again.
 struct State {
   std::string name;
   float low = 0, high = 0;
@@ -173,6 +175,40 @@ struct Layers {
   friend bool operator==(const Layers&, const Layers&) = default;
 };
 
+/// The sections of code, in the order in which the format lists their places. There is one of each, but as many peaks
+/// and predictions as the program has peaks and percepts.
+enum class CodeSection : std::uint8_t { setup, peak, enter, tick, picture, frame, prediction };
+
+/// A line of Wale.
+struct SourceLine {
+  std::string file;        ///< the name under which it was imported, "fabric.denim", else its own without its folder
+  std::uint32_t line = 0;  ///< from 1
+
+  friend bool operator==(const SourceLine&, const SourceLine&) = default;
+};
+
+/// Which lines of Wale the instructions come from: kept for listings and for what is said of a program, never executed.
+///
+/// What a function of another file does is placed where the material's own file calls it.
+struct SourcePlaces {
+  /// So many instructions in a row come from one line.
+  struct Run {
+    std::uint32_t instructions = 0;
+    std::uint16_t file = 0;  ///< of `files`
+    std::uint32_t line = 0;  ///< from 1
+
+    friend bool operator==(const Run&, const Run&) = default;
+  };
+  std::vector<std::string> files;  ///< as `SourceLine::file`
+  /// Setup, each peak, enter, tick, picture, frame, each percept's prediction: runs that cover the section's code.
+  std::vector<std::vector<Run>> sections;
+
+  friend bool operator==(const SourcePlaces&, const SourcePlaces&) = default;
+};
+
+/// A program may give no more than this by itself, W.
+inline constexpr float most_active_watt = 100;
+
 /// A compiled material: everything a `.wpp` file holds. Plain data; `verify` says whether it may be run.
 ///
 /// Registers lie in this order: 32 inputs, constants, parameters, `setup_registers` results of setup, states, then
@@ -194,9 +230,17 @@ struct PatchProgram {
   Picture picture;
   std::vector<HeightTable> tables;
   float patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m; default size of the patch
+  float active_watt = 0;  ///< W, 0 .. most_active_watt: what the author lets the program give to the hand by itself
   DeviceProfile device;
   std::vector<PerceptRecord> percepts;
   Layers layers;
+  SourcePlaces places;  ///< empty where nobody recorded them
+
+  /// The code of a section; peaks and predictions have the `index` of their peak or percept, the others 0.
+  const std::vector<Instruction>& code(CodeSection section, std::size_t index = 0) const;
+  /// The line that an instruction comes from, where it is known; also when code has been changed since, if there is
+  /// such an instruction.
+  std::optional<SourceLine> place_of(CodeSection section, std::size_t index, std::size_t instruction) const;
 
   RegisterNumber first_parameter() const { return static_cast<RegisterNumber>(first_constant + constants.size()); }
   RegisterNumber first_setup() const { return static_cast<RegisterNumber>(first_parameter() + parameters.size()); }
@@ -209,9 +253,19 @@ struct PatchProgram {
   friend bool operator==(const PatchProgram&, const PatchProgram&) = default;
 };
 
+/// An instruction that has to do with a refusal.
+struct RefusedInstruction {
+  std::string section;     ///< "tick", "peak 0"
+  std::size_t number = 0;  ///< in its section, from 0 on
+  std::string text;        ///< as a listing has it: "r45 = multiply r45 r41"
+  std::string place;       ///< in its source, "corduroy.wale:9:13"; empty when that is not known
+};
+
 /// Why bytes are not a patch program, or a patch program may not run.
 struct Refusal {
   std::string reason;
+  /// The few that led to it, in the order in which they run, the one that is refused last. Empty when no code is.
+  std::vector<RefusedInstruction> instructions;
 };
 
 /// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md): the same program gives the same bytes everywhere.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "schema/patch_program.hpp"
 
@@ -35,7 +36,7 @@ struct SectionKind {
 };
 
 /// Known sections in the order in which they stand in a file.
-inline constexpr std::array<SectionKind, 17> section_kinds = {{{"NAME", true, true},
+inline constexpr std::array<SectionKind, 18> section_kinds = {{{"NAME", true, true},
                                                                {"REGS", true, true},
                                                                {"CONS", true, true},
                                                                {"PARM", true, true},
@@ -51,9 +52,19 @@ inline constexpr std::array<SectionKind, 17> section_kinds = {{{"NAME", true, tr
                                                                {"PTCH", true, true},
                                                                {"DEVI", true, true},
                                                                {"PERC", false, false},
-                                                               {"LAYR", false, false}}};
+                                                               {"LAYR", false, false},
+                                                               {"PLAC", false, false}}};
 
 constexpr std::size_t align(std::size_t size) { return (size + alignment - 1) / alignment * alignment; }
+
+/// A section of code.
+struct CodeAt {
+  CodeSection section = CodeSection::setup;
+  std::size_t index = 0;
+};
+
+/// All sections of a program's code in the order in which their places are listed.
+std::vector<CodeAt> code_of(const PatchProgram& program);
 
 /// CRC-32 (IEEE 802.3, as in PNG and zlib) of a whole file, its checksum field taken as zero.
 /// `file` holds at least a header.

@@ -250,6 +250,9 @@ DeviceProfile read_device(ByteReader& in) {
   figure(device.mass, "the mass");
   figure(device.damping, "the damping");
   figure(device.friction, "the friction");
+  figure(device.delay, "the delay");
+  device.damping_known = in.boolean("whether the damping is known");
+  device.friction_known = in.boolean("whether the friction is known");
   return device;
 }
 
@@ -305,6 +308,34 @@ Layers read_layers(ByteReader& in) {
   return layers;
 }
 
+/// The places of code that has been read: this section stands after all others.
+SourcePlaces read_places(ByteReader& in, const PatchProgram& program) {
+  SourcePlaces places;
+  places.files.resize(in.count(4, "files"));
+  for (std::string& file : places.files) file = in.text("a file's name");
+  if (places.files.empty()) refuse(in.name(), " is there and empty; a file without places leaves it out");
+  for (const auto& [section, index] : code_of(program)) {
+    auto& runs = places.sections.emplace_back(in.count(10, "runs"));
+    std::uint64_t placed = 0;
+    for (SourcePlaces::Run& run : runs) {
+      run.instructions = in.u32();
+      run.file = in.u16();
+      run.line = in.u32();
+      if (run.instructions == 0) refuse(in.name(), " has a run of no instructions");
+      if (run.file >= places.files.size()) {
+        refuse(in.name(), " names file ", run.file, " and has ", places.files.size(), " of them");
+      }
+      if (run.line == 0) refuse(in.name(), " names line 0, and lines begin at 1");
+      placed += run.instructions;
+    }
+    const std::size_t written = program.code(section, index).size();
+    if (placed != written) {
+      refuse(in.name(), " places ", placed, " instructions where the code has ", written);
+    }
+  }
+  return places;
+}
+
 void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) {
   if (kind == "NAME") program.material = in.text("the material's name");
   if (kind == "REGS") {
@@ -326,10 +357,12 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
     program.patch_width = in.finite_f32("the patch's width");
     program.patch_height = in.finite_f32("the patch's height");
     program.patch_rim = in.finite_f32("the patch's rim");
+    program.active_watt = in.finite_f32("the power of what is active");
   }
   if (kind == "DEVI") program.device = read_device(in);
   if (kind == "PERC") program.percepts = read_percepts(in);
   if (kind == "LAYR") program.layers = read_layers(in);
+  if (kind == "PLAC") program.places = read_places(in, program);
   in.finish();
 }
 
@@ -387,6 +420,11 @@ PatchProgram read(std::span<const std::byte> bytes) {
   PatchProgram program;
   std::array<bool, section_kinds.size()> seen{};
   std::size_t next_known = 0;
+  const auto refuse_missing = [&seen] {
+    for (std::size_t i = 0; i < section_kinds.size(); ++i) {
+      if (section_kinds[i].always && !seen[i]) refuse("section ", section_kinds[i].name, " is missing");
+    }
+  };
   std::size_t expected_offset = header_size + sections * section_entry_size;
   for (std::uint32_t number = 0; number < sections; ++number) {
     const std::string kind = shown_kind(table.u32());
@@ -423,15 +461,14 @@ PatchProgram read(std::span<const std::byte> bytes) {
     }
     seen[index] = true;
     next_known = index + 1;
+    if (kind == "PLAC") refuse_missing();  // places are held against the code
     ByteReader section("section " + kind, bytes.subspan(offset, size));
     read_section(kind, section, program);
   }
   if (expected_offset != bytes.size()) {
     refuse("the file has ", bytes.size() - expected_offset, " bytes after its last section");
   }
-  for (std::size_t i = 0; i < section_kinds.size(); ++i) {
-    if (section_kinds[i].always && !seen[i]) refuse("section ", section_kinds[i].name, " is missing");
-  }
+  refuse_missing();
   return program;
 }
 

@@ -7,13 +7,19 @@
 
 namespace wale {
 
+/// One sentence of all `parts`.
+template <typename... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
 /// Ends reading or verifying with a sentence made of `parts`. Thrown and caught within one public function, which
 /// returns the `Refusal`: callers never see the exception.
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream sentence;
-  (sentence << ... << parts);
-  throw Refusal{sentence.str()};
+  throw Refusal{sentence(parts...), {}};
 }
 
 }  // namespace wale

@@ -142,9 +142,12 @@ void write_device(ByteWriter& out, const DeviceProfile& device) {
   for (const double figure :
        {device.workspace_diameter, device.position_counts, device.force_newton, device.force_counts, device.rate,
         device.speed_limit, device.slew, device.velocity_window, device.velocity_noise_counts, device.patch_width,
-        device.patch_height, device.patch_rim, device.mass, device.damping, device.friction}) {
+        device.patch_height, device.patch_rim, device.mass, device.damping, device.friction,
+        device.delay}) {
     out.f64(figure);
   }
+  out.u8(device.damping_known);
+  out.u8(device.friction_known);
 }
 
 void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
@@ -183,6 +186,19 @@ void write_layers(ByteWriter& out, const Layers& layers) {
   out.text(layers.documentation);
 }
 
+void write_places(ByteWriter& out, const SourcePlaces& places) {
+  out.u32(places.files.size());
+  for (const std::string& file : places.files) out.text(file);
+  for (const auto& runs : places.sections) {
+    out.u32(runs.size());
+    for (const SourcePlaces::Run& run : runs) {
+      out.u32(run.instructions);
+      out.u16(run.file);
+      out.u32(run.line);
+    }
+  }
+}
+
 /// The bytes of one section; nothing for one that may be left out and would be empty.
 std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& program) {
   ByteWriter out;
@@ -211,10 +227,12 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
     out.f32(program.patch_width);
     out.f32(program.patch_height);
     out.f32(program.patch_rim);
+    out.f32(program.active_watt);
   }
   if (kind == "DEVI") write_device(out, program.device);
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
   if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
+  if (kind == "PLAC" && program.places != SourcePlaces{}) write_places(out, program.places);
   return std::move(out.result());
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/parse/overloaded.hpp"
+#include "compiler/check/override_statements.hpp"
 
 namespace wale {
 
@@ -15,28 +15,6 @@ namespace {
 /// A material of more statements than this, all that it takes over included, is beyond what a patch program holds.
 constexpr std::size_t most_statements = 20'000;
 constexpr std::size_t deepest_derivation = 64;
-
-/// What a statement declares, by which a later one replaces it: the name of a parameter, a value or a layer of force;
-/// "x'" for the update of x; "force" and "patch" for those themselves; empty for a mark of the picture.
-std::string replaced_by(const PhysicalStatement& statement) {
-  return std::visit(Overloaded{
-                        [](const ParamStatement& node) { return node.name.text; },
-                        [](const LetStatement& node) { return node.name.text; },
-                        [](const HeightStatement& node) { return node.name.text; },
-                        [](const ForceStatement& node) { return node.name ? node.name->text : std::string("force ="); },
-                        [](const PatchStatement&) { return std::string("patch ="); },
-                        [](const StateStatement& node) { return node.name.text; },
-                        [](const MemoryStatement& node) { return node.name.text; },
-                        [](const UpdateStatement& node) { return node.name.text + "'"; },
-                        [](const ShowStatement&) { return std::string(); },
-                    },
-                    statement.what);
-}
-
-template <typename Statement>
-bool is(const AssembledStatement& assembled) {
-  return std::holds_alternative<Statement>(assembled.statement->what);
-}
 
 class Assembler {
  public:
@@ -69,7 +47,7 @@ class Assembler {
       if (setting.key.text == "kind") result->kind = setting, result->kind_tree = declared.tree;
     }
     for (const auto& percept : node.perceptual) add_percept(declared, percept, result->percepts);
-    add_statements(declared, *result);
+    override_statements(declared, result->statements);
     statements_ += result->statements.size();
     path_.pop_back();
     if (statements_ > most_statements) {
@@ -368,49 +346,6 @@ class Assembler {
   }
 
   // ---- the material's own layers ----------------------------------------------------------------------------------
-
-  /// Own statements take the place of those of the same name; what is new stands before the next that replaces
-  /// something, so that the replacement may use it, or else at the end.
-  void add_statements(const Declared<MaterialDecl>& declared, AssembledMaterial& result) {
-    auto& all = result.statements;
-    const std::size_t inherited = all.size();
-    std::vector<bool> own(inherited, false);
-    std::vector<AssembledStatement> fresh;
-    bool shows_cleared = false;
-    for (const auto& statement : declared.node->physical) {
-      const AssembledStatement assembled{&statement, declared.tree, declared.home, {}};
-      const std::string key = replaced_by(statement);
-      if (key.empty() && !shows_cleared) {  // a picture of one's own replaces the one taken over
-        shows_cleared = true;
-        for (std::size_t i = all.size(); i-- > 0;)
-          if (is<ShowStatement>(all[i]) && i < own.size() && !own[i]) erase(all, own, i);
-      }
-      std::size_t place = all.size();
-      for (std::size_t i = 0; i < all.size() && !key.empty(); ++i)
-        if (!own[i] && (replaced_by(*all[i].statement) == key || (key == "force =" && is<ForceStatement>(all[i])))) {
-          place = i;
-          break;
-        }
-      if (place == all.size()) {
-        fresh.push_back(assembled);
-        continue;
-      }
-      all[place] = assembled;
-      own[place] = true;
-      if (key == "force =")  // the whole force: its layers go with it
-        for (std::size_t i = all.size(); i-- > place + 1;)
-          if (!own[i] && is<ForceStatement>(all[i])) erase(all, own, i);
-      all.insert(all.begin() + static_cast<std::ptrdiff_t>(place), fresh.begin(), fresh.end());
-      own.insert(own.begin() + static_cast<std::ptrdiff_t>(place), fresh.size(), true);
-      fresh.clear();
-    }
-    all.insert(all.end(), fresh.begin(), fresh.end());
-  }
-
-  static void erase(std::vector<AssembledStatement>& all, std::vector<bool>& own, std::size_t i) {
-    all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
-    own.erase(own.begin() + static_cast<std::ptrdiff_t>(i));
-  }
 
   void add_percept(const Declared<MaterialDecl>& declared, const PerceptStatement& node,
                    std::vector<AskedPercept>& percepts) {

@@ -66,7 +66,7 @@ void Blender::add_leaf(double weight, const std::string& name, const Value& leaf
     carriers.erase(found);
     return;
   }
-  if (found == carriers.end() && material_.terms.dependence(leaf.x).open) {
+  if (found == carriers.end() && material_.terms.dependence(leaf.x).on(Dependence::open)) {
     surroundings_.diagnostics.report(
         {.code = Code::different_structures,
          .span = span_,

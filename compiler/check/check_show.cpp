@@ -156,7 +156,7 @@ void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
 /// A surface is drawn all at once, wherever the hand is: it may change from place to place and with what is remembered.
 bool ShowChecker::is_of_place(const Value& value) {
   const auto dependence = material_.terms.dependence(value.x);
-  if (!dependence.velocity && !dependence.moment) return true;
+  if (!dependence.on(Dependence::velocity | Dependence::moment)) return true;
   report(Code::wrong_rate, value.span,
          fmt::format("the surface is drawn at every place at once, and this changes with {}", what_changes(dependence)),
          "let it depend on `x`, `y`, parameters and states; show the motion by a mark");

@@ -72,7 +72,7 @@ void StatementChecker::operator()(const StateStatement& node) {
     return declare_failed(node.name);
   }
   if (dimension && !fits(initial, node.value, *dimension)) return declare_failed(node.name);
-  if (material_.terms.dependence(initial.x).state) {
+  if (material_.terms.dependence(initial.x).on(Dependence::state)) {
     report(Code::wrong_rate, initial.span, "a state begins with what is known as the hand enters, and this is a state",
            "use the hand, parameters and constants; write the other state's own beginning here");
     return declare_failed(node.name);
@@ -151,7 +151,7 @@ void StatementChecker::operator()(const MemoryStatement& node) {
       .kind = Field::Kind::memory, .from = declarations().dimension("length"), .to = initial.dimension, .index = index};
   declare(node.name, {.type = Value::Type::field,
                       .dimension = initial.dimension,
-                      .field = std::make_shared<const Field>(field),
+                      .field = checker_.keep(field),
                       .span = node.name.span});
   memories_.emplace(node.name.text, KnownMemory{index, {}});
 }
@@ -183,14 +183,14 @@ std::vector<std::string> StatementChecker::remembered() const {
 
 /// The value of an update: a state that was updated above reads as its new value here, and nowhere else.
 Value StatementChecker::check_update(const UpdateStatement& node, Value::Type type, const Dimension& dimension) {
-  std::vector<std::pair<std::string, Value>> before;
+  std::vector<std::pair<std::string_view, Value>> before;
   for (const auto& [name, known] : states_)
     if (!known.updated.failed()) {
-      before.emplace_back(name, scope_.names.at(name).value);
-      scope_.names.at(name).value = known.updated;
+      before.emplace_back(name, scope_.at(name).value);
+      scope_.at(name).value = known.updated;
     }
   const Value value = checker_.check_as(tree(), node.value, scope_, type, dimension);
-  for (auto& [name, old] : before) scope_.names.at(name).value = old;
+  for (auto& [name, old] : before) scope_.at(name).value = old;
   return value;
 }
 
@@ -202,7 +202,7 @@ void StatementChecker::update_state(const UpdateStatement& node) {
                               surroundings_.sources.place(*state.next).line),
                   Advice("a state changes once a tick; put both into one").see(*state.next, "updated here first"));
   state.next = node.name.span;
-  const Value now = scope_.names.at(node.name.text).value;
+  const Value now = scope_.at(node.name.text).value;
   const Dimension due = node.derivative ? now.dimension / declarations().dimension("time") : now.dimension;
   const Value value = check_update(node, now.type, due);
   if (value.failed()) return;
@@ -242,7 +242,7 @@ void StatementChecker::update_memory(const UpdateStatement& node, KnownMemory& k
                    .span = span};
   const auto [u, v] = checker_.memory_place(index, hand, span);
   // Here its name is the one cell that is written, not what lies between cells: nothing blurs by being read.
-  auto& binding = scope_.names.at(node.name.text);
+  auto& binding = scope_.at(node.name.text);
   const Value whole = binding.value;
   binding.used = true;
   binding.value = {
@@ -252,7 +252,7 @@ void StatementChecker::update_memory(const UpdateStatement& node, KnownMemory& k
       .dimension = memory.dimension,
       .span = span};
   const Value value = check_update(node, Value::Type::number, memory.dimension);
-  scope_.names.at(node.name.text).value = whole;
+  scope_.at(node.name.text).value = whole;
   if (!value.failed()) material_.memories[index].next = {u, v, value.x};
 }
 

@@ -103,6 +103,22 @@ void StatementChecker::operator()(const PatchStatement& node) {
   material_.patch_span = span;
 }
 
+void StatementChecker::operator()(const ActiveStatement& node) {
+  const Span span = statement_->statement->span;
+  const auto power = checker_.constant(tree(), node.power, scope_, declarations().dimension("power"));
+  if (!power) return;
+  if (!(*power > 0 && *power <= most_active_watt))
+    return report(Code::value_out_of_range, tree().span(node.power),
+                  fmt::format("the power of what is active is more than nothing and at most {} W", most_active_watt),
+                  "write, for example, `active 0.3 W`");
+  if (std::exchange(active_seen_, true))
+    return report(Code::declared_twice, span, "a material says once how active it is",
+                  Advice("keep one of them").see(material_.active_span, "the first one"));
+  // What the components of a blend give adds up.
+  material_.active_watt = prefix_.empty() ? *power : std::min(double{most_active_watt}, material_.active_watt + *power);
+  material_.active_span = span;
+}
+
 void StatementChecker::operator()(const ShowStatement& node) {
   ShowChecker(material_, checker_, surroundings_, scope_).check(tree(), node.value);
 }
@@ -117,7 +133,7 @@ void StatementChecker::operator()(const ParamStatement& node) {
            "use one `param` for each part");
     return declare_failed(node.name);
   }
-  const auto number = parameter_value(node, value.dimension);
+  const auto number = parameter_value(node, value);
   if (!number) return declare_failed(node.name);
   Parameter parameter{.name = node.name.text,
                       .description = node.description.empty() ? node.documentation : node.description};
@@ -178,14 +194,14 @@ std::string StatementChecker::free_name(const std::string& name,
 }
 
 /// The default: the parameter's own, or what an instance or a mixture says instead.
-std::optional<double> StatementChecker::parameter_value(const ParamStatement& node, const Dimension& dimension) {
-  if (!statement_->value) return checker_.constant(tree(), node.value, scope_, dimension);
+std::optional<double> StatementChecker::parameter_value(const ParamStatement& node, const Value& own_value) {
+  if (!statement_->value) return checker_.constant(own_value);
   double sum = 0;
   for (const auto& part : statement_->value->parts) {
     Scope outside;
     checker_.read(*part.home);
     const bool own = part.tree == statement_->tree && part.value == node.value;
-    const auto value = checker_.constant(*part.tree, part.value, own ? scope_ : outside, dimension);
+    const auto value = checker_.constant(*part.tree, part.value, own ? scope_ : outside, own_value.dimension);
     if (!value) return std::nullopt;
     sum += part.weight * *value;
   }
@@ -275,7 +291,7 @@ std::pair<std::string, double> StatementChecker::written_unit(const ParamStateme
 
 // ---- names --------------------------------------------------------------------------------------------------------
 
-void StatementChecker::declare(const Word& name, Value value) {
+void StatementChecker::declare(const Word& name, const Value& value) {
   if (name.text == "open")
     return report(Code::declared_twice, name.span, "`open` is the word for what is left to be solved",
                   "give it another name");
@@ -295,7 +311,7 @@ void StatementChecker::declare(const Word& name, Value value) {
                                    : fmt::format("in {}", surroundings_.sources[hidden->declared.source].name)))
                .see(hidden->declared, "the constant that it hides"));
   }
-  scope_.names[name.text] = {.value = std::move(value), .declared = name.span, .unit = {}};
+  scope_.declare(name.text, value, name.span);
 }
 
 /// Keeps a name whose value is in error, so that its uses are not errors too.
@@ -305,11 +321,11 @@ void StatementChecker::declare_failed(const Word& name) {
 }
 
 void StatementChecker::warn_of_unused_names(Span own) const {
-  std::vector<std::pair<std::string, Span>> unused;
-  for (const auto& [name, binding] : scope_.names) {
+  std::vector<std::pair<std::string_view, Span>> unused;
+  for (const auto& binding : scope_.bindings()) {
     const bool written_here =
         binding.declared.source == own.source && binding.declared.begin >= own.begin && binding.declared.end <= own.end;
-    if (written_here && !binding.used && !binding.value.failed()) unused.emplace_back(name, binding.declared);
+    if (written_here && !binding.used && !binding.value.failed()) unused.emplace_back(binding.name, binding.declared);
   }
   std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
   for (const auto& [name, span] : unused) {

@@ -35,6 +35,7 @@ class StatementChecker {
   void operator()(const HeightStatement& node);
   void operator()(const ForceStatement& node);
   void operator()(const PatchStatement& node);
+  void operator()(const ActiveStatement& node);
   void operator()(const StateStatement& node);
   void operator()(const MemoryStatement& node);
   void operator()(const UpdateStatement& node);
@@ -52,7 +53,7 @@ class StatementChecker {
   const Declarations& declarations() const { return *statement_->home; }
   const SyntaxTree& tree() const { return *statement_->tree; }
 
-  std::optional<double> parameter_value(const ParamStatement& node, const Dimension& dimension);
+  std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
   bool lacks_its_unit(const ParamStatement& node, const Value& value);
   std::pair<std::string, double> written_unit(const ParamStatement& node, const Dimension& dimension) const;
@@ -68,7 +69,7 @@ class StatementChecker {
   void update_memory(const UpdateStatement& node, KnownMemory& known);
 
   std::string free_name(const std::string& name, const std::function<bool(const std::string&)>& taken) const;
-  void declare(const Word& name, Value value);
+  void declare(const Word& name, const Value& value);
   void declare_failed(const Word& name);
   void report(Code code, Span span, std::string message, Advice advice);
 
@@ -81,7 +82,7 @@ class StatementChecker {
   std::vector<Layer> layers_;
   std::optional<Value> last_height_;
   std::optional<Span> whole_force_;  ///< where it stands
-  bool patch_seen_ = false;
+  bool patch_seen_ = false, active_seen_ = false;
   struct KnownState {
     std::uint32_t first = 0;   ///< index of the state, or of a vector's x
     Value updated;             ///< what later updates read; failed before the first

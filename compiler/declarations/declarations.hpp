@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "compiler/declarations/dimension.hpp"
@@ -36,22 +38,29 @@ class Names {
     bool imported = false;  ///< it came with an import
   };
 
+  Names() = default;
+  Names(const Names&) = delete;
+  Names& operator=(const Names&) = delete;
+
   /// What is found when nothing here has the name.
   void stand_on(const Names& common) { common_ = &common; }
 
-  const Entry* entry(const std::string& name) const {
-    const auto found = own_.find(name);
-    if (found != own_.end()) return &found->second;
+  const Entry* entry(std::string_view name) const {
+    const auto found = index_.find(name);
+    if (found != index_.end()) return found->second;
     return common_ ? common_->entry(name) : nullptr;
   }
-  const T* find(const std::string& name) const {
+  const T* find(std::string_view name) const {
     const Entry* found = entry(name);
     return found ? &found->what : nullptr;
   }
-  bool contains(const std::string& name) const { return entry(name) != nullptr; }
+  bool contains(std::string_view name) const { return entry(name) != nullptr; }
 
   /// Enters a name that is not there yet.
-  void add(const std::string& name, Entry entry) { own_.emplace(name, std::move(entry)); }
+  void add(const std::string& name, Entry entry) {
+    const auto [added, is_new] = own_.emplace(name, std::move(entry));
+    if (is_new) index_.emplace(added->first, &added->second);
+  }
 
   /// What the file itself has or imports, by name.
   const std::map<std::string, Entry>& own() const { return own_; }
@@ -69,6 +78,7 @@ class Names {
 
  private:
   std::map<std::string, Entry> own_;
+  std::unordered_map<std::string_view, const Entry*> index_;  ///< into `own_`: every word of a text is looked up
   const Names* common_ = nullptr;
 };
 
@@ -180,7 +190,7 @@ struct Declarations {
   std::vector<const Levels*> levels() const;
 
   /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
-  Dimension dimension(const std::string& name) const {
+  Dimension dimension(std::string_view name) const {
     const auto* found = dimensions.find(name);
     return found ? *found : Dimension{};
   }

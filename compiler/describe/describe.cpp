@@ -129,6 +129,10 @@ Description describe(const Bank& bank) {
     for (const Force force : rehearse(bank).forces)
       if (const float size = std::hypot(force.x, force.y); size > description.force.max_newton)
         description.force.max_newton = size;
+  description.bound = force_bound(bank.program());
+  const Proof proof = prove(bank.program());
+  description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
+  description.grade = grade(bank);
   description.no_percept = why_nothing(program, description.force);
   description.parameters = program.parameters;
   description.states = program.states;

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
+#include "compiler/prove/force_bound.hpp"
+#include "compiler/prove/prove.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -32,6 +35,9 @@ struct Description {
   std::vector<DescribedPercept> percepts;
   std::string no_percept;             ///< why there is none, in a line; empty when there is one
   Measured force;                     ///< `max_newton` also of a rehearsal, when the program remembers
+  ForceBound bound;                   ///< that no force exceeds, proved, and the largest that a search found
+  bool limit_matters = false;         ///< without its last limit the program could ask for more than the device gives
+  Grade grade;                        ///< how stable the loop is
   std::vector<Parameter> parameters;  ///< with the values described
   std::vector<State> states;          ///< a vector is two of them, "p.x" and "p.y"
   std::vector<Grid> memories;

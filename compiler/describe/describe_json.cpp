@@ -22,6 +22,35 @@ nlohmann::ordered_json to_json(const Parameter& parameter) {
   return json;
 }
 
+nlohmann::ordered_json to_json(const WorstPlace& place) {
+  return {{"x_m", figure(place.position.x)},
+          {"y_m", figure(place.position.y)},
+          {"velocity_x", figure(place.velocity.x)},
+          {"velocity_y", figure(place.velocity.y)}};
+}
+
+nlohmann::ordered_json to_json(const Grade& grade) {
+  nlohmann::ordered_json json = {{"name", standing_word(grade.standing)}};
+  if (grade.standing == Standing::not_analysed) return json;
+  json["required_damping"] = figure(grade.required_damping);
+  json["at"] = to_json(grade.worst);
+  json["device_damping"] = figure(grade.device_damping);
+  json["damping_known"] = grade.damping_known;
+  json["hand_damping"] = figure(grade.hand_damping);
+  if (const auto margin = grade.margin()) json["margin"] = figure(*margin);
+  json["step_newton"] = figure(grade.step_newton);
+  json["jumps"] = grade.jumps;
+  if (grade.buzzes) json["buzzes"] = *grade.buzzes;
+  json["finest_period_m"] = figure(grade.finest_period);
+  json["counts_per_period"] = figure(grade.counts_per_period);
+  json["fastest_hand"] = figure(grade.fastest_hand);
+  json["force_levels"] = figure(grade.force_levels);
+  json["conservative"] = grade.energy.conservative;
+  json["watt"] = figure(grade.energy.watt());
+  json["reasons"] = grade.energy.reasons;
+  return json;
+}
+
 nlohmann::ordered_json to_json(const Description& description) {
   nlohmann::ordered_json json;
   json["material"] = description.material;
@@ -56,9 +85,13 @@ nlohmann::ordered_json to_json(const Description& description) {
     entry["source"] = percept.source;
   }
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
-  json["force"] = {{"max_newton", figure(description.force.max_newton)},
-                   {"p99_newton", figure(description.force.p99_newton)},
-                   {"rms_newton", figure(description.force.rms_newton)}};
+  json["force"] = {
+      {"max_newton", figure(description.force.max_newton)},     {"p99_newton", figure(description.force.p99_newton)},
+      {"rms_newton", figure(description.force.rms_newton)},     {"bound_newton", figure(description.bound.newton)},
+      {"found_newton", figure(description.bound.found.newton)}, {"limit_matters", description.limit_matters}};
+  json["grade"] = to_json(description.grade);
+  json["stiffness"] = {{"max_newton_per_metre", figure(description.grade.stiffness)},
+                       {"at", to_json(description.grade.stiffest)}};
   auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
   for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
   auto& states = json["states"] = nlohmann::ordered_json::array();
@@ -92,6 +125,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   section("tick", code.tick, code.tick_cost);
   section("picture", code.picture, code.picture_cost);
   section("frame", code.frame, code.frame_cost);
+  json["cost"] = description.code.tick_cost;
   json["bytes"] = description.bytes;
   return json;
 }

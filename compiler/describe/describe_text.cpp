@@ -5,6 +5,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/describe_grade.hpp"
 
 namespace wale {
 namespace {
@@ -65,6 +66,19 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
   }
 }
 
+/// Over every hand, parameter and size of patch that the runtime lets the program see.
+std::string bound_lines(const Description& description) {
+  const ForceBound& bound = description.bound;
+  std::string line = fmt::format("  proved never to push harder than {:.3f} N", bound.newton);
+  if (bound.found.newton > 0)
+    line += fmt::format(", {:.2f} times the largest found ({:.3f} N)", bound.ratio(), bound.found.newton);
+  line += "\n";
+  if (description.limit_matters)
+    line += fmt::format("  held at the {:.3g} N of `{}`, which its formulas alone may pass\n",
+                        description.device.force_newton, description.device.name);
+  return line;
+}
+
 /// A program does not know the units of its states; in SI every figure means one thing.
 void write_memory(std::string& text, const Description& description) {
   if (description.states.empty() && description.memories.empty()) return;
@@ -96,6 +110,8 @@ std::string description_text(const Description& description) {
   write_percepts(text, description);
   text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
                       description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  text += bound_lines(description);
+  text += "\nstability\n" + grade_text(description.grade, description.device);
   write_parameters(text, description.parameters);
   write_memory(text, description);
   write_shown(text, description);

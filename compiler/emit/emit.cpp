@@ -16,17 +16,26 @@ constexpr float peak_percentile = 0.99f;
 /// Hands out temporaries of one section and takes them back after their last use.
 class TemporaryAllocator {
  public:
+  /// The lowest register that is free.
+  std::size_t take() {
+    std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
+    while (word < used_.size() && used_[word] == ~std::uint64_t{0}) ++word;
+    if (word == used_.size()) used_.push_back(0);
+    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_one(used_[word]));
+    used_[word] |= bit(first);
+    most_ = std::max(most_, first + 1);
+    return first;
+  }
   /// `count` neighbouring registers, the lowest that are free.
   std::size_t take(std::size_t count) {
-    std::size_t first = lowest_free();
-    for (std::size_t run = 1, i = first + 1; run < count; ++i) {
+    if (count == 1) return take();
+    std::size_t first = 0;
+    for (std::size_t run = 0, i = 0; run < count; ++i) {
       run = is_used(i) ? 0 : run + 1;
       first = i + 1 - run;
     }
-    for (std::size_t i = first; i < first + count; ++i) {
-      if (i / word_bits == used_.size()) used_.push_back(0);
-      used_[i / word_bits] |= bit(i);
-    }
+    used_.resize(std::max(used_.size(), (first + count - 1) / word_bits + 1));
+    for (std::size_t i = first; i < first + count; ++i) used_[i / word_bits] |= bit(i);
     most_ = std::max(most_, first + count);
     return first;
   }
@@ -40,21 +49,48 @@ class TemporaryAllocator {
 
   static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % word_bits; }
   bool is_used(std::size_t i) const { return i / word_bits < used_.size() && (used_[i / word_bits] & bit(i)) != 0; }
-  /// Looks at 64 registers at a time, since hundreds may be in use.
-  std::size_t lowest_free() const {
-    std::size_t word = 0;
-    while (word < used_.size() && used_[word] == ~std::uint64_t{0}) ++word;
-    return word * word_bits + (word < used_.size() ? static_cast<std::size_t>(std::countr_one(used_[word])) : 0);
-  }
 
   std::vector<std::uint64_t> used_;  ///< a bit for each register
   std::size_t most_ = 0;
 };
 
+/// The nodes that a section still has to look at, the highest first. What comes in is lower than what was taken last.
+class PendingNodes {
+ public:
+  explicit PendingNodes(std::size_t nodes) : words_(nodes / word_bits + 1) {}
+
+  /// Whether it was not there yet.
+  bool insert(NodeId id) {
+    const std::size_t word = id / word_bits;
+    const std::uint64_t bit = std::uint64_t{1} << id % word_bits;
+    if ((words_[word] & bit) != 0) return false;
+    words_[word] |= bit;
+    highest_word_ = std::max(highest_word_, word);
+    return true;
+  }
+  /// The highest of them, or nothing when there is none.
+  std::optional<NodeId> take() {
+    while (words_[highest_word_] == 0) {
+      if (highest_word_ == 0) return std::nullopt;
+      --highest_word_;
+    }
+    std::uint64_t& word = words_[highest_word_];
+    const int bit = std::bit_width(word) - 1;
+    word ^= std::uint64_t{1} << bit;
+    return static_cast<NodeId>(highest_word_ * word_bits + static_cast<std::size_t>(bit));
+  }
+
+ private:
+  static constexpr std::size_t word_bits = 64;
+
+  std::vector<std::uint64_t> words_;  ///< a bit for each node
+  std::size_t highest_word_ = 0;      ///< above it all bits are zero
+};
+
 class Emitter {
  public:
   Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material)
-      : graph_(lowered.graph), lowered_(lowered), material_(material) {}
+      : graph_(lowered.graph), lowered_(lowered), material_(material), pending_(graph_.size()) {}
 
   PatchProgram emit() {
     program_.material = material_.name;
@@ -63,6 +99,7 @@ class Emitter {
     program_.patch_width = static_cast<float>(material_.patch_width);
     program_.patch_height = static_cast<float>(material_.patch_height);
     program_.patch_rim = static_cast<float>(material_.patch_rim);
+    program_.active_watt = static_cast<float>(material_.active_watt);
     program_.device = material_.device;
     program_.layers = material_.layers;
 
@@ -118,7 +155,7 @@ class Emitter {
     if (lowered_.relief) roots.push_back(*lowered_.relief);
     if (lowered_.colour) roots.insert(roots.end(), lowered_.colour->begin(), lowered_.colour->end());
     picture.code = section(roots);
-    picture.relief = lowered_.relief ? at(*lowered_.relief) : at(zero_);
+    picture.relief = lowered_.relief ? at(*lowered_.relief) : zero_register_;
     picture.relief_is_length = material_.relief_is_length;
     if (lowered_.colour)
       picture.colour = {at((*lowered_.colour)[0]), at((*lowered_.colour)[1]), at((*lowered_.colour)[2])};
@@ -130,6 +167,29 @@ class Emitter {
       std::ranges::transform(lowered_.marks[i], mark.operands.begin(), [&](NodeId id) { return at(id); });
       picture.marks.push_back(mark);
     }
+  }
+
+  /// The lines that the instructions come from.
+  SourcePlaces places(const SourceLines& lines) const {
+    SourcePlaces places;
+    std::map<SourceId, std::uint16_t> files;
+    const auto runs_of = [&](const std::vector<Span>& spans) {
+      std::vector<SourcePlaces::Run> runs;
+      for (const Span& known : spans) {
+        const Span span = known == Span{} ? material_.span : known;
+        const auto [file, added] = files.try_emplace(span.source, static_cast<std::uint16_t>(places.files.size()));
+        if (added) places.files.push_back(lines.file(span.source));
+        const SourcePlaces::Run run{1, file->second, lines.line(span)};
+        if (!runs.empty() && runs.back().file == run.file && runs.back().line == run.line)
+          ++runs.back().instructions;
+        else
+          runs.push_back(run);
+      }
+      return runs;
+    };
+    places.sections.push_back(runs_of(setup_spans_));
+    for (const auto& spans : section_spans_) places.sections.push_back(runs_of(spans));
+    return places;
   }
 
   std::size_t registers_needed() const { return first_temporary_ + most_temporaries_; }
@@ -151,19 +211,19 @@ class Emitter {
       if (needed_[id])
         for (const NodeId operand : graph_.operands(id)) needed_[operand] = true;
     registers_.assign(graph_.size(), 0);
-    wanted_in_.assign(graph_.size(), 0);
-    last_use_.assign(graph_.size(), 0);
+    last_use_.assign(graph_.size(), no_use);
 
-    std::map<std::uint32_t, RegisterNumber> pool;
+    // Each constant is one node, so there is nothing to look up: the register of the first comes first.
     const auto pooled = [&](float value) {
-      const auto [entry, added] =
-          pool.try_emplace(std::bit_cast<std::uint32_t>(value), first_constant + program_.constants.size());
-      if (added) program_.constants.push_back(value);
-      return entry->second;
+      program_.constants.push_back(value);
+      return static_cast<RegisterNumber>(first_constant + program_.constants.size() - 1);
     };
-    for (NodeId id = 0; id < graph_.size(); ++id)
-      if (needed_[id] && graph_[id].kind == Node::Kind::constant) registers_[id] = pooled(graph_[id].value);
-    if (!lowered_.relief) zero_register_ = pooled(0.0f);
+    for (NodeId id = 0; id < graph_.size(); ++id) {
+      if (!needed_[id] || graph_[id].kind != Node::Kind::constant) continue;
+      registers_[id] = pooled(graph_[id].value);
+      if (graph_.is_constant(id, 0.0f)) zero_register_ = registers_[id];
+    }
+    if (!lowered_.relief && zero_register_ == 0) zero_register_ = pooled(0.0f);
 
     const std::size_t first_parameter = first_constant + program_.constants.size();
     std::size_t next = first_parameter + program_.parameters.size();
@@ -173,7 +233,12 @@ class Emitter {
       if (node.kind == Node::Kind::input) registers_[id] = static_cast<RegisterNumber>(node.index);
       if (node.kind == Node::Kind::parameter)
         registers_[id] = static_cast<RegisterNumber>(first_parameter + node.index);
-      if (node.rate == Rate::setup && in_code(node)) registers_[id] = static_cast<RegisterNumber>(next++);
+      if (node.rate == Rate::setup && node.kind == Node::Kind::component)
+        registers_[id] = static_cast<RegisterNumber>(registers_[node.a] + node.index);
+      if (node.rate == Rate::setup && in_code(node)) {
+        registers_[id] = static_cast<RegisterNumber>(next);
+        next += node.kind == Node::Kind::operation ? static_cast<std::size_t>(facts(node.operation).results) : 1;
+      }
     }
     const std::size_t setup_registers = next - first_parameter - program_.parameters.size();
     program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(setup_registers, register_limit));
@@ -185,7 +250,7 @@ class Emitter {
 
   static bool in_code(const Node& node) { return node.kind == Node::Kind::operation || node.kind == Node::Kind::peak; }
 
-  RegisterNumber at(NodeId id) const { return id == zero_ ? zero_register_ : registers_[id]; }
+  RegisterNumber at(NodeId id) const { return registers_[id]; }
 
   Instruction instruction(NodeId id) const {
     const Node& node = graph_[id];
@@ -202,6 +267,7 @@ class Emitter {
     for (NodeId id = 0; id < graph_.size(); ++id) {
       const Node& node = graph_[id];
       if (!needed_[id] || node.rate != Rate::setup || !in_code(node)) continue;
+      setup_spans_.push_back(node.span);
       if (node.kind == Node::Kind::operation) {
         program_.setup.push_back(instruction(id));
         continue;
@@ -220,22 +286,25 @@ class Emitter {
     }
   }
 
-  /// What a section has to work out for its roots, operands first.
+  /// Asks for a value in the section at work, if that is where it is worked out. Values are asked for from the last to
+  /// the first, so whoever is first to ask for one is last to use it.
+  void want(NodeId id, NodeId user) {
+    const Node& node = graph_[id];
+    if (node.rate != Rate::tick) return;
+    if (node.kind == Node::Kind::component) want(node.a, user);  // it is a register of its sample
+    const bool worked_out = node.kind == Node::Kind::operation || node.kind == Node::Kind::component;
+    if (worked_out && pending_.insert(id)) last_use_[id] = user;
+  }
+
+  /// What a section has to work out for its roots, operands first; `last_use_` says until when each is needed.
   std::vector<NodeId> wanted_by(const std::vector<NodeId>& roots) {
-    ++section_;
     std::vector<NodeId> wanted;
-    const auto want = [&](NodeId id) {
-      const Node& node = graph_[id];
-      const bool worked_out = node.kind == Node::Kind::operation || node.kind == Node::Kind::component;
-      if (!worked_out || node.rate != Rate::tick || wanted_in_[id] == section_) return;
-      wanted_in_[id] = section_;
-      last_use_[id] = 0;
-      wanted.push_back(id);
-    };
-    for (const NodeId root : roots) want(root);
-    for (std::size_t next = 0; next < wanted.size(); ++next)
-      for (const NodeId operand : graph_.operands(wanted[next])) want(operand);
-    std::ranges::sort(wanted);
+    for (const NodeId root : roots) want(root, no_use);
+    while (const auto id = pending_.take()) {
+      wanted.push_back(*id);
+      for (const NodeId operand : graph_.operands(*id)) want(operand, *id);
+    }
+    std::ranges::reverse(wanted);
     return wanted;
   }
 
@@ -243,32 +312,25 @@ class Emitter {
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
     const std::vector<NodeId> order = wanted_by(roots);
-
-    // A component is a register of its sample: using it uses the sample.
-    const auto owner = [&](NodeId id) { return graph_[id].kind == Node::Kind::component ? graph_[id].a : id; };
-    for (std::size_t i = 0; i < order.size(); ++i)
-      for (const NodeId operand : graph_.operands(order[i])) last_use_[owner(operand)] = i;
-    for (const NodeId root : roots) last_use_[owner(root)] = order.size();
-
     TemporaryAllocator temporaries;
     std::vector<Instruction> code;
     code.reserve(order.size());
+    auto& spans = section_spans_.emplace_back();
     const auto width = [&](NodeId id) { return static_cast<std::size_t>(facts(graph_[id].operation).results); };
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const NodeId id = order[i];
+    for (const NodeId id : order) {
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::component) {
         registers_[id] = static_cast<RegisterNumber>(registers_[node.a] + node.index);
-      } else {
-        registers_[id] = static_cast<RegisterNumber>(first_temporary_ + temporaries.take(width(id)));
-        code.push_back(instruction(id));
+        continue;
       }
-      const auto finish = [&](NodeId done) {  // giving back twice is giving back once
-        if (wanted_in_[done] == section_ && last_use_[done] <= i)
-          temporaries.give_back(registers_[done] - first_temporary_, width(done));
-      };
-      for (const NodeId operand : graph_.operands(id)) finish(owner(operand));
-      finish(owner(id));
+      registers_[id] = static_cast<RegisterNumber>(first_temporary_ + temporaries.take(width(id)));
+      code.push_back(instruction(id));
+      spans.push_back(node.span);
+      for (const NodeId operand : graph_.operands(id)) {
+        const NodeId owner = graph_[operand].kind == Node::Kind::component ? graph_[operand].a : operand;
+        if (last_use_[owner] == id)  // giving back twice is giving back once
+          temporaries.give_back(registers_[owner] - first_temporary_, width(owner));
+      }
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
@@ -280,21 +342,23 @@ class Emitter {
   PatchProgram program_;
   std::vector<char> needed_;
   std::vector<RegisterNumber> registers_;
-  std::uint32_t section_ = 0;             ///< number of the section at work, from 1
-  std::vector<std::uint32_t> wanted_in_;  ///< by node: the last section that works it out
-  std::vector<std::size_t> last_use_;     ///< by node: where in that section's order it is needed last
+  PendingNodes pending_;          ///< of the section at work
+  std::vector<NodeId> last_use_;  ///< by node: who is the last in that section to use it
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
-  static constexpr NodeId zero_ = ~NodeId{0};  ///< stands for the constant 0 where a program has no relief
-  RegisterNumber zero_register_ = 0;
+  static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
+  RegisterNumber zero_register_ = 0;            ///< of the constant 0: the relief of a program that has none
+  std::vector<Span> setup_spans_;                 ///< of setup's instructions
+  std::vector<std::vector<Span>> section_spans_;  ///< of the other sections', which are made in the format's order
 };
 
 }  // namespace
 
 std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material,
-                                 Diagnostics& diagnostics) {
+                                 Diagnostics& diagnostics, const SourceLines* lines) {
   Emitter emitter(lowered, material);
   PatchProgram program = emitter.emit();
+  if (lines) program.places = emitter.places(*lines);
   if (emitter.registers_needed() > register_limit) {
     diagnostics.report({.code = Code::program_too_large,
                         .span = material.span,

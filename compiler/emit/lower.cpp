@@ -38,17 +38,19 @@ LoweredMaterial lower(const SolvedMaterial& material) {
 
   LoweredMaterial lowered;
   Graph& graph = lowered.graph;
-  graph.reserve(2 * terms.size());  // gradients add to what the terms become
+  graph.reserve(terms.size() + terms.size() / 4);  // about as many: gradients add some, constants fold
+  graph.attribute(material.span);
   // The patch less its rim: where peaks are taken.
   const NodeId rim = graph.input(Input::patch_rim);
   const NodeId half_width = graph.apply(Operation::subtract, graph.input(Input::patch_half_width), rim);
   const NodeId half_height = graph.apply(Operation::subtract, graph.input(Input::patch_half_height), rim);
 
   std::vector<NodeId> nodes(terms.size(), 0);
-  Derivatives derivative(graph);
+  std::array derivative{Derivatives(graph, Derivatives::place(0)), Derivatives(graph, Derivatives::place(1))};
   for (TermId id = 0; id < terms.size(); ++id) {
     if (!needed[id]) continue;
     const Term& term = terms[id];
+    graph.attribute(term.span == Span{} ? material.span : term.span);
     switch (term.kind) {
       case TermKind::literal: nodes[id] = graph.constant(static_cast<float>(term.value)); break;
       case TermKind::input: nodes[id] = graph.input(term.input(), term.span); break;
@@ -58,7 +60,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
         nodes[id] = graph.apply(term.operation, nodes[term.a], nodes[term.b], nodes[term.c], term.index, term.span);
         break;
       case TermKind::component: nodes[id] = graph.component(nodes[term.a], term.index, term.span); break;
-      case TermKind::gradient: nodes[id] = derivative(nodes[term.a], static_cast<int>(term.index)); break;
+      case TermKind::gradient: nodes[id] = derivative[term.index](nodes[term.a]); break;
       case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height, term.span); break;
       case TermKind::open:
       case TermKind::cells:

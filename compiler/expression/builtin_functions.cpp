@@ -44,7 +44,7 @@ const std::vector<Builtin>& builtins() {
   return table;
 }
 
-bool is_builtin_function(const std::string& name) {
+bool is_builtin_function(std::string_view name) {
   return name == "curve" || std::ranges::find(builtins(), name, &Builtin::name) != builtins().end();
 }
 

@@ -11,7 +11,7 @@ namespace wale {
 /// A function of the compiler's own: its name, its arguments, how many of them are needed.
 struct Builtin {
   std::string_view name;
-  std::vector<std::string> formals;
+  std::vector<std::string_view> formals;
   std::size_t needed;
   bool of_places = false;  ///< makes sense on a patch only
 };

@@ -16,10 +16,15 @@ constexpr std::size_t most_terms = std::size_t{1} << 18;
 }  // namespace
 
 std::string what_changes(const Dependence& dependence) {
-  return dependence.velocity ? "velocity" : dependence.state ? "what the material remembers" : "time";
+  return dependence.on(Dependence::velocity) ? "velocity"
+         : dependence.on(Dependence::state)  ? "what the material remembers"
+                                             : "time";
 }
 
-Advice ExpressionChecker::spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise) const {
+Advice ExpressionChecker::spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise) {
+  // A function's body is read at each of its calls, and says what is wrong with a word of it once.
+  const Span place = blame(word.span);
+  if (!misspelt_.emplace(place.source, place.begin).second) return otherwise;
   if (surroundings_.diagnostics.is_full()) return otherwise;  // all the names there are, for nobody
   std::vector<std::string> candidates;
   if (functions) {
@@ -27,8 +32,7 @@ Advice ExpressionChecker::spelling_mend(const Word& word, const Scope* scope, bo
     candidates.emplace_back("curve");
     for (const auto& builtin : builtins()) candidates.emplace_back(builtin.name);
   } else {
-    if (scope)
-      for (const auto& [name, binding] : scope->names) candidates.push_back(name);
+    if (scope) candidates = scope->spellings();
     if (scope && scope->hand)
       candidates.insert(candidates.end(), {"hand", "velocity", "acceleration", "time", "button"});
     const auto constants = declarations_->constants.spellings();
@@ -38,7 +42,7 @@ Advice ExpressionChecker::spelling_mend(const Word& word, const Scope* scope, bo
 }
 
 bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
-                                       const std::vector<std::string>& formals, Scope& scope,
+                                       const std::vector<std::string_view>& formals, Scope& scope,
                                        std::vector<Actual>& actuals) {
   actuals.assign(formals.size(), {});
   bool good = true;
@@ -52,7 +56,7 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
       if (index == formals.size()) {
         report(Code::unknown_argument, argument.name->span,
                fmt::format("`{}` takes no argument `{}`", call.callee.text, argument.name->text), "",
-               did_you_mean(argument.name->span, argument.name->text, formals,
+               did_you_mean(argument.name->span, argument.name->text, {formals.begin(), formals.end()},
                             fmt::format("it takes: {}", fmt::join(formals, ", "))));
         good = false;
         continue;
@@ -133,8 +137,8 @@ Value ExpressionChecker::unknown_function(const Call& call, Scope& scope) {
       spelling_mend(call.callee, nullptr, true, "schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
 }
 
-bool ExpressionChecker::may_expand(const std::string& name, Span callee, Span span) {
-  if (std::ranges::find(callees_, name) != callees_.end()) {
+bool ExpressionChecker::may_expand(std::string_view name, Span callee, Span span) {
+  if (std::ranges::find(callees_, Callee{name}) != callees_.end()) {
     report(Code::recursive_definition, callee, fmt::format("`{}` would call itself", name), "",
            "functions are written out where they are called, so none may lead back to itself");
     return false;
@@ -160,7 +164,8 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   const Span span = tree.span(expr);
   if (!may_expand(call.callee.text, call.callee.span, span)) return failed(span);
   const auto& parameters = function.node->parameters;
-  std::vector<std::string> formals;
+  std::vector<std::string_view> formals;
+  formals.reserve(parameters.size());
   for (const auto& parameter : parameters) formals.push_back(parameter.name.text);
   std::vector<Actual> actuals;
   const bool bound = bind_arguments(tree, call, formals, scope, actuals);
@@ -196,6 +201,7 @@ Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::
   actuals.resize(declaration.parameters.size());
   Scope inner;
   inner.hand = scope.hand;
+  inner.reserve(actuals.size());
   bool good = true;
   const auto* outside_names = std::exchange(declarations_, function.home);
   for (std::size_t i = 0; i < actuals.size(); ++i) {
@@ -218,15 +224,15 @@ Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::
     if (formal.name.text == "period" && value.type == Value::Type::number &&
         value.dimension == declarations_->dimension("length"))
       periods_.push_back({value.x, blame(actuals[i].given ? actuals[i].span : span)});
-    inner.names[formal.name.text] = {.value = value, .declared = formal.name.span, .unit = {}};
+    inner.declare(formal.name.text, value, formal.name.span);
     good = good && !value.failed();
   }
   Value result = failed(span);
   if (good) {
-    call_sites_.push_back(span);
-    callees_.push_back(declaration.name.text);
+    enter_call(span);
+    callees_.push_back({declaration.name.text});
     result = check(*function.tree, declaration.body, inner);
-    call_sites_.pop_back();
+    leave_call();
     callees_.pop_back();
   }
   declarations_ = outside_names;
@@ -239,7 +245,7 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
   // A function with an argument that may be left open renders a percept: that argument is the carrier's size.
   for (const auto& formal : function.parameters) {
     if (!formal.default_value || result.type != Value::Type::vector) continue;
-    const Value& size = formals.names.at(formal.name.text).value;
+    const Value& size = formals.at(formal.name.text).value;
     const std::string name = function.name.text + " " + formal.name.text;
     bool renders = false;
     surroundings_.declarations.percepts.each(
@@ -260,7 +266,7 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
       continue;
     }
     const auto* height = formals.find("height");
-    if (height && !terms_.dependence(height->value.x).position) {
+    if (height && !terms_.dependence(height->value.x).on(Dependence::position)) {
       report(Code::flat_height, span, "this height is the same everywhere, and a flat height pushes nothing", "",
              "let it change with `x` or `y`, as in `grating(x, period: 2.5 mm)`");
       continue;

@@ -50,11 +50,12 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 Value ExpressionChecker::failed(Span span) const { return {.type = Value::Type::failed, .span = span}; }
 
 std::string ExpressionChecker::inside(Span span) const {
-  return callees_.empty() || at_home(span) ? std::string{} : fmt::format(" (inside `{}`)", callees_.back());
+  if (callees_.empty() || at_home(span)) return {};
+  return fmt::format(" (inside `{}{}`)", callees_.back().constant ? "let " : "", callees_.back().name);
 }
 
 std::string ExpressionChecker::called_from(Span span) const {
-  if (!at_home(span) || callees_.front().starts_with("let ")) return {};
+  if (!at_home(span) || callees_.front().constant) return {};
   return fmt::format("called on line {}", surroundings_.sources.place(call_sites_.front()).line);
 }
 
@@ -110,6 +111,11 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
     if (const auto* constant = declarations_->constants.entry(part.name.text))
       return ambiguous_unit(part.name, constant->declared);
     const int exponent = part.divides ? -part.exponent : part.exponent;
+    if (exponent == 1) {  // as nearly always
+      factor *= found->factor;
+      dimension = dimension * found->dimension;
+      continue;
+    }
     const auto scaled = power(found->dimension, exponent);
     if (!scaled)
       return report(Code::number_out_of_range, part.name.span, "an exponent this large is out of range", "",
@@ -423,7 +429,10 @@ Value ExpressionChecker::check_as(const SyntaxTree& tree, ExprId expr, Scope& sc
 std::optional<double> ExpressionChecker::constant(const SyntaxTree& tree, ExprId expr, Scope& scope,
                                                   const Dimension& dimension) {
   const Value value = check_as(tree, expr, scope, Value::Type::number, dimension);
-  if (value.failed()) return std::nullopt;
+  return value.failed() ? std::nullopt : constant(value);
+}
+
+std::optional<double> ExpressionChecker::constant(const Value& value) {
   const auto known = constant_value(terms_, value.x);
   if (!known) {
     report(Code::not_constant, value.span, "a value known at compile time is due here", "it may change",

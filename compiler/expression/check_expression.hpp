@@ -1,7 +1,9 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +48,8 @@ class ExpressionChecker {
 
   /// The value in SI of an expression of that dimension that needs nothing but literals; otherwise reported.
   std::optional<double> constant(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& dimension);
+  /// The same of a number that has been checked.
+  std::optional<double> constant(const Value& number);
 
   /// A call of a declared function with arguments that are values already, in the order of its formals; those not
   /// given take their defaults.
@@ -62,6 +66,8 @@ class ExpressionChecker {
   std::vector<CheckedState>& states() { return states_; }
   const std::vector<CheckedPeriod>& periods() const { return periods_; }
 
+  /// Keeps a field for as long as the checker is there: for the values that it is the worth of.
+  const Field* keep(Field field) { return fields_.emplace_back(std::make_unique<const Field>(std::move(field))).get(); }
   /// The value of a field at an argument of the type and dimension that it takes.
   Value at(const Field& field, const Value& argument, Span span);
   /// Where a place lies in a memory: columns and rows from the centre of its first cell.
@@ -72,6 +78,14 @@ class ExpressionChecker {
 
  private:
   friend struct BuiltinFunctions;
+
+  /// A definition that is being written out: a function, or a `let` outside the materials.
+  struct Callee {
+    std::string_view name;
+    bool constant = false;
+
+    friend bool operator==(const Callee&, const Callee&) = default;
+  };
 
   Value number(const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal, Scope& scope);
   Value name(const Word& word, Scope& scope);
@@ -85,15 +99,15 @@ class ExpressionChecker {
   Value call_field(const SyntaxTree& tree, ExprId expr, const Call& call, const Value& field, Scope& scope);
   Value curve(const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope);
   Value unknown_function(const Call& call, Scope& scope);
-  bool may_expand(const std::string& name, Span callee, Span span);
+  bool may_expand(std::string_view name, Span callee, Span span);
   std::optional<Dimension> dimension_of(const FormalParameter& formal, const Declarations& home) const;
   std::uint32_t add_table(HeightTable table);
   std::optional<Value> input(const Word& word, const Scope& scope);
   std::optional<Value> constant_named(const Word& word);
   std::optional<Value> part_of_vector(const Word& word, Scope& scope);
-  bool has_meaning(const std::string& name, const Scope& scope) const;
-  bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string>& formals, Scope& scope,
-                      std::vector<Actual>& actuals);
+  bool has_meaning(std::string_view name, const Scope& scope) const;
+  bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string_view>& formals,
+                      Scope& scope, std::vector<Actual>& actuals);
   void record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span);
 
   Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
@@ -111,17 +125,28 @@ class ExpressionChecker {
                         const Dimension& found);
   Advice factor_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
                      const Dimension& ratio);
-  Advice spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise) const;
+  Advice spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise);
   Value ambiguous_unit(const Word& word, Span declared);
   void mismatched_sides(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
                         Span span);
+  /// A definition is read because it is used at `span`: what it adds from another file comes from the outermost use,
+  /// unless all that this checker reads is attributed to some place already.
+  void enter_call(Span span) {
+    if (call_sites_.empty()) outside_ = terms_.attributed();
+    call_sites_.push_back(span);
+    if (!outside_) terms_.attribute(call_sites_.front());
+  }
+  void leave_call() {
+    call_sites_.pop_back();
+    if (call_sites_.empty()) terms_.attribute(outside_);
+  }
   /// Where to point: inside a function of another file, at the call that led there.
   Span blame(Span span) const { return call_sites_.empty() || at_home(span) ? span : call_sites_.front(); }
   bool at_home(Span span) const { return !call_sites_.empty() && span.source == call_sites_.front().source; }
   std::string inside(Span span) const;       ///< " (inside `grating`)", where the place does not say so
   std::string called_from(Span span) const;  ///< "called on line 12", for a place inside a function of the same file
   const DimensionNames& names() const { return declarations_->names(); }
-  const Unit* unit(const std::string& name) const { return declarations_->units.find(name); }
+  const Unit* unit(std::string_view name) const { return declarations_->units.find(name); }
 
   Surroundings surroundings_;
   const Declarations* declarations_ = &surroundings_.declarations;  ///< changes inside functions of other files
@@ -133,10 +158,13 @@ class ExpressionChecker {
   std::map<TermId, TermId> phases_;  ///< by frequency
   std::vector<CheckedPeriod> periods_;
   std::map<const Constant*, Value> constants_;
+  std::set<std::pair<SourceId, std::uint32_t>> misspelt_;  ///< words whose likely meaning was looked for, by place
   std::vector<Span> ambiguous_;  ///< declarations of names that are units too, reported
   bool too_large_ = false;       ///< reported
   std::vector<Span> call_sites_;
-  std::vector<std::string> callees_;
+  std::optional<Span> outside_;  ///< what terms were attributed to before the outermost call
+  std::vector<Callee> callees_;
+  std::vector<std::unique_ptr<const Field>> fields_;  ///< that values point to
 };
 
 /// What makes a value change while the hand rests, in words.
@@ -146,7 +174,7 @@ std::string what_changes(const Dependence& dependence);
 inline constexpr std::size_t deepest_call = 64;
 
 /// Whether the compiler itself defines a function of that name.
-bool is_builtin_function(const std::string& name);
+bool is_builtin_function(std::string_view name);
 
 /// Whether the language itself gives this name a meaning on a patch: the hand's place and motion, the patch's extents,
 /// time.

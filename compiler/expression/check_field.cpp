@@ -153,10 +153,7 @@ Value ExpressionChecker::curve(const SyntaxTree& tree, ExprId expr, const Call& 
       return report(Code::value_out_of_range, values[i - 1].span, "the places of a curve rise from point to point", "",
                     "put the points in order; for a jump, set two places close to each other");
   }
-  return {.type = Value::Type::field,
-          .dimension = field.to,
-          .field = std::make_shared<const Field>(std::move(field)),
-          .span = span};
+  return {.type = Value::Type::field, .dimension = field.to, .field = keep(std::move(field)), .span = span};
 }
 
 bool BuiltinFunctions::text(std::size_t i, const char* example) const {
@@ -176,7 +173,7 @@ std::optional<std::string> BuiltinFunctions::file_argument(std::string& name) co
     return std::nullopt;
   }
   const Source& source = checker.surroundings_.sources[span.source];
-  auto resolved = checker.surroundings_.resolver->file(value(0).text, source.name);
+  auto resolved = checker.surroundings_.resolver->file(std::string(value(0).text), source.name);
   if (const auto* problem = std::get_if<ResolveProblem>(&resolved)) {
     checker.report(Code::unreadable_file, actuals[0].span,
                    fmt::format("`{}` cannot be read: {}", value(0).text, problem->reason), "",
@@ -224,8 +221,7 @@ Value BuiltinFunctions::relief() const {
               .column = *scale * picture.pixels_per_column,
               .row = *scale * picture.pixels_per_row};
   field.index = checker.add_table(std::move(picture.table));
-  return {
-      .type = Value::Type::field, .dimension = field.to, .field = std::make_shared<const Field>(field), .span = span};
+  return {.type = Value::Type::field, .dimension = field.to, .field = checker.keep(field), .span = span};
 }
 
 /// A measured relation from a file of comma-separated values.
@@ -237,8 +233,8 @@ Value BuiltinFunctions::table() const {
   std::string name;
   const auto bytes = file_argument(name);
   if (!bytes) return failed();
-  const auto read = read_measured_table(*bytes, actuals[1].given ? value(1).text : "",
-                                        actuals[2].given ? value(2).text : "", checker.declarations());
+  const auto read =
+      read_measured_table(*bytes, std::string(value(1).text), std::string(value(2).text), checker.declarations());
   if (const auto* problem = std::get_if<TableProblem>(&read))
     return checker.report(Code::unreadable_table, actuals[0].span,
                           problem->line == 0
@@ -255,8 +251,7 @@ Value BuiltinFunctions::table() const {
               .low = measured.low,
               .span = measured.high - measured.low};
   field.index = checker.add_table(measured.table);
-  return {
-      .type = Value::Type::field, .dimension = field.to, .field = std::make_shared<const Field>(field), .span = span};
+  return {.type = Value::Type::field, .dimension = field.to, .field = checker.keep(field), .span = span};
 }
 
 std::uint32_t ExpressionChecker::add_table(HeightTable table) {

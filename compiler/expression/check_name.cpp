@@ -43,8 +43,8 @@ bool names_hand_or_patch(std::string_view name) {
   return std::ranges::find(input_names, name, &InputName::name) != std::end(input_names);
 }
 
-bool ExpressionChecker::has_meaning(const std::string& name, const Scope& scope) const {
-  const std::string whole = name.substr(0, name.find('.'));
+bool ExpressionChecker::has_meaning(std::string_view name, const Scope& scope) const {
+  const std::string_view whole = name.substr(0, name.find('.'));
   return scope.find(whole) || declarations_->constants.contains(whole) || names_hand_or_patch(whole);
 }
 
@@ -74,24 +74,23 @@ std::optional<Value> ExpressionChecker::input(const Word& word, const Scope& sco
 std::optional<Value> ExpressionChecker::constant_named(const Word& word) {
   const auto* found = declarations_->constants.find(word.text);
   if (!found) return std::nullopt;
-  const std::string guard = "let " + word.text;
-  for (const auto& callee : callees_)
-    if (callee == guard)
-      return report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
-                    "a `let` may use only what does not need it");
+  const Callee definition{word.text, true};
+  if (std::ranges::find(callees_, definition) != callees_.end())
+    return report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
+                  "a `let` may use only what does not need it");
   const auto known = constants_.find(found->node);
   if (known == constants_.end()) {
     if (callees_.size() >= deepest_call)
       return report(Code::nested_too_deep, word.span,
                     fmt::format("more than {} definitions lead to one another here", deepest_call), "",
                     "write some of them out");
-    callees_.push_back(guard);
-    call_sites_.push_back(word.span);
+    callees_.push_back(definition);
+    enter_call(word.span);
     const auto* outside_names = std::exchange(declarations_, found->home);
     Scope outside;
     const Value value = check(*found->tree, found->node->value, outside);
     declarations_ = outside_names;
-    call_sites_.pop_back();
+    leave_call();
     callees_.pop_back();
     constants_[found->node] = value;
   }

@@ -80,6 +80,8 @@ struct CheckedMaterial {
   Span force_span;
   std::optional<std::array<double, 2>> patch;  ///< width and height in m, when the material says
   Span patch_span;
+  double active_watt = 0;  ///< that the author lets it give; 0 where nothing is said
+  Span active_span;
   Layers layers;
 };
 

@@ -42,7 +42,7 @@ double evaluate(Operation operation, double a, double b, double c) {
 
 std::optional<double> constant_value(const Terms& terms, TermId id, const std::vector<Parameter>* parameters) {
   Dependence dependence = terms.dependence(id);
-  if (parameters) dependence.parameter = false;
+  if (parameters) dependence = dependence.without(Dependence::parameter);
   if (!dependence.constant()) return std::nullopt;
   if (terms[id].kind == TermKind::literal) return terms[id].value;
   // A term may be used many times over: each is evaluated once, operands first, without recursion.

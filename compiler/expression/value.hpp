@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "compiler/declarations/dimension.hpp"
@@ -31,7 +32,8 @@ struct Field {
   double column = 0, row = 0;    ///< m from sample to sample
 };
 
-/// What an expression is worth: its type, its dimension and the terms that compute it.
+/// What an expression is worth: its type, its dimension and the terms that compute it. Small and copied freely: texts
+/// stand in the syntax tree, fields with the `ExpressionChecker` that made them.
 struct Value {
   enum class Type {
     number,   ///< `x`
@@ -45,8 +47,8 @@ struct Value {
   Type type = Type::failed;
   TermId x = 0, y = 0;
   Dimension dimension;
-  std::string text;
-  std::shared_ptr<const Field> field;
+  std::string_view text;
+  const Field* field = nullptr;
   Span span;
 
   bool failed() const { return type == Type::failed; }
@@ -65,25 +67,70 @@ inline std::string type_words(Value::Type type) {
   return "nothing";
 }
 
-/// The names that an expression may use besides what is declared outside it.
-struct Scope {
+/// The names that an expression may use besides what is declared outside it. The names themselves stand elsewhere, in
+/// the syntax tree for the most part.
+class Scope {
+ public:
   struct Binding {
+    std::string_view name;
     Value value;
     Span declared;
-    std::string unit;  ///< the unit its author wrote, to speak of it
     bool used = false;
   };
-  std::map<std::string, Binding, std::less<>> names;
+
   bool hand = false;  ///< position, velocity and the patch may be used
 
-  Binding* find(const std::string& name) {
-    const auto found = names.find(name);
-    return found == names.end() ? nullptr : &found->second;
+  /// Null where nothing has that name. Valid until the next name is declared.
+  Binding* find(std::string_view name) {
+    const std::size_t index = index_of(name);
+    return index < bindings_.size() ? &bindings_[index] : nullptr;
   }
-  const Binding* find(const std::string& name) const {
-    const auto found = names.find(name);
-    return found == names.end() ? nullptr : &found->second;
+  const Binding* find(std::string_view name) const {
+    const std::size_t index = index_of(name);
+    return index < bindings_.size() ? &bindings_[index] : nullptr;
   }
+  /// A name that is there.
+  Binding& at(std::string_view name) { return bindings_.at(index_of(name)); }
+
+  /// Enters a name, in the place of the one that was there.
+  void declare(std::string_view name, const Value& value, Span declared) {
+    if (Binding* known = find(name)) {
+      *known = {name, value, declared};
+      return;
+    }
+    bindings_.push_back({name, value, declared});
+    if (bindings_.size() <= few) return;
+    for (std::size_t i = places_.size(); i < bindings_.size(); ++i) places_.emplace(bindings_[i].name, i);
+  }
+
+  /// Makes room for so many names; there may be more.
+  void reserve(std::size_t names) { bindings_.reserve(names); }
+
+  /// All of them, in the order in which they were declared.
+  const std::vector<Binding>& bindings() const { return bindings_; }
+  /// All names in alphabetical order.
+  std::vector<std::string> spellings() const {
+    std::vector<std::string> names;
+    for (const Binding& binding : bindings_) names.emplace_back(binding.name);
+    std::ranges::sort(names);
+    return names;
+  }
+
+ private:
+  /// Up to so many names, a function's arguments for the most part, are faster looked through than looked up.
+  static constexpr std::size_t few = 8;
+
+  std::size_t index_of(std::string_view name) const {
+    if (bindings_.size() > few) {
+      const auto place = places_.find(name);
+      return place == places_.end() ? bindings_.size() : place->second;
+    }
+    const auto found = std::ranges::find(bindings_, name, &Binding::name);
+    return static_cast<std::size_t>(found - bindings_.begin());
+  }
+
+  std::vector<Binding> bindings_;
+  std::unordered_map<std::string_view, std::size_t> places_;  ///< in `bindings_`, once there are more than a few
 };
 
 /// A force algorithm's size, fixed or left open, at one of its calls: "lateral amplitude".

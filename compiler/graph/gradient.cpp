@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "compiler/graph/graph.hpp"
 
@@ -49,7 +51,7 @@ Expression derivative_of(Operation operation, Graph& graph, Expression r, Expres
   };
   // clang-format off
   switch (operation) {
-#define INSTRUCTION(number_, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number_, name, fields, results, cost, meaning, range, derivative) \
   case Operation::name: return derivative;
 #define SPECIAL(number_, name, fields, results, cost) \
   case Operation::name: break;
@@ -62,54 +64,86 @@ Expression derivative_of(Operation operation, Graph& graph, Expression r, Expres
 
 }  // namespace
 
-NodeId Derivatives::operator()(NodeId of, int axis) {
+Derivatives::Derivatives(Graph& graph, By by, std::optional<float> difference)
+    : graph_(graph), by_(std::move(by)), difference_(difference) {}
+
+Derivatives::By Derivatives::place(int axis) {
+  if (axis == 0) return {.inputs = {Input::x, Input::workspace_x}, .state = {}};
+  return {.inputs = {Input::y, Input::workspace_y}, .state = {}};
+}
+
+bool Derivatives::moves(const Node& node) const {
+  if (node.kind == Node::Kind::state) return by_.state == node.index;
+  return node.kind == Node::Kind::input &&
+         std::ranges::find(by_.inputs, static_cast<Input>(node.index)) != by_.inputs.end();
+}
+
+/// How slope number `slope` (1 along a, 2 along b) of a table changes along a (coordinate 0) or b (1), per sample.
+NodeId Derivatives::slope_of_slope(const Node& sample, std::uint32_t slope, int coordinate) {
+  const auto slope_at = [&](Operation shift) {
+    const NodeId step = graph_.constant(*difference_);
+    NodeId at[] = {sample.a, sample.b};
+    at[coordinate] = graph_.apply(shift, at[coordinate], step);
+    return graph_.component(graph_.apply(sample.operation, at[0], at[1], 0, sample.index), slope);
+  };
+  const NodeId change = graph_.apply(Operation::subtract, slope_at(Operation::add), slope_at(Operation::subtract));
+  return graph_.apply(Operation::multiply, change, graph_.constant(0.5f / *difference_));
+}
+
+/// The spline's own partial derivatives, chained to those of its coordinates.
+NodeId Derivatives::of_component(const Node& node) {
+  const Node sample = graph_[node.a];  // a copy: the graph grows
+  const bool slope = node.index != 0;
+  if (slope && !(difference_ && sample.operation == Operation::sample)) return graph_.constant(0);
+  const auto partial = [&](int coordinate) {
+    return slope ? slope_of_slope(sample, node.index, coordinate)
+                 : graph_.component(node.a, static_cast<std::uint32_t>(coordinate) + 1);
+  };
+  Expression sum{&graph_, graph_.constant(0)};
+  const NodeId coordinates[] = {sample.a, sample.b};
+  for (int i = 0; i < 2; ++i)
+    if (const Expression moving{&graph_, known_[coordinates[i]]}; !moving.zero())
+      sum = sum + Expression{&graph_, partial(i)} * moving;
+  return sum.id;
+}
+
+NodeId Derivatives::operator()(NodeId of) {
   Graph& graph = graph_;
   const NodeId zero = graph.constant(0);
-  auto& known = known_[static_cast<std::size_t>(axis)];
-  if (known.size() <= of) known.resize(of + 1, none);
+  if (known_.size() <= of) known_.resize(of + 1, none);
   std::vector<char> needed(of + 1, false);  // as bool: bits are slower to look at one by one
-  needed[of] = known[of] == none;
+  needed[of] = known_[of] == none;
   for (NodeId id = of + 1; id-- > 0;) {
     if (!needed[id]) continue;
-    known[id] = zero;  // unless there is more to say, below
+    known_[id] = zero;  // unless there is more to say, below
     if (graph[id].rate != Rate::tick) continue;
-    for (const NodeId operand : graph.operands(id)) needed[operand] = known[operand] == none;
+    for (const NodeId operand : graph.operands(id)) needed[operand] = known_[operand] == none;
   }
 
   for (NodeId id = 0; id <= of; ++id) {
     if (!needed[id] || graph[id].rate != Rate::tick) continue;
     const Node node = graph[id];  // a copy: the graph grows below
+    graph.attribute(node.span);
     switch (node.kind) {
-      case Node::Kind::input: {
-        const auto along = axis == 0 ? Input::x : Input::y;
-        const auto on_workspace = axis == 0 ? Input::workspace_x : Input::workspace_y;
-        if (node.index == static_cast<std::uint32_t>(along) || node.index == static_cast<std::uint32_t>(on_workspace))
-          known[id] = graph.constant(1);
+      case Node::Kind::input:
+      case Node::Kind::state:
+        if (moves(node)) known_[id] = graph.constant(1);
         break;
-      }
-      case Node::Kind::component: {
-        // The spline's own partial derivatives, chained to those of its coordinates. A table gives no second
-        // derivatives.
-        const Node sample = graph[node.a];
-        if (node.index != 0) break;
-        const Expression du{&graph, graph.component(node.a, 1)}, dv{&graph, graph.component(node.a, 2)};
-        known[id] = (du * Expression{&graph, known[sample.a]} + dv * Expression{&graph, known[sample.b]}).id;
-        break;
-      }
+      case Node::Kind::component: known_[id] = of_component(node); break;
       case Node::Kind::operation: {
         const auto term = [&](NodeId operand) { return Expression{&graph, operand}; };
         const bool looks_up = node.operation == Operation::sample || node.operation == Operation::recall ||
                               node.operation == Operation::cell;
         if (!looks_up)
-          known[id] = derivative_of(node.operation, graph, term(id), term(node.a), term(node.b), term(node.c),
-                                    term(known[node.a]), term(known[node.b]), term(known[node.c]))
-                          .id;
+          known_[id] = derivative_of(node.operation, graph, term(id), term(node.a), term(node.b), term(node.c),
+                                     term(known_[node.a]), term(known_[node.b]), term(known_[node.c]))
+                           .id;
         break;
       }
       default: break;
     }
   }
-  return known[of];
+  return known_[of];
 }
 
 }  // namespace wale

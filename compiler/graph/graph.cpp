@@ -1,7 +1,6 @@
 #include "compiler/graph/graph.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 #include "compiler/graph/term.hpp"
@@ -16,7 +15,7 @@ namespace {
 [[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
   // clang-format off
   switch (operation) {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   case Operation::name: return Meaning<Operation::name>::of(a, b, c);
 #define SPECIAL(number, name, fields, results, cost) \
   case Operation::name: break;
@@ -32,19 +31,22 @@ float fold(Operation operation, float a, float b, float c) {
   return evaluate(operation, a, b, c);
 }
 
-using Key = std::array<std::uint64_t, 3>;
-
-/// Whatever makes a value what it is; where it came from and how often it is worked out do not.
-Key key_of(const Node& node) {
-  return {static_cast<std::uint64_t>(node.kind) << 40 | static_cast<std::uint64_t>(node.operation) << 32 |
-              std::bit_cast<std::uint32_t>(node.value),
-          std::uint64_t{node.a} << 32 | node.b, std::uint64_t{node.c} << 32 | node.index};
+/// Whether they are one value. Where it came from and how often it is worked out do not make it what it is.
+bool same(const Node& a, const Node& b) {
+  return a.a == b.a && a.b == b.b && a.c == b.c && a.operation == b.operation && a.kind == b.kind &&
+         a.index == b.index && std::bit_cast<std::uint32_t>(a.value) == std::bit_cast<std::uint32_t>(b.value);
 }
 
-std::size_t hash_of(const Key& key) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, a word at a time
-  for (const auto word : key) hash = (hash ^ word) * 1099511628211u, hash ^= hash >> 29;
-  return hash;
+/// Of what `same` compares: each word times an odd number of its own; what is above goes into what is below.
+std::uint32_t hash_of(const Node& node) {
+  const std::uint64_t what = static_cast<std::uint64_t>(node.kind) << 40 |
+                             static_cast<std::uint64_t>(node.operation) << 32 |
+                             std::bit_cast<std::uint32_t>(node.value);
+  const std::uint64_t a_and_b = std::uint64_t{node.a} << 32 | node.b;
+  const std::uint64_t c_and_index = std::uint64_t{node.c} << 32 | node.index;
+  const std::uint64_t hash =
+      what * 0x9e3779b97f4a7c15u ^ a_and_b * 0xbf58476d1ce4e5b9u ^ c_and_index * 0x94d049bb133111ebu;
+  return static_cast<std::uint32_t>(hash ^ hash >> 32);
 }
 
 }  // namespace
@@ -55,26 +57,27 @@ void Graph::reserve(std::size_t nodes) {
 }
 
 void Graph::enlarge_table(std::size_t slots) {
-  const std::vector<NodeId> entries = std::move(table_);
-  table_.assign(slots, none);
-  for (const NodeId id : entries) {
-    if (id == none) continue;
-    std::size_t slot = hash_of(key_of(nodes_[id])) & (table_.size() - 1);
-    while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
-    table_[slot] = id;
+  const std::vector<Slot> entries = std::move(table_);
+  table_.assign(slots, {});
+  for (const Slot& entry : entries) {
+    if (entry.node == none) continue;
+    std::size_t at = entry.hash & (table_.size() - 1);
+    while (table_[at].node != none) at = (at + 1) & (table_.size() - 1);
+    table_[at] = entry;
   }
 }
 
 NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
-  const Key key = key_of(node);
-  std::size_t slot = hash_of(key) & (table_.size() - 1);
-  for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
-    if (key_of(nodes_[table_[slot]]) == key) return table_[slot];
-  table_[slot] = static_cast<NodeId>(nodes_.size());
+  const std::uint32_t hash = hash_of(node);
+  std::size_t at = hash & (table_.size() - 1);
+  for (; table_[at].node != none; at = (at + 1) & (table_.size() - 1))
+    if (table_[at].hash == hash && same(nodes_[table_[at].node], node)) return table_[at].node;
+  table_[at] = {hash, static_cast<NodeId>(nodes_.size())};
   ++in_table_;
   nodes_.push_back(node);
-  return table_[slot];
+  if (node.span == Span{}) nodes_.back().span = place_;
+  return table_[at].node;
 }
 
 NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }
@@ -101,7 +104,8 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
   const int count = facts(operation).operands;
   const bool recalls = operation == Operation::recall || operation == Operation::cell;
   bool constants = operation != Operation::sample && !recalls;
-  Rate rate = recalls ? Rate::tick : Rate::constant;
+  // A table is not there while the compiler folds.
+  Rate rate = recalls ? Rate::tick : operation == Operation::sample ? Rate::setup : Rate::constant;
   for (int i = 0; i < count; ++i) {
     constants = constants && nodes_[operands[i]].kind == Node::Kind::constant;
     rate = std::max(rate, nodes_[operands[i]].rate);

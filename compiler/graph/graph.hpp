@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compiler/text/source.hpp"
@@ -56,6 +57,9 @@ class Graph {
   /// Makes room for so many nodes; there may be more.
   void reserve(std::size_t nodes);
 
+  /// From now on, what is made without a span comes from this one.
+  void attribute(Span place) { place_ = place; }
+
   NodeId constant(float value);
   NodeId input(Input input, Span span = {});
   NodeId parameter(std::uint32_t index, Span span = {});
@@ -81,8 +85,13 @@ class Graph {
   std::vector<Node> nodes_;
   /// Finds equal nodes: a power of two of slots, each a node or `none`. A node stands in the first free slot from the
   /// one that its hash names.
-  std::vector<NodeId> table_;
+  struct Slot {
+    std::uint32_t hash = 0;
+    NodeId node = none;
+  };
+  std::vector<Slot> table_;
   std::size_t in_table_ = 0;
+  Span place_;
 };
 
 inline Operands Graph::operands(NodeId id) const {
@@ -96,19 +105,37 @@ inline Operands Graph::operands(NodeId id) const {
   }
 }
 
-/// Derivatives of a graph's nodes along x (axis 0) and y (axis 1), by the rules of the instruction table: exact but for
-/// rounding. What has been derived once is remembered: slopes of one height are asked for again and again.
+/// Derivatives of a graph's nodes by one of the quantities that they depend on, by the rules of the instruction table:
+/// exact but for rounding. What has been derived once is remembered: slopes of one height are asked for again and
+/// again.
 class Derivatives {
  public:
-  explicit Derivatives(Graph& graph) : graph_(graph) {}
+  /// What moves, at rate 1: inputs that move together, or one state.
+  struct By {
+    std::vector<Input> inputs;
+    std::optional<std::uint32_t> state;
+  };
+  /// A look-up in a table gives its value and its slopes. The slopes' own derivatives are taken for 0, or for the
+  /// difference of the slopes this far (in samples) to either side, which on a cubic spline is off by no more than that
+  /// far off.
+  Derivatives(Graph& graph, By by, std::optional<float> difference = {});
 
-  NodeId operator()(NodeId of, int axis);
+  NodeId operator()(NodeId of);
+
+  /// The hand's place along x (axis 0) or y (axis 1), on the patch and with it on the workspace.
+  static By place(int axis);
 
  private:
   static constexpr NodeId none = ~NodeId{0};
 
+  bool moves(const Node& node) const;
+  NodeId of_component(const Node& node);
+  NodeId slope_of_slope(const Node& sample, std::uint32_t slope, int coordinate);
+
   Graph& graph_;
-  std::array<std::vector<NodeId>, 2> known_;  ///< by axis and node; `none` where nobody has asked
+  By by_;
+  std::optional<float> difference_;
+  std::vector<NodeId> known_;  ///< by node; `none` where nobody has asked
 };
 
 }  // namespace wale

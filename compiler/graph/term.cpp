@@ -2,65 +2,49 @@
 
 namespace wale {
 
-namespace {
-
-void operator|=(Dependence& a, const Dependence& b) {
-  a.parameter |= b.parameter;
-  a.position |= b.position;
-  a.velocity |= b.velocity;
-  a.open |= b.open;
-  a.moment |= b.moment;
-  a.state |= b.state;
-}
-
-}  // namespace
-
-void Terms::reserve(std::size_t terms) {
-  terms_.reserve(terms);
-  dependences_.reserve(terms);
-}
-
-TermId Terms::add(const Term& term) {
-  Dependence dependence;
+Dependence Terms::dependence_of(const Term& term) const {
   switch (term.kind) {
-    case TermKind::literal: break;
+    case TermKind::literal: return {};
     case TermKind::input:
       switch (term.input()) {
         case Input::x:
-        case Input::y: dependence.position = true; break;
+        case Input::y: return Dependence::position;
         case Input::velocity_x:
         case Input::velocity_y:
         case Input::raw_velocity_x:
-        case Input::raw_velocity_y: dependence.velocity = true; break;
+        case Input::raw_velocity_y: return Dependence::velocity;
         case Input::patch_half_width:
         case Input::patch_half_height:
         case Input::patch_rim:
         case Input::probe:
-        case Input::seconds_per_tick: dependence.parameter = true; break;
-        default: dependence.moment = true;
+        case Input::seconds_per_tick: return Dependence::parameter;
+        default: return Dependence::moment;
       }
-      break;
-    case TermKind::state: dependence.state = true; break;
-    case TermKind::cells: dependence.parameter = true; break;
+    case TermKind::state: return Dependence::state;
+    case TermKind::cells:
     case TermKind::parameter:
     case TermKind::magnitude:
-    case TermKind::carrier: dependence.parameter = true; break;
-    case TermKind::open: dependence.open = dependence.parameter = true; break;
+    case TermKind::carrier: return Dependence::parameter;
+    case TermKind::open: return Dependence::open | Dependence::parameter;
     case TermKind::operation: {
-      for (const TermId operand : operands(term)) dependence |= dependences_[operand];
-      if (term.operation == Operation::recall || term.operation == Operation::cell) dependence.state = true;
-      break;
+      Dependence all;
+      for (const TermId operand : operands(term)) all |= dependence(operand);
+      if (term.operation == Operation::recall || term.operation == Operation::cell) all |= Dependence::state;
+      return all;
     }
-    case TermKind::component: dependence = dependences_[term.a]; break;
-    case TermKind::gradient: dependence = dependences_[term.a]; break;
+    case TermKind::component:
+    case TermKind::gradient: return dependence(term.a);
     case TermKind::peak:
       // The patch's extents are setup inputs: the peak may change with them even if nothing else does.
-      dependence.parameter = true;
-      dependence.open = dependences_[term.a].open;
-      break;
+      return Dependence::parameter | (dependence(term.a).on(Dependence::open) ? Dependence::open : 0);
   }
-  terms_.push_back(term);
-  dependences_.push_back(dependence);
+  return {};
+}
+
+TermId Terms::add(const Term& term) {
+  Term& added = terms_.emplace_back(term);
+  if (place_ && (term.span == Span{} || term.span.source != place_->source)) added.span = *place_;
+  added.dependence = dependence_of(added);
   return static_cast<TermId>(terms_.size() - 1);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compiler/text/source.hpp"
@@ -29,9 +30,40 @@ enum class TermKind : std::uint8_t {
   peak,       ///< 99th percentile of `a` over the patch less its rim
 };
 
+/// What a term's value changes with, a bit each.
+class Dependence {
+ public:
+  enum Cause : std::uint8_t {
+    parameter = 1,
+    position = 2,
+    velocity = 4,
+    open = 8,
+    moment = 16,  ///< time, acceleration, the button, the hand's place on the workspace
+    state = 32,   ///< states and memories
+  };
+
+  Dependence() = default;
+  /// On one cause, or several joined by `|`.
+  Dependence(int causes) : causes_(static_cast<std::uint8_t>(causes)) {}
+
+  /// On any of them.
+  bool on(int causes) const { return (causes_ & causes) != 0; }
+  Dependence without(Cause cause) const { return causes_ & ~cause; }
+  void operator|=(Dependence other) { causes_ |= other.causes_; }
+
+  bool constant() const { return causes_ == 0; }
+  bool in_tick() const { return on(position) || changing(); }
+  /// Not the same at the same place: no height, and nothing to take a peak of.
+  bool changing() const { return on(velocity | moment | state); }
+
+ private:
+  std::uint8_t causes_ = 0;
+};
+
 struct Term {
   TermKind kind = TermKind::literal;
   Operation operation = Operation::add;
+  Dependence dependence;  ///< what `Terms::add` finds
   TermId a = 0, b = 0, c = 0;
   double value = 0;
   std::uint32_t index = 0;
@@ -40,24 +72,13 @@ struct Term {
   Input input() const { return static_cast<Input>(index); }
 };
 
-/// What a term's value changes with.
-struct Dependence {
-  bool parameter = false, position = false, velocity = false, open = false;
-  bool moment = false;  ///< time, acceleration, the button, the hand's place on the workspace
-  bool state = false;   ///< states and memories
-  bool constant() const { return !parameter && !open && !in_tick(); }
-  bool in_tick() const { return position || changing(); }
-  /// Not the same at the same place: no height, and nothing to take a peak of.
-  bool changing() const { return velocity || moment || state; }
-};
-
 /// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
 class Terms {
  public:
   const Term& operator[](TermId id) const { return terms_[id]; }
   std::size_t size() const { return terms_.size(); }
   /// Makes room for so many terms; there may be more.
-  void reserve(std::size_t terms);
+  void reserve(std::size_t terms) { terms_.reserve(terms); }
 
   TermId add(const Term& term);
   TermId literal(double value, Span span = {});
@@ -67,11 +88,18 @@ class Terms {
   TermId apply(Operation operation, TermId a, TermId b, Span span = {});
   TermId apply(Operation operation, TermId a, TermId b, TermId c, Span span = {});
 
-  Dependence dependence(TermId id) const { return dependences_[id]; }
+  Dependence dependence(TermId id) const { return terms_[id].dependence; }
+
+  /// From now on, what is added from another file than `place`'s, or from nowhere, is said to come from `place`: what a
+  /// function of another file does belongs where the author calls it. Nothing: each term keeps its own span.
+  void attribute(std::optional<Span> place) { place_ = place; }
+  std::optional<Span> attributed() const { return place_; }
 
  private:
+  Dependence dependence_of(const Term& term) const;
+
   std::vector<Term> terms_;
-  std::vector<Dependence> dependences_;
+  std::optional<Span> place_;
 };
 
 /// The terms that a term is worked out from: a, b, c as far as it has them.

@@ -194,12 +194,13 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
     const std::size_t errors_before = reader.diagnostics.error_count();
     ExpressionChecker checker({reader.sources, declarations, reader.diagnostics}, map.terms, tables);
     Scope scope;
-    scope.names["magnitude"] = {{.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::magnitude})},
-                                law->span};
-    scope.names[map.from] = {{.type = Value::Type::number,
-                              .x = map.terms.add({.kind = TermKind::carrier}),
-                              .dimension = percept->carrier_dimension},
-                             law->span};
+    scope.declare("magnitude", {.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::magnitude})},
+                  law->span);
+    scope.declare(map.from,
+                  {.type = Value::Type::number,
+                   .x = map.terms.add({.kind = TermKind::carrier}),
+                   .dimension = percept->carrier_dimension},
+                  law->span);
     const Value left = lone ? checker.named(*lone, scope) : checker.check(reader.tree, *equation->value, scope);
     if (!left.failed()) {
       const Value right = checker.check_as(reader.tree, *equation->equals, scope, Value::Type::number, left.dimension);
@@ -207,8 +208,8 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
       map.right = right.x;
     }
     const bool read = reader.diagnostics.error_count() == errors_before;
-    for (const auto& [name, binding] : scope.names)
-      if (read && !binding.used)
+    for (const auto& name : scope.spellings())
+      if (read && !scope.at(name).used)
         reader.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name),
                       "tie the magnitude to the carrier");
   } else if (law) {
@@ -302,9 +303,15 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   optional("mass", "mass", profile.mass);
   optional("damping", "viscosity", profile.damping);
   optional("friction", "force", profile.friction);
+  optional("delay", "time", profile.delay);
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed")) device.assumed.push_back(setting.key.text);
+  const auto known = [&](const char* key) {
+    return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end();
+  };
+  profile.damping_known = known("damping");
+  profile.friction_known = known("friction");
   for (const Setting* setting : reader.settings("realise"))
     for (const auto& item : setting->items) {
       if (item.words.size() == 1 && item.equals)

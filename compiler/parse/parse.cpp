@@ -20,7 +20,7 @@ const std::vector<std::string> record_words = {"percept", "map", "device", "leve
 const std::vector<std::string> declaration_words = {"material", "percept", "map",  "device",    "levels", "hand",
                                                     "function", "let",     "unit", "dimension", "import"};
 
-bool holds(const std::vector<std::string>& words, const std::string& word) {
+bool holds(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
@@ -108,7 +108,7 @@ void Parser::file() {
 
 /// `wale 1`. Without it the file is read as the version that this compiler knows; a newer one is not guessed at.
 bool Parser::version() {
-  const std::string first = spelling(here());
+  const std::string_view first = spelling(here());
   const bool is_wale = here().kind == TokenKind::name && (first == "wale" || first == "Wale" || first == "WALE");
   const bool has_number = is_wale && kind(at_ + 1) == TokenKind::number && !token(at_ + 1).starts_line;
   const double number = has_number ? input_.numbers[token(at_ + 1).value] : 0;
@@ -168,7 +168,7 @@ void Parser::declaration() {
                   "", "`export`", material ? "leave `export` out" : "let whoever needs it import it too");
     }
   }
-  std::string keyword = here().kind == TokenKind::name ? spelling(here()) : "";
+  std::string keyword(here().kind == TokenKind::name ? spelling(here()) : "");
   const auto known = [&] { return holds(declaration_words, keyword); };
   if (!known()) {
     const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;

@@ -11,7 +11,7 @@ constexpr std::string_view sections[] = {"representative", "perceptual", "physic
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
 /// What begins a physical statement; `x' = …` has no word of its own.
-const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch",
+const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch", "active",
                                                  "state", "memory", "next",   "show"};
 
 template <class List>
@@ -102,7 +102,7 @@ bool Parser::has_sections_below() const {
 
 /// `representative { … }`, `perceptual { … }` or `physical { … }`.
 void Parser::material_section(MaterialDecl& material, bool& misplaced) {
-  std::string section = spelling(here());
+  std::string section(spelling(here()));
   const bool opens = kind(at_ + 1) == TokenKind::left_brace;
   if (here().kind != TokenKind::name || !holds(sections, section)) {
     const auto meant = opens ? nearest_spelling(section, section_names) : std::nullopt;
@@ -205,7 +205,7 @@ std::string_view Parser::physical_keyword() {
     return {};
   };
   if (here().kind == TokenKind::name) {
-    const std::string word = spelling(here());
+    const std::string word(spelling(here()));
     const bool defines = followed_by(TokenKind::equals);
     if (followed_by(TokenKind::prime)) return "'";
     if (const auto known = word_of_table(word); !known.empty()) return known;
@@ -247,6 +247,8 @@ PhysicalStatement Parser::physical_statement() {
     result.what = memory();
   } else if (keyword == "patch") {
     result.what = patch();
+  } else if (keyword == "active") {
+    result.what = active();
   } else if (keyword == "show") {
     advance();
     result.what = ShowStatement{expression()};
@@ -357,6 +359,16 @@ PatchStatement Parser::patch() {
     patch.sizes.push_back(expression());
   }
   return patch;
+}
+
+ActiveStatement Parser::active() {
+  advance();
+  if (at(TokenKind::equals)) {
+    complain("the power of what is active has no `=` before it", "a power",
+             fmt::format("write `active {}`", spelling(token(at_ + 1))), drop_here());
+    advance();
+  }
+  return {expression()};
 }
 
 std::optional<Range> Parser::optional_range() {

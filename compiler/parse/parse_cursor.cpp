@@ -41,7 +41,8 @@ bool ends_value(TokenKind kind) {
 }  // namespace
 
 bool Parser::is_word(std::size_t index, std::string_view word) const {
-  return kind(index) == TokenKind::name && sources_.text(span_of(token(index))) == word;
+  const Token& candidate = token(index);
+  return candidate.kind == TokenKind::name && text_.substr(candidate.begin, candidate.end - candidate.begin) == word;
 }
 
 bool Parser::ends_statement(std::size_t index) const {
@@ -88,7 +89,7 @@ bool Parser::begins_declaration(std::size_t index) const {
 }
 
 Word Parser::take_word() {
-  Word word{spelling(here()), span_of(here())};
+  Word word{std::string(spelling(here())), span_of(here())};
   advance();
   return word;
 }
@@ -130,15 +131,15 @@ Span Parser::since(std::size_t first_token) const {
   return {tree_.source, first.begin, std::max(first.begin, last.end)};
 }
 
-std::string Parser::spelling(const Token& token) const {
+std::string_view Parser::spelling(const Token& token) const {
   if (token.kind == TokenKind::name && token.value > 0) return input_.texts[token.value - 1];
-  return std::string(sources_.text(span_of(token)));
+  return text_.substr(token.begin, token.end - token.begin);
 }
 
 /// A token as messages quote it: cut short, since it may be a text of any length.
 std::string Parser::shown(const Token& token) const {
   constexpr std::size_t longest = 40;
-  std::string text = spelling(token);
+  std::string text(spelling(token));
   if (text.size() > longest) {
     std::size_t cut = longest;
     while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;

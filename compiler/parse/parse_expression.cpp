@@ -196,7 +196,7 @@ bool Parser::suffix_factor(std::vector<SuffixFactor>& suffix) {
   const bool divides = at(TokenKind::slash);
   const std::size_t name = at_ + (divides ? 1 : 0);
   if (!is_suffix_name(name)) return false;
-  SuffixFactor factor{{spelling(token(name)), span_of(token(name))}, divides, 1};
+  SuffixFactor factor{{std::string(spelling(token(name))), span_of(token(name))}, divides, 1};
   std::size_t next = name + 1;
   if (kind(next) == TokenKind::caret && !ends_statement(next)) {
     const bool negative = kind(next + 1) == TokenKind::minus;

@@ -81,7 +81,7 @@ std::vector<Fix> Parser::insert_range() const {
 
 /// Removes the token here; what stood to both sides of it stays apart.
 std::vector<Fix> Parser::drop_here() const {
-  const std::string what = spelling(here());
+  const std::string what(spelling(here()));
   const Token& previous = token(at_ - 1);
   const Token& next = token(at_ + 1);
   if (ends_statement(at_ + 1)) return {};
@@ -95,7 +95,8 @@ std::vector<Fix> Parser::drop_here() const {
 std::vector<Fix> Parser::move_operator_up() const {
   const Token& next = token(at_ + 1);
   if (at_ == 0 || next.starts_line || !begins_value(next.kind) || kind(at_ - 1) == TokenKind::left_brace) return {};
-  Fix fix = insert_after(span_of(token(at_ - 1)), " " + spelling(here()), "end the line above with the operator");
+  Fix fix = insert_after(span_of(token(at_ - 1)), " " + std::string(spelling(here())),
+                         "end the line above with the operator");
   fix.edits.push_back({{tree_.source, here().begin, next.begin}, ""});
   return {fix};
 }

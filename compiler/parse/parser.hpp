@@ -31,7 +31,14 @@ constexpr std::size_t most_statements = 12000;
 class Parser {
  public:
   Parser(const SourceSet& sources, const Tokens& input, SyntaxTree& tree, Diagnostics& diagnostics)
-      : sources_(sources), input_(input), tokens_(input.tokens), tree_(tree), diagnostics_(diagnostics) {}
+      : sources_(sources),
+        text_(sources[tree.source].text),
+        input_(input),
+        tokens_(input.tokens),
+        tree_(tree),
+        diagnostics_(diagnostics) {
+    heights_.reserve(tree.exprs.capacity());
+  }
 
   void file();
   std::vector<ExprId> expression_list();
@@ -66,6 +73,7 @@ class Parser {
   std::optional<Word> optional_dimension();
   UpdateStatement update();
   PatchStatement patch();
+  ActiveStatement active();
   std::optional<Range> optional_range();
   Range range();
   void open_block();
@@ -125,7 +133,8 @@ class Parser {
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
   Span since(std::size_t first_token) const;
   Span joined(Span first, Span last) const { return {first.source, first.begin, last.end}; }
-  std::string spelling(const Token& token) const;
+  /// A token as it is read: as it stands in the text, or corrected by the lexer.
+  std::string_view spelling(const Token& token) const;
   std::string shown(const Token& token) const;
   std::string found_here() const;
   std::string after_previous() const;
@@ -151,6 +160,7 @@ class Parser {
   void statement(Body body);
 
   const SourceSet& sources_;
+  std::string_view text_;  ///< of the file
   const Tokens& input_;
   const std::vector<Token>& tokens_;
   SyntaxTree& tree_;

@@ -206,6 +206,7 @@ class TreePrinter {
     for (const ExprId size : patch.sizes) text += " " + expr(size);
     return text + ")";
   }
+  std::string statement_text(const ActiveStatement& active) const { return "(active " + expr(active.power) + ")"; }
   std::string statement_text(const StateStatement& state) const {
     return "(state " + state.name.text + typed(state.dimension) + " " + expr(state.value) + range(state.range) + ")";
   }

@@ -189,6 +189,10 @@ struct ForceStatement {
 struct PatchStatement {
   std::vector<ExprId> sizes;
 };
+/// `active 0.3 W`: the energy that the material may give by itself.
+struct ActiveStatement {
+  ExprId power;
+};
 struct StateStatement {
   Word name;
   std::optional<Word> dimension;
@@ -213,7 +217,7 @@ struct ShowStatement {
 };
 
 struct PhysicalStatement {
-  std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, StateStatement,
+  std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, ActiveStatement, StateStatement,
                MemoryStatement, UpdateStatement, ShowStatement>
       what;
   Span span;

@@ -21,13 +21,15 @@ class TermCopier {
   TermId operator()(TermId root) {
     // Operands stand before their users, so one pass over what the root needs copies everything in order.
     if (copies_[root] != none) return copies_[root];
-    TermId first = root;  // of what is needed and not there yet
+    TermId first = root;      // of what is needed and not there yet
+    std::size_t waiting = 1;  // of them: not looked at yet
     needed_[root] = true;
-    for (TermId id = root + 1; id-- > 0;) {
+    for (TermId id = root; waiting > 0; --id) {
       if (!needed_[id]) continue;
       first = id;
+      --waiting;
       for (const TermId operand : operands(from_[id]))
-        if (copies_[operand] == none) needed_[operand] = true;
+        if (copies_[operand] == none && !std::exchange(needed_[operand], true)) ++waiting;
     }
     for (TermId id = first; id <= root; ++id) {
       if (!needed_[id]) continue;

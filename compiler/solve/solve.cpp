@@ -42,6 +42,7 @@ class Solver {
     solved_.device = device_->profile;
     solved_.parameters = material_.parameters;
     solved_.layers = material_.layers;
+    solved_.active_watt = material_.active_watt;
     solved_.patch_width = material_.patch ? (*material_.patch)[0] : device_->profile.patch_width;
     solved_.patch_height = material_.patch ? (*material_.patch)[1] : device_->profile.patch_height;
     solved_.patch_rim =
@@ -99,6 +100,7 @@ class Solver {
       return false;
     }
     const auto& [tree, expr, home] = realisation->second;
+    open_terms_.attribute(asked.span);  // not to the device's file
     ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_}, open_terms_, tables_);
     checker.read(*home);
     Scope scope;
@@ -192,7 +194,7 @@ class Solver {
                fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
                Advice("give the parameter another name").see(asked.span, "asked for here"));
     solutions_[open_terms_[open[0]->size].index] = {&percept, map,
-                                                    static_cast<std::uint32_t>(solved_.parameters.size())};
+                                                    static_cast<std::uint32_t>(solved_.parameters.size()), asked.span};
     solved_.parameters.push_back(
         {.name = asked.name,
          .unit = "",
@@ -298,9 +300,11 @@ class Solver {
     TermCopier copier(open_terms_, solved_.terms);
     std::map<std::uint32_t, TermId> sizes;
     for (const auto& [index, solution] : solutions_) {
+      solved_.terms.attribute(solution.asked);
       const TermId level = solved_.terms.parameter(solution.parameter);
       sizes[index] = *Law(*solution.map, *solution.percept).carrier(solved_.terms, level);
     }
+    solved_.terms.attribute({});
     for (TermId id = 0; id < open_terms_.size(); ++id)
       if (const Term& term = open_terms_[id]; term.kind == TermKind::open && sizes.contains(term.index))
         copier.replace(id, sizes.at(term.index));
@@ -354,6 +358,7 @@ class Solver {
       SolvedPercept solved;
       solved.amplitude = solved_sizes_[*index];
       const Law law(*map, percept);
+      solved_.terms.attribute(map->span);
       const TermId probe = solved_.terms.input(Input::probe);
       const auto magnitude = law.magnitude(solved_.terms, probe), level = law.level(solved_.terms, probe);
       if (!magnitude || !level) {
@@ -400,6 +405,7 @@ class Solver {
     const Percept* percept;
     const Map* map;
     std::uint32_t parameter;
+    Span asked;
   };
 
   const CheckedMaterial& material_;

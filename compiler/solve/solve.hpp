@@ -44,6 +44,7 @@ struct SolvedMaterial {
   std::vector<SolvedPercept> percepts;
   DeviceProfile device;
   double patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m
+  double active_watt = 0;  ///< that the program may give by itself, W
   Layers layers;
 };
 

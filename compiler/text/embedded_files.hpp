@@ -19,4 +19,7 @@ std::span<const EmbeddedFile> embedded_files();
 /// The explanations of all diagnostic codes, "compiler/diagnostics/explanations/W0101.md" and so on, sorted by name.
 std::span<const EmbeddedFile> embedded_explanations();
 
+/// The machine's arithmetic as it stands in runtime/machine/, for programs that are written out as C++.
+std::span<const EmbeddedFile> embedded_arithmetic();
+
 }  // namespace wale

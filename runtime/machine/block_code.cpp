@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "runtime/machine/held_state.hpp"
 #include "runtime/machine/meaning.hpp"
 
 // Operands share a row with the destination exactly or not at all, so lanes never depend on one another.
@@ -63,26 +64,55 @@ Kernel kernel() {
   return narrow_kernel<operation, uniform_a, uniform_b, uniform_c>;
 }
 
+// Look-ups go in two loops, places first and then what is there, so that the compiler makes gathers of the second.
+
 template <bool uniform_a, bool uniform_b>
-void sample_kernel(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
-                   const float*) {
+[[gnu::always_inline]] inline void look_up_spline(float* destination, const float* as, const float* bs,
+                                                  const Spline& spline) {
   const float shared_a = *as, shared_b = *bs;
+  std::int32_t corner[lanes];
+  float along_a[lanes], along_b[lanes], sign_a[lanes], sign_b[lanes];
+  const std::uint32_t width = spline.width, height = spline.height, stride = spline.stride;
+  WALE_LANES_ARE_INDEPENDENT
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const SplineSample sample =
-        sample_of(*lookup.spline, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
+    const MirroredCoordinate column = mirrored(lane_of<uniform_a>(as, lane, shared_a), width);
+    const MirroredCoordinate row = mirrored(lane_of<uniform_b>(bs, lane, shared_b), height);
+    corner[lane] = static_cast<std::int32_t>(row.cell * stride + column.cell);
+    along_a[lane] = column.fraction;
+    along_b[lane] = row.fraction;
+    sign_a[lane] = column.sign;
+    sign_b[lane] = row.sign;
+  }
+  // The sixteen coefficients of each lane, one place after the other.
+  float found[16][lanes];
+  const float* coefficients = spline.coefficients.data();
+  for (std::uint32_t j = 0; j < 4; ++j) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const float* first = coefficients + (std::size_t{j} * stride + i);
+      float* row = found[4 * j + i];
+      WALE_LANES_ARE_INDEPENDENT
+      for (std::size_t lane = 0; lane < lanes; ++lane) row[lane] = first[corner[lane]];
+    }
+  }
+  WALE_LANES_ARE_INDEPENDENT
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const SplineSample sample = sample_among([&](int j, int i) { return found[4 * j + i][lane]; },
+                                             CubicWeights(along_a[lane]), CubicWeights(along_b[lane]));
     destination[lane] = sample.value;
-    destination[row_stride + lane] = sample.along_a;
-    destination[2 * row_stride + lane] = sample.along_b;
+    destination[row_stride + lane] = sign_a[lane] * sample.along_a;
+    destination[2 * row_stride + lane] = sign_b[lane] * sample.along_b;
   }
 }
 
 template <bool uniform_a, bool uniform_b>
-void recall_kernel(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
-                   const float* cells) {
+[[gnu::always_inline]] inline void look_up_grid(float* destination, const float* as, const float* bs,
+                                                const GridShape& shape, const float* cells) {
   const float shared_a = *as, shared_b = *bs;
+  const GridShape grid = shape;
+  WALE_LANES_ARE_INDEPENDENT
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const GridSample sample =
-        recall_of(*lookup.grid, cells, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
+        recall_of(grid, cells, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b));
     destination[lane] = sample.value;
     destination[row_stride + lane] = sample.along_a;
     destination[2 * row_stride + lane] = sample.along_b;
@@ -90,20 +120,59 @@ void recall_kernel(float* destination, const float* as, const float* bs, const f
 }
 
 template <bool uniform_a, bool uniform_b>
-void cell_kernel(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
-                 const float* cells) {
+[[gnu::always_inline]] inline void look_up_cell(float* destination, const float* as, const float* bs,
+                                                const GridShape& shape, const float* cells) {
   const float shared_a = *as, shared_b = *bs;
+  const GridShape grid = shape;
+  WALE_LANES_ARE_INDEPENDENT
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     destination[lane] =
-        cells[cell_at(*lookup.grid, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b))];
+        cells[cell_at(grid, lane_of<uniform_a>(as, lane, shared_a), lane_of<uniform_b>(bs, lane, shared_b))];
   }
+}
+
+template <Operation operation, bool uniform_a, bool uniform_b>
+[[gnu::always_inline]] inline void look_up(float* destination, const float* as, const float* bs, const Lookup& lookup,
+                                           const float* cells) {
+  if constexpr (operation == Operation::sample) {
+    look_up_spline<uniform_a, uniform_b>(destination, as, bs, *lookup.spline);
+  } else if constexpr (operation == Operation::recall) {
+    look_up_grid<uniform_a, uniform_b>(destination, as, bs, *lookup.grid, cells);
+  } else {
+    look_up_cell<uniform_a, uniform_b>(destination, as, bs, *lookup.grid, cells);
+  }
+}
+
+template <Operation operation, bool uniform_a, bool uniform_b>
+void narrow_look_up(float* destination, const float* as, const float* bs, const float*, const Lookup& lookup,
+                    const float* cells) {
+  look_up<operation, uniform_a, uniform_b>(destination, as, bs, lookup, cells);
+}
+
+#if defined(__x86_64__)
+template <Operation operation, bool uniform_a, bool uniform_b>
+[[gnu::target("avx2")]] void wide_look_up(float* destination, const float* as, const float* bs, const float*,
+                                          const Lookup& lookup, const float* cells) {
+  look_up<operation, uniform_a, uniform_b>(destination, as, bs, lookup, cells);
+}
+#endif
+
+template <Operation operation, bool uniform_a, bool uniform_b>
+Kernel look_up_kernel() {
+#if defined(__x86_64__)
+  if (has_wide_vectors) return wide_look_up<operation, uniform_a, uniform_b>;
+#endif
+  return narrow_look_up<operation, uniform_a, uniform_b>;
 }
 
 /// Kernels of one operation, by which operands are uniform: a counts 1, b 2, c 4.
 using Variants = std::array<Kernel, 8>;
 
-/// Of an operation that reads a and b only.
-Variants with_two_operands(const std::array<Kernel, 4>& all) {
+/// Of an operation that looks into something at a and b.
+template <Operation operation>
+Variants look_up_variants() {
+  const Kernel all[] = {look_up_kernel<operation, false, false>(), look_up_kernel<operation, true, false>(),
+                        look_up_kernel<operation, false, true>(), look_up_kernel<operation, true, true>()};
   return {all[0], all[1], all[2], all[3], all[0], all[1], all[2], all[3]};
 }
 
@@ -115,15 +184,9 @@ Variants variants() {
   constexpr bool c = facts(operation).fields[2] != 'r';
   if constexpr (operation == Operation::peak) {
     return {};  // only setup runs peaks, and it has one lane
-  } else if constexpr (operation == Operation::sample) {
-    return with_two_operands({sample_kernel<false, false>, sample_kernel<true, false>, sample_kernel<false, true>,
-                              sample_kernel<true, true>});
-  } else if constexpr (operation == Operation::recall) {
-    return with_two_operands({recall_kernel<false, false>, recall_kernel<true, false>, recall_kernel<false, true>,
-                              recall_kernel<true, true>});
-  } else if constexpr (operation == Operation::cell) {
-    return with_two_operands(
-        {cell_kernel<false, false>, cell_kernel<true, false>, cell_kernel<false, true>, cell_kernel<true, true>});
+  } else if constexpr (operation == Operation::sample || operation == Operation::recall ||
+                       operation == Operation::cell) {
+    return look_up_variants<operation>();
   } else {
     return {kernel<operation, a, b, c>(),       kernel<operation, true, b, c>(),
             kernel<operation, a, true, c>(),    kernel<operation, true, true, c>(),
@@ -136,7 +199,7 @@ Variants variants() {
 const std::array<Variants, operation_table.size()> all_variants = [] {
   std::array<Variants, operation_table.size()> all{};
   // clang-format off
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative) \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
   all[number] = variants<Operation::name>();
 #define SPECIAL(number, name, fields, results, cost) \
   all[number] = variants<Operation::name>();
@@ -145,21 +208,44 @@ const std::array<Variants, operation_table.size()> all_variants = [] {
   return all;
 }();
 
+/// A state's row at the end of a tick, `next` being one value for all lanes or a row.
+template <bool uniform>
+[[gnu::always_inline]] inline void hold_row(const float* next, const StateRule& rule, const float* otherwise,
+                                            float* held) {
+  const float shared = *next;
+  WALE_LANES_ARE_INDEPENDENT
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    held[lane] = held_state(lane_of<uniform>(next, lane, shared), rule, otherwise[lane]);
+}
+
+void narrow_hold(const float* next, bool uniform, const StateRule& rule, const float* otherwise, float* held) {
+  uniform ? hold_row<true>(next, rule, otherwise, held) : hold_row<false>(next, rule, otherwise, held);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void wide_hold(const float* next, bool uniform, const StateRule& rule, const float* otherwise,
+                                       float* held) {
+  uniform ? hold_row<true>(next, rule, otherwise, held) : hold_row<false>(next, rule, otherwise, held);
+}
+#endif
+
 }  // namespace
 
 BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
-  constexpr auto first_four = static_cast<RegisterNumber>(Input::velocity_y);
-  constexpr auto others = static_cast<RegisterNumber>(Input::acceleration_x);
-  constexpr auto last = static_cast<RegisterNumber>(Input::button);
-  static_assert(first_four + 1 + last - others + 1 == input_rows);
-  if (number <= first_four) return {number, false};
-  if (number >= others && number <= last) return {static_cast<std::uint16_t>(number - others + first_four + 1), false};
+  // Of each input, how many before it change from tick to tick.
+  static constexpr auto row_of_input = [] {
+    std::array<std::uint16_t, first_constant> rows{};
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      rows[i] = static_cast<std::uint16_t>(rows[i - 1] + input_table[i - 1].changes);
+    return rows;
+  }();
+  if (number < first_constant && input_table[number].changes) return {row_of_input[number], false};
   if (number < first_state) return {number, true};
   return {static_cast<std::uint16_t>(input_rows + number - first_state), false};
 }
 
-BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const GridShape> grids,
-                       std::span<const Instruction> code) {
+BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
+                       std::span<const GridShape> grids, std::span<const Instruction> code) {
   BlockCode decoded;
   decoded.reserve(code.size());
   const RegisterNumber first_state = program.first_state();
@@ -169,7 +255,7 @@ BlockCode decode_block(const PatchProgram& program, std::span<const Spline> spli
     if (known.operands > 0) block.a = block_operand(first_state, instruction.a);
     if (known.operands > 1) block.b = block_operand(first_state, instruction.b);
     if (known.operands > 2) block.c = block_operand(first_state, instruction.c);
-    if (known.fields[2] == 't') block.lookup.spline = &splines[instruction.c];
+    if (known.fields[2] == 't') block.lookup.spline = &splines[instruction.c].get();
     if (known.fields[2] == 'g') block.lookup.grid = &grids[instruction.c];
     const unsigned variant = (block.a.uniform ? 1u : 0u) | (block.b.uniform ? 2u : 0u) | (block.c.uniform ? 4u : 0u);
     block.kernel = all_variants[instruction.operation][variant];
@@ -192,6 +278,25 @@ void Block::run(const BlockCode& code, const float* registers, const float* cell
   for (const BlockInstruction& i : code) {
     i.kernel(rows + i.destination * row_stride, place(i.a), place(i.b), place(i.c), i.lookup, cells);
   }
+}
+
+void Block::pairs(BlockOperand x, BlockOperand y, const float* registers, std::span<glm::vec2> pairs) const {
+  if (x.uniform || y.uniform) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {value(x, i, registers), value(y, i, registers)};
+    return;
+  }
+  const float* xs = rows_.data() + x.index * row_stride;
+  const float* ys = rows_.data() + y.index * row_stride;
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {xs[i], ys[i]};
+}
+
+void Block::hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise,
+                 float* held) {
+  const float* from = next.uniform ? registers + next.index : row(next);
+#if defined(__x86_64__)
+  if (has_wide_vectors) return wide_hold(from, next.uniform, rule, otherwise, held);
+#endif
+  narrow_hold(from, next.uniform, rule, otherwise, held);
 }
 
 }  // namespace wale

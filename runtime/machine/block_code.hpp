@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
 #include <span>
 #include <vector>
 
 #include "runtime/machine/grid.hpp"
+#include "runtime/machine/held_state.hpp"
 #include "runtime/machine/spline.hpp"
 #include "schema/patch_program.hpp"
 
@@ -43,7 +46,7 @@ using BlockCode = std::vector<BlockInstruction>;
 
 /// Rows of lanes stand for the inputs that change from tick to tick, the states and the temporaries, in this order; all
 /// else is uniform.
-inline constexpr std::uint16_t input_rows = 14;
+inline constexpr std::uint16_t input_rows = changing_inputs;
 
 /// Where a register is found by a block of a program whose states begin at register `first_state`.
 BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number);
@@ -52,8 +55,8 @@ inline BlockOperand block_operand(const PatchProgram& program, RegisterNumber nu
 }
 
 /// Code of a section other than setup for blocks. It points into `splines` and `grids`.
-BlockCode decode_block(const PatchProgram& program, std::span<const Spline> splines, std::span<const GridShape> grids,
-                       std::span<const Instruction> code);
+BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
+                       std::span<const GridShape> grids, std::span<const Instruction> code);
 
 /// The rows of one block at work.
 class Block {
@@ -66,6 +69,11 @@ class Block {
   /// Runs code over all lanes, with uniform operands out of `registers` and grids out of `cells`, which code that looks
   /// at no grid does without. The caller holds a `FloatingPointMode`.
   void run(const BlockCode& code, const float* registers, const float* cells);
+  /// What becomes of a state, as `held_state` says: `next` within the rule's range, or `otherwise` for not-a-number.
+  /// The last two are rows of `lanes` floats. The caller holds a `FloatingPointMode`.
+  void hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise, float* held);
+  /// Pairs of operands, as many as `pairs` has room for: forces from their components.
+  void pairs(BlockOperand x, BlockOperand y, const float* registers, std::span<glm::vec2> pairs) const;
   /// The value of an operand in a lane.
   float value(BlockOperand operand, std::size_t lane, const float* registers) const {
     return operand.uniform ? registers[operand.index] : rows_[operand.index * row_stride + lane];

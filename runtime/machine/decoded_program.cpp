@@ -38,7 +38,7 @@ std::vector<Input> tick_inputs_of(const PatchProgram& program) {
   for (const GridWrite& write : program.writes) reads(write.u), reads(write.v), reads(write.value);
   std::vector<Input> inputs;
   for (RegisterNumber number = 0; number < first_constant; ++number) {
-    if (read[number] && !block_operand(program, number).uniform) inputs.push_back(static_cast<Input>(number));
+    if (read[number] && input_table[number].changes) inputs.push_back(static_cast<Input>(number));
   }
   return inputs;
 }
@@ -46,11 +46,18 @@ std::vector<Input> tick_inputs_of(const PatchProgram& program) {
 }  // namespace
 
 DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(verified)), envelope(description.device) {
-  splines.reserve(description.tables.size());
-  for (const HeightTable& table : description.tables) splines.emplace_back(table);
+  for (HeightTable& table : description.tables) {
+    maps.push_back(shared_map(table));
+    splines.emplace_back(maps.back()->spline);
+    table = maps.back()->table;
+  }
   grids = shapes_of(description.grids);
   initial_cells = initial_cells_of(description.grids);
   tick_inputs = tick_inputs_of(description);
+  hand_reader = HandReader(tick_inputs, envelope);
+  lane_enter = decode_threaded(description.enter);
+  lane_tick = decode_threaded(description.tick);
+  lane_frame = decode_threaded(description.picture.frame);
   const auto block = [this](std::span<const Instruction> code) {
     return decode_block(description, splines, grids, code);
   };
@@ -58,6 +65,8 @@ DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(ve
   tick = block(description.tick);
   picture = block(description.picture.code);
   for (const Peak& peak : description.peaks) peaks.push_back(block(peak.code));
+  first_state = description.first_state();
+  for (const State& state : description.states) state_rules.push_back({state.low, state.high, state.next});
   for (const Output& output : description.outputs) (output.axis == 0 ? force_x : force_y) = output.value;
 }
 

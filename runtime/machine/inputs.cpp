@@ -1,12 +1,17 @@
 #include "runtime/machine/inputs.hpp"
 
+#include <cstddef>
 #include <limits>
+#include <optional>
 
 namespace wale {
 namespace {
 
 /// `value` held within +-`bound`; not-a-number gives 0.
 float within(float value, float bound) {
+  // A branch, which is foreseen: a tick does not wait for it as it would for a minimum and a maximum.
+  if (value >= -bound && value <= bound) [[likely]]
+    return value;
   return value >= -bound ? (value <= bound ? value : bound) : (value < 0 ? -bound : 0.0f);
 }
 
@@ -15,40 +20,66 @@ float seconds(double time) {
   return time >= 0 ? (time <= most ? static_cast<float>(time) : most) : 0.0f;
 }
 
-template <class Value>
-void place(std::span<const Hand> hands, float* values, Value value) {
-  for (std::size_t i = 0; i < hands.size(); ++i) values[i] = value(hands[i]);
+/// Where a hand keeps an input, and how far it may go; nothing for time and button, which are no components of motion.
+struct Place {
+  glm::vec2 Hand::*quantity;
+  float glm::vec2::*axis;
+  float bound;
+};
+
+std::optional<Place> place_of(Input input, const Envelope& envelope) {
+  const auto [reach, speed, acceleration] = envelope;
+  constexpr auto x = &glm::vec2::x, y = &glm::vec2::y;
+  switch (input) {
+    case Input::x: return Place{&Hand::position, x, reach};
+    case Input::y: return Place{&Hand::position, y, reach};
+    case Input::velocity_x: return Place{&Hand::velocity, x, speed};
+    case Input::velocity_y: return Place{&Hand::velocity, y, speed};
+    case Input::acceleration_x: return Place{&Hand::acceleration, x, acceleration};
+    case Input::acceleration_y: return Place{&Hand::acceleration, y, acceleration};
+    case Input::raw_velocity_x: return Place{&Hand::raw_velocity, x, speed};
+    case Input::raw_velocity_y: return Place{&Hand::raw_velocity, y, speed};
+    case Input::raw_acceleration_x: return Place{&Hand::raw_acceleration, x, acceleration};
+    case Input::raw_acceleration_y: return Place{&Hand::raw_acceleration, y, acceleration};
+    case Input::workspace_x: return Place{&Hand::workspace, x, reach};
+    case Input::workspace_y: return Place{&Hand::workspace, y, reach};
+    default: return std::nullopt;
+  }
 }
+
+float pressed(bool button) { return button ? 1.0f : 0.0f; }
 
 }  // namespace
 
 void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept {
-  const auto [reach, speed, acceleration] = envelope;
-  const auto components = [&](glm::vec2 Hand::*quantity, float bound, float glm::vec2::*axis) {
-    place(hands, values, [=](const Hand& hand) { return within(hand.*quantity.*axis, bound); });
-  };
-  constexpr auto x = &glm::vec2::x, y = &glm::vec2::y;
-  switch (input) {
-    case Input::x: return components(&Hand::position, reach, x);
-    case Input::y: return components(&Hand::position, reach, y);
-    case Input::velocity_x: return components(&Hand::velocity, speed, x);
-    case Input::velocity_y: return components(&Hand::velocity, speed, y);
-    case Input::acceleration_x: return components(&Hand::acceleration, acceleration, x);
-    case Input::acceleration_y: return components(&Hand::acceleration, acceleration, y);
-    case Input::raw_velocity_x: return components(&Hand::raw_velocity, speed, x);
-    case Input::raw_velocity_y: return components(&Hand::raw_velocity, speed, y);
-    case Input::raw_acceleration_x: return components(&Hand::raw_acceleration, acceleration, x);
-    case Input::raw_acceleration_y: return components(&Hand::raw_acceleration, acceleration, y);
-    case Input::workspace_x: return components(&Hand::workspace, reach, x);
-    case Input::workspace_y: return components(&Hand::workspace, reach, y);
-    case Input::time: return place(hands, values, [](const Hand& hand) { return seconds(hand.time); });
-    case Input::button: return place(hands, values, [](const Hand& hand) { return hand.button ? 1.0f : 0.0f; });
-    case Input::patch_half_width:
-    case Input::patch_half_height:
-    case Input::patch_rim:
-    case Input::probe:
-    case Input::seconds_per_tick: return;  // the bank's, or whoever predicts
+  if (const auto place = place_of(input, envelope)) {
+    for (const Hand& hand : hands) *values++ = within(hand.*place->quantity.*place->axis, place->bound);
+  } else if (input == Input::time) {
+    for (const Hand& hand : hands) *values++ = seconds(hand.time);
+  } else {
+    for (const Hand& hand : hands) *values++ = pressed(hand.button);
   }
+}
+
+HandReader::HandReader(std::span<const Input> inputs, const Envelope& envelope) {
+  const Hand hand;
+  for (const Input input : inputs) {
+    if (const auto place = place_of(input, envelope)) {
+      const auto* component = reinterpret_cast<const std::byte*>(&(hand.*place->quantity.*place->axis));
+      components_.push_back({static_cast<std::uint16_t>(component - reinterpret_cast<const std::byte*>(&hand)),
+                             static_cast<RegisterNumber>(input), place->bound});
+    } else {
+      (input == Input::time ? time_ : button_) = true;
+    }
+  }
+}
+
+void HandReader::operator()(const Hand& hand, float* registers) const noexcept {
+  const auto* begin = reinterpret_cast<const std::byte*>(&hand);
+  for (const auto& [offset, number, bound] : components_)
+    registers[number] = within(*reinterpret_cast<const float*>(begin + offset), bound);
+  if (time_) registers[static_cast<RegisterNumber>(Input::time)] = seconds(hand.time);
+  if (button_) registers[static_cast<RegisterNumber>(Input::button)] = pressed(hand.button);
 }
 
 }  // namespace wale

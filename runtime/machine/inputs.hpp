@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "schema/patch_program.hpp"
 #include "wale/program.hpp"
@@ -25,11 +27,25 @@ struct Envelope {
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept;
 
-/// The same for several inputs of one hand, each to its register.
-inline void place_hand(std::span<const Input> inputs, const Hand& hand, const Envelope& envelope,
-                       float* registers) noexcept {
-  for (const Input input : inputs)
-    place_input(input, {&hand, 1}, envelope, registers + static_cast<RegisterNumber>(input));
-}
+/// Writes some inputs of one hand, each to its register, as `place_input` does.
+class HandReader {
+ public:
+  HandReader() = default;
+  /// Of inputs that change from tick to tick.
+  HandReader(std::span<const Input> inputs, const Envelope& envelope);
+
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  void operator()(const Hand& hand, float* registers) const noexcept;
+
+ private:
+  /// One component of the hand's motion.
+  struct Component {
+    std::uint16_t offset;  ///< bytes from the hand's beginning
+    RegisterNumber number;
+    float bound;
+  };
+  std::vector<Component> components_;
+  bool time_ = false, button_ = false;
+};
 
 }  // namespace wale

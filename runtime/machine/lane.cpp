@@ -39,7 +39,7 @@ void run_lane(const DecodedProgram& program, std::span<const Instruction> code, 
   for (const Instruction& i : code) {
     // clang-format off
     switch (static_cast<Operation>(i.operation)) {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative)                                  \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative)                                  \
       case Operation::name:                                                                                    \
         registers[i.destination] = Meaning<Operation::name>::of(registers[i.a], registers[i.b], registers[i.c]); \
         break;

@@ -11,7 +11,7 @@ template <Operation>
 struct Meaning;
 
 // clang-format off
-#define INSTRUCTION(number, name, fields, results, cost, meaning, derivative)                                 \
+#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative)                                 \
   template <>                                                                                                 \
   struct Meaning<Operation::name> {                                                                           \
     static float of([[maybe_unused]] float a, [[maybe_unused]] float b, [[maybe_unused]] float c) {           \

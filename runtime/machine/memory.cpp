@@ -21,7 +21,7 @@ void Memory::enter(Bank& bank, const Hand& hand) noexcept {
   const DecodedProgram& program = program_.decoded();
   if (&program != &bank.program().decoded() || states_.empty()) return;
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.envelope, registers);
+  program.hand_reader(hand, registers);
   {
     const FloatingPointMode mode;
     enter_lane(program, registers);
@@ -41,18 +41,24 @@ std::span<const float> Memory::grid(std::size_t index) const {
 __attribute__((noinline))  // see FloatingPointMode
 #endif
 void Memory::remember(const float* registers) noexcept {
-  const PatchProgram& description = program_.description();
+  const DecodedProgram& decoded = program_.decoded();
+  const PatchProgram& description = decoded.description;
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const State& state = description.states[i];
-    const float next = registers[state.next];
-    states_[i] = held_state(next, state, initial_states_[i]);
-    if (next != next) ++restored_;
+    const StateRule& rule = decoded.state_rules[i];
+    const float next = registers[rule.next];
+    const bool within = next >= rule.low && next <= rule.high && absolute(next) >= arithmetic::least_normal;
+    if (within) [[likely]] {  // foreseen, so the next tick need not wait for it
+      states_[i] = next;
+    } else {
+      states_[i] = held_state(next, rule, initial_states_[i]);
+      if (next != next) ++restored_;
+    }
   }
   for (const GridWrite& write : description.writes) {
     const float u = registers[write.u], v = registers[write.v], value = registers[write.value];
     if (u != u || v != v || value != value) continue;
     const Grid& grid = description.grids[write.grid];
-    cells_[cell_at(program_.decoded().grids[write.grid], u, v)] = std::clamp(value, grid.low, grid.high);
+    cells_[cell_at(decoded.grids[write.grid], u, v)] = std::clamp(value, grid.low, grid.high);
   }
 }
 

@@ -5,28 +5,19 @@
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/inputs.hpp"
-#include "runtime/machine/lane.hpp"
 #include "runtime/machine/states.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::array<Input, 14> hand_inputs = {
-    Input::x,
-    Input::y,
-    Input::velocity_x,
-    Input::velocity_y,
-    Input::acceleration_x,
-    Input::acceleration_y,
-    Input::raw_velocity_x,
-    Input::raw_velocity_y,
-    Input::raw_acceleration_x,
-    Input::raw_acceleration_y,
-    Input::workspace_x,
-    Input::workspace_y,
-    Input::time,
-    Input::button,
-};
+/// All that a hand brings.
+constexpr auto hand_inputs = [] {
+  std::array<Input, changing_inputs> inputs{};
+  std::size_t count = 0;
+  for (RegisterNumber number = 0; number < first_constant; ++number)
+    if (input_table[number].changes) inputs[count++] = static_cast<Input>(number);
+  return inputs;
+}();
 
 bool belongs(const Memory* memory, const Bank& bank) {
   return memory != nullptr && &memory->program().decoded() == &bank.program().decoded();
@@ -36,7 +27,7 @@ bool belongs(const Memory* memory, const Bank& bank) {
 std::vector<float> registers_at(const Bank& bank, const Memory* memory, const Hand& hand) {
   const DecodedProgram& program = bank.program().decoded();
   std::vector<float> registers(bank.registers().begin(), bank.registers().end());
-  place_hand(hand_inputs, hand, program.envelope, registers.data());
+  HandReader(hand_inputs, program.envelope)(hand, registers.data());
   if (memory != nullptr) {
     std::copy(memory->states().begin(), memory->states().end(), registers.begin() + program.description.first_state());
   } else {
@@ -99,8 +90,8 @@ std::vector<ShownMark> show(const Bank& bank, const Memory& memory, const Hand& 
   std::vector<float> registers = registers_at(bank, own, hand);
   {
     const FloatingPointMode mode;
-    run_lane(program, picture.frame, registers.data(),
-             own != nullptr ? own->cells().data() : program.initial_cells.data());
+    const float* cells = own != nullptr ? own->cells().data() : program.initial_cells.data();
+    run_threaded(program.lane_frame, program.lookups(cells), registers.data());
   }
   std::vector<ShownMark> shown;
   for (const Mark& mark : picture.marks) {

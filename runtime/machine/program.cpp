@@ -13,11 +13,12 @@ namespace {
 
 float& at(float* registers, Input input) { return registers[static_cast<std::size_t>(input)]; }
 
-/// The size asked for where it makes sense. A rim that leaves no middle is cut to a quarter of the smaller side.
-PatchSize sensible(PatchSize size, PatchSize fallback) {
+/// The size asked for where it makes sense: no side longer than `most`, the workspace, which proofs count on. A rim
+/// that leaves no middle is cut to a quarter of the smaller side.
+PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
   const auto usable = [](float side) { return std::isfinite(side) && side > 0; };
-  if (!usable(size.width)) size.width = fallback.width;
-  if (!usable(size.height)) size.height = fallback.height;
+  size.width = std::min(usable(size.width) ? size.width : fallback.width, most);
+  size.height = std::min(usable(size.height) ? size.height : fallback.height, most);
   if (!std::isfinite(size.rim) || size.rim < 0) size.rim = fallback.rim;
   const float smaller = std::min(size.width, size.height);
   if (size.rim >= 0.5f * smaller) size.rim = 0.25f * smaller;
@@ -58,7 +59,7 @@ std::optional<std::size_t> Program::parameter(std::string_view name) const {
 
 Bank::Bank(const Program& program, std::span<const float> parameters, PatchSize size)
     : program_(program),
-      size_(sensible(size, program.default_size())),
+      size_(sensible(size, program.default_size(), program.decoded().envelope.reach)),
       registers_(program.description().register_count()) {
   const PatchProgram& description = program_.description();
   float* registers = registers_.data();

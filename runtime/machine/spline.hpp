@@ -11,7 +11,9 @@ namespace wale {
 /// A height table as the coefficients of the cubic B-spline that passes through its samples (code 65535 is 1),
 /// continued beyond its edges by mirroring about the first and last samples.
 ///
-/// Coefficients are computed in double and kept as float: at a sample the spline is within 3e-7 of it.
+/// Coefficients are computed in double and kept as float, row by row: at a sample the spline is within 3e-7 of it.
+/// With 16 bits each it would be within 2e-5, more than a step of the table's own codes, and no faster: at a random
+/// place of a map beyond the cache the four rows are fetched at once, and tiles of four by four take as long.
 struct Spline {
   explicit Spline(const HeightTable& table);
 
@@ -63,24 +65,37 @@ struct CubicWeights {
   float value[4], slope[4];
 };
 
+/// The sum over four by four coefficients, which `coefficient` gives by row and column.
+template <class Coefficient>
+SplineSample sample_among(const Coefficient& coefficient, const CubicWeights& across, const CubicWeights& down) {
+  float value = 0.0f, along_a = 0.0f, along_b = 0.0f;
+  const auto add_row = [&](int j) {  // no loop: compilers vectorise over lanes only where there is none within
+    const float c0 = coefficient(j, 0), c1 = coefficient(j, 1), c2 = coefficient(j, 2), c3 = coefficient(j, 3);
+    const float row_value =
+        (across.value[0] * c0 + across.value[1] * c1) + (across.value[2] * c2 + across.value[3] * c3);
+    const float row_slope =
+        (across.slope[0] * c0 + across.slope[1] * c1) + (across.slope[2] * c2 + across.slope[3] * c3);
+    value += down.value[j] * row_value;
+    along_a += down.value[j] * row_slope;
+    along_b += down.slope[j] * row_value;
+  };
+  add_row(0);
+  add_row(1);
+  add_row(2);
+  add_row(3);
+  return {value, along_a, along_b};
+}
+
 /// The spline at (a, b) samples from the centre of its first sample, a along rows.
 inline SplineSample sample_of(const Spline& spline, float a, float b) {
   const MirroredCoordinate column = mirrored(a, spline.width);
   const MirroredCoordinate row = mirrored(b, spline.height);
-  const CubicWeights across(column.fraction), down(row.fraction);
-  const float* corner = spline.coefficients.data() + static_cast<std::size_t>(row.cell) * spline.stride + column.cell;
-  float value = 0.0f, along_a = 0.0f, along_b = 0.0f;
-  for (int j = 0; j < 4; ++j) {
-    const float* c = corner + static_cast<std::size_t>(j) * spline.stride;
-    const float row_value =
-        (across.value[0] * c[0] + across.value[1] * c[1]) + (across.value[2] * c[2] + across.value[3] * c[3]);
-    const float row_slope =
-        (across.slope[0] * c[0] + across.slope[1] * c[1]) + (across.slope[2] * c[2] + across.slope[3] * c[3]);
-    value += down.value[j] * row_value;
-    along_a += down.value[j] * row_slope;
-    along_b += down.slope[j] * row_value;
-  }
-  return {value, column.sign * along_a, row.sign * along_b};
+  const std::size_t stride = spline.stride;
+  const float* corner = spline.coefficients.data() + (row.cell * stride + column.cell);
+  const SplineSample sample = sample_among(
+      [=](int j, int i) { return corner[static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i)]; },
+      CubicWeights(column.fraction), CubicWeights(row.fraction));
+  return {sample.value, column.sign * sample.along_a, row.sign * sample.along_b};
 }
 
 }  // namespace wale

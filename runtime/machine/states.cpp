@@ -1,15 +1,13 @@
 #include "runtime/machine/states.hpp"
 
-#include "runtime/machine/lane.hpp"
-
 namespace wale {
 
 #if defined(__GNUC__)
 __attribute__((noinline))  // see FloatingPointMode
 #endif
-void enter_lane(const DecodedProgram& program, float* registers) {
+void enter_lane(const DecodedProgram& program, float* registers) noexcept {
   const PatchProgram& description = program.description;
-  run_lane(program, description.enter, registers, nullptr);
+  run_threaded(program.lane_enter, program.lookups(nullptr), registers);
   float* states = registers + description.first_state();
   for (const State& state : description.states) *states++ = initial_state(registers[state.initial], state);
 }

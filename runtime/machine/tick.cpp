@@ -3,7 +3,7 @@
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/inputs.hpp"
-#include "runtime/machine/lane.hpp"
+#include "runtime/machine/parallel.hpp"
 #include "runtime/machine/states.hpp"
 #include "wale/memory.hpp"
 #include "wale/program.hpp"
@@ -13,11 +13,11 @@ namespace wale {
 Force tick(Bank& bank, const Hand& hand) noexcept {
   const DecodedProgram& program = bank.program().decoded();
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.envelope, registers);
+  program.hand_reader(hand, registers);
   {
     const FloatingPointMode mode;
     if (!program.description.states.empty()) enter_lane(program, registers);
-    run_lane(program, program.description.tick, registers, program.initial_cells.data());
+    run_threaded(program.lane_tick, program.lookups(program.initial_cells.data()), registers);
   }
   return {registers[program.force_x], registers[program.force_y]};
 }
@@ -26,17 +26,23 @@ Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept {
   const DecodedProgram& program = bank.program().decoded();
   if (&program != &memory.program_.decoded()) return tick(bank, hand);
   float* registers = bank.registers().data();
-  place_hand(program.tick_inputs, hand, program.envelope, registers);
-  std::copy(memory.states_.begin(), memory.states_.end(), registers + program.description.first_state());
+  program.hand_reader(hand, registers);
+  float* state = registers + program.first_state;
+  for (const float value : memory.states_) *state++ = value;
   {
     const FloatingPointMode mode;
-    run_lane(program, program.description.tick, registers, memory.cells_.data());
+    run_threaded(program.lane_tick, program.lookups(memory.cells_.data()), registers);
     memory.remember(registers);
   }
   return {registers[program.force_x], registers[program.force_y]};
 }
 
-void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
+namespace {
+
+/// More than this, in units of cost over all hands, is worth another thread: about a millisecond in blocks.
+constexpr double worth_a_thread = 4e6;
+
+void tick_some(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
   const DecodedProgram& program = bank.program().decoded();
   const PatchProgram& description = program.description;
   const float* registers = bank.registers().data();
@@ -52,10 +58,20 @@ void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> fo
     const FloatingPointMode mode;
     if (!description.states.empty()) enter_block(program, block, registers);
     block.run(program.tick, registers, program.initial_cells.data());
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      forces[first + lane] = {block.value(force_x, lane, registers), block.value(force_y, lane, registers)};
-    }
+    block.pairs(force_x, force_y, registers, forces.subspan(first, count));
   }
+}
+
+}  // namespace
+
+void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {
+  const PatchProgram& description = bank.program().description();
+  const double cost = 1.0 + static_cast<double>(cost_of(description.enter) + cost_of(description.tick));
+  if (static_cast<double>(hands.size()) * cost < worth_a_thread) return tick_some(bank, hands, forces);
+  in_parallel((hands.size() + lanes - 1) / lanes, [&](std::size_t begin, std::size_t end) {
+    const std::size_t first = begin * lanes, count = std::min(end * lanes, hands.size()) - first;
+    tick_some(bank, hands.subspan(first, count), forces.subspan(first, count));
+  });
 }
 
 }  // namespace wale

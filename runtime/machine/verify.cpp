@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <initializer_list>
 
@@ -12,259 +11,295 @@
 namespace wale {
 namespace {
 
+using Code = std::span<const Instruction>;
+
+/// Inputs as a set: bit number n for register n.
+using Inputs = std::uint32_t;
+
+constexpr Inputs set_of(std::initializer_list<Input> inputs) {
+  Inputs set = 0;
+  for (const Input input : inputs) set |= Inputs{1} << static_cast<RegisterNumber>(input);
+  return set;
+}
+
+constexpr Inputs patch_inputs =
+    set_of({Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::seconds_per_tick});
+constexpr Inputs picture_inputs = patch_inputs | set_of({Input::x, Input::y});
+constexpr Inputs tick_inputs =
+    picture_inputs |
+    set_of({Input::velocity_x, Input::velocity_y, Input::acceleration_x, Input::acceleration_y, Input::raw_velocity_x,
+            Input::raw_velocity_y, Input::raw_acceleration_x, Input::raw_acceleration_y, Input::workspace_x,
+            Input::workspace_y, Input::time, Input::button});
+constexpr Inputs prediction_inputs = patch_inputs | set_of({Input::probe});
+
+/// What an operand names.
+enum class Field : std::uint8_t { nothing, reg, table, grid, peak };
+
+/// What the fields of an operation's instruction may hold, by number; of numbers that no operation has nothing.
+struct LegalFields {
+  bool known = false;
+  std::uint8_t results = 0;
+  std::array<Field, 3> operands{};
+};
+
+constexpr auto legal_fields = [] {
+  std::array<LegalFields, operation_table.size()> table{};
+  for (std::size_t number = 0; number < table.size(); ++number) {
+    const OperationFacts& known = operation_table[number];
+    if (known.name.empty()) continue;
+    table[number].known = true;
+    table[number].results = static_cast<std::uint8_t>(known.results);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const char field = known.fields[i];
+      table[number].operands[i] = field == 'r'   ? Field::reg
+                                  : field == 't' ? Field::table
+                                  : field == 'g' ? Field::grid
+                                  : field == 'p' ? Field::peak
+                                                 : Field::nothing;
+    }
+  }
+  return table;
+}();
+
 /// What the code of one section may do.
 struct Section {
   std::string name;
-  std::initializer_list<Input> inputs;   ///< that it may read
+  CodeSection kind = CodeSection::setup;
+  std::size_t index = 0;                 ///< of the peak or the prediction
+  Inputs inputs = 0;                     ///< that it may read
   RegisterNumber first_destination = 0;  ///< it writes from here
   std::size_t destination_count = 0;     ///< on, so many registers
   bool peaks = false;                    ///< it may hold `peak` instructions
   bool grids = false;                    ///< it may hold `recall` and `cell` instructions
+  bool states = false;                   ///< it may read states
+  std::uint32_t stamp = 0;               ///< what `Verifier::written_` says of registers that it wrote
 };
-
-using Registers = std::bitset<register_limit>;
-
-constexpr std::initializer_list<Input> patch_inputs = {Input::patch_half_width, Input::patch_half_height,
-                                                       Input::patch_rim, Input::seconds_per_tick};
-constexpr std::initializer_list<Input> picture_inputs = {
-    Input::x, Input::y, Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::seconds_per_tick};
-constexpr std::initializer_list<Input> tick_inputs = {Input::x,
-                                                      Input::y,
-                                                      Input::velocity_x,
-                                                      Input::velocity_y,
-                                                      Input::patch_half_width,
-                                                      Input::patch_half_height,
-                                                      Input::patch_rim,
-                                                      Input::acceleration_x,
-                                                      Input::acceleration_y,
-                                                      Input::raw_velocity_x,
-                                                      Input::raw_velocity_y,
-                                                      Input::raw_acceleration_x,
-                                                      Input::raw_acceleration_y,
-                                                      Input::workspace_x,
-                                                      Input::workspace_y,
-                                                      Input::time,
-                                                      Input::button,
-                                                      Input::seconds_per_tick};
-constexpr std::initializer_list<Input> prediction_inputs = {Input::patch_half_width, Input::patch_half_height,
-                                                            Input::patch_rim, Input::probe, Input::seconds_per_tick};
 
 /// Follows code in order and refuses the first instruction that breaks a rule.
 class Verifier {
  public:
-  explicit Verifier(const PatchProgram& program) : program_(program), register_count_(program.register_count()) {
-    for (std::size_t i = first_constant; i < program.first_setup(); ++i) defined_[i] = true;
-  }
+  explicit Verifier(const PatchProgram& program)
+      : program_(program),
+        first_setup_(program.first_setup()),
+        first_state_(program.first_state()),
+        first_temporary_(program.first_temporary()),
+        register_count_(program.register_count()),
+        written_(register_count_),
+        proved_(program.setup_registers) {}
 
   void verify_program() {
     verify_setup();
-    const Registers after_setup = defined_;
-    verify_enter(after_setup);
-    Registers with_states = after_setup;
-    for (std::size_t i = 0; i < program_.states.size(); ++i) with_states[program_.first_state() + i] = true;
-    verify_tick(with_states);
-    verify_picture(with_states);
-    for (std::size_t i = 0; i < program_.percepts.size(); ++i) verify_percept(i, after_setup);
+    verify_enter();
+    verify_tick();
+    verify_picture();
+    for (std::size_t i = 0; i < program_.percepts.size(); ++i) verify_percept(i);
     verify_outputs();
     verify_costs();
   }
 
  private:
-  Section temporary_section(std::string name, std::initializer_list<Input> inputs, bool grids = false) const {
-    return {std::move(name), inputs, program_.first_temporary(), program_.temporaries, false, grids};
+  Section temporary_section(std::string name, CodeSection kind, std::size_t index, Inputs inputs,
+                            bool remembers = false) {
+    return {std::move(name),      kind,  index,     inputs,    first_temporary_,
+            program_.temporaries, false, remembers, remembers, ++stamp_};
   }
 
   void verify_setup() {
-    const Section setup{"setup", patch_inputs, program_.first_setup(), program_.setup_registers, true};
-    std::vector<bool> invoked(program_.peaks.size());
-    for (std::size_t number = 0; number < program_.setup.size(); ++number) {
-      const Instruction& instruction = program_.setup[number];
-      check_fields(setup, number, instruction, defined_);
+    const Section setup{
+        "setup", CodeSection::setup, 0, patch_inputs, first_setup_, program_.setup_registers, true, false, false,
+        always};
+    const Code code = program_.setup;
+    std::vector<char> invoked(program_.peaks.size());
+    for (std::size_t number = 0; number < code.size(); ++number) {
+      const Instruction& instruction = code[number];
+      check(setup, code, number);
       if (instruction.operation == static_cast<std::uint8_t>(Operation::peak)) {
         if (invoked[instruction.a]) {
-          refuse(place(setup, number, instruction), " runs peak ", instruction.a, " a second time");
+          refuse_at(setup, code, number, place(setup, number, instruction), " runs peak ", instruction.a,
+                    " a second time");
         }
         invoked[instruction.a] = true;
         verify_peak(instruction.a);
       }
-      define(instruction, defined_);
+      define(setup, instruction);
       note_ceiling(instruction);
     }
     for (std::size_t i = 0; i < invoked.size(); ++i) {
       if (!invoked[i]) refuse("peak ", i, " is run by no instruction of setup");
     }
     for (std::size_t i = 0; i < program_.setup_registers; ++i) {
-      if (!defined_[program_.first_setup() + i]) {
-        refuse("setup leaves register ", program_.first_setup() + i, " undefined");
-      }
+      if (written_[first_setup_ + i] != always) refuse("setup leaves register ", first_setup_ + i, " undefined");
     }
   }
 
   /// A peak sees the setup registers as they are when its instruction runs it.
   void verify_peak(std::size_t index) {
     const Peak& peak = program_.peaks[index];
-    const Section section = temporary_section("peak " + std::to_string(index), picture_inputs);
-    const Section extents{section.name, patch_inputs};
-    require_result(extents, defined_, peak.half_width, "half width");
-    require_result(extents, defined_, peak.half_height, "half height");
-    require_result(section, run(section, peak.code, defined_), peak.value, "value");
+    const Section section =
+        temporary_section("peak " + std::to_string(index), CodeSection::peak, index, picture_inputs);
+    const Section extents{section.name, section.kind, section.index, patch_inputs};
+    require_result(extents, peak.half_width, "half width");
+    require_result(extents, peak.half_height, "half height");
+    run(section, peak.code);
+    require_result(section, peak.value, "value");
   }
 
   /// States begin with what `enter` leaves, which knows of no states.
-  void verify_enter(const Registers& after_setup) const {
-    const Section section = temporary_section("enter", tick_inputs);
-    const Registers after = run(section, program_.enter, after_setup);
+  void verify_enter() {
+    const Section section = temporary_section("enter", CodeSection::enter, 0, tick_inputs);
+    run(section, program_.enter);
     for (const State& state : program_.states) {
-      require_result(section, after, state.initial, "initial value of state " + state.name);
+      require_result(section, state.initial, "initial value of state ", state.name);
     }
   }
 
-  void verify_tick(const Registers& with_states) const {
-    const Section section = temporary_section("tick", tick_inputs, true);
-    const Registers after = run(section, program_.tick, with_states);
+  void verify_tick() {
+    const Section section = temporary_section("tick", CodeSection::tick, 0, tick_inputs, true);
+    run(section, program_.tick);
     for (const State& state : program_.states) {
-      require_result(section, after, state.next, "next value of state " + state.name);
+      require_result(section, state.next, "next value of state ", state.name);
     }
     for (std::size_t i = 0; i < program_.writes.size(); ++i) {
       const GridWrite& write = program_.writes[i];
-      const std::string name = "write " + std::to_string(i);
       if (write.grid >= program_.grids.size()) {
-        refuse(name, " goes to grid ", write.grid, " of ", program_.grids.size());
+        refuse("write ", i, " goes to grid ", write.grid, " of ", program_.grids.size());
       }
-      require_result(section, after, write.u, "column of " + name);
-      require_result(section, after, write.v, "row of " + name);
-      require_result(section, after, write.value, "value of " + name);
+      require_result(section, write.u, "column of write ", i);
+      require_result(section, write.v, "row of write ", i);
+      require_result(section, write.value, "value of write ", i);
     }
   }
 
-  void verify_picture(const Registers& with_states) const {
+  void verify_picture() {
     const Picture& picture = program_.picture;
-    const Section section = temporary_section("picture", picture_inputs, true);
-    const Registers after = run(section, picture.code, with_states);
-    require_result(section, after, picture.relief, "relief");
+    const Section section = temporary_section("picture", CodeSection::picture, 0, picture_inputs, true);
+    run(section, picture.code);
+    require_result(section, picture.relief, "relief");
     if (picture.colour) {
-      for (const RegisterNumber number : *picture.colour) require_result(section, after, number, "colour");
+      for (const RegisterNumber number : *picture.colour) require_result(section, number, "colour");
     }
-    const Section frame = temporary_section("frame", tick_inputs, true);
-    const Registers shown = run(frame, picture.frame, with_states);
+    const Section frame = temporary_section("frame", CodeSection::frame, 0, tick_inputs, true);
+    run(frame, picture.frame);
     for (std::size_t i = 0; i < picture.marks.size(); ++i) {
       const Mark& mark = picture.marks[i];
       for (std::size_t operand = 0; operand < mark_operands(mark.kind); ++operand) {
-        require_result(frame, shown, mark.operands[operand],
-                       "operand " + std::to_string(operand) + " of mark " + std::to_string(i));
+        require_result(frame, mark.operands[operand], "operand ", operand, " of mark ", i);
       }
     }
   }
 
-  void verify_percept(std::size_t index, const Registers& after_setup) {
+  void verify_percept(std::size_t index) {
     const PerceptRecord& percept = program_.percepts[index];
-    const Section section = temporary_section("percept " + std::to_string(index), prediction_inputs);
-    if (percept.amplitude < first_constant || !is_uniform(percept.amplitude)) {
+    const Section section =
+        temporary_section("percept " + std::to_string(index), CodeSection::prediction, index, prediction_inputs);
+    if (percept.amplitude < first_constant || percept.amplitude >= first_state_) {
       refuse(section.name, " finds its amplitude in register ", percept.amplitude,
              ", which is neither a constant, a parameter nor set up");
     }
-    const Registers after = run(section, percept.prediction, after_setup);
-    require_result(section, after, percept.magnitude, "magnitude");
-    require_result(section, after, percept.level, "level");
+    run(section, percept.prediction);
+    require_result(section, percept.magnitude, "magnitude");
+    require_result(section, percept.level, "level");
   }
 
-  /// Code of a section that starts from `defined`; returns what is defined after it.
-  Registers run(const Section& section, std::span<const Instruction> code, const Registers& defined) const {
-    Registers known = defined;
+  void run(const Section& section, Code code) {
     for (std::size_t number = 0; number < code.size(); ++number) {
-      check_fields(section, number, code[number], known);
-      define(code[number], known);
+      check(section, code, number);
+      define(section, code[number]);
     }
-    return known;
   }
 
-  void check_fields(const Section& section, std::size_t number, const Instruction& instruction,
-                    const Registers& defined) const {
-    const auto known = operation_facts(instruction.operation);
-    if (!known) {
-      refuse(section.name, " ", number, " has operation number ", int{instruction.operation},
-             ", which this Wale does not know");
+  /// The instruction against the table of legal fields and what the section may do.
+  void check(const Section& section, Code code, std::size_t number) const {
+    const Instruction& instruction = code[number];
+    const LegalFields& legal = legal_fields[instruction.operation];
+    if (!legal.known) {
+      refuse_at(section, code, number, section.name, " ", number, " has operation number ", int{instruction.operation},
+                ", which this Wale does not know");
     }
-    const auto here = [&] { return place(section, number, instruction); };
-    if (instruction.operation == static_cast<std::uint8_t>(Operation::peak) && !section.peaks) {
-      refuse(here(), " runs a peak, which only setup may");
-    }
-    if (known->fields[2] == 'g' && !section.grids) {
-      refuse(here(), " looks into a grid, which only tick, picture and frame may");
-    }
+    const auto refuse_here = [&](const auto&... parts) {
+      refuse_at(section, code, number, place(section, number, instruction), parts...);
+    };
     const std::array<RegisterNumber, 3> operands = {instruction.a, instruction.b, instruction.c};
     for (std::size_t i = 0; i < operands.size(); ++i) {
       const RegisterNumber operand = operands[i];
-      switch (known->fields[i]) {
-        case 'r':
-          check_read(
-              section, [&] { return here() + " reads"; }, operand, defined);
+      switch (legal.operands[i]) {
+        case Field::reg:
+          if (!may_read(section, operand)) refuse_here(" reads ", unreadable(section, operand));
           break;
-        case 't':
+        case Field::table:
           if (operand >= program_.tables.size()) {
-            refuse(here(), " looks into table ", operand, " of ", program_.tables.size());
+            refuse_here(" looks into table ", operand, " of ", program_.tables.size());
           }
           break;
-        case 'g':
+        case Field::grid:
+          if (!section.grids) refuse_here(" looks into a grid, which only tick, picture and frame may");
           if (operand >= program_.grids.size()) {
-            refuse(here(), " looks into grid ", operand, " of ", program_.grids.size());
+            refuse_here(" looks into grid ", operand, " of ", program_.grids.size());
           }
           break;
-        case 'p':
-          if (operand >= program_.peaks.size()) refuse(here(), " runs peak ", operand, " of ", program_.peaks.size());
+        case Field::peak:
+          if (!section.peaks) refuse_here(" runs a peak, which only setup may");
+          if (operand >= program_.peaks.size()) refuse_here(" runs peak ", operand, " of ", program_.peaks.size());
           break;
-        default:
+        case Field::nothing:
           if (operand != 0) {
-            refuse(here(), " has ", operand, " for operand ", "abc"[i], ", which it does not use and must be zero");
+            refuse_here(" has ", operand, " for operand ", "abc"[i], ", which it does not use and must be zero");
           }
       }
     }
     const std::size_t end = section.first_destination + section.destination_count;
     if (instruction.destination < section.first_destination ||
-        instruction.destination + static_cast<std::size_t>(known->results) > end) {
-      refuse(here(), " writes register ", instruction.destination, known->results > 1 ? " and those after it" : "",
-             ", and ", section.name, " may write only ", section.destination_count, " registers from ",
-             section.first_destination, " on");
+        instruction.destination + std::size_t{legal.results} > end) {
+      refuse_here(" writes register ", instruction.destination, legal.results > 1 ? " and those after it" : "",
+                  ", and ", section.name, " may write only ", section.destination_count, " registers from ",
+                  section.first_destination, " on");
     }
   }
 
-  /// `who` gives the beginning of the sentence for a refusal.
-  template <typename Sentence>
-  void check_read(const Section& section, const Sentence& who, RegisterNumber number, const Registers& defined) const {
+  /// Whether the register has a meaning for the section at this point of its code.
+  bool may_read(const Section& section, RegisterNumber number) const {
+    if (number < first_constant) return (section.inputs >> number & 1) != 0;
+    if (number < first_setup_) return true;
+    if (number >= register_count_) return false;
+    if (number >= first_state_ && number < first_temporary_) return section.states;
+    return written_[number] == always || (written_[number] != never && written_[number] == section.stamp);
+  }
+
+  /// The rest of a sentence about a register that may not be read.
+  std::string unreadable(const Section& section, RegisterNumber number) const {
+    const std::string name = std::to_string(number);
     if (number >= register_count_) {
-      refuse(who(), " register ", number, ", and the program has ", register_count_);
+      return "register " + name + ", and the program has " + std::to_string(register_count_);
     }
-    if (number < first_constant) {
-      const auto legal = [number](Input input) { return static_cast<RegisterNumber>(input) == number; };
-      if (std::none_of(section.inputs.begin(), section.inputs.end(), legal)) {
-        refuse(who(), " input ", number, ", which ", section.name, " does not have");
-      }
-    } else if (!defined[number]) {
-      refuse(who(), " register ", number, ", which nothing before it writes");
+    if (number < first_constant) return "input " + name + ", which " + section.name + " does not have";
+    return "register " + name + ", which nothing before it writes";
+  }
+
+  template <typename... What>
+  void require_result(const Section& section, RegisterNumber number, const What&... what) const {
+    if (!may_read(section, number)) {
+      refuse(section.name, " finds its ", what..., " in ", unreadable(section, number));
     }
   }
 
-  void require_result(const Section& section, const Registers& defined, RegisterNumber number,
-                      std::string_view what) const {
-    check_read(
-        section, [&] { return section.name + " finds its " + std::string(what) + " in"; }, number, defined);
-  }
-
-  static void define(const Instruction& instruction, Registers& defined) {
-    const int results = facts(static_cast<Operation>(instruction.operation)).results;
-    for (int i = 0; i < results; ++i) defined[instruction.destination + i] = true;
+  void define(const Section& section, const Instruction& instruction) {
+    const int results = legal_fields[instruction.operation].results;
+    for (int i = 0; i < results; ++i) written_[instruction.destination + i] = section.stamp;
   }
 
   /// Keeps up to date which setup registers are proved to lie below the device's force.
   void note_ceiling(const Instruction& instruction) {
-    const int results = facts(static_cast<Operation>(instruction.operation)).results;
-    for (int i = 0; i < results; ++i) proved_[instruction.destination + i] = false;
+    const int results = legal_fields[instruction.operation].results;
+    char* proved = proved_.data() + (instruction.destination - first_setup_);
+    std::fill(proved, proved + results, false);
     if (instruction.operation == static_cast<std::uint8_t>(Operation::limit)) {
-      proved_[instruction.destination] = is_ceiling_constant(instruction.b);
+      *proved = is_ceiling_constant(instruction.b);
     }
   }
 
-  bool is_uniform(RegisterNumber number) const { return number < program_.first_state(); }
+  bool is_proved(RegisterNumber number) const {
+    return number >= first_setup_ && number < first_state_ && proved_[number - first_setup_] != 0;
+  }
 
   bool is_ceiling_constant(RegisterNumber number) const {
     if (number < first_constant || number >= program_.first_parameter()) return false;
@@ -289,24 +324,27 @@ class Verifier {
 
   void verify_output(const Output& output) const {
     const std::string name = std::string("output force ") + "xy"[output.axis];
-    const auto writes = [&output](const Instruction& i) {
-      const auto results = static_cast<std::size_t>(facts(static_cast<Operation>(i.operation)).results);
-      return output.value >= i.destination && output.value < i.destination + results;
+    const Code code = program_.tick;
+    const auto last = last_writer(code, code.size(), output.value);
+    if (!last) refuse(name, " is register ", output.value, ", which tick does not write");
+    const Section tick{"tick", CodeSection::tick};
+    const Instruction& limit = code[*last];
+    if (limit.operation != static_cast<std::uint8_t>(Operation::limit)) {
+      refuse_at(tick, code, *last, name, " is written last by ", place(tick, *last, limit), ", which is no limit");
+    }
+    if (limit.b != output.ceiling) {
+      refuse_at(tick, code, *last, name, " is limited by register ", limit.b, " and declares register ", output.ceiling,
+                " its ceiling");
+    }
+    if (is_ceiling_constant(output.ceiling) || is_proved(output.ceiling)) return;
+    const auto ceiling = [&](const auto&... parts) {
+      // Where setup makes the ceiling, that is what went wrong.
+      const auto made = last_writer(program_.setup, program_.setup.size(), output.ceiling);
+      if (made) refuse_at({"setup"}, program_.setup, *made, parts...);
+      refuse_at(tick, code, *last, parts...);
     };
-    const auto last = std::find_if(program_.tick.rbegin(), program_.tick.rend(), writes);
-    if (last == program_.tick.rend()) refuse(name, " is register ", output.value, ", which tick does not write");
-    if (last->operation != static_cast<std::uint8_t>(Operation::limit)) {
-      const auto number = static_cast<std::size_t>(program_.tick.rend() - last) - 1;
-      refuse(name, " is written last by ", place({"tick", {}}, number, *last), ", which is no limit");
-    }
-    if (last->b != output.ceiling) {
-      refuse(name, " is limited by register ", last->b, " and declares register ", output.ceiling, " its ceiling");
-    }
-    const bool proved = output.ceiling < register_limit && proved_[output.ceiling];
-    if (!is_ceiling_constant(output.ceiling) && !proved) {
-      refuse(name, " has register ", output.ceiling, " for its ceiling, which is neither a constant above 0 and up to ",
-             program_.device.force_newton, " N nor limited by one in setup");
-    }
+    ceiling(name, " has register ", output.ceiling, " for its ceiling, which is neither a constant above 0 and up to ",
+            program_.device.force_newton, " N nor limited by one in setup");
   }
 
   void verify_costs() const {
@@ -334,13 +372,74 @@ class Verifier {
   }
 
   static std::string place(const Section& section, std::size_t number, const Instruction& instruction) {
-    const auto known = operation_facts(instruction.operation);
-    return section.name + " " + std::to_string(number) + " `" + std::string(known->name) + "`";
+    return section.name + " " + std::to_string(number) + " `" +
+           std::string(operation_table[instruction.operation].name) + "`";
   }
 
+  /// The last instruction before number `end` that writes the register.
+  static std::optional<std::size_t> last_writer(Code code, std::size_t end, RegisterNumber number) {
+    for (std::size_t i = end; i-- > 0;) {
+      const Instruction& instruction = code[i];
+      if (number >= instruction.destination &&
+          number < instruction.destination + legal_fields[instruction.operation].results) {
+        return i;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Refuses an instruction, and shows it with those that its operands come from: the nearest first, as many as fit.
+  template <typename... Parts>
+  [[noreturn]] void refuse_at(const Section& section, Code code, std::size_t number, const Parts&... parts) const {
+    std::vector<std::size_t> shown = {number};
+    for (std::size_t next = 0; next < shown.size() && shown.size() < shown_instructions; ++next) {
+      const Instruction& instruction = code[shown[next]];
+      const std::array<RegisterNumber, 3> operands = {instruction.a, instruction.b, instruction.c};
+      for (std::size_t i = 0; i < operands.size() && shown.size() < shown_instructions; ++i) {
+        if (legal_fields[instruction.operation].operands[i] != Field::reg) continue;
+        const auto made = last_writer(code, shown[next], operands[i]);
+        if (made && std::find(shown.begin(), shown.end(), *made) == shown.end()) shown.push_back(*made);
+      }
+    }
+    std::sort(shown.begin(), shown.end());
+    Refusal refusal{sentence(parts...), {}};
+    for (const std::size_t each : shown) {
+      refusal.instructions.push_back({section.name, each, listed(code[each]), line_of(section, each)});
+    }
+    throw refusal;
+  }
+
+  /// "corduroy.wale:9", where the program says.
+  std::string line_of(const Section& section, std::size_t number) const {
+    const auto line = program_.place_of(section.kind, section.index, number);
+    return line ? line->file + ":" + std::to_string(line->line) : std::string();
+  }
+
+  /// "r45 = multiply r45 r41", as far as the operation is known.
+  static std::string listed(const Instruction& instruction) {
+    const LegalFields& legal = legal_fields[instruction.operation];
+    std::string text = "r" + std::to_string(instruction.destination) + " = ";
+    text += legal.known ? std::string(operation_table[instruction.operation].name)
+                        : "operation " + std::to_string(instruction.operation);
+    const std::array<RegisterNumber, 3> operands = {instruction.a, instruction.b, instruction.c};
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      if (legal.operands[i] == Field::nothing && operands[i] == 0) continue;
+      text += legal.operands[i] == Field::reg ? " r" : " ";
+      text += std::to_string(operands[i]);
+    }
+    return text;
+  }
+
+  static constexpr std::uint32_t never = 0, always = 1;
+
   const PatchProgram& program_;
+  const RegisterNumber first_setup_, first_state_, first_temporary_;
   const std::size_t register_count_;
-  Registers defined_, proved_;
+  /// Which section wrote a register last: `never`, `always` for setup, else the section's stamp. What a section wrote
+  /// means nothing to the next, whose stamp is another, so that nothing is cleared in between.
+  std::vector<std::uint32_t> written_;
+  std::uint32_t stamp_ = always;
+  std::vector<char> proved_;  ///< setup registers below the device's force
 };
 
 }  // namespace
@@ -353,6 +452,16 @@ std::optional<Refusal> verify(const PatchProgram& program) {
   } catch (const Refusal& refusal) {
     return refusal;
   }
+}
+
+std::string explained(const Refusal& refusal) {
+  std::string text = refusal.reason + "\n";
+  for (const RefusedInstruction& each : refusal.instructions) {
+    text += "  " + each.section + " " + std::to_string(each.number) + "  " + each.text;
+    if (!each.place.empty()) text += "  (" + each.place + ")";
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace wale

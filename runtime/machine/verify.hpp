@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "schema/patch_program.hpp"
 
@@ -22,10 +23,17 @@ inline constexpr std::size_t cells_limit = std::size_t{1} << 20;
 /// Most grid writes of a tick and marks of a picture.
 inline constexpr std::size_t writes_limit = 16, marks_limit = 1024;
 
-/// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md.
+/// Most instructions that a refusal shows.
+inline constexpr std::size_t shown_instructions = 5;
+
+/// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md. A refusal of
+/// code shows the instructions that led to it, at most `shown_instructions`, with the lines that they come from where the program carries them.
 ///
 /// A program that passes stops in time, reads nothing that is not defined, remembers a bounded amount, and commands no
-/// force beyond its ceilings, whatever its registers hold.
+/// force beyond its ceilings, whatever its registers hold. Takes time and memory in proportion to the program.
 std::optional<Refusal> verify(const PatchProgram& program);
+
+/// A refusal in several lines: its reason, then the instructions that led to it, one a line.
+std::string explained(const Refusal& refusal);
 
 }  // namespace wale

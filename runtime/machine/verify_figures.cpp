@@ -129,6 +129,9 @@ void verify_patch(const PatchProgram& program) {
   if (!(program.patch_rim >= 0 && program.patch_rim < half)) {
     refuse("the patch's rim is ", program.patch_rim, " m and must leave a middle of its ", 2 * half);
   }
+  if (!(program.active_watt >= 0 && program.active_watt <= most_active_watt)) {
+    refuse("the program gives ", program.active_watt, " W by itself and must give 0 .. ", most_active_watt);
+  }
 }
 
 void verify_device(const DeviceProfile& device) {
@@ -147,6 +150,7 @@ void verify_device(const DeviceProfile& device) {
   require_within(device.mass, 0, 1000, "the device's mass (kg)");
   require_within(device.damping, 0, 1e6, "the device's damping (N s/m)");
   require_within(device.friction, 0, 1000, "the device's friction (N)");
+  require_within(device.delay, 0, 1, "the device's delay (s)");
 }
 
 void verify_percepts(const PatchProgram& program) {

@@ -1,10 +1,17 @@
 #include "runtime/stage/player.hpp"
 
-#include <cmath>
+#include <utility>
 
 namespace wale {
 
-Player::Player(Device& device, Exchange<PlacedPatch>& patches, Record& record, std::size_t beats)
+PlacedPatches::PlacedPatches(PlacedPatch patch) {
+  const PatchSize size = patch.bank.size();
+  const PatchOutline outline{patch.position, size.width, size.height};
+  front_most = std::make_shared<FrontMost>(std::span(&outline, 1));
+  patches.push_back(std::make_shared<PlacedPatch>(std::move(patch)));
+}
+
+Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats)
     : device_(device),
       patches_(patches),
       record_(record),
@@ -45,15 +52,14 @@ void Player::serve(const Beat& beat) noexcept {
   if (patches_.take()) guards_.slew();
   Force wanted(0);
   const Memory* inside = nullptr;
-  if (PlacedPatch* patch = patches_.held()) {
-    hand.position = glm::vec2(position - glm::dvec2(patch->position));
-    const PatchSize size = patch->bank.size();
-    if (std::abs(hand.position.x) <= size.width / 2 && std::abs(hand.position.y) <= size.height / 2) {
+  if (const PlacedPatches* all = patches_.held()) {
+    if (PlacedPatch* patch = all->at(position)) {
+      hand.position = glm::vec2(position - glm::dvec2(patch->position));
       wanted = feel(*patch, hand);
       inside = patch->memory.get();
     }
   }
-  if ((inside != nullptr) != (inside_ != nullptr)) guards_.slew();
+  if (inside != inside_) guards_.slew();
   inside_ = inside;
   const Force force = device_.command(guards_(wanted));
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "runtime/stage/acceleration_filter.hpp"
 #include "runtime/stage/exchange.hpp"
+#include "runtime/stage/front_most.hpp"
 #include "runtime/stage/guards.hpp"
 #include "runtime/stage/lateness.hpp"
 #include "runtime/stage/latest.hpp"
@@ -21,6 +23,24 @@ struct PlacedPatch {
   Bank bank;
   glm::vec2 position;
   std::shared_ptr<Memory> memory;
+};
+
+/// All that lies on the workspace, as the control side hands it over. What does not change from one to the next they
+/// share: the real-time thread alone touches the patches, and lets the last one go to the control side.
+struct PlacedPatches {
+  std::vector<std::shared_ptr<PlacedPatch>> patches;
+  std::shared_ptr<const FrontMost> front_most;  ///< of these, by their places in `patches`
+
+  PlacedPatches() : front_most(std::make_shared<FrontMost>()) {}
+  /// One patch alone.
+  explicit PlacedPatches(PlacedPatch patch);
+
+  /// The front-most patch under a point (m from the workspace's centre), or null.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  PlacedPatch* at(glm::dvec2 point) const noexcept {
+    const std::uint32_t number = front_most->at(point);
+    return number != FrontMost::none ? patches[number].get() : nullptr;
+  }
 };
 
 /// What one axis tells of the hand, in counts and ticks.
@@ -47,13 +67,13 @@ class AxisFilters {
 class Player {
  public:
   /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. Allocates.
-  Player(Device& device, Exchange<PlacedPatch>& patches, Record& record, std::size_t beats);
+  Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
-  /// Samples the device, filters its motion, takes the newest patch, ticks its program if the hand is within (after
-  /// entering it, if the hand was not within it before), guards, commands the force, records.
+  /// Samples the device, filters its motion, takes the newest patches, finds the front-most under the hand, ticks its
+  /// program (after entering it, if the hand was not on it before), guards, commands the force, records.
   /// Real-time: allocates nothing, takes no lock, makes no system call besides the device's own, does not throw.
   void serve(const Beat& beat) noexcept;
 
@@ -73,14 +93,14 @@ class Player {
   Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
 
   Device& device_;
-  Exchange<PlacedPatch>& patches_;
+  Exchange<PlacedPatches>& patches_;
   Record& record_;
   std::size_t served_ = 0;
   long missed_ = 0;
   double position_step_;  // m per count
   AxisFilters filters_x_, filters_y_;
   Guards guards_;
-  const Memory* inside_ = nullptr;  // the memory of the patch that the hand was within at the last beat
+  const Memory* inside_ = nullptr;  // the memory of the patch that the hand was on at the last beat
   long restored_ = 0;
   LatenessHistogram lateness_;
   Latest<Progress> latest_;

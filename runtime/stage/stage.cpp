@@ -1,5 +1,6 @@
 #include "wale/stage.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -64,8 +65,17 @@ struct Placement {
   Program program;
   glm::vec2 position;
   PatchSize size;
+  float layer;
   std::vector<float> parameters;
   std::shared_ptr<Memory> memory;
+
+  Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
+      : program(placed),
+        position(where),
+        size(how_large),
+        layer(how_far_in_front),
+        parameters(placed.default_parameters()),
+        memory(std::make_shared<Memory>(placed)) {}
 
   Bank bank() const { return Bank(program, parameters, size); }
 };
@@ -74,35 +84,67 @@ struct Stage::Parts {
   Device& device;
   std::mutex mutex;  // never taken by the real-time thread while it ticks
   std::condition_variable news;
-  std::optional<Placement> placement;
-  bool changed = false;   // the placement, since it was last published
-  bool finished = false;  // the real-time thread's last tick is done
+  std::vector<Placement> placements;
+  std::vector<std::size_t> changed;  // placements, since they were last published
+  bool cleared = false;              // all of them are new since then
+  bool finished = false;             // the real-time thread's last tick is done
   bool running = false;
+  PlacedPatches published;  // the thread's that publishes
 
   explicit Parts(Device& stages) : device(stages) {}
 
-  std::optional<Placement> copy_placement() {
+  std::optional<Placement> copy_placement(std::size_t patch) {
     const std::lock_guard lock(mutex);
-    return placement;
+    if (patch >= placements.size()) return std::nullopt;
+    return placements[patch];
   }
 
-  /// Builds and hands over the patch if it changed.
-  void publish_change(Exchange<PlacedPatch>& patches) {
+  /// With the mutex held.
+  void note_change(std::size_t patch) {
+    changed.push_back(patch);
+    news.notify_all();
+  }
+
+  /// Builds what changed, and hands over all patches.
+  void publish_change(Exchange<PlacedPatches>& patches) {
     std::unique_lock lock(mutex);
-    if (!std::exchange(changed, false)) return;
-    const Placement copy = *placement;
+    if (changed.empty()) return;
+    if (std::exchange(cleared, false)) published = PlacedPatches();
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    std::vector<std::pair<std::size_t, Placement>> copies;
+    for (const std::size_t patch : changed) copies.emplace_back(patch, placements[patch]);
+    changed.clear();
+    std::vector<float> layers;
+    const bool rearranged = published.patches.size() != placements.size();
+    if (rearranged)
+      for (const Placement& placement : placements) layers.push_back(placement.layer);
+    published.patches.resize(placements.size());
     lock.unlock();  // building may take long, and whoever turns the next knob should not wait for it
-    patches.publish({copy.bank(), copy.position, copy.memory});
+    for (const auto& [patch, copy] : copies)
+      published.patches[patch] = std::make_shared<PlacedPatch>(PlacedPatch{copy.bank(), copy.position, copy.memory});
+    if (rearranged) arrange(layers);
+    patches.publish(published);
   }
 
-  void play_in_virtual_time(Player& player, Exchange<PlacedPatch>& patches, long ticks, const RunOptions& options,
+  /// Finds out which patch is in front where. A bank knows its size, a placement only what it was asked for.
+  void arrange(const std::vector<float>& layers) {
+    std::vector<PatchOutline> outlines;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const PlacedPatch& patch = *published.patches[i];
+      outlines.push_back({patch.position, patch.bank.size().width, patch.bank.size().height, layers[i]});
+    }
+    published.front_most = std::make_shared<const FrontMost>(outlines);
+  }
+
+  void play_in_virtual_time(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
                             RunResult& result);
-  std::optional<Refusal> play_in_real_time(Player& player, Exchange<PlacedPatch>& patches, long ticks,
+  std::optional<Refusal> play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                            const RunOptions& options, RunResult& result);
-  void attend(const Player& player, Exchange<PlacedPatch>& patches, const RunOptions& options);
+  void attend(const Player& player, Exchange<PlacedPatches>& patches, const RunOptions& options);
 };
 
-void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatch>& patches, long ticks,
+void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                         const RunOptions& options, RunResult& result) {
   const double rate = device.profile().rate;
   const long every = std::max(1L, std::lround(rate * progress_seconds));
@@ -117,7 +159,7 @@ void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatch>& p
       });
 }
 
-std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<PlacedPatch>& patches, long ticks,
+std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                                        const RunOptions& options, RunResult& result) {
   std::atomic<bool> abandoned = false;
   finished = false;
@@ -154,13 +196,13 @@ std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<
 }
 
 /// The control thread's part while the real-time thread ticks.
-void Stage::Parts::attend(const Player& player, Exchange<PlacedPatch>& patches, const RunOptions& options) {
+void Stage::Parts::attend(const Player& player, Exchange<PlacedPatches>& patches, const RunOptions& options) {
   using Clock = std::chrono::steady_clock;
   const auto interval = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(progress_seconds));
   for (auto next_progress = Clock::now() + interval;;) {
     {
       std::unique_lock lock(mutex);
-      news.wait_until(lock, next_progress, [&] { return finished || changed; });
+      news.wait_until(lock, next_progress, [&] { return finished || !changed.empty(); });
       if (finished) return;
     }
     publish_change(patches);
@@ -178,17 +220,35 @@ Stage::~Stage() = default;
 void Stage::place(const Program& program, glm::vec2 position) { place(program, position, program.default_size()); }
 
 void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
-  Placement placement{program, position, size, program.default_parameters(), std::make_shared<Memory>(program)};
+  Placement placement(program, position, size, 0);
   const std::lock_guard lock(parts_->mutex);
-  parts_->placement = std::move(placement);
-  parts_->changed = true;
-  parts_->news.notify_all();
+  parts_->placements.clear();
+  parts_->placements.push_back(std::move(placement));
+  parts_->changed.clear();
+  parts_->cleared = true;
+  parts_->note_change(0);
 }
 
-std::optional<Refusal> Stage::set(std::string_view parameter, float value) {
+std::size_t Stage::add(const Program& program, glm::vec2 position, PatchSize size, float layer) {
+  Placement placement(program, position, size, layer);
   const std::lock_guard lock(parts_->mutex);
-  if (!parts_->placement) return Refusal{"nothing is placed on the stage"};
-  auto& [program, position, size, values, memory] = *parts_->placement;
+  const std::size_t number = parts_->placements.size();
+  parts_->placements.push_back(std::move(placement));
+  parts_->note_change(number);
+  return number;
+}
+
+std::optional<Refusal> Stage::set(std::string_view parameter, float value) { return set(0, parameter, value); }
+
+std::optional<Refusal> Stage::set(std::size_t patch, std::string_view parameter, float value) {
+  const std::lock_guard lock(parts_->mutex);
+  if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
+  if (patch >= parts_->placements.size()) {
+    return Refusal{"patch " + std::to_string(patch) + " is not among the " + std::to_string(parts_->placements.size()) +
+                   " on the stage"};
+  }
+  Placement& placement = parts_->placements[patch];
+  const Program& program = placement.program;
   const std::vector<Parameter>& known = program.description().parameters;
   const std::optional<std::size_t> index = program.parameter(parameter);
   if (!index) {
@@ -202,14 +262,13 @@ std::optional<Refusal> Stage::set(std::string_view parameter, float value) {
     return Refusal{range.name + " = " + shown(range, value) + " is not in its range " + shown(range, range.low) +
                    " .. " + shown(range, range.high)};
   }
-  values[*index] = value;
-  parts_->changed = true;
-  parts_->news.notify_all();
+  placement.parameters[*index] = value;
+  parts_->note_change(patch);
   return std::nullopt;
 }
 
-std::optional<Bank> Stage::bank() const {
-  const std::optional<Placement> placement = parts_->copy_placement();
+std::optional<Bank> Stage::bank(std::size_t patch) const {
+  const std::optional<Placement> placement = parts_->copy_placement(patch);
   if (!placement) return std::nullopt;
   return placement->bank();
 }
@@ -221,11 +280,15 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   if (auto* refusal = std::get_if<Refusal>(&ticks)) return *refusal;
   {
     const std::lock_guard lock(parts_->mutex);
-    if (!parts_->placement) return Refusal{"nothing is placed on the stage"};
+    if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
     if (parts_->running) return Refusal{"another run is under way on this stage"};
-    parts_->placement->memory = std::make_shared<Memory>(parts_->placement->program);
     parts_->running = true;
-    parts_->changed = true;  // every run begins with a bank of its own, and with a memory of its own
+    parts_->cleared = true;  // every run begins with banks of its own, and with memories of its own
+    parts_->changed.clear();
+    for (std::size_t patch = 0; patch < parts_->placements.size(); ++patch) {
+      parts_->placements[patch].memory = std::make_shared<Memory>(parts_->placements[patch].program);
+      parts_->changed.push_back(patch);
+    }
   }
   struct Ending {
     Parts& parts;
@@ -236,7 +299,7 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   } ending{*parts_};
 
   RunResult result;
-  Exchange<PlacedPatch> patches;
+  Exchange<PlacedPatches> patches;
   parts_->publish_change(patches);
   Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)));
   if (options.virtual_time) {

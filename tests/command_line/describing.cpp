@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/command_line/running.hpp"
 
 namespace wale::command_line {
@@ -41,6 +43,30 @@ export function bump(place: length, width: length = 4 mm, power = 2) = exp(-(len
 function inner(a) = a
 export function twice(a) = inner(2 * a)
 )";
+
+TEST(Describe, ProvesABoundAndGrades) {
+  const Folder folder;
+  const auto of = [&](const std::string& physical) {
+    return wale(
+               {"describe", folder.write("m.wale", "wale 1\nmaterial m { physical { " + physical + " } }\n"), "--json"})
+        .json();
+  };
+  // A spring on a patch of 80 mm: at most 40 N/m * 0.2286 m along each axis, were the patch as wide as the workspace.
+  const auto spring = of("patch 80 mm, 80 mm; force = -40 N/m * hand");
+  EXPECT_NEAR(spring.at("force").at("bound_newton").get<double>(), 40 * 0.2286 * std::sqrt(2.0), 0.02);
+  EXPECT_NEAR(spring.at("stiffness").at("max_newton_per_metre").get<double>(), 40, 1e-3);
+  EXPECT_NEAR(spring.at("grade").at("required_damping").get<double>(), 40.0 / 1800, 1e-5);
+  EXPECT_EQ(spring.at("grade").at("name"), "ungraded");
+  EXPECT_FALSE(spring.at("force").at("limit_matters").get<bool>());
+  EXPECT_GT(spring.at("cost").get<int>(), 0);
+  // Over the device's 10 N: the limit is what bounds it.
+  const auto stiff = of("force = -400 N/m * hand");
+  EXPECT_NEAR(stiff.at("force").at("bound_newton").get<double>(), 10 * std::sqrt(2.0), 0.01);
+  EXPECT_TRUE(stiff.at("force").at("limit_matters").get<bool>());
+  const auto ice = of("active 0.5 W; force = 2 N s/m * velocity");
+  EXPECT_EQ(ice.at("grade").at("name"), "active");
+  EXPECT_NEAR(ice.at("grade").at("required_damping").get<double>(), 2, 0.01);
+}
 
 TEST(Describe, TellsWhatAProgramRemembersAndShows) {
   const Folder folder;

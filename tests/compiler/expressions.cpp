@@ -119,6 +119,22 @@ TEST(Rates, AGratingOfConstantsIsTheGratingOfParameters) {
   EXPECT_EQ(bits(grating("let")), bits(grating("param")));
 }
 
+TEST(Rates, ATableMayBeReadWhereNothingMoves) {
+  Files files;
+  files.contents["push.csv"] = "place (mm),push (N)\n0,0\n1,1\n2,3\n3,2\n";
+  const Program program = compiled(
+      "    param at = 2 mm in 0 mm .. 3 mm\n    let push = table(\"push.csv\")\n"
+      "    force = vector(push(1 mm) + push(at), push(3 mm) + 1 N/m * x)",
+      "", "", files);
+  Bank bank(program);
+  const Force force = tick(bank, {{0.01f, -0.02f}, {0, 0}});
+  EXPECT_NEAR(force.x, 1 + 3, 1e-4);
+  EXPECT_NEAR(force.y, 2 + 0.01, 1e-4);
+  const std::vector<float> elsewhere{0.001f};
+  Bank other(program, elsewhere, program.default_size());
+  EXPECT_NEAR(tick(other, {{0.01f, -0.02f}, {0, 0}}).x, 1 + 1, 1e-4);
+}
+
 TEST(Rates, ASolvedAmplitudeIsSetupWhateverSetsIt) {
   const auto asked = compiled("    force = lateral(grating(x, period: 2 mm))", "", "roughness 0.6");
   const auto given = compiled(

@@ -115,6 +115,8 @@ TEST(Machine, SizesThatMakeNoSenseAreReplaced) {
   EXPECT_EQ(size({nan, -1, nan}).rim, 0.005f);
   EXPECT_EQ(size({inf, 0.02f, 0.001f}).width, 0.1f);
   EXPECT_EQ(size({0.04f, 0.02f, 0.015f}).rim, 0.005f) << "a quarter of the smaller side";
+  EXPECT_EQ(size({3, 0.02f, 0}).width, 0.2286f) << "the workspace";
+  EXPECT_EQ(size({0.02f, 1e30f, 0}).height, 0.2286f);
   const Bank bank(program, {}, {0.04f, 0.02f, 0.001f});
   EXPECT_EQ(bank.registers()[4], 0.02f);
   EXPECT_EQ(bank.registers()[5], 0.01f);

@@ -279,7 +279,7 @@ TEST(Verification, Device) {
   for (double DeviceProfile::*figure :
        {&DeviceProfile::slew, &DeviceProfile::velocity_window, &DeviceProfile::velocity_noise_counts,
         &DeviceProfile::patch_width, &DeviceProfile::patch_height, &DeviceProfile::patch_rim, &DeviceProfile::mass,
-        &DeviceProfile::damping, &DeviceProfile::friction}) {
+        &DeviceProfile::damping, &DeviceProfile::friction, &DeviceProfile::delay}) {
     for (const double value : {-1.0, 1e12, std::nan("")}) {
       PatchProgram p = program();
       p.device.*figure = value;

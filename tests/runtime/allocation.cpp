@@ -38,14 +38,14 @@ TEST(Allocation, IsNoticed) {
 TEST(Allocation, ABeatNeitherAllocatesNorFreesEvenWhenABankArrives) {
   for (const Program& program : {corduroy(1.934f), bead(500)}) {
     SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});  // in and out of the patch
-    Exchange<PlacedPatch> patches;
+    Exchange<PlacedPatches> patches;
     Record record;
     Player player(joystick, patches, record, 2000);
     auto memory = std::make_shared<Memory>(program);
     long entered = 0, inside = 0;
     for (long period = 0; period < 2000; ++period) {
       if (period % 50 == 0) memory = std::make_shared<Memory>(program);
-      if (period % 7 == 0) patches.publish({Bank(program), glm::vec2(0), memory});
+      if (period % 7 == 0) patches.publish(PlacedPatches({Bank(program), glm::vec2(0), memory}));
       const long before = allocations + releases;
       player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
       ASSERT_EQ(allocations + releases, before) << period;

@@ -162,11 +162,11 @@ TEST(Telling, TimeIsTheNumberOfPeriods) {
 
 TEST(Telling, SkippedPeriodsCountTowardsTime) {
   Puppet device([](long) { return Reading{}; });
-  Exchange<PlacedPatch> patches;
+  Exchange<PlacedPatches> patches;
   Record record;
   Player player(device, patches, record, 2);
   const Program program = feeling(Input::time);
-  patches.publish({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)});
+  patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
   player.serve({.period = 0});
   player.serve({.period = 450, .elapsed = 450, .skipped = 449});
   EXPECT_FLOAT_EQ(record.ticks[1].force.x, 0.5f);

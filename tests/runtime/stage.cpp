@@ -221,6 +221,38 @@ TEST(Stage, ANewPatchReplacesTheOldOneWhileItRuns) {
   EXPECT_EQ(run.record.ticks[110].force.x, 1);
 }
 
+TEST(Stage, TheHandFeelsThePatchInFront) {
+  class Mover : public Notebook {
+    void elapse(long periods) noexcept override {
+      Notebook::elapse(periods);
+      counts = {elapsed < 50 ? 0 : elapsed < 100 ? 300 : elapsed < 150 ? 600 : 1500, 0};  // 0, 16.7, 33.5, 83.7 mm
+    }
+  } device;
+  Stage stage(device);
+  stage.place(push(1), {0, 0}, {.width = 0.1f, .height = 0.1f});
+  EXPECT_EQ(stage.add(push(2), {0.02f, 0}, {.width = 0.02f, .height = 0.02f}, 1), 1u);
+  EXPECT_EQ(stage.add(push(-1), {0.02f, 0}, {.width = 0.03f, .height = 0.02f}, 0), 2u);  // behind the second
+  EXPECT_EQ(stage.add(push(-2), {0, 0}, {.width = 0.2f, .height = 0.2f}, -1), 3u);
+  const auto turn = [&](const Progress& now) {
+    if (now.ticks_run != 90) return;
+    EXPECT_FALSE(stage.set(1, "push", 0.5f));
+    EXPECT_TRUE(stage.set(4, "push", 0.5f)) << "there is none";
+    stage.add(push(-0.5f), {0.02f, 0}, {.width = 0.002f, .height = 0.002f}, 2);  // not under the hand
+  };
+  const RunResult run = good(stage.run({.seconds = 240 / 900.0, .virtual_time = true, .progress = turn}));
+  const auto& ticks = run.record.ticks;
+  EXPECT_EQ(ticks[40].force.x, 1);
+  EXPECT_NEAR(ticks[50].force.x, 1 + 200.0 / 900, 1e-4) << "from one patch to another the force slews";
+  EXPECT_EQ(ticks[85].force.x, 2);
+  EXPECT_EQ(ticks[99].force.x, 0.5f);
+  EXPECT_EQ(ticks[140].force.x, -1);
+  EXPECT_EQ(ticks[220].force.x, -2);
+  EXPECT_EQ(stage.bank(1)->registers()[first_constant + 2], 0.5f);
+  EXPECT_FALSE(stage.bank(5));
+  stage.place(push(1));
+  EXPECT_FALSE(stage.bank(1)) << "place takes the place of all";
+}
+
 TEST(Stage, AWeakerDeviceIsNotPushedBeyondItsPeak) {
   Notebook device;
   device.profile_.force_newton = 1;

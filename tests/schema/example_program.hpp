@@ -28,6 +28,8 @@ inline DeviceProfile device() {
   device.mass = 0.3;
   device.damping = 1;
   device.friction = 0.15;
+  device.delay = 0.0005;
+  device.damping_known = true;
   return device;
 }
 
@@ -77,7 +79,9 @@ inline PatchProgram program() {
   p.tables = {{3, 2, {0, 65535, 100, 7, 8, 9}}};
   p.patch_width = 0.1f;
   p.patch_height = 0.08f;
+  p.active_watt = 0.25f;
   p.patch_rim = 0.005f;
+  p.active_watt = 0.25f;
   p.device = device();
   PerceptRecord percept;
   percept.name = "roughness";
@@ -102,6 +106,9 @@ inline PatchProgram program() {
   p.layers.perceptual = "roughness 0.6";
   p.layers.physical = "force = lateral(sin(x))";
   p.layers.documentation = "A grating for the bench.";
+  p.places.files = {"bench.wale", "std.grain"};
+  p.places.sections = {{{4, 0, 7}}, {{4, 0, 8}}, {{1, 0, 9}}, {{5, 0, 8}, {2, 1, 70000}},
+                       {{4, 0, 8}}, {{2, 0, 9}}, {{2, 0, 3}}};
   return p;
 }
 

@@ -50,7 +50,8 @@ TEST(PatchProgram, FileIsLaidOutAsDocumented) {
   std::string kinds;
   for (const auto& section : wpp::sections_of(bytes)) kinds += section.kind + (section.flags != 0 ? "! " : "? ");
   EXPECT_EQ(kinds,
-            "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? LAYR? ");
+            "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? LAYR? "
+            "PLAC? ");
 }
 
 TEST(PatchProgram, WhatIsNotThereIsLeftOut) {
@@ -111,6 +112,45 @@ TEST(PatchProgram, StatesGridsAndMarksAreLaidOutAsDocumented) {
   EXPECT_EQ(content("FRAM"), frame);
 }
 
+TEST(PatchProgram, PlacesAreLaidOutAsDocumented) {
+  Bytes places;
+  wpp::append(places, 2, 4);
+  wpp::append_text(places, "bench.wale");
+  wpp::append_text(places, "std.grain");
+  const auto run = [&](int instructions, int file, int line) {
+    wpp::append(places, instructions, 4);
+    wpp::append(places, file, 2);
+    wpp::append(places, line, 4);
+  };
+  for (const auto& [instructions, line] : {std::pair{4, 7}, {4, 8}, {1, 9}}) {  // setup, peak 0, enter
+    wpp::append(places, 1, 4);
+    run(instructions, 0, line);
+  }
+  wpp::append(places, 2, 4);  // tick
+  run(5, 0, 8);
+  run(2, 1, 70000);
+  for (const auto& [instructions, line] : {std::pair{4, 8}, {2, 9}, {2, 3}}) {  // picture, frame, prediction 0
+    wpp::append(places, 1, 4);
+    run(instructions, 0, line);
+  }
+  EXPECT_EQ(wpp::sections_of(write_patch_program(example::program())).back().content, places);
+}
+
+TEST(PatchProgram, KnowsWhereAnInstructionComesFrom) {
+  const PatchProgram program = example::program();
+  using enum CodeSection;
+  EXPECT_EQ(program.place_of(setup, 0, 3), (SourceLine{"bench.wale", 7}));
+  EXPECT_EQ(program.place_of(setup, 0, 4), std::nullopt);
+  EXPECT_EQ(program.place_of(peak, 0, 0), (SourceLine{"bench.wale", 8}));
+  EXPECT_EQ(program.place_of(enter, 0, 0), (SourceLine{"bench.wale", 9}));
+  EXPECT_EQ(program.place_of(tick, 0, 4), (SourceLine{"bench.wale", 8}));
+  EXPECT_EQ(program.place_of(tick, 0, 5), (SourceLine{"std.grain", 70000}));
+  EXPECT_EQ(program.place_of(prediction, 0, 1), (SourceLine{"bench.wale", 3}));
+  EXPECT_EQ(program.place_of(prediction, 1, 0), std::nullopt);
+  EXPECT_EQ(example::least().place_of(tick, 0, 0), std::nullopt);
+  EXPECT_EQ(&program.code(peak, 0), &program.peaks[0].code);
+}
+
 // Fields by hand: operation 3 (multiply) in bits 0-7, then 14 bits each of destination, a, b, c.
 TEST(PatchProgram, InstructionsTakeEightBytes) {
   const std::uint64_t word = encode({3, 26, 1, 22, 5});
@@ -129,7 +169,7 @@ TEST(PatchProgram, ChecksumIsCrc32) {
 }
 
 TEST(PatchProgram, UnknownSkippableSectionsAreSkipped) {
-  for (const std::size_t place : {0u, 5u, 17u}) {
+  for (const std::size_t place : {0u, 5u, 17u, 18u}) {
     auto sections = wpp::sections_of(write_patch_program(example::program()));
     sections.insert(sections.begin() + place, {"XTRA", 0, Bytes(13, std::byte{0xee})});
     EXPECT_EQ(read(wpp::file_of(sections)), example::program());

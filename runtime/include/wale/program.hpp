@@ -64,7 +64,8 @@ class Program {
 class Bank {
  public:
   /// Runs setup and its peaks. `parameters` in SI units, clamped to their ranges, not-a-number to the default; sizes
-  /// that are not positive are replaced by the default. Allocates; takes as long as the peaks need.
+  /// that are not positive are replaced by the default, longer ones than the workspace's diameter by that. Allocates;
+  /// takes as long as the peaks need.
   Bank(const Program& program, std::span<const float> parameters, PatchSize size);
   /// At the defaults.
   explicit Bank(const Program& program);
@@ -85,7 +86,8 @@ class Bank {
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 Force tick(Bank& bank, const Hand& hand) noexcept;
 
-/// The same for many hands, in blocks of lanes; bit-identical to `tick`. `forces` is as long as `hands`.
+/// The same for many hands, in blocks of lanes and, where it is worth it, on all cores; bit-identical to `tick`.
+/// `forces` is as long as `hands`. wale/batch.hpp has hands that remember.
 void tick_all(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces);
 
 /// The height of the surface (the picture section) at many positions, in m or as a plain number, with states as after

@@ -57,10 +57,10 @@ struct RunResult {
   Record record;
 };
 
-/// One patch on a device's workspace, and the loop that makes it felt.
+/// Patches on a device's workspace, and the loop that makes the one in front under the hand felt.
 ///
-/// `place` and `set` may be called from any thread, also during a run: setup and peaks are computed on the thread that
-/// called `run`, and the result reaches the real-time thread whole.
+/// `place`, `add` and `set` may be called from any thread, also during a run: setup and peaks are computed on the
+/// thread that called `run`, and the result reaches the real-time thread whole.
 class Stage {
  public:
   /// The device outlives the stage.
@@ -69,19 +69,26 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Puts a patch with its centre at `position` (m from the workspace's centre), in place of the one before, its
+  /// Puts a patch with its centre at `position` (m from the workspace's centre), in place of all before, its
   /// parameters at their defaults and its memory new. Its own size unless one is given. Parameters that are set later
-  /// leave the memory as it is; each run begins with a new one.
+  /// leave the memory as it is; each run begins with a new one. It is patch number 0, in layer 0.
   void place(const Program& program, glm::vec2 position = glm::vec2(0.0f));
   void place(const Program& program, glm::vec2 position, PatchSize size);
 
-  /// Sets a parameter of the patch, in SI units. Refused when there is no patch or no such parameter, or when the value
-  /// is not a number in its range.
-  std::optional<Refusal> set(std::string_view parameter, float value);
+  /// Puts one more patch on the stage and gives its number, one more than the last one's. Where patches lie over one
+  /// another the hand feels the one with the greatest `layer`, and among equals the one that came last; it enters a
+  /// patch anew when it comes to it, also from another one. Finding it takes as long among a hundred thousand as among
+  /// ten.
+  std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
 
-  /// The patch at its present parameters: what `measure` and `predict` ask. Runs setup and peaks. Nothing is placed:
+  /// Sets a parameter of a patch, by its number or that of patch 0, in SI units. Refused when there is no patch or no
+  /// such parameter, or when the value is not a number in its range.
+  std::optional<Refusal> set(std::string_view parameter, float value);
+  std::optional<Refusal> set(std::size_t patch, std::string_view parameter, float value);
+
+  /// A patch at its present parameters: what `measure` and `predict` ask. Runs setup and peaks. There is no such patch:
   /// nothing.
-  std::optional<Bank> bank() const;
+  std::optional<Bank> bank(std::size_t patch = 0) const;
 
   /// Runs for `options.seconds` and leaves the device without force, whatever ends the run. Refused when the time is
   /// not positive or longer than a record holds (2^24 ticks), when nothing is placed, when the device's profile lacks

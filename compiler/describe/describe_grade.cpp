@@ -1,0 +1,81 @@
+#include "compiler/describe/describe_grade.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace wale {
+namespace {
+
+constexpr double fewest_counts = 2, faithful_counts = 10;  // of the encoder in a period (psychophysics.md, 2.2)
+constexpr double fewest_levels = 8;                        // of force, from where on steps are not felt as such
+
+std::string line(std::string_view key, const std::string& words) { return fmt::format("  {:<12} {}\n", key, words); }
+
+std::string place_words(const WorstPlace& place) {
+  std::string words = fmt::format("({:.1f}, {:.1f}) mm", 1e3 * place.position.x, 1e3 * place.position.y);
+  if (place.velocity != glm::vec2(0.0f))
+    words += fmt::format(" moving at ({:.2f}, {:.2f}) m/s", place.velocity.x, place.velocity.y);
+  return words;
+}
+
+std::string damping_words(const Grade& grade) {
+  if (grade.required_damping == 0) return "asks for no damping";
+  if (std::isinf(grade.required_damping)) return "no damping makes the sampled loop passive";
+  return fmt::format("needs b >= {:.3g} N s/m", grade.required_damping);
+}
+
+std::string standing_line(const Grade& grade, const DeviceProfile& device) {
+  std::string words = damping_words(grade);
+  if (grade.standing == Standing::not_analysed) return "too large to be derived";
+  if (grade.required_damping == 0) return words;
+  if (!grade.damping_known) {
+    words += device.damping > 0 ? fmt::format("; that of `{}` is assumed ({:.3g})", device.name, device.damping)
+                                : fmt::format("; that of `{}` is not known", device.name);
+    return words;
+  }
+  words += fmt::format("; `{}` has {:.3g}, a margin of {:.3g}", device.name, device.damping, *grade.margin());
+  if (grade.standing == Standing::stable_in_the_hand || grade.standing == Standing::unstable)
+    words += fmt::format(", and a hand adds {:.3g}", grade.hand_damping);
+  return words;
+}
+
+std::string step_line(const Grade& grade) {
+  std::string words = fmt::format("{:.3g} N from one encoder count to the next", grade.step_newton);
+  if (grade.jumps) words += " (the force jumps)";
+  if (grade.buzzes)
+    words += *grade.buzzes ? fmt::format(": more than friction of {:.3g} N holds, so it may buzz", grade.friction)
+                           : fmt::format(", which friction of {:.3g} N holds", grade.friction);
+  return words;
+}
+
+std::string resolution_line(const Grade& grade) {
+  std::string words =
+      fmt::format("details of {:.3g} mm, {:.3g} encoder counts", 1e3 * grade.finest_period, grade.counts_per_period);
+  if (grade.counts_per_period < fewest_counts)
+    words += ", too few to be felt as it is";
+  else if (grade.counts_per_period < faithful_counts)
+    words += ", coarse";
+  words += fmt::format("; sampled in time up to {:.2g} m/s", grade.fastest_hand);
+  return words;
+}
+
+}  // namespace
+
+std::string grade_text(const Grade& grade, const DeviceProfile& device) {
+  std::string text = line(standing_word(grade.standing), standing_line(grade, device));
+  if (grade.standing == Standing::not_analysed) return text;
+  for (const auto& reason : grade.energy.reasons) text += line("", reason);
+  if (grade.standing == Standing::active && grade.energy.watt() > 0)
+    text += line("", fmt::format("up to {:.2g} W in a hand at its own pace", grade.energy.watt()));
+  if (grade.required_damping > 0) text += line("", fmt::format("most at {}", place_words(grade.worst)));
+  if (grade.stiffness > 0)
+    text += line("stiffness", fmt::format("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));
+  if (grade.step_newton > 0.1 * device.force_step()) text += line("steps", step_line(grade));
+  if (grade.finest_period < device.workspace_diameter) text += line("resolution", resolution_line(grade));
+  if (grade.force_levels > 0 && grade.force_levels < fewest_levels)
+    text += line("", fmt::format("only {:.2g} command steps of force: coarse", grade.force_levels));
+  return text;
+}
+
+}  // namespace wale

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "compiler/grade/grade.hpp"
+
+namespace wale {
+
+/// The lines under "stability" of a description, each with two spaces in front.
+std::string grade_text(const Grade& grade, const DeviceProfile& device);
+
+}  // namespace wale

@@ -1,0 +1,420 @@
+#include "compiler/grade/grade.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "compiler/grade/explore.hpp"
+#include "compiler/grade/slopes.hpp"
+#include "compiler/measure/hands.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::size_t places = 4096;     // of the lattice over the patch
+constexpr std::size_t climbers = 8;      // of the steepest places, from which steeper ones are looked for
+constexpr int climbs = 14;               // each with half the step of the one before
+constexpr std::size_t candidates = 12;   // of each kind whose required damping is worked out
+constexpr std::size_t tiles = 4;         // of the patch along each side, for the mean of the curl
+constexpr double significant = 4;        // standard errors of a mean
+constexpr double share_of_slope = 0.02;  // of the usual slope: curl below is rounding and clipping
+constexpr double share_of_hand = 0.01;   // of what the hand takes up itself at its pace: less energy than that is none
+constexpr double share_of_work = 0.01;   // of what went either way: energy below is rounding
+constexpr double sharp_over_step = 1.5;  // a slope so much above what a step between counts gives is a tip
+constexpr double jump_over_slope = 1.5;  // a step between counts so much above what the slope gives is a jump
+
+class Grader {
+ public:
+  Grader(const Bank& bank, const GradingHand& hand)
+      : bank_(bank),
+        program_(bank.program().description()),
+        device_(program_.device),
+        hand_(hand),
+        exploration_(explored()),
+        slopes_(bank, exploration_ ? exploration_->changing : std::vector<char>{}) {}
+
+  Grade grade() {
+    grade_.device_damping = device_.damping;
+    grade_.damping_known = device_.damping_known;
+    grade_.friction = device_.friction;
+    grade_.friction_known = device_.friction_known;
+    grade_.hand_damping = hand_.damping;
+    if (!slopes_.fits()) return grade_;
+    choose_hands();
+    at_ = slopes_.by_place(hands_, states_);
+    find_energy();
+    find_stiffness();
+    find_steps();
+    find_resolution();
+    if (find_required_damping()) decide();
+    return grade_;
+  }
+
+  Energy energy() {
+    if (!slopes_.fits()) return {};
+    choose_hands();
+    at_ = slopes_.by_place(hands_, states_);
+    find_energy();
+    return grade_.energy;
+  }
+
+ private:
+  std::optional<Exploration> explored() const {
+    if (program_.states.empty() && !stores_motion()) return std::nullopt;
+    return explore(bank_, hand_);
+  }
+
+  /// Whether the tick reads accelerations: what a mass takes up it gives back, so that one moment says nothing.
+  bool stores_motion() const {
+    return std::ranges::any_of(program_.tick, [](const Instruction& instruction) {
+      const int operands = facts(static_cast<Operation>(instruction.operation)).operands;
+      const RegisterNumber from[] = {instruction.a, instruction.b, instruction.c};
+      return std::any_of(from, from + operands, [](RegisterNumber number) {
+        const auto input = static_cast<Input>(number);
+        return input == Input::acceleration_x || input == Input::acceleration_y || input == Input::raw_acceleration_x ||
+               input == Input::raw_acceleration_y;
+      });
+    });
+  }
+
+  /// A program that remembers is looked at where a second of exploring leads it, any other all over its patch.
+  void choose_hands() {
+    extent_ = 0.5f * glm::vec2(bank_.size().width, bank_.size().height);
+    if (!program_.states.empty()) {
+      hands_ = exploration_->hands;
+      states_ = exploration_->states;
+      return;
+    }
+    hands_ = hands_at_rest(places, extent_);
+    if (!depends_on_the_moment(program_)) return;
+    for (Hand& hand : hands_in_motion(places, extent_, static_cast<float>(peak_speed()))) hands_.push_back(hand);
+  }
+
+  /// Of a hand that circles at its own pace, m/s.
+  double peak_speed() const { return 2 * pi * hand_.frequency * hand_.radius; }
+
+  /// What the hand itself takes up at its pace, and some of it.
+  double least_watt() const { return share_of_hand * hand_.damping * peak_speed() * peak_speed(); }
+
+  std::span<const float> states_of(std::size_t hand) const {
+    return std::span(states_).subspan(hand * program_.states.size(), program_.states.size());
+  }
+
+  void find_stiffness() {
+    std::vector<std::size_t> steepest(hands_.size());
+    for (std::size_t i = 0; i < steepest.size(); ++i) steepest[i] = i;
+    const std::size_t count = std::min(climbers, steepest.size());
+    std::ranges::partial_sort(steepest, steepest.begin() + static_cast<std::ptrdiff_t>(count),
+                              [&](std::size_t a, std::size_t b) {
+                                return std::pair(stiffness(at_[a]), b) > std::pair(stiffness(at_[b]), a);
+                              });
+    steepest.resize(count);
+    climb(steepest);
+  }
+
+  static double stiffness(const ProgramSlopes::At& at) {
+    const double norm = spectral_norm(at.linear.direct.place);
+    return std::isfinite(norm) ? norm : 0;
+  }
+
+  /// From the steepest places of the lattice to steeper ones beside them.
+  void climb(const std::vector<std::size_t>& from) {
+    std::vector<Hand> best, tried;
+    std::vector<float> best_states, tried_states;
+    std::vector<double> steepness;
+    for (const std::size_t i : from) {
+      best.push_back(hands_[i]);
+      best_states.insert(best_states.end(), states_of(i).begin(), states_of(i).end());
+      steepness.push_back(stiffness(at_[i]));
+    }
+    glm::vec2 step = extent_ / std::sqrt(static_cast<float>(places));
+    for (int round = 0; round < climbs; ++round, step *= 0.5f) {
+      tried.clear(), tried_states.clear();
+      for (std::size_t i = 0; i < best.size(); ++i)
+        for (int direction = 0; direction < 8; ++direction) {
+          const float angle = static_cast<float>(direction * pi / 4);
+          Hand& hand = tried.emplace_back(best[i]);
+          const glm::vec2 moved = step * glm::vec2(std::cos(angle), std::sin(angle));
+          hand.position = glm::clamp(hand.position + moved, -extent_, extent_);
+          hand.workspace += moved;
+          const auto states = std::span(best_states).subspan(i * program_.states.size(), program_.states.size());
+          tried_states.insert(tried_states.end(), states.begin(), states.end());
+        }
+      const auto at = slopes_.by_place(tried, tried_states);
+      for (std::size_t i = 0; i < tried.size(); ++i)
+        if (const double here = stiffness(at[i]); here > steepness[i / 8])
+          steepness[i / 8] = here, best[i / 8] = tried[i];
+    }
+    const auto top = static_cast<std::size_t>(std::ranges::max_element(steepness) - steepness.begin());
+    grade_.stiffness = steepness[top];
+    grade_.stiffest = {best[top].position, best[top].velocity};
+    // The damping that they need is worked out with that of the others.
+    steepest_hands_ = best;
+    steepest_states_ = best_states;
+  }
+
+  /// What one count of the encoder changes: of the force, which for one that jumps is more than its slope says, and of
+  /// the slope, which tells how fine the detail is. A sine of period P changes its slope by 2 sin(pi count / P) of it.
+  void find_steps() {
+    const auto count = static_cast<float>(device_.position_step());
+    double wave_number_squared = 0;  // rad^2 / m^2
+    for (const glm::vec2 direction : {glm::vec2(count, 0), glm::vec2(0, count)}) {
+      std::vector<Hand> moved(hands_.begin(), hands_.end());
+      for (Hand& hand : moved) hand.position += direction, hand.workspace += direction;
+      const auto at = slopes_.by_place(moved, states_);
+      double slopes = 0, changes = 0;
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        const double step = glm::length(at[i].force - at_[i].force);
+        if (step > grade_.step_newton) grade_.step_newton = step, worst_step_ = hands_[i];
+        double slope = 0, change = 0;
+        for (std::size_t row = 0; row < 2; ++row)
+          for (std::size_t column = 0; column < 2; ++column) {
+            const double here = at_[i].linear.direct.place[row][column], there = at[i].linear.direct.place[row][column];
+            slope += here * here, change += (there - here) * (there - here);
+          }
+        if (std::isfinite(slope) && std::isfinite(change)) slopes += slope, changes += change;
+      }
+      const double share = slopes > 0 ? std::sqrt(changes / slopes) : 0;
+      const double wave_number = 2 / count * std::asin(std::min(1.0, share / 2));
+      wave_number_squared += wave_number * wave_number;
+    }
+    grade_.finest_period = 2 * pi / std::sqrt(wave_number_squared);
+    // A tip that is sharper than a count is felt by nobody: the loop sees what lies between two counts.
+    if (grade_.stiffness * count > sharp_over_step * grade_.step_newton) {
+      grade_.stiffness = grade_.step_newton / count;
+      grade_.stiffest = {worst_step_.position, worst_step_.velocity};
+    }
+    grade_.jumps = grade_.step_newton > jump_over_slope * grade_.stiffness * count + device_.force_step();
+    grade_.step_newton = std::max(grade_.step_newton, grade_.jumps ? 0.0 : grade_.stiffness * count);
+    if (device_.friction_known) grade_.buzzes = grade_.step_newton > 2 * device_.friction;
+  }
+
+  void find_resolution() {
+    grade_.counts_per_period = grade_.finest_period / device_.position_step();
+    grade_.fastest_hand = grade_.finest_period * device_.rate / 2;
+    grade_.force_levels = largest_force_ / device_.force_step();
+  }
+
+  void find_energy() {
+    for (const auto& here : at_) largest_force_ = std::max(largest_force_, glm::length(here.force));
+    find_curl();
+    find_motion_power();
+    find_sources();
+  }
+
+  /// A loop gains the integral of the curl over what it goes round. Clipped textures have a little curl of either sign
+  /// everywhere, which no loop gathers; so what counts is its mean over a part of the patch.
+  /// For a program that remembers, where the hand is says too little: what it gave while it was explored does.
+  void find_curl() {
+    if (!program_.states.empty()) return;
+    struct Sum {
+      double count = 0, sum = 0, squares = 0;
+    };
+    std::array<Sum, tiles * tiles> sums;
+    double squares = 0;
+    std::size_t counted = 0;
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+      const Hand& hand = hands_[i];
+      if (hand.velocity != glm::vec2(0.0f)) continue;
+      const auto& place = at_[i].linear.direct.place;
+      const double curl = place[1][0] - place[0][1];
+      if (!std::isfinite(curl)) continue;
+      const auto tile = [](float along, float half) {
+        const double share = (along / half + 1) / 2 * tiles;
+        return static_cast<std::size_t>(std::clamp(share, 0.0, static_cast<double>(tiles - 1)));
+      };
+      Sum& sum = sums[tile(hand.position.y, extent_.y) * tiles + tile(hand.position.x, extent_.x)];
+      sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
+      squares += stiffness(at_[i]) * stiffness(at_[i]);
+      ++counted;
+    }
+    const double usual_slope = counted > 0 ? std::sqrt(squares / static_cast<double>(counted)) : 0;
+    double most = 0;
+    for (const Sum& sum : sums) {
+      if (sum.count < 8) continue;
+      const double mean = sum.sum / sum.count;
+      const double error = std::sqrt(std::max(0.0, sum.squares / sum.count - mean * mean) / sum.count);
+      if (std::abs(mean) > significant * error && std::abs(mean) > share_of_slope * usual_slope)
+        most = std::max(most, std::abs(mean));
+    }
+    const double watt = most * pi * hand_.radius * hand_.radius * hand_.frequency;
+    grade_.energy.conservative = watt < least_watt();
+    if (grade_.energy.conservative) return;
+    grade_.energy.curl_watt = watt;
+    grade_.energy.reasons.push_back("the field turns: a hand that goes round gains energy");
+  }
+
+  /// What the force adds when the same hand moves, against what it is at rest. Likewise.
+  void find_motion_power() {
+    if (!slopes_.depends_on_motion() || exploration_) return;
+    std::vector<Hand> resting(hands_.begin(), hands_.end());
+    for (Hand& hand : resting)
+      hand.velocity = hand.raw_velocity = hand.acceleration = hand.raw_acceleration = glm::vec2(0.0f);
+    const auto still = slopes_.by_place(resting, states_);
+    double worst = 0;
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+      const glm::dvec2 velocity(hands_[i].velocity);
+      worst = std::max(worst, glm::dot(at_[i].force - still[i].force, velocity));
+    }
+    if (worst <= least_watt()) return;
+    grade_.energy.motion_watt = worst;
+    grade_.energy.reasons.push_back("it pushes along the hand's motion");
+  }
+
+  /// What is remembered, and what moves by itself unless it only ever resists.
+  void find_sources() {
+    const bool moves = slopes_.moves_by_itself() && pushes_along();
+    if (!moves && !exploration_) return;
+    if (!exploration_) exploration_ = explore(bank_, hand_);
+    if (exploration_->gained_joule > std::max(least_watt(), share_of_work * exploration_->moved_joule))
+      grade_.energy.source_watt = exploration_->gained_joule;  // of a second
+    if (moves) {
+      grade_.energy.reasons.push_back("something in it moves by itself");
+      // A hand that went along with it could have half of what went either way.
+      grade_.energy.source_watt = std::max(grade_.energy.source_watt, exploration_->moved_joule / 2);
+    } else if (grade_.energy.source_watt > 0) {
+      grade_.energy.reasons.push_back("what it remembers gives more energy than it was given");
+    }
+  }
+
+  /// Whether the force ever goes along with the hand's motion.
+  bool pushes_along() const {
+    for (std::size_t i = 0; i < hands_.size(); ++i)
+      if (glm::dot(at_[i].force, glm::dvec2(hands_[i].velocity)) > least_watt()) return true;
+    return false;
+  }
+
+  /// False when there are more derivatives than the machine has registers for.
+  bool find_required_damping() {
+    std::vector<Hand> hands = steepest_hands_;
+    std::vector<float> states = steepest_states_;
+    if (slopes_.depends_on_motion() || !program_.states.empty()) {
+      // Those of the lattice where either kind of slope, or both together, is greatest; and some of all others.
+      const auto all = slopes_.at(hands_, states_);
+      if (all.empty()) return false;
+      const auto motion = [&](std::size_t i) {
+        const HandSlopes& direct = all[i].linear.direct;
+        return spectral_norm(direct.velocity) + spectral_norm(direct.raw_velocity);
+      };
+      const double half = 0.5 / device_.rate;
+      std::vector<std::size_t> order(hands_.size());
+      for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+      const auto add = [&](std::size_t i) {
+        hands.push_back(hands_[i]);
+        states.insert(states.end(), states_of(i).begin(), states_of(i).end());
+      };
+      const auto add_greatest = [&](const auto& measure) {
+        const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(candidates, order.size()));
+        std::ranges::partial_sort(order, end, [&](std::size_t a, std::size_t b) {
+          return std::pair(measure(a), b) > std::pair(measure(b), a);
+        });
+        std::for_each(order.begin(), end, add);
+      };
+      add_greatest(motion);
+      add_greatest([&](std::size_t i) { return motion(i) + half * stiffness(all[i]); });
+      for (std::size_t i = 0; i < candidates; ++i) add(i * hands_.size() / candidates);
+    }
+    const LoopTiming timing(device_);
+    const auto all = slopes_.at(hands, states);
+    if (all.empty()) return false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!is_smooth(all[i].linear) || stiffness(all[i]) > sharp_over_step * grade_.stiffness) continue;
+      const double needed = required_damping(all[i].linear, timing);
+      if (!(needed > grade_.required_damping)) continue;
+      grade_.required_damping = needed;
+      grade_.worst = {hands[i].position, hands[i].velocity};
+    }
+    // Across a jump the sampled loop sees the slope between two counts.
+    if (!grade_.jumps) return true;
+    const double needed = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.delay);
+    if (needed <= grade_.required_damping) return true;
+    grade_.required_damping = needed;
+    grade_.worst = {worst_step_.position, worst_step_.velocity};
+    return true;
+  }
+
+  /// Whether there are slopes at all: at the middle of a cone there are none.
+  static bool is_smooth(const LinearProgram& linear) {
+    const auto finite = [](double value) { return std::isfinite(value); };
+    const auto smooth = [&](const HandSlopes& slopes) {
+      for (const Slopes* each :
+           {&slopes.place, &slopes.velocity, &slopes.raw_velocity, &slopes.acceleration, &slopes.raw_acceleration})
+        for (const auto& row : *each)
+          if (!finite(row[0]) || !finite(row[1])) return false;
+      return true;
+    };
+    return smooth(linear.direct) && std::ranges::all_of(linear.input, smooth) &&
+           std::ranges::all_of(linear.output, finite) && std::ranges::all_of(linear.carry, finite);
+  }
+
+  void decide() {
+    const double with_hand = grade_.device_damping + grade_.hand_damping;
+    if (grade_.energy.active())
+      grade_.standing = Standing::active;
+    else if (grade_.required_damping == 0)
+      grade_.standing = Standing::passive;
+    else if (!grade_.damping_known)
+      grade_.standing = Standing::ungraded;
+    else if (grade_.required_damping <= grade_.device_damping)
+      grade_.standing = Standing::passive;
+    else
+      grade_.standing = grade_.required_damping <= with_hand ? Standing::stable_in_the_hand : Standing::unstable;
+  }
+
+  const Bank& bank_;
+  const PatchProgram& program_;
+  const DeviceProfile& device_;
+  const GradingHand hand_;
+  std::optional<Exploration> exploration_;
+  ProgramSlopes slopes_;
+  Grade grade_;
+  glm::vec2 extent_{0.0f};
+  std::vector<Hand> hands_;
+  std::vector<float> states_;
+  std::vector<ProgramSlopes::At> at_;  ///< by place, beside `hands_`
+  std::vector<Hand> steepest_hands_;
+  std::vector<float> steepest_states_;
+  Hand worst_step_;
+  double largest_force_ = 0;
+};
+
+GradingHand normal_hand() {
+  GradingHand hand{.name = "normal"};
+  if (const HandDeclaration* declared = common_modules()->declarations.hands.find(hand.name))
+    hand = {declared->damping, declared->circular_radius, declared->circular_frequency, declared->name};
+  return hand;
+}
+
+}  // namespace
+
+std::string_view standing_word(Standing standing) {
+  switch (standing) {
+    case Standing::passive: return "passive";
+    case Standing::stable_in_the_hand: return "stable in the hand";
+    case Standing::unstable: return "unstable";
+    case Standing::active: return "active";
+    case Standing::ungraded: return "ungraded";
+    case Standing::not_analysed: return "not analysed";
+  }
+  return "unknown";
+}
+
+double Energy::watt() const { return std::max({curl_watt, motion_watt, source_watt}); }
+
+std::optional<double> Grade::margin() const {
+  if (!damping_known) return std::nullopt;
+  return device_damping - required_damping;
+}
+
+Grade grade(const Bank& bank, const GradingHand& hand) { return Grader(bank, hand).grade(); }
+
+Grade grade(const Bank& bank) { return grade(bank, normal_hand()); }
+
+Energy energy_of(const Bank& bank) { return Grader(bank, normal_hand()).energy(); }
+
+}  // namespace wale

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compiler/grade/field.hpp"
+#include "compiler/grade/lift.hpp"
+#include "compiler/grade/required_damping.hpp"
+
+namespace wale {
+
+/// A program with more states than this is not derived: its response would take too long.
+inline constexpr std::size_t most_graded_states = 32;
+
+/// What a program's force and states depend on, and how steeply, for many hands at once.
+class ProgramSlopes {
+ public:
+  /// `changing`: for each state, whether it was ever seen to change.
+  ProgramSlopes(const Bank& bank, const std::vector<char>& changing);
+
+  /// Whether the machine has registers enough for derivatives by place; otherwise nothing below may be called.
+  bool fits() const { return place_field_ && place_field_->fits(); }
+
+  struct At {
+    glm::dvec2 force{0.0};
+    LinearProgram linear;
+  };
+  /// One for each hand; `states` as for `Field::evaluate`. None when the machine has not registers enough for so many
+  /// derivatives.
+  std::vector<At> at(std::span<const Hand> hands, std::span<const float> states);
+  /// Force and slope by place alone, which is quicker: `linear` has nothing else.
+  std::vector<At> by_place(std::span<const Hand> hands, std::span<const float> states);
+
+  bool depends_on_motion() const { return depends_on_motion_; }
+  /// On time, or on states that change though neither the hand nor anything that it drives drives them.
+  bool moves_by_itself() const { return moves_by_itself_; }
+
+ private:
+  void find_dependences(const std::vector<char>& changing);
+
+  void derive_all();
+
+  Bank bank_;
+  LiftedTick lifted_;
+  std::size_t states_ = 0;
+  bool depends_on_motion_ = false, moves_by_itself_ = false;
+  std::vector<Slopes HandSlopes::*> quantities_;  ///< that the tick depends on
+  std::optional<Field> field_, place_field_;
+  std::vector<float> values_;
+};
+
+}  // namespace wale

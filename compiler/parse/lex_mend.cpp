@@ -1,0 +1,149 @@
+// What is no token: said, and read as what was evidently meant.
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+
+#include "compiler/diagnostics/fix.hpp"
+#include "compiler/parse/lexer.hpp"
+
+namespace wale {
+namespace {
+
+/// What stands between the first two backticks: the token in "`^` for a power".
+std::string quoted_token(std::string_view text) {
+  const std::size_t begin = text.find('`') + 1;
+  return std::string(text.substr(begin, text.find('`', begin) - begin));
+}
+
+std::string help_for(char c, bool visible) {
+  switch (c) {
+    case '#': return "comments begin with `//`";
+    case '!': return "values are compared with `<`, `<=`, `>` and `>=`; `if … then … else …` chooses";
+    case '?': return "write `if … then … else …`";
+    case '\\': return "a line goes on by itself after an operator, a comma, `=` or `..`, and inside parentheses";
+    case '`': return "texts stand between straight quotes: write `\"`";
+    default: return visible ? "remove it, or put it into a text or a comment" : "delete it";
+  }
+}
+
+}  // namespace
+
+/// A `0` before the point, unless it would become part of the word that touches it.
+std::vector<Fix> Lexer::leading_zero(std::size_t begin) const {
+  if (begin > 0 && (continues_name(text_[begin - 1]) || text_[begin - 1] == '.')) return {};
+  return {insert_before(span(begin, at_), "0")};
+}
+
+void Lexer::out_of_range(std::size_t begin, std::string_view digits) {
+  // from_chars leaves the value alone; strtod says in which direction it went out of range.
+  const double size = std::strtod(std::string(digits).c_str(), nullptr);
+  report(Code::number_out_of_range, begin, at_,
+         std::isinf(size) ? "this number is too large to hold" : "this number is too close to zero to hold",
+         "use a unit of another size", {},
+         {{"least", NumberWithUnit{1e-300, ""}}, {"greatest", NumberWithUnit{1e300, ""}}},
+         "numbers reach from 1e-300 to 1e300");
+  add(TokenKind::unreadable, begin);
+}
+
+void Lexer::hexadecimal() {
+  const std::size_t begin = at_;
+  at_ += 2;
+  while (at_ < text_.size() && std::isxdigit(static_cast<unsigned char>(text_[at_]))) ++at_;
+  const double value = std::strtod(std::string(text_.substr(begin, at_ - begin)).c_str(), nullptr);
+  report(Code::unexpected_character, begin, at_, "numbers are written in decimal", fmt::format("write `{}`", value),
+         {replace(span(begin, at_), fmt::format("{}", value))});
+  add(TokenKind::number, begin, add_number(value));
+}
+
+/// Lookalikes are not ASCII, or else doubled, or `!=`; the rest need not be held against all of them.
+bool Lexer::may_be_lookalike() const {
+  const char c = text_[at_], next = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
+  const bool ascii = static_cast<unsigned char>(c) < 0x80;
+  return !ascii || next == c || (c == '!' && next == '=');
+}
+
+bool Lexer::quote() {
+  for (const std::string_view mark : typographic_quotes) {
+    if (starts(mark)) {
+      const std::size_t begin = at_;
+      text(mark.size());
+      report(Code::unexpected_character, begin, begin + mark.size(), "a typographic quotation mark",
+             "texts stand between straight quotes: write `\"`", quote_fixes(begin, begin + mark.size()));
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Straight quotes for the text that has just been read, if it ends as it began. One that a straight quote ends may
+/// hold that quote rather than end there.
+std::vector<Fix> Lexer::quote_fixes(std::size_t begin, std::size_t inside) const {
+  Fix fix = replace(span(begin, inside), "\"", "write straight quotes");
+  for (const std::string_view closing : typographic_quotes) {
+    if (!text_.substr(inside, at_ - inside).ends_with(closing)) continue;
+    fix.edits.push_back({span(at_ - closing.size(), at_), "\""});
+    return {fix};
+  }
+  return {};
+}
+
+bool Lexer::lookalike() {
+  for (const Lookalike& each : lookalikes) {
+    if (!starts(each.text)) continue;
+    const std::size_t begin = at_;
+    at_ += each.text.size();
+    while (each.kind == TokenKind::range && at_ < text_.size() && text_[at_] == '.') ++at_;
+    report(Code::unexpected_character, begin, at_,
+           fmt::format("`{}` is {}", text_.substr(begin, at_ - begin), each.called),
+           fmt::format("write {}", each.meant), lookalike_fixes(each, begin));
+    add(each.kind, begin);
+    return true;
+  }
+  for (const Abbreviation& each : abbreviations) {
+    if (!starts(each.text)) continue;
+    const std::size_t begin = at_;
+    at_ += each.text.size();
+    report(Code::unexpected_character, begin, at_, fmt::format("`{}` is {}", each.text, each.called),
+           fmt::format("write `{}`", each.meant), {replace(span(begin, at_), std::string(each.meant))});
+    if (each.meant.starts_with('^')) {
+      add(TokenKind::caret, begin);
+      add(TokenKind::number, begin, add_number(each.meant[1] - '0'));
+    } else {
+      result_.texts.emplace_back(each.meant);
+      add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
+    }
+    return true;
+  }
+  return false;
+}
+
+/// One that may mean several things is left to its author.
+std::vector<Fix> Lexer::lookalike_fixes(const Lookalike& each, std::size_t begin) const {
+  if (each.kind == TokenKind::unreadable) return {};
+  return {replace(span(begin, at_), quoted_token(each.meant))};
+}
+
+/// A run of the same character is one mistake.
+void Lexer::unknown(const Character& character) {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && decode(text_, at_).code == character.code) at_ += character.bytes;
+  const bool visible = character.code > ' ' && !(character.code >= 0x7F && character.code < 0xA0) &&
+                       !(character.code >= 0x200B && character.code <= 0x206F) && character.code != 0xFEFF;
+  report(Code::unexpected_character, begin, at_,
+         visible ? fmt::format("Wale does not use the character `{}`", text_.substr(begin, character.bytes))
+                 : fmt::format("the invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
+         help_for(text_[begin], visible), unknown_fixes(begin, visible));
+  add(TokenKind::unreadable, begin);
+}
+
+/// What nobody sees is removed; a `#` at the beginning of a line begins a comment in many languages.
+std::vector<Fix> Lexer::unknown_fixes(std::size_t begin, bool visible) const {
+  if (!visible) return {replace(span(begin, at_), "")};
+  if (text_[begin] == '#' && starts_line_) return {replace(span(begin, at_), "//")};
+  return {};
+}
+
+}  // namespace wale

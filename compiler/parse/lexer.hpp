@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostic.hpp"
+#include "compiler/parse/lex.hpp"
+#include "compiler/parse/lookalikes.hpp"
+#include "compiler/text/characters.hpp"
+#include "compiler/text/source.hpp"
+#include "compiler/text/utf8.hpp"
+
+namespace wale {
+
+/// Cuts the text of one file into tokens; `lex.hpp` is the way in.
+class Lexer {
+ public:
+  Lexer(std::string_view text, SourceId source, Diagnostics& diagnostics)
+      : text_(text), source_(source), diagnostics_(diagnostics) {}
+
+  Tokens run();
+
+ private:
+  // lex.cpp: tokens as they should be
+  bool is_readable();
+  void next();
+  void line_comment();
+  void block_comment();
+  void number();
+  void digits();
+  void exponent();
+  void name();
+  /// `fabric.denim` is one name; the dots of `low..high` are none of it.
+  bool is_dot_in_name() const { return text_[at_] == '.' && at_ + 1 < text_.size() && begins_name(text_[at_ + 1]); }
+  void text(std::size_t quote_bytes);
+  char escape();
+  bool symbol();
+  bool is_part() const;
+  void match_brackets(TokenKind kind, std::uint32_t index);
+  void add_text(std::size_t begin, std::string value);
+  std::uint32_t add_number(double value);
+  void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0);
+
+  // lex_mend.cpp: what is no token, and what was evidently meant
+  std::vector<Fix> leading_zero(std::size_t begin) const;
+  void out_of_range(std::size_t begin, std::string_view digits);
+  void hexadecimal();
+  bool may_be_lookalike() const;
+  bool quote();
+  std::vector<Fix> quote_fixes(std::size_t begin, std::size_t inside) const;
+  bool lookalike();
+  std::vector<Fix> lookalike_fixes(const Lookalike& each, std::size_t begin) const;
+  void unknown(const Character& character);
+  std::vector<Fix> unknown_fixes(std::size_t begin, bool visible) const;
+
+  bool starts(std::string_view spelling) const {
+    // Tables of spellings are tried one by one: most differ in their first byte.
+    return text_[at_] == spelling.front() && text_.substr(at_).starts_with(spelling);
+  }
+  Span span(std::size_t begin, std::size_t end) const {
+    return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
+  void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
+              std::vector<Fix> fixes = {}, std::vector<Fact> facts = {}, std::string rule = {});
+
+  std::string_view text_;
+  SourceId source_;
+  Diagnostics& diagnostics_;
+  Tokens result_;
+  std::size_t at_ = 0;
+  bool starts_line_ = true;
+  std::vector<std::uint32_t> open_;  ///< brackets not yet closed
+  std::set<std::string, std::less<>> reported_names_;
+};
+
+}  // namespace wale

@@ -1,0 +1,323 @@
+#include "compiler/prove/largest_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/machine/arithmetic.hpp"
+#include "wale/memory.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t starts = 1024;      ///< hands for each choice of parameters
+constexpr std::size_t neighbours = 128;   ///< hands of one step around the best
+constexpr int steps = 14;                 ///< each half as wide as the one before
+constexpr std::size_t refined = 4;        ///< of the choices of parameters, the best
+constexpr double setup_budget = 3e7;      ///< units of cost, for the peaks of all choices together
+constexpr std::size_t most_choices = 32;  ///< of parameters
+constexpr std::size_t strokes = 16, stroke_ticks = 256;
+constexpr double longest = 60;  ///< s; how late a hand is looked at
+
+/// Numbers in [0, 1) that are the same everywhere.
+class Dice {
+ public:
+  explicit Dice(std::uint32_t seed) : state_(seed) {}
+  double next() { return arithmetic::mixed(++state_ * 0x9e3779b9u) * 0x1p-32; }
+  bool coin() { return next() < 0.5; }
+
+ private:
+  std::uint32_t state_;
+};
+
+/// What of a hand is one of a program's inputs; null for what the hand does not have.
+float* component(Hand& hand, Input input) {
+  switch (input) {
+    case Input::x: return &hand.position.x;
+    case Input::y: return &hand.position.y;
+    case Input::velocity_x: return &hand.velocity.x;
+    case Input::velocity_y: return &hand.velocity.y;
+    case Input::acceleration_x: return &hand.acceleration.x;
+    case Input::acceleration_y: return &hand.acceleration.y;
+    case Input::raw_velocity_x: return &hand.raw_velocity.x;
+    case Input::raw_velocity_y: return &hand.raw_velocity.y;
+    case Input::raw_acceleration_x: return &hand.raw_acceleration.x;
+    case Input::raw_acceleration_y: return &hand.raw_acceleration.y;
+    case Input::workspace_x: return &hand.workspace.x;
+    case Input::workspace_y: return &hand.workspace.y;
+    default: return nullptr;
+  }
+}
+
+/// One point of the search.
+struct Choice {
+  std::vector<float> parameters;
+  PatchSize size;
+};
+
+class Search {
+ public:
+  Search(const Program& program, const ForceSlice& slice, const Domain& domain)
+      : program_(program), description_(program.description()), domain_(domain) {
+    for (const Quantity& quantity : slice.quantities) {
+      if (quantity.kind == Quantity::Kind::input) moving_.push_back(static_cast<Input>(quantity.index));
+      if (quantity.kind == Quantity::Kind::parameter) live_.push_back(quantity.index);
+      remembers_ |= quantity.kind == Quantity::Kind::state;
+    }
+    for (const Instruction& i : slice.tick) {
+      remembers_ |= facts(static_cast<Operation>(i.operation)).fields[2] == 'g';
+    }
+  }
+
+  LargestForce run() {
+    std::vector<LargestForce> found;
+    for (const Choice& choice : choices()) found.push_back(best_of(choice));
+    std::stable_sort(found.begin(), found.end(),
+                     [](const LargestForce& a, const LargestForce& b) { return a.newton > b.newton; });
+    found.resize(std::min(found.size(), refined));
+    LargestForce best = found.front();
+    const auto consider = [&best](const LargestForce& other) {
+      if (other.newton > best.newton) best = other;
+    };
+    for (LargestForce& each : found) {
+      const Bank bank(program_, each.parameters, each.size);
+      refine(bank, each);
+      consider(each);
+      if (remembers_) consider(stroked(each));
+    }
+    return refined_parameters(best);
+  }
+
+ private:
+  /// How many banks the budget allows.
+  std::size_t affordable() const {
+    double cost = static_cast<double>(cost_of(description_.setup));
+    for (const Peak& peak : description_.peaks) {
+      cost += peak.points * (1.0 + static_cast<double>(cost_of(peak.code)));
+    }
+    return static_cast<std::size_t>(std::clamp(setup_budget / (cost + 1), 3.0, static_cast<double>(most_choices)));
+  }
+
+  /// The program's defaults, the corners of its parameters' ranges that are likeliest to matter, then any within.
+  std::vector<Choice> choices() const {
+    const auto within = [](const Interval& range, float value) { return std::clamp(value, range.low, range.high); };
+    const auto size_of = [&](float half_width, float half_height, float rim) {
+      return PatchSize{2 * within(domain_[Input::patch_half_width], half_width),
+                       2 * within(domain_[Input::patch_half_height], half_height),
+                       within(domain_[Input::patch_rim], rim)};
+    };
+    const PatchSize size =
+        size_of(0.5f * description_.patch_width, 0.5f * description_.patch_height, description_.patch_rim);
+    Choice usual{{}, size};
+    for (std::size_t i = 0; i < domain_.parameters.size(); ++i) {
+      usual.parameters.push_back(within(domain_.parameters[i], description_.parameters[i].value));
+    }
+    std::vector<Choice> all = {usual};
+    const std::size_t most = affordable();
+    const auto add = [&](const Choice& choice) {
+      if (all.size() < most) all.push_back(choice);
+    };
+    Choice low = usual, high = usual;
+    for (const std::size_t i : live_) {
+      low.parameters[i] = domain_.parameters[i].low;
+      high.parameters[i] = domain_.parameters[i].high;
+    }
+    if (!live_.empty()) add(high), add(low);
+    for (const std::size_t i : live_) {
+      Choice changed = usual;
+      changed.parameters[i] = domain_.parameters[i].high;
+      add(changed);
+      changed.parameters[i] = domain_.parameters[i].low;
+      add(changed);
+    }
+    if (std::any_of(moving_.begin(), moving_.end(), [](Input input) {
+          return input == Input::patch_half_width || input == Input::patch_half_height || input == Input::patch_rim;
+        })) {
+      constexpr float vast = std::numeric_limits<float>::max();
+      add({usual.parameters, size_of(vast, vast, 0)});
+      add({usual.parameters, size_of(0.25f * size.width, 0.25f * size.height, 0.1f * size.rim)});
+      add({high.parameters, size_of(vast, vast, 0)});
+    }
+    Dice dice(11);
+    while (!live_.empty() && all.size() < most) {
+      Choice any = usual;
+      for (const std::size_t i : live_) {
+        const Interval& range = domain_.parameters[i];
+        any.parameters[i] = within(range, static_cast<float>(range.low + dice.next() * (range.high - range.low)));
+      }
+      all.push_back(any);
+    }
+    return all;
+  }
+
+  /// A hand within the domain: each input by a share of 0 .. 1 of its range, or of its part that lies over the patch.
+  template <typename Share>
+  Hand hand(const Share& share) const {
+    Hand result;
+    for (const Input input : moving_) {
+      const Interval& range = domain_[input];
+      const double at = share(input);
+      if (input == Input::time)
+        result.time = range.low + at * (std::min<double>(range.high, range.low + longest) - range.low);
+      if (input == Input::button) result.button = range.high > 0 && (at >= 0.5 || range.low > 0);
+      if (float* value = component(result, input)) {
+        *value = std::clamp(static_cast<float>(range.low + at * (static_cast<double>(range.high) - range.low)),
+                            range.low, range.high);
+      }
+    }
+    return result;
+  }
+
+  std::vector<Hand> starting_hands(PatchSize size) const {
+    std::vector<Hand> hands;
+    Dice dice(5);
+    for (std::size_t i = 0; i < starts; ++i) {
+      switch (i % 4) {
+        case 0:  // the corners of the envelope
+          hands.push_back(hand([&](Input) { return dice.coin() ? 1.0 : 0.0; }));
+          break;
+        case 1:  // anywhere
+          hands.push_back(hand([&](Input) { return dice.next(); }));
+          break;
+        case 2:  // over the patch, at rest or moving
+        default: {
+          const double slow = i % 4 == 2 ? 0.0 : 1.0;
+          hands.push_back(hand([&](Input input) {
+            const Interval& range = domain_[input];
+            if (input == Input::x || input == Input::y) {
+              const double side = input == Input::x ? size.width : size.height;
+              const double place = (dice.next() - 0.5) * side;
+              const double width = static_cast<double>(range.high) - range.low;
+              return width > 0 ? std::clamp((place - range.low) / width, 0.0, 1.0) : 0.0;
+            }
+            return input == Input::time || input == Input::button ? dice.next() : 0.5 + slow * (dice.next() - 0.5);
+          }));
+        }
+      }
+    }
+    return hands;
+  }
+
+  static double size_of(const Force& force) {
+    return std::sqrt(static_cast<double>(force.x) * force.x + static_cast<double>(force.y) * force.y);
+  }
+
+  /// Takes the hand that is pushed hardest, if harder than `best` is.
+  void look_at(const Bank& bank, const std::vector<Hand>& hands, LargestForce& best) const {
+    std::vector<Force> forces(hands.size());
+    tick_all(bank, hands, forces);
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      const double newton = size_of(forces[i]);
+      if (newton > best.newton) best.newton = newton, best.hand = hands[i];
+    }
+  }
+
+  LargestForce best_of(const Choice& choice) const {
+    const Bank bank(program_, choice.parameters, choice.size);
+    LargestForce best{0, {}, choice.parameters, choice.size};
+    look_at(bank, starting_hands(choice.size), best);
+    return best;
+  }
+
+  void refine(const Bank& bank, LargestForce& best) const {
+    if (moving_.empty()) return;
+    Dice dice(3);
+    double width = 0.25;
+    for (int step = 0; step < steps; ++step, width *= 0.5) {
+      std::vector<Hand> hands;
+      for (std::size_t i = 0; i < neighbours; ++i) {
+        Hand near = best.hand;
+        for (const Input input : moving_) {
+          const Interval& range = domain_[input];
+          const double change = (2 * dice.next() - 1) * width;
+          if (i % 2 == 0 && dice.coin()) continue;  // along some axes only
+          if (input == Input::time) near.time = std::clamp<double>(near.time + change * longest, range.low, range.high);
+          if (float* value = component(near, input)) {
+            const double wide = static_cast<double>(range.high) - range.low;
+            *value = std::clamp(static_cast<float>(*value + change * wide), range.low, range.high);
+          }
+        }
+        hands.push_back(near);
+      }
+      look_at(bank, hands, best);
+    }
+  }
+
+  /// The hand goes from place to place while the program remembers, at steady speeds and by leaps.
+  LargestForce stroked(const LargestForce& around) const {
+    Bank bank(program_, around.parameters, around.size);
+    LargestForce best{0, {}, around.parameters, around.size, true};
+    Dice dice(17);
+    for (std::size_t stroke = 0; stroke < strokes; ++stroke) {
+      Memory memory(program_);
+      const bool over_patch = stroke % 2 == 0;
+      const auto place = [&] {
+        Hand somewhere = hand([&](Input) { return dice.coin() ? dice.next() : dice.coin() ? 1.0 : 0.0; });
+        if (over_patch && dice.coin()) {
+          somewhere.position = {static_cast<float>(dice.next() - 0.5) * around.size.width,
+                                static_cast<float>(dice.next() - 0.5) * around.size.height};
+        }
+        return somewhere;
+      };
+      Hand from = place(), to = place();
+      memory.enter(bank, from);
+      std::size_t leg = 0;
+      std::size_t length = 1 + static_cast<std::size_t>(dice.next() * 60);
+      double time = 0;
+      for (std::size_t i = 0; i < stroke_ticks; ++i, time += 1 / description_.device.rate) {
+        if (++leg > length) {
+          from = to, to = place();
+          leg = 1, length = 1 + static_cast<std::size_t>(dice.next() * 60);
+        }
+        const auto share = static_cast<float>(static_cast<double>(leg) / static_cast<double>(length));
+        Hand now = to;
+        now.position = from.position + share * (to.position - from.position);
+        now.workspace = from.workspace + share * (to.workspace - from.workspace);
+        now.time = std::clamp<double>(time, domain_[Input::time].low, domain_[Input::time].high);
+        const double newton = size_of(tick(bank, memory, now));
+        if (newton > best.newton) best.newton = newton, best.hand = now;
+      }
+    }
+    return best;
+  }
+
+  /// One parameter after the other, at the best hand and around it.
+  LargestForce refined_parameters(LargestForce best) const {
+    if (best.after_a_stroke) return best;
+    std::size_t left = affordable();
+    for (double width = 0.5; width > 0.01; width *= 0.5) {
+      for (const std::size_t i : live_) {
+        for (const double direction : {-1.0, 1.0}) {
+          if (left == 0) return best;
+          const Interval& range = domain_.parameters[i];
+          const double step = direction * width * (static_cast<double>(range.high) - range.low);
+          LargestForce tried = best;
+          tried.parameters[i] = std::clamp(static_cast<float>(best.parameters[i] + step), range.low, range.high);
+          if (tried.parameters[i] == best.parameters[i]) continue;
+          --left;
+          const Bank bank(program_, tried.parameters, tried.size);
+          tried.newton = 0;
+          look_at(bank, {best.hand}, tried);
+          refine(bank, tried);
+          if (tried.newton > best.newton) best = tried;
+        }
+      }
+    }
+    return best;
+  }
+
+  const Program& program_;
+  const PatchProgram& description_;
+  const Domain& domain_;
+  std::vector<Input> moving_;      ///< inputs that the force depends on
+  std::vector<std::size_t> live_;  ///< parameters likewise
+  bool remembers_ = false;
+};
+
+}  // namespace
+
+LargestForce largest_force(const Program& program, const ForceSlice& slice, const Domain& domain) {
+  return Search(program, slice, domain).run();
+}
+
+}  // namespace wale

@@ -1,0 +1,62 @@
+#include "compiler/prove/prove.hpp"
+
+#include <algorithm>
+
+#include "compiler/prove/range_machine.hpp"
+#include "compiler/prove/relations.hpp"
+#include "compiler/prove/slice.hpp"
+
+namespace wale {
+
+Proof prove(const Program& program, const Domain& domain) {
+  const PatchProgram& description = program.description();
+  const std::vector<Quantity> quantities = force_slice(description).quantities;
+  RangeMachine machine(program);
+  Proof proof;
+  const auto run = [&](const std::vector<Instruction>& code) {
+    Proof::Ranges ranges(code.size());
+    machine.run(code, ranges);
+    return ranges;
+  };
+  machine.start(domain, quantities);
+  proof.peaks.resize(description.peaks.size());
+  // A peak finds the setup registers as they are when its instruction runs it.
+  for (const Instruction& instruction : description.setup) {
+    if (instruction.operation == static_cast<std::uint8_t>(Operation::peak)) {
+      const std::vector<Instruction>& code = description.peaks[instruction.a].code;
+      Proof::Ranges& ranges = proof.peaks[instruction.a];
+      ranges.resize(code.size());
+      machine.run_peak(instruction.a, code, ranges);
+    }
+    machine.run({&instruction, 1}, {&proof.setup.emplace_back(), 1});
+  }
+  proof.enter = run(description.enter);
+  const Relations relations(description, description.tick);
+  proof.tick.resize(description.tick.size());
+  machine.run(description.tick, relations, proof.tick);
+  std::array<RegisterNumber, 2> values{};
+  for (const Output& output : description.outputs) {
+    proof.force[output.axis] = machine.range(output.value);
+    proof.ceiling[output.axis] = machine.range(output.ceiling);
+    values[output.axis] = output.value;
+  }
+  proof.bound_newton =
+      std::min(length_bound(proof.force[0], proof.force[1]), machine.length(relations, values[0], values[1]));
+  for (const Output& output : description.outputs) {
+    // The last instruction that writes it is its limit. What that is given is what a run up to it leaves, since
+    // registers are used again.
+    std::size_t limit = description.tick.size() - 1;
+    while (description.tick[limit].destination != output.value) --limit;
+    const std::span before(description.tick.data(), limit);
+    machine.run(before, Relations(description, before));
+    proof.unlimited[output.axis] = machine.range(description.tick[limit].a);
+  }
+  proof.picture = run(description.picture.code);
+  proof.frame = run(description.picture.frame);
+  for (const PerceptRecord& percept : description.percepts) proof.predictions.push_back(run(percept.prediction));
+  return proof;
+}
+
+Proof prove(const Program& program) { return prove(program, whole_domain(program.description())); }
+
+}  // namespace wale

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "runtime/machine/spline.hpp"
+#include "schema/patch_program.hpp"
+
+namespace wale {
+
+/// A sampled map as programs have it in common: its heights and their spline.
+struct SharedMap {
+  explicit SharedMap(const HeightTable& heights) : table(heights), spline(table) {}
+
+  const HeightTable table;
+  const Spline spline;
+};
+
+/// The one map of these heights in this process: found among those that are alive, every height compared, or made.
+/// Any thread may ask, but not the real-time one: it allocates, and waits while another thread makes a map.
+std::shared_ptr<const SharedMap> shared_map(const HeightTable& table);
+
+}  // namespace wale

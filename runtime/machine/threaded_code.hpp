@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "runtime/machine/grid.hpp"
+#include "runtime/machine/spline.hpp"
+#include "schema/instruction.hpp"
+
+namespace wale {
+
+/// How the machine gets from one instruction to the next. Both give the same bits.
+enum class Dispatch {
+  computed_goto,    ///< each instruction holds the address of the code that runs it (GCC, Clang)
+  portable_switch,  ///< each instruction holds a number, and one switch chooses
+};
+
+// WALE_PORTABLE_DISPATCH makes the switch the only one.
+#if defined(__GNUC__) && !defined(WALE_PORTABLE_DISPATCH)
+inline constexpr Dispatch fastest_dispatch = Dispatch::computed_goto;
+#else
+inline constexpr Dispatch fastest_dispatch = Dispatch::portable_switch;
+#endif
+
+/// An instruction decoded for one lane: what runs it, and its registers. What runs it knows which operands are the
+/// result of the instruction before, and takes these from where that left them instead of from memory.
+struct alignas(16) ThreadedInstruction {
+  std::uintptr_t handler = 0;
+  RegisterNumber destination = 0, a = 0, b = 0, c = 0;
+};
+static_assert(sizeof(ThreadedInstruction) == 16);
+
+/// What code looks into besides registers: the program's tables and grids, and the cells of all grids.
+struct LaneLookups {
+  const std::reference_wrapper<const Spline>* splines = nullptr;
+  const GridShape* grids = nullptr;
+  const float* cells = nullptr;
+};
+
+/// Straight-line code for one lane.
+struct ThreadedCode {
+  std::vector<ThreadedInstruction> instructions;  ///< the last one stops
+  Dispatch dispatch = fastest_dispatch;
+};
+
+/// Verified code of a section other than setup (which alone runs peaks) made ready. A `dispatch` that this build lacks
+/// becomes the one that it has.
+ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch = fastest_dispatch);
+
+/// Runs the code once over the program's registers. The caller holds a `FloatingPointMode`.
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+void run_threaded(const ThreadedCode& code, const LaneLookups& lookups, float* registers) noexcept;
+
+}  // namespace wale

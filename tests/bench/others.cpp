@@ -1,0 +1,147 @@
+// What is not the tick itself, a line each: what, ns (or ms) a piece.
+//
+//   bench_others
+
+#include <time.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "runtime/machine/spline.hpp"
+#include "runtime/stage/front_most.hpp"
+#include "runtime/stage/guards.hpp"
+#include "tests/bench/measure.hpp"
+#include "tests/machine/random_program.hpp"
+#include "wale/program.hpp"
+
+namespace wale::bench {
+namespace {
+
+/// Time that this thread has worked, ns: what others do on the machine beside it is not counted.
+double worked() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+}
+
+/// The median over repetitions of `work`, divided by `count`, in ns.
+template <class Work>
+double timed(std::size_t repetitions, double count, Work&& work) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < repetitions + 1; ++i) {
+    const double start = worked();
+    work();
+    if (i > 0) all.push_back((worked() - start) / count);
+  }
+  return median(all);
+}
+
+void front_most(std::size_t count) {
+  std::mt19937 random(1995);
+  std::uniform_real_distribution<float> place(-0.1f, 0.1f);
+  const float side = 0.4f / std::sqrt(static_cast<float>(count));  // each point under four on average
+  std::uniform_real_distribution<float> size(0.5f * side, 1.5f * side);
+  std::vector<PatchOutline> patches(count);
+  for (PatchOutline& each : patches) {
+    each = {{place(random), place(random)}, size(random), size(random), static_cast<float>(random() % 100)};
+  }
+  double built = 0;
+  {
+    const double start = worked();
+    const FrontMost once(patches);
+    built = (worked() - start) * 1e-6;
+  }
+  const FrontMost all(patches);
+  std::vector<glm::dvec2> moving, anywhere;
+  for (int i = 0; i < 4096; ++i) {
+    const double t = static_cast<double>(i) / 900;
+    moving.emplace_back(0.09 * std::sin(2.3 * t), 0.09 * std::sin(1.7 * t + 1));
+    anywhere.emplace_back(place(random), place(random));
+  }
+  // The next point waits for what was found at the last one.
+  volatile double sink = 0;
+  const auto walk = [&](const std::vector<glm::dvec2>& points) {
+    double moved = 0;
+    for (const glm::dvec2& point : points) moved = 1e-12 * all.at(point + moved);
+    sink = moved;
+  };
+  const double slow = timed(41, 4096, [&] { walk(moving); }), fast = timed(41, 4096, [&] { walk(anywhere); });
+  std::printf("front_most_%zu_moving %.1f\nfront_most_%zu_random %.1f\nfront_most_%zu_built_ms %.1f\n", count, slow,
+              count, fast, count, built);
+}
+
+void guards() {
+  Guards guard(example::device());
+  std::mt19937 random(1995);
+  std::uniform_real_distribution<float> force(-4, 4);
+  std::vector<Force> forces(1024);
+  for (Force& each : forces) each = {force(random), force(random)};
+  volatile float sink = 0;
+  std::printf("guards %.1f\n", timed(101, 1024, [&] {
+                Force last(0);
+                for (const Force& each : forces) last = guard(each + last * 1e-9f);
+                sink = last.x;
+              }));
+}
+
+void loading() {
+  // Programs of about a hundred instructions in all, states, grids, tables, marks and percepts among them.
+  std::vector<std::vector<std::byte>> files;
+  double instructions = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    const PatchProgram program = example::RandomProgram(seed).make();
+    instructions += static_cast<double>(program.setup.size() + program.enter.size() + program.tick.size());
+    instructions += static_cast<double>(program.picture.code.size() + program.picture.frame.size());
+    for (const Peak& peak : program.peaks) instructions += static_cast<double>(peak.code.size());
+    files.push_back(write_patch_program(program));
+  }
+  std::vector<Program> programs;
+  const double all = timed(11, 1e6, [&] {
+    programs.clear();
+    for (const auto& file : files) {
+      auto loaded = Program::load(file);
+      if (auto* program = std::get_if<Program>(&loaded)) programs.push_back(std::move(*program));
+    }
+  });
+  std::printf("load_1000_ms %.1f\nload_instructions %.0f\n", all, instructions / 1000);
+}
+
+/// One look-up into a sampled map of `side` samples a side, the next place waiting for what was found at the last.
+void look_up(std::uint32_t side) {
+  HeightTable table{side, side, SharedHeights::Codes(std::size_t{side} * side)};
+  std::mt19937 random(1995);
+  std::uint16_t* code = &table.heights[0];
+  for (std::size_t i = 0; i < table.heights.size(); ++i)
+    code[i] = static_cast<std::uint16_t>(32767 + 20000 * std::sin(1e-2 * static_cast<double>(i % side)));
+  double made = worked();
+  const Spline spline(table);
+  made = (worked() - made) * 1e-6;
+  std::uniform_real_distribution<float> place(0, static_cast<float>(side - 1));
+  std::vector<glm::vec2> anywhere(4096), moving(4096);
+  for (glm::vec2& point : anywhere) point = {place(random), place(random)};
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    moving[i] = glm::vec2(0.37f, 0.21f) * static_cast<float>(i) * static_cast<float>(side) / 4096.0f;
+  volatile float sink = 0;
+  const auto walk = [&](const std::vector<glm::vec2>& points) {
+    float last = 0;
+    for (const glm::vec2& point : points) last = sample_of(spline, point.x + last * 1e-30f, point.y).along_a;
+    sink = last;
+  };
+  const double slow = timed(21, 4096, [&] { walk(moving); }), fast = timed(21, 4096, [&] { walk(anywhere); });
+  std::printf("map_%u_moving %.1f\nmap_%u_random %.1f\nmap_%u_prefilter_ms %.1f\n", side, slow, side, fast, side, made);
+}
+
+}  // namespace
+}  // namespace wale::bench
+
+int main() {
+  using namespace wale::bench;
+  guards();
+  front_most(1000);
+  front_most(100'000);
+  loading();
+  look_up(1024);
+  look_up(4096);
+}

@@ -1,0 +1,65 @@
+// `wale build --emit`: what a stage makes of a material, as text.
+
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line {
+namespace {
+
+TEST(Emit, WritesEachStageToStandardOutputOrAFile) {
+  const Folder folder;
+  for (const auto& [stage, part] : {std::pair{"tree", "(material corduroy"},
+                                    {"checked", "asks roughness 0.6"},
+                                    {"ir", "parameter wale"},
+                                    {"listing", "= divide x wale"},
+                                    {"cpp", "namespace wale_patch_corduroy {"}}) {
+    const Outcome shown = wale({"build", corduroy, "--emit", stage});
+    EXPECT_EQ(shown.status, 0) << shown.err;
+    EXPECT_TRUE(contains(shown.out, part)) << stage << "\n" << shown.out;
+    const std::string path = folder / stage;
+    EXPECT_EQ(wale({"build", corduroy, "--material", "corduroy", "--emit", stage, "-o", path}).status, 0);
+    EXPECT_EQ(bytes_of(path), shown.out);
+  }
+}
+
+TEST(Emit, OfAPatchProgramShowsWhatIsLeft) {
+  const Folder folder;
+  const std::string program = folder / "corduroy.wpp";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  for (const char* stage : {"listing", "cpp"})
+    EXPECT_EQ(wale({"build", program, "--emit", stage}).out, wale({"build", corduroy, "--emit", stage}).out);
+  for (const char* stage : {"tree", "checked", "ir"}) {
+    const Outcome refused = wale({"build", program, "--emit", stage});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.out, "");
+    EXPECT_TRUE(contains(refused.err, "is compiled already: of a patch program there are the listing and cpp"))
+        << refused.err;
+  }
+}
+
+TEST(Emit, UnknownStagesAndSenselessWordsAreMisuse) {
+  const Outcome unknown = wale({"build", corduroy, "--emit", "assembly"});
+  EXPECT_EQ(unknown.status, 2);
+  for (const char* stage : {"tree", "checked", "ir", "listing", "cpp"}) EXPECT_TRUE(contains(unknown.err, stage)) << stage;
+  EXPECT_EQ(wale({"build", corduroy, "--emit", "cpp", "--all", "-o", "out"}).status, 2);
+  const Outcome neither = wale({"build", corduroy});
+  EXPECT_EQ(neither.status, 2);
+  EXPECT_TRUE(contains(neither.err, "--output is required")) << neither.err;
+}
+
+TEST(Emit, StopsWhereTheMaterialIsWrong) {
+  const Folder folder;
+  const std::string open =
+      folder.write("open.wale", "wale 1\nmaterial a { physical { force = lateral(grating(x, period: 2 mm)) } }\n");
+  const Outcome checked = wale({"build", open, "--emit", "checked"});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_TRUE(contains(checked.out, "carrier lateral amplitude = ?0, left open"));
+  const Outcome ir = wale({"build", open, "--emit", "ir"});
+  EXPECT_EQ(ir.status, 1);
+  EXPECT_EQ(ir.out, "");
+  EXPECT_TRUE(contains(ir.err, "nothing says how hard this pushes")) << ir.err;
+}
+
+}  // namespace
+}  // namespace wale::command_line

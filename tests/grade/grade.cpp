@@ -1,0 +1,173 @@
+#include "compiler/grade/grade.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/grade/grading.hpp"
+
+namespace wale {
+namespace {
+
+using grading::device;
+using grading::graded;
+
+constexpr double pi = 3.14159265358979323846;
+
+struct Stimulus {
+  double program_units, period_mm;  // psychophysics.md, 2.2
+  double stiffness, damping, step;  // N/m, N s/m, N
+};
+
+/// Sines, as that table assumes.
+class Table22 : public testing::TestWithParam<Stimulus> {};
+
+TEST_P(Table22, IsReproduced) {
+  const Stimulus row = GetParam();
+  const Grade grade =
+      graded(fmt::format("    force = vector({} pu * sin(2 pi * x / {} mm), 0 N)", row.program_units, row.period_mm));
+  EXPECT_NEAR(grade.stiffness, row.stiffness, 0.003 * row.stiffness);
+  EXPECT_NEAR(grade.required_damping, row.damping, 0.005 + 0.003 * row.damping);
+  EXPECT_NEAR(grade.step_newton, row.step, 0.001 + 0.003 * row.step);
+  EXPECT_NEAR(grade.finest_period, 1e-3 * row.period_mm, 0.03e-3 * row.period_mm);
+  EXPECT_NEAR(grade.force_levels, row.program_units * 4, 0.02 * row.program_units * 4);  // 512 units, 2048 counts
+  EXPECT_EQ(grade.standing, Standing::ungraded);
+  EXPECT_TRUE(grade.energy.conservative);
+  EXPECT_FALSE(grade.jumps);
+}
+
+INSTANTIATE_TEST_SUITE_P(Minsky, Table22,
+                         testing::Values(Stimulus{9, 0.9, 1227, 0.68, 0.068}, Stimulus{17, 0.7, 2980, 1.66, 0.166},
+                                         Stimulus{41, 0.7, 7188, 3.99, 0.401}, Stimulus{14, 2.5, 687, 0.38, 0.038},
+                                         Stimulus{159, 2.5, 7805, 4.34, 0.436}, Stimulus{194, 10, 2381, 1.32, 0.133}));
+
+TEST(Grade, KnownDampingDecidesBetweenPassiveHandAndUnstable) {
+  const std::string wave = "    force = vector(1 N * sin(2 pi * x / 2.5 mm), 0 N)";  // K T / 2 = 1.396 N s/m
+  const auto standing = [&](const std::string& damping) {
+    return graded(wave, device("  damping " + damping), "bench");
+  };
+  EXPECT_EQ(standing("1.5 N s/m").standing, Standing::passive);
+  EXPECT_NEAR(*standing("1.5 N s/m").margin(), 0.104, 0.01);
+  EXPECT_EQ(standing("1 N s/m").standing, Standing::stable_in_the_hand);
+  EXPECT_EQ(standing("assumed 1.5 N s/m").standing, Standing::ungraded);
+  EXPECT_FALSE(standing("assumed 1.5 N s/m").margin());
+  const Grade steep =
+      graded("    force = vector(8 N * sin(2 pi * x / 2.5 mm), 0 N)", device("  damping 1 N s/m"), "bench");
+  EXPECT_EQ(steep.standing, Standing::unstable);  // 11.2 against 1 and 6.5
+}
+
+TEST(Grade, FrictionHoldsOneCountOrItBuzzes) {
+  const auto buzzes = [](const std::string& friction) {
+    return graded("    force = vector(1 N * sin(2 pi * x / 2.5 mm), 0 N)", device("  friction " + friction), "bench")
+        .buzzes;
+  };
+  // One count changes 0.1403 N, so that the edge is at 0.0701 N.
+  EXPECT_EQ(buzzes("0.08 N"), false);
+  EXPECT_EQ(buzzes("0.06 N"), true);
+  EXPECT_EQ(buzzes("assumed 0.06 N"), std::nullopt);
+}
+
+TEST(Grade, SpringsOilAndPotentialsAreNotActive) {
+  for (const char* physical : {"    force = -40 N/m * hand", "    force = -4 N s/m * velocity",
+                               "    height h = grating(x + y, period: 3 mm) * grating(y, period: 2 mm)\n"
+                               "    force = lateral(h, amplitude: 2 N)",
+                               "    force = -200 N/m * hand * exp(-(length(hand) / 20 mm)^2) - 1 N s/m * velocity"}) {
+    const Grade grade = graded(physical);
+    EXPECT_EQ(grade.standing, Standing::ungraded) << physical;
+    EXPECT_EQ(grade.energy.watt(), 0) << physical;
+  }
+}
+
+TEST(Grade, NothingAsksForNothing) {
+  const Grade grade = graded("    force = vector(0.5 N, 0 N)");
+  EXPECT_EQ(grade.standing, Standing::passive);
+  EXPECT_EQ(grade.required_damping, 0);
+  EXPECT_EQ(grade.stiffness, 0);
+  EXPECT_TRUE(std::isinf(grade.finest_period));
+}
+
+TEST(Grade, AFieldThatTurnsGivesItsCurlTimesTheArea) {
+  const Grade grade = graded("    let k = 15 N/m\n    force = vector(-k * y, k * x)");
+  EXPECT_EQ(grade.standing, Standing::active);
+  EXPECT_FALSE(grade.energy.conservative);
+  EXPECT_NEAR(grade.energy.watt(), 30 * pi * 0.04 * 0.04, 1e-3);  // curl 2 k, circles of 40 mm at 1 Hz
+}
+
+TEST(Grade, AntiViscosityGivesItsPower) {
+  const Grade grade = graded("    force = 2 N s/m * velocity");
+  EXPECT_EQ(grade.standing, Standing::active);
+  EXPECT_NEAR(grade.required_damping, 2, 0.01);
+  const double speed = 2 * pi * 0.04;  // of the hand along each axis, so that both together are looked at
+  EXPECT_NEAR(grade.energy.watt(), 2 * 2 * speed * speed, 0.1 * 2 * 2 * speed * speed);
+}
+
+TEST(Grade, WhatMovesByItselfIsActiveAndWhatTheHandDrivesIsNot) {
+  EXPECT_EQ(graded("    force = vector(0.3 N * sin(2 pi * 5 Hz * time), 0 N)").standing, Standing::active);
+  EXPECT_EQ(graded("    force = vector(0.3 N * sin(phase(5 Hz)), 0 N)").standing, Standing::active);
+  // A source that drives a state that the hand drives too.
+  EXPECT_EQ(
+      graded(
+          "    state p : position = hand\n    next p = p + (hand - p) * 0.1 + vector(1 mm * sin(phase(5 Hz)), 0 mm)\n"
+          "    force = -50 N/m * (hand - p)")
+          .standing,
+      Standing::active);
+  EXPECT_EQ(graded("    state p : position = hand\n    state v : velocity = vector(0 m/s, 0 m/s)\n"
+                   "    let pull = 120 N/m * (hand - p)\n    v' = (pull - 0.8 N s/m * v) / 0.3 kg\n    p' = v\n"
+                   "    force = -pull")
+                .standing,
+            Standing::ungraded);
+  // One that only stays where the hand came in.
+  EXPECT_EQ(graded("    state p : position = hand\n    next p = p\n    force = -50 N/m * (hand - p)").standing,
+            Standing::ungraded);
+}
+
+TEST(Grade, WhatGivesMoreThanItWasGivenIsActive) {
+  // A mass that is pushed along its own motion.
+  const Grade grade = graded(
+      "    state p : position = hand\n    state v : velocity = vector(0 m/s, 0 m/s)\n"
+      "    let pull = 120 N/m * (hand - p)\n    v' = (pull + 4 N s/m * v) / 0.3 kg\n    p' = v\n"
+      "    force = -pull");
+  EXPECT_EQ(grade.standing, Standing::active);
+  EXPECT_GT(grade.energy.watt(), 0);
+}
+
+TEST(Grade, AJumpIsSeenByItsStep) {
+  const Grade grade = graded("    force = vector(if x < 3.21 mm then 1.5 N else -0.5 N, 0 N)");
+  EXPECT_TRUE(grade.jumps);
+  EXPECT_NEAR(grade.step_newton, 2, 1e-6);
+  EXPECT_NEAR(grade.required_damping, 2 / (0.2286 / 4096) / 1800, 0.01);
+}
+
+TEST(Grade, AConeHasNoSlopeAtItsTip) {
+  const Grade grade = graded("    force = -1 N * normalise(hand) * min(1, length(hand) / 10 mm)");
+  EXPECT_TRUE(std::isfinite(grade.required_damping));
+  EXPECT_NEAR(grade.stiffness, 100, 1);  // 1 N over 10 mm
+}
+
+TEST(Grade, ATipIsAsSteepAsAnEncoderCanSee) {
+  // A force of one size that points to the middle: at the middle its direction turns within any distance.
+  const Grade grade = graded("    force = -1 N * hand / length(hand)");
+  const double count = 0.2286 / 4096;
+  EXPECT_GT(grade.stiffness, 0.5 / count * 0.1);
+  EXPECT_LE(grade.stiffness, 2 / count);
+  EXPECT_LE(grade.required_damping, 2 / count / 1800);
+}
+
+TEST(Grade, IsOfTheParametersAsTheyAreSet) {
+  const Program program = compiling::compiled("    param k = 40 N/m in 0 N/m .. 400 N/m\n    force = -k * hand");
+  const std::vector<float> stiff{400};
+  EXPECT_NEAR(grade(Bank(program), grading::hand).stiffness, 40, 1e-3);
+  EXPECT_NEAR(grade(Bank(program, stiff, program.default_size()), grading::hand).stiffness, 400, 1e-2);
+}
+
+TEST(Grade, IsTheSameEveryTime) {
+  const std::string physical =
+      "    height h = noise2(x / 2 mm, y / 2 mm)\n    force = lateral(h, amplitude: 1 N) - 1 N s/m * velocity";
+  const Grade one = graded(physical), two = graded(physical);
+  EXPECT_EQ(one.required_damping, two.required_damping);
+  EXPECT_EQ(one.worst.position, two.worst.position);
+  EXPECT_EQ(one.stiffness, two.stiffness);
+}
+
+}  // namespace
+}  // namespace wale

@@ -1,0 +1,121 @@
+#include "compiler/grade/required_damping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+namespace wale {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+DeviceProfile device(double delay = 0, double window = 1) {
+  DeviceProfile profile;
+  profile.rate = 900;
+  profile.delay = delay;
+  profile.velocity_window = window;
+  return profile;
+}
+
+/// force = -stiffness place - damping velocity, along x.
+LinearProgram wall(double stiffness, double damping) {
+  LinearProgram program;
+  program.direct.place[0][0] = -stiffness;
+  program.direct.velocity[0][0] = -damping;
+  return program;
+}
+
+// Colgate and Schenkel 1997: b > K T / 2 + |B|, for either sign of B, with the velocity of one tick.
+TEST(RequiredDamping, IsThatOfTheVirtualWall) {
+  const LoopTiming timing(device());
+  for (const double stiffness : {0.0, 100.0, 1000.0, 5000.0})
+    for (const double damping : {-2.0, -0.3, 0.0, 0.5, 4.0})
+      EXPECT_NEAR(required_damping(wall(stiffness, damping), timing), stiffness / 1800 + std::abs(damping),
+                  1e-3 * std::abs(damping) + 1e-9)
+          << stiffness << " N/m, " << damping << " N s/m";
+}
+
+// With a delay T / 2 becomes T / 2 + d (Diolaiti et al. 2006; closed-loop.md has 2.78, 7.8 and 12.8 for corduroy).
+TEST(RequiredDamping, GrowsByTheDelay) {
+  for (const double delay : {0.0, 0.0005, 0.001, 0.002})
+    EXPECT_NEAR(required_damping(wall(5010, 0), LoopTiming(device(delay))), 5010 * (1.0 / 1800 + delay), 1e-6);
+}
+
+TEST(RequiredDamping, CountsTheStiffestDirection) {
+  LinearProgram program;
+  program.direct.place = {{{-300, 400}, {400, 300}}};  // of singular values 500 and 500
+  EXPECT_NEAR(required_damping(program, LoopTiming(device())), 500.0 / 1800, 1e-9);
+  program.direct.place = {{{-900, 0}, {0, 100}}};
+  EXPECT_NEAR(required_damping(program, LoopTiming(device())), 900.0 / 1800, 1e-9);
+}
+
+// The windows of the filter include one tick, which is its worst for a damper.
+TEST(RequiredDamping, LetsTheFilterChooseItsWindow) {
+  EXPECT_NEAR(required_damping(wall(0, 10), LoopTiming(device(0, 15))), 10, 1e-3);
+}
+
+TEST(RequiredDamping, OfTheSecondDifferenceIsItsClosedForm) {
+  // H = M ((1 - 1/z) / T)^2: the form is M / (2 T) Re (1 - e^-ja)^3 / (1 - cos a), greatest at the Nyquist frequency or
+  // inside; found here on a fine grid.
+  LinearProgram program;
+  program.direct.raw_acceleration[0][0] = -0.01;
+  double expected = 0;
+  for (int i = 1; i <= 100000; ++i) {
+    const double angle = pi * i / 100000;
+    const std::complex<double> step = 1.0 - std::polar(1.0, -angle);
+    expected = std::max(expected, 0.01 * 900 / 2 * (step * step * step).real() / (1 - std::cos(angle)));
+  }
+  EXPECT_NEAR(required_damping(program, LoopTiming(device())), expected, 0.02 * expected);
+}
+
+/// A mass on a spring and a damper to the hand, as the brick of the language's examples: v' and p' in the order of the
+/// text (semi-implicit Euler), force = -k (hand - p).
+LinearProgram brick(double k, double b, double m, double period) {
+  LinearProgram program;
+  program.states = 2;  // p, v
+  program.direct.place[0][0] = -k;
+  program.output = {k, 0, 0, 0};
+  const double vp = -k * period / m, vv = 1 - b * period / m;
+  program.carry = {1 + period * vp, period * vv, vp, vv};
+  program.input.resize(1);
+  program.input[0].place[1][0] = k * period / m;
+  program.input[0].place[0][0] = period * k * period / m;
+  return program;
+}
+
+// Against the response of the same recurrence to a slow sum over a long sine, at every frequency of a grid.
+TEST(RequiredDamping, OfStatesIsThatOfTheirResponse) {
+  const double period = 1.0 / 900, k = 120, m = 0.3;
+  for (const double b : {0.8, 4.0}) {
+    const LinearProgram program = brick(k, b, m, period);
+    double expected = 0;
+    for (int i = 0; i < 400; ++i) {
+      const double angle = pi * std::pow(2e-3, 1 - i / 399.0);
+      std::complex<double> p = 0, v = 0;
+      // Run the recurrence under e^(j a n) until the transient is gone; then force / place is the response.
+      std::complex<double> response = 0;
+      for (int n = 0; n < 20000; ++n) {
+        const std::complex<double> hand = std::polar(1.0, angle * n), pull = k * (hand - p);
+        response = -pull / hand;
+        v += period * (pull - b * v) / m;
+        p += period * v;
+      }
+      // As in the product, the direct spring counts in full in every direction of energy.
+      const std::complex<double> late = 1.0 - std::polar(1.0, -angle);
+      expected = std::max(expected, period / 2 / (1 - std::cos(angle)) * (late * -response).real());
+    }
+    EXPECT_NEAR(required_damping(program, LoopTiming(device())), expected, 0.05 * expected + 1e-3) << b;
+  }
+}
+
+TEST(RequiredDamping, IsInfiniteWhereStatesOnlyGrow) {
+  LinearProgram program = brick(120, 0.8, 0.3, 1.0 / 900);
+  program.carry = {1, 0, 0, 1};
+  program.output = {1e300, 0, 0, 0};
+  program.input[0].place[0][0] = 1e300;
+  EXPECT_TRUE(std::isinf(required_damping(program, LoopTiming(device()))));
+}
+
+}  // namespace
+}  // namespace wale

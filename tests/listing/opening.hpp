@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "compiler/build_stage.hpp"
+#include "compiler/diagnostics/render.hpp"
+
+namespace wale::listing {
+
+inline const std::filesystem::path library = std::filesystem::path(WALE_SOURCE_DIR) / "library";
+
+inline std::string complaints(const Diagnostics& diagnostics, const SourceSet& sources) {
+  std::string text;
+  for (const auto& each : diagnostics.all()) text += render_text(each, sources, false);
+  return text;
+}
+
+/// A file of Wale, opened as the command line does. Throws when it is wrong.
+struct File {
+  FileRequest request;
+  OpenedFile opened;
+
+  explicit File(const std::string& path) : request{.file = path, .roots = {}}, opened(open_file(request)) {
+    if (!opened.refusal.empty()) throw std::runtime_error(opened.refusal);
+    if (opened.diagnostics.has_errors()) throw std::runtime_error(complaints(opened.diagnostics, opened.sources));
+  }
+
+  Program program(const std::string& material) const {
+    Diagnostics diagnostics;
+    const auto program = compile_opened(opened, request, material, diagnostics);
+    if (!program) throw std::runtime_error(complaints(diagnostics, opened.sources));
+    return *program;
+  }
+
+  std::string stage(const std::string& material, BuildStage stage) const {
+    Diagnostics diagnostics;
+    std::string refusal;
+    const auto text = build_stage(opened, request, material, stage, diagnostics, refusal);
+    if (!text) throw std::runtime_error(refusal + complaints(diagnostics, opened.sources));
+    return *text;
+  }
+};
+
+/// Every file of the library that has materials, without the many of the thesis's stimuli.
+inline std::vector<std::string> shipped_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library)) {
+    const std::string folder = entry.path().parent_path().filename().string();
+    if (entry.path().extension() == ".wale" && folder != "std" && folder != "sandpaper" && folder != "library")
+      files.push_back(entry.path().string());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace wale::listing
