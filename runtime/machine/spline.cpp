@@ -33,13 +33,16 @@ void to_coefficients(std::span<double> lines) {
   std::copy_n(first, at_once, samples(0));
   for (std::size_t i = 1; i <= last; ++i) {
     double* const here = samples(i);
-    for (std::size_t k = 0; k < at_once; ++k) here[k] += pole * here[k - at_once];
+    const double* const before = samples(i - 1);
+    for (std::size_t k = 0; k < at_once; ++k) here[k] += pole * before[k];
   }
   double* const end = samples(last);
-  for (std::size_t k = 0; k < at_once; ++k) end[k] = pole / (pole * pole - 1) * (end[k] + pole * end[k - at_once]);
+  const double* const before_end = samples(last - 1);
+  for (std::size_t k = 0; k < at_once; ++k) end[k] = pole / (pole * pole - 1) * (end[k] + pole * before_end[k]);
   for (std::size_t i = last; i-- > 0;) {
     double* const here = samples(i);
-    for (std::size_t k = 0; k < at_once; ++k) here[k] = pole * (here[k + at_once] - here[k]);
+    const double* const after = samples(i + 1);
+    for (std::size_t k = 0; k < at_once; ++k) here[k] = pole * (after[k] - here[k]);
   }
   for (double& coefficient : lines) coefficient *= 6;
 }
