@@ -24,7 +24,7 @@ class TickReader {
   /// What does not change from tick to tick is as the bank has it.
   NodeId value(RegisterNumber number) {
     if (values_[number] != unread) return values_[number];
-    const bool moment = number < first_constant && changes_in_tick(static_cast<Input>(number));
+    const bool moment = number < first_constant && input_table[number].changes;
     if (moment)
       values_[number] = lifted_.graph.input(static_cast<Input>(number));
     else if (number >= program_.first_state() && number < program_.first_temporary())
@@ -32,17 +32,6 @@ class TickReader {
     else
       values_[number] = lifted_.graph.constant(bank_.registers()[number]);
     return values_[number];
-  }
-
-  static bool changes_in_tick(Input input) {
-    switch (input) {
-      case Input::patch_half_width:
-      case Input::patch_half_height:
-      case Input::patch_rim:
-      case Input::probe:
-      case Input::seconds_per_tick: return false;
-      default: return true;
-    }
   }
 
   void read(const Instruction& instruction) {

@@ -4,32 +4,11 @@
 #include <bit>
 
 #include "compiler/graph/term.hpp"
-#include "runtime/machine/floating_point_mode.hpp"
-#include "runtime/machine/meaning.hpp"
+#include "runtime/machine/single.hpp"
 
 namespace wale {
 
 namespace {
-
-// Not inlined: the compiler does not know that arithmetic depends on the mode in which it runs.
-[[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
-  // clang-format off
-  switch (operation) {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
-  case Operation::name: return Meaning<Operation::name>::of(a, b, c);
-#define SPECIAL(number, name, fields, results, cost) \
-  case Operation::name: break;
-#include "schema/instruction.def"
-  }
-  // clang-format on
-  return 0;
-}
-
-/// The operation on constants, in the machine's arithmetic and its treatment of denormals.
-float fold(Operation operation, float a, float b, float c) {
-  const FloatingPointMode mode;
-  return evaluate(operation, a, b, c);
-}
 
 /// Whether they are one value. Where it came from and how often it is worked out do not make it what it is.
 bool same(const Node& a, const Node& b) {
@@ -111,7 +90,7 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
     rate = std::max(rate, nodes_[operands[i]].rate);
   }
   const auto value = [&](int i) { return i < count ? nodes_[operands[i]].value : 0.0f; };
-  if (constants) return constant(fold(operation, value(0), value(1), value(2)));
+  if (constants) return constant(result_of(operation, value(0), value(1), value(2)));
 
   // Only what is exact for every float is simplified: the value must not depend on what the compiler knew.
   if (operation == Operation::multiply && is_constant(b, 1)) return a;

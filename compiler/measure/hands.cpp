@@ -26,11 +26,9 @@ std::array<float, 4> lattice_point(std::size_t i) {
 }  // namespace
 
 bool depends_on_the_moment(const PatchProgram& program) {
+  // A surface is drawn of places alone.
   const auto of_the_moment = [](RegisterNumber number) {
-    return number < first_constant && number != static_cast<RegisterNumber>(Input::x) &&
-           number != static_cast<RegisterNumber>(Input::y) &&
-           (number < static_cast<RegisterNumber>(Input::patch_half_width) ||
-            number > static_cast<RegisterNumber>(Input::probe));
+    return number < first_constant && input_table[number].changes && !input_table[number].picture;
   };
   return std::ranges::any_of(program.tick, [&](const Instruction& instruction) {
     const auto fields = facts(static_cast<Operation>(instruction.operation)).fields;

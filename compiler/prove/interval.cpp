@@ -8,8 +8,7 @@
 
 #include "compiler/prove/rounding.hpp"
 #include "runtime/machine/arithmetic.hpp"
-#include "runtime/machine/floating_point_mode.hpp"
-#include "runtime/machine/meaning.hpp"
+#include "runtime/machine/single.hpp"
 
 namespace wale {
 namespace {
@@ -226,37 +225,13 @@ Interval random() { return {0, 1 - 0x1p-24f, false}; }
 
 }  // namespace ranges
 
-namespace {
-
-// Not inlined: the compiler does not know that arithmetic depends on the mode in which it runs.
-[[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
-  // clang-format off
-  switch (operation) {
-#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
-  case Operation::name: return Meaning<Operation::name>::of(a, b, c);
-#define SPECIAL(number, name, fields, results, cost) \
-  case Operation::name: break;
-#include "schema/instruction.def"
-  }
-  // clang-format on
-  return 0;
-}
-
-/// The machine's own result for single values.
-float evaluate_as_the_machine(Operation operation, float a, float b, float c) {
-  const FloatingPointMode mode;
-  return evaluate(operation, a, b, c);
-}
-
-}  // namespace
-
 Interval range_of(Operation operation, const Interval& A, const Interval& B, const Interval& C) {
   const int operands = facts(operation).operands;
   const bool points = A.is_point() && (operands < 2 || B.is_point()) && (operands < 3 || C.is_point());
   // The quotient alone knows the sign of a zero, which an interval does not.
   if (points && operands > 0 && operation != Operation::divide && facts(operation).fields[2] != 't' &&
       facts(operation).fields[2] != 'g') {
-    return Interval::of(evaluate_as_the_machine(operation, A.low, B.low, C.low));
+    return Interval::of(result_of(operation, A.low, B.low, C.low));
   }
   using namespace ranges;
   // clang-format off

@@ -16,21 +16,18 @@ using Code = std::span<const Instruction>;
 /// Inputs as a set: bit number n for register n.
 using Inputs = std::uint32_t;
 
-constexpr Inputs set_of(std::initializer_list<Input> inputs) {
+/// Those of which `may` is true in the table of inputs.
+constexpr Inputs those(bool InputFacts::*may) {
   Inputs set = 0;
-  for (const Input input : inputs) set |= Inputs{1} << static_cast<RegisterNumber>(input);
+  for (std::size_t number = 0; number < input_table.size(); ++number)
+    if (input_table[number].*may) set |= Inputs{1} << number;
   return set;
 }
 
-constexpr Inputs patch_inputs =
-    set_of({Input::patch_half_width, Input::patch_half_height, Input::patch_rim, Input::seconds_per_tick});
-constexpr Inputs picture_inputs = patch_inputs | set_of({Input::x, Input::y});
-constexpr Inputs tick_inputs =
-    picture_inputs |
-    set_of({Input::velocity_x, Input::velocity_y, Input::acceleration_x, Input::acceleration_y, Input::raw_velocity_x,
-            Input::raw_velocity_y, Input::raw_acceleration_x, Input::raw_acceleration_y, Input::workspace_x,
-            Input::workspace_y, Input::time, Input::button});
-constexpr Inputs prediction_inputs = patch_inputs | set_of({Input::probe});
+constexpr Inputs patch_inputs = those(&InputFacts::setup);
+constexpr Inputs picture_inputs = those(&InputFacts::picture);
+constexpr Inputs tick_inputs = those(&InputFacts::tick);
+constexpr Inputs prediction_inputs = those(&InputFacts::prediction);
 
 /// What an operand names.
 enum class Field : std::uint8_t { nothing, reg, table, grid, peak };

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "schema/instruction.hpp"
+
+namespace wale {
+
+/// What the machine makes of one operation on single values, in its own arithmetic and its treatment of subnormals. 0
+/// for operations that read tables, grids or peaks.
+float result_of(Operation operation, float a, float b, float c);
+
+}  // namespace wale
