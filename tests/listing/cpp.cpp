@@ -17,7 +17,7 @@
 #include "tests/machine/random_program.hpp"
 #include "wale/memory.hpp"
 
-namespace wale::listing {
+namespace wale::listing::cpp_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,4 +217,4 @@ TEST(Cpp, CompiledGivesTheBitsOfTheMachine) {
 }
 
 }  // namespace
-}  // namespace wale::listing
+}  // namespace wale::listing::cpp_test
