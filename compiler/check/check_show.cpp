@@ -9,6 +9,10 @@ namespace wale {
 
 namespace {
 
+constexpr std::uint32_t ink = 0x202020;
+
+}  // namespace
+
 /// One argument of a shape: what it is called, what it is, and what stands there when it is left out.
 struct ShapeArgument {
   std::string_view name;
@@ -16,10 +20,6 @@ struct ShapeArgument {
   bool place;                         ///< a vector
   std::optional<double> otherwise{};  ///< SI
 };
-
-constexpr std::uint32_t ink = 0x202020;
-
-}  // namespace
 
 struct ShowChecker::Shape {
   std::string_view name;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "compiler/extract/motion.hpp"
+#include "compiler/extract/texture.hpp"
+#include "compiler/extract/wall.hpp"
+
+namespace wale {
+
+/// What a program's force is made of, whatever its text says: the carriers of percepts, each read from something of its
+/// own, so that none is taken for another.
+struct Extraction {
+  TextureForce texture, bumps;
+  double stiffness = 0;  ///< N/m: of what draws the hand back over the whole patch; a wall is none
+  OpposingForce opposing;
+  double inertia = 0;  ///< kg
+  Vibration vibration;
+  std::optional<WallFace> wall;
+};
+
+/// Runs the program at this bank's parameters. The bands are those of the percepts that are read. Deterministic.
+Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps);
+
+}  // namespace wale

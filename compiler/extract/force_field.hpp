@@ -1,0 +1,43 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// The force on hands at rest that have just come in, on a lattice of `side` * `side` places, row by row from (-, -).
+struct ForceField {
+  std::size_t side = 0;
+  glm::dvec2 centre{0};   ///< m from the patch's centre
+  glm::dvec2 spacing{0};  ///< m between neighbours
+  std::vector<Force> forces;
+
+  glm::dvec2 place(std::size_t column, std::size_t row) const {
+    const double middle = 0.5 * (static_cast<double>(side) - 1);
+    return centre + spacing * glm::dvec2(static_cast<double>(column) - middle, static_cast<double>(row) - middle);
+  }
+};
+
+/// Runs the program over a window of `size` (m) about `centre`. Deterministic.
+ForceField sample_force_field(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, std::size_t side);
+
+/// What a plane says of a field: the mean force and how it changes with place.
+struct LinearField {
+  glm::dvec2 mean{0};
+  glm::dvec2 by_x{0}, by_y{0};  ///< N/m: d force / dx and d force / dy, by least squares
+
+  /// What draws the hand back to a place, N/m; negative where it pushes away.
+  double stiffness() const { return -0.5 * (by_x.x + by_y.y); }
+};
+
+LinearField linear_part(const ForceField& field);
+
+/// The field without its mean and its slope.
+ForceField without(const ForceField& field, const LinearField& part);
+
+/// The value below which the share of them lies, 0 .. 1. Reorders its copy; 0 of none.
+double quantile(std::vector<float> values, double share);
+
+}  // namespace wale

@@ -1,0 +1,179 @@
+// What is read from a program, against materials whose every figure is known in advance.
+
+#include "compiler/extract/extract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "compiler/extract/fourier.hpp"
+#include "tests/standard/standard.hpp"
+
+namespace wale::extract_test {
+namespace {
+
+using standard::material;
+using std::numbers::pi;
+
+constexpr PeriodBand textures{0.7e-3, 10e-3}, bumps{10e-3, 100e-3};
+
+Bank pushing(const std::string& statements, const std::string& declarations = "") {
+  return Bank(material(declarations + "\nmaterial m { physical {\n" + statements + "\n} }", "m"));
+}
+
+TextureForce texture_of(const Bank& bank, const PeriodBand& band = textures) {
+  return texture_force(bank, StaticForce(bank), band);
+}
+
+TEST(Fourier, IsTheSumOfItsDefinitionAndGoesBack) {
+  constexpr std::size_t side = 8;
+  std::vector<std::complex<float>> values;
+  for (int i = 0; i < static_cast<int>(side * side); ++i)
+    values.emplace_back(static_cast<float>((i * i * 7 + 3 * i) % 23 - 11), static_cast<float>(i * i % 17 - 8));
+  const auto coefficients = fourier(side, values);
+  for (std::size_t v = 0; v < side; ++v)
+    for (std::size_t u = 0; u < side; ++u) {
+      std::complex<double> sum = 0;
+      for (std::size_t y = 0; y < side; ++y)
+        for (std::size_t x = 0; x < side; ++x)
+          sum += std::complex<double>(values[y * side + x]) *
+                 std::polar(1.0, -2 * pi * static_cast<double>(u * x + v * y) / side);
+      EXPECT_LT(std::abs(sum - std::complex<double>(coefficients[v * side + u])), 1e-3) << u << ' ' << v;
+    }
+  const auto back = inverse_fourier(side, coefficients);
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(back[i] - values[i]), 1e-4f);
+}
+
+TEST(Extract, EveryFigureOfASineIsItsClosedForm) {
+  for (const double period : {0.9, 2.5, 7.0}) {
+    const TextureForce texture =
+        texture_of(pushing("force = vector(-1.2 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)"));
+    const double metres = period * 1e-3;
+    EXPECT_NEAR(texture.amplitude, 1.2, 0.03) << period;
+    EXPECT_NEAR(texture.maximum, 1.2, 0.06) << period;
+    EXPECT_NEAR(texture.rms, 1.2 / std::sqrt(2), 0.03) << period;
+    EXPECT_NEAR(texture.mean, 1.2 * 2 / pi, 0.03) << period;
+    EXPECT_NEAR(texture.period, metres, 0.02 * metres) << period;
+    EXPECT_NEAR(std::sin(texture.orientation), 0, 0.03) << period;
+    EXPECT_GT(texture.anisotropy, 0.95) << period;
+    EXPECT_GT(texture.regularity, 0.9) << period;
+    EXPECT_NEAR(texture.transitions, 2 / metres, 0.05 * 2 / metres) << period;
+    EXPECT_NEAR(texture.steepness, 2 * pi / metres, 0.05 * 2 * pi / metres) << period;
+  }
+}
+
+TEST(Extract, TheOrientationIsTheDirectionInWhichATextureChanges) {
+  for (const double degrees : {30.0, 90.0, 135.0}) {
+    const double angle = degrees * pi / 180;
+    const std::string along =
+        "(" + std::to_string(std::cos(angle)) + " * x + " + std::to_string(std::sin(angle)) + " * y)";
+    const TextureForce texture = texture_of(
+        pushing("height h = 1 mm * cos(2 * pi * " + along + " / 3 mm)\n force = lateral(h, amplitude: 1 N)"));
+    EXPECT_NEAR(texture.orientation, angle, 0.02) << degrees;
+    EXPECT_NEAR(texture.period, 3e-3, 0.06e-3) << degrees;
+    EXPECT_NEAR(texture.amplitude, 1, 0.03) << degrees;
+  }
+}
+
+TEST(Extract, ACheckIsTheSameInEveryDirectionAndARuleIsNot) {
+  const TextureForce check =
+      texture_of(pushing("force = vector(1 N * sin(2 * pi * x / 4 mm), 1 N * sin(2 * pi * y / 4 mm))"));
+  EXPECT_LT(check.anisotropy, 0.1);
+  EXPECT_GT(check.regularity, 0.9);
+  EXPECT_NEAR(check.amplitude, std::sqrt(2), 0.06);
+}
+
+TEST(Extract, NoiseDoesNotComeBackAfterAPeriod) {
+  const TextureForce noise =
+      texture_of(pushing("height h = 1 mm * noise2(x / 2 mm, y / 2 mm)\n force = lateral(h, amplitude: 1 N)"));
+  EXPECT_LT(noise.regularity, 0.5);
+  EXPECT_LT(noise.anisotropy, 0.3);
+  EXPECT_GT(noise.period, 2e-3);  // noise on a lattice of 2 mm has no finer component of any strength
+}
+
+TEST(Extract, ASpringAndAHillAreNoTexture) {
+  const Bank spring = pushing("force = -120 N/m * hand\n patch 160 mm, 160 mm");
+  EXPECT_EQ(texture_of(spring).amplitude, 0);
+  EXPECT_NEAR(StaticForce(spring).slope.stiffness(), 120, 0.1);
+  const Bank hill = pushing("force = vector(2 N * sin(2 * pi * x / 40 mm), 0 N)");
+  EXPECT_LT(texture_of(hill).amplitude, 0.1);  // a twentieth, of what ends within the patch
+  EXPECT_NEAR(texture_of(hill, bumps).amplitude, 2, 0.16);
+  EXPECT_NEAR(texture_of(hill, bumps).period, 40e-3, 2e-3);
+}
+
+TEST(Extract, ATextureIsTheSameOnASpringAndOnAHill) {
+  const TextureForce texture =
+      texture_of(pushing("let ridges = vector(0.8 N * sin(2 * pi * x / 2.5 mm), 0 N)\n"
+                         "force = ridges - 20 N/m * hand + vector(0 N, 1 N * sin(2 * pi * y / 50 mm))"));
+  EXPECT_NEAR(texture.amplitude, 0.8, 0.05);
+  EXPECT_NEAR(texture.period, 2.5e-3, 0.05e-3);
+}
+
+TEST(Extract, ATextureInOneCornerIsFoundThere) {
+  const TextureForce texture = texture_of(pushing(
+      "patch 160 mm, 160 mm\n"
+      "force = if x > 30 mm and y > 30 mm then vector(1 N * sin(2 * pi * x / 1.5 mm), 0 N) else vector(0 N, 0 N)"));
+  EXPECT_NEAR(texture.period, 1.5e-3, 0.05e-3);
+}
+
+TEST(Extract, ThePrototypesOfMotionAreTheirCoefficients) {
+  EXPECT_NEAR(opposing_force(pushing("force = -7 N s/m * velocity")).damping, 7, 0.02);
+  EXPECT_NEAR(opposing_force(pushing("force = -7 N s/m * velocity")).friction, 0, 0.02);
+  EXPECT_NEAR(inertia(pushing("force = -0.3 kg * acceleration")), 0.3, 1e-3);
+  EXPECT_EQ(inertia(pushing("force = -7 N s/m * velocity")), 0);
+  // Place alone opposes nobody, over a stretch there and back.
+  const OpposingForce none =
+      opposing_force(pushing("force = vector(2 N * sin(2 * pi * x / 3 mm), 0 N) - 50 N/m * hand"));
+  EXPECT_NEAR(none.friction, 0, 0.02);
+  EXPECT_NEAR(none.damping, 0, 0.1);
+}
+
+TEST(Extract, FrictionIsReadWhetherItRemembersOrNot) {
+  const OpposingForce coulomb =
+      opposing_force(pushing("force = coulomb(0.8 N, rise: 200 N s/m) - 2 N s/m * velocity", "import std.friction"));
+  EXPECT_NEAR(coulomb.friction, 0.8, 0.02);
+  EXPECT_NEAR(coulomb.damping, 2, 0.1);
+  const OpposingForce dahl = opposing_force(Bank(standard::made("std.friction", "dahl_friction", "coulomb: 1.1 N")));
+  EXPECT_NEAR(dahl.friction, 1.1, 0.11);
+}
+
+TEST(Extract, AVibrationHasItsAmplitudeAndFrequency) {
+  const Vibration shaking = vibration(pushing("active 2 W\nforce = vector(0.5 N * sin(2 * pi * phase(40 Hz)), 0 N)"));
+  EXPECT_NEAR(shaking.amplitude, 0.5, 0.005);
+  EXPECT_EQ(shaking.frequency, 40);
+  EXPECT_EQ(vibration(pushing("force = -120 N/m * hand")).amplitude, 0);
+}
+
+TEST(Extract, EverythingTogetherIsWhatEachOfItIs) {
+  const Bank bank =
+      pushing("force = vector(-0.8 N * sin(2 * pi * x / 2.5 mm), 0 N) - 40 N/m * hand - 3 N s/m * velocity");
+  const Extraction found = extract(bank, textures, bumps);
+  EXPECT_NEAR(found.texture.amplitude, 0.8, 0.05);
+  EXPECT_LT(found.bumps.amplitude, 0.1);
+  EXPECT_NEAR(found.stiffness, 40, 0.5);
+  EXPECT_NEAR(found.opposing.damping, 3, 0.05);
+  EXPECT_NEAR(found.opposing.friction, 0, 0.02);
+  EXPECT_EQ(found.inertia, 0);
+  EXPECT_EQ(found.vibration.amplitude, 0);
+  EXPECT_FALSE(found.wall);
+}
+
+TEST(Extract, AWallHasAFaceAndNothingElseHas) {
+  const auto face = wall_face(pushing(
+      "let depth = max(x - 12.3 mm, 0 mm)\n"
+      "force = vector(-900 N/m * depth - (if depth > 0 mm then 6 N s/m * max(velocity.x, 0 m/s) else 0 N), 0 N)"));
+  ASSERT_TRUE(face.has_value());
+  EXPECT_NEAR(face->stiffness, 900, 5);
+  EXPECT_NEAR(face->place.x, 12.3e-3, 0.05e-3);
+  EXPECT_NEAR(face->inward.x, 1, 1e-9);
+  EXPECT_NEAR(face->damping, 6, 0.05);
+  EXPECT_NEAR(face->release, 0, 0.05);
+  EXPECT_FALSE(wall_face(pushing("force = -120 N/m * hand")));
+  EXPECT_FALSE(wall_face(pushing("force = vector(2 N * sin(2 * pi * x / 2.5 mm), 0 N)")));
+  EXPECT_FALSE(wall_face(pushing("force = vector(0 N, 0 N)")));
+}
+
+}  // namespace
+}  // namespace wale::extract_test
