@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "compiler/expression/check_expression.hpp"
-#include "compiler/solve/solve.hpp"
+#include "compiler/solve/isolate.hpp"
 #include "tests/compiler/compiling.hpp"
 
 namespace wale::compiling::solving_test {
