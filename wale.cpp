@@ -24,6 +24,7 @@
 #include "compiler/build_all.hpp"
 #include "compiler/build_stage.hpp"
 #include "compiler/check_files.hpp"
+#include "compiler/compare/compare.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_module.hpp"
@@ -33,6 +34,7 @@
 #include "compiler/format/format.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
 #include "compiler/preview/preview.hpp"
 #include "compiler/quantity.hpp"
@@ -315,6 +317,37 @@ int describe(const Choice& choice, const std::vector<std::string>& settings, boo
   return 0;
 }
 
+/// Each file is one to compare with its materials, or FILE:MATERIAL.
+int compare(Choice choice, const std::vector<std::string>& files, bool json) {
+  const std::shared_ptr<const CommonModules> common = common_modules();
+  std::vector<Cues> materials;
+  for (const std::string& named : files) {
+    choice.file = named, choice.material.clear();
+    if (const auto colon = named.rfind(':'); colon != std::string::npos && !std::filesystem::exists(named))
+      choice.file = named.substr(0, colon), choice.material = named.substr(colon + 1);
+    auto opened = open(choice);
+    if (!opened) return refused;
+    // Among many files are some that only lend functions to others.
+    if (opened->module && opened->module->materials.empty() && files.size() > 2) {
+      fmt::print(stderr, "wale: `{}` has no material and is left out\n", choice.file);
+      continue;
+    }
+    const auto programs = programs_of(*opened, choice, true);
+    if (programs.empty()) return refused;
+    for (const Program& program : programs) {
+      if (!materials.empty() && program.description().device.name != materials.front().device)
+        return refuse(fmt::format("`{}` is built for `{}` and `{}` for `{}`: what is felt is compared on one device",
+                                  materials.front().material, materials.front().device, program.description().material,
+                                  program.description().device.name));
+      materials.push_back(cues_of(Bank(program), common->declarations));
+    }
+  }
+  if (materials.size() < 2) return refuse("there is only one material; name another to compare it with");
+  const ComparisonMatrix matrix = compare_all(std::move(materials), common->declarations);
+  fmt::print("{}", json ? comparison_json(matrix) : comparison_text(matrix));
+  return 0;
+}
+
 int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at,
            const std::string& trace_file, const std::string& out, bool json) {
   const auto programs = load_programs(choice, false);
@@ -422,7 +455,7 @@ constexpr const char* about =
     R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
 
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
-  curators     compare and trust:        wale describe --json FILE;  wale preview FILE -o OUT.png
+  curators     compare and trust:        wale compare A.wale B.wale;  wale describe --json FILE;  wale preview FILE -o OUT.png
   programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
 
@@ -499,6 +532,14 @@ int main(int argc, char** argv) {
       ->excludes("--material");
   verb->add_flag("--json", json, "an object for one material, an array for several");
   verb->callback([&] { status = describe(choice, settings, exports, json); });
+
+  verb = app.add_subcommand("compare", "tells by what people would tell materials apart, and how plainly");
+  verb->add_option("FILE", files, "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")
+      ->required();
+  verb->add_option("--device", choice.device, "the device to build for (default: sandpaper; see `wale devices`)");
+  choice.offer_library(*verb);
+  verb->add_flag("--json", json, "an object with every material's cues and every pair");
+  verb->callback([&] { status = compare(choice, files, json); });
 
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
   feeling.choice.offer(*verb, "--built-for");

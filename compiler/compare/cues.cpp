@@ -1,0 +1,72 @@
+#include "compiler/compare/cues.hpp"
+
+#include <cmath>
+
+namespace wale {
+namespace {
+
+// What an extraction leaves of something that is not there. Far below what a hand can tell.
+constexpr double least_stiffness = 2;     // N/m
+constexpr double least_damping = 0.05;    // N s/m
+constexpr double least_force = 0.01;      // N
+constexpr double least_mass = 1e-3;       // kg
+constexpr double least_of_texture = 0.1;  // of the texture's force: what ends of the patch make of it as bumps
+constexpr double of_one_direction = 0.5;  // anisotropy from which a texture has an orientation
+constexpr double regular = 0.5;           // from which a period can be told
+
+std::optional<double> unless_little(double value, double least) {
+  return std::abs(value) < least ? std::nullopt : std::optional(value);
+}
+
+PeriodBand band_of(const Declarations& declarations, std::string_view percept) {
+  const Percept* found = declarations.percepts.find(percept);
+  return found ? PeriodBand{found->period.low, found->period.high} : PeriodBand{};
+}
+
+}  // namespace
+
+const std::array<CueFacts, cue_count>& cue_table() {
+  static constexpr std::array<CueFacts, cue_count> table{{
+      {CueKind::amplitude, "amplitude", "N", "amplitude"},
+      {CueKind::period, "period", "m", "period"},
+      {CueKind::orientation, "orientation", "rad", "orientation"},
+      {CueKind::regularity, "regularity", "", "periodicity"},
+      {CueKind::bump_amplitude, "bump amplitude", "N", "amplitude"},
+      {CueKind::bump_period, "bump period", "m", "period"},
+      {CueKind::stiffness, "stiffness", "N/m", "stiffness"},
+      {CueKind::wall_stiffness, "wall stiffness", "N/m", "wall_stiffness"},
+      {CueKind::viscosity, "viscosity", "N s/m", "viscosity"},
+      {CueKind::friction, "friction", "N", "friction"},
+      {CueKind::mass, "mass", "kg", "mass"},
+      {CueKind::vibration, "vibration", "N", "vibration"},
+      {CueKind::vibration_frequency, "vibration frequency", "Hz", "vibration_frequency"},
+  }};
+  return table;
+}
+
+Cues cues_of(const Bank& bank, const Declarations& declarations) {
+  const PatchProgram& program = bank.program().description();
+  const Extraction found = extract(bank, band_of(declarations, "roughness"), band_of(declarations, "bumpiness"));
+  Cues cues{program.material, program.device.name, {}};
+  const TextureForce &texture = found.texture, &bumps = found.bumps;
+  cues[CueKind::amplitude] =
+      unless_little(texture.amplitude, std::max(least_force, least_of_texture * bumps.amplitude));
+  if (cues[CueKind::amplitude]) {
+    cues[CueKind::regularity] = texture.regularity;
+    if (texture.regularity >= regular) cues[CueKind::period] = texture.period;
+    if (texture.anisotropy >= of_one_direction) cues[CueKind::orientation] = texture.orientation;
+  }
+  const double mostly = std::max(least_force, least_of_texture * texture.amplitude);
+  if (!found.wall) cues[CueKind::bump_amplitude] = unless_little(bumps.amplitude, mostly);
+  if (cues[CueKind::bump_amplitude] && bumps.regularity >= regular) cues[CueKind::bump_period] = bumps.period;
+  cues[CueKind::stiffness] = unless_little(found.stiffness, least_stiffness);
+  if (found.wall) cues[CueKind::wall_stiffness] = found.wall->stiffness;
+  cues[CueKind::viscosity] = unless_little(found.opposing.damping, least_damping);
+  cues[CueKind::friction] = unless_little(found.opposing.friction, least_force);
+  cues[CueKind::mass] = unless_little(found.inertia, least_mass);
+  cues[CueKind::vibration] = unless_little(found.vibration.amplitude, least_force);
+  if (cues[CueKind::vibration]) cues[CueKind::vibration_frequency] = found.vibration.frequency;
+  return cues;
+}
+
+}  // namespace wale

@@ -1,0 +1,117 @@
+// wale compare: differences in just noticeable differences, against their definition worked out by hand.
+
+#include "compiler/compare/compare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compiler/modules/load_modules.hpp"
+#include "tests/standard/standard.hpp"
+
+namespace wale::compare_test {
+namespace {
+
+using standard::material;
+
+const Declarations& declarations() {
+  static const auto common = common_modules();
+  return common->declarations;
+}
+
+Cues cues(const std::string& statements) {
+  return cues_of(Bank(material("material m { physical {\n" + statements + "\n} }", "m")), declarations());
+}
+
+/// What Tan 1992 (calibration/tan1992.wale) says at d' = 1: 0.1 at three right answers of four, of two.
+constexpr double three_of_four = 0.67448975;  // standard deviations, any table of the normal distribution
+const double d_prime = std::sqrt(2.0) * three_of_four;
+
+const CueDifference* cue(const Comparison& comparison, CueKind kind) {
+  for (const CueDifference& each : comparison.cues)
+    if (each.kind == kind) return &each;
+  return nullptr;
+}
+
+TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4;
+  const Comparison comparison = compare(a, b, declarations());
+  const CueDifference* amplitude = cue(comparison, CueKind::amplitude);
+  ASSERT_TRUE(amplitude && amplitude->noticeable && amplitude->threshold);
+  // Pang, Tan and Durlach 1991: 0.07 for forces of 2.5 to 10 N.
+  EXPECT_NEAR(*amplitude->noticeable, std::log(4.0 / 3) / std::log1p(0.07 / d_prime), 1e-6);
+  EXPECT_EQ(amplitude->evidence, Evidence::transferred);
+  EXPECT_EQ(comparison.verdict, Verdict::apart);
+  EXPECT_EQ(comparison.plainest(), amplitude);
+}
+
+TEST(Compare, SmallForcesAreNotToldApartByTheirRatio) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::amplitude] = 0.02, b[CueKind::amplitude] = 0.05;
+  const Comparison comparison = compare(a, b, declarations());
+  // 0.03 N of the 0.1 N that Tan 1992 is given as a floor, at three of four.
+  EXPECT_NEAR(*comparison.cues.front().noticeable, 0.03 / (0.1 / d_prime), 0.03 / (0.1 / d_prime) * 0.5);
+  EXPECT_EQ(comparison.verdict, Verdict::alike);
+}
+
+TEST(Compare, WhatOneHasAndTheOtherHasNotIsComparedByForce) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::stiffness] = 100;
+  const Comparison comparison = compare(a, b, declarations());
+  ASSERT_TRUE(comparison.cues.front().noticeable);
+  EXPECT_GT(*comparison.cues.front().noticeable, 20);  // 4 N at 40 mm against nothing
+  EXPECT_EQ(comparison.verdict, Verdict::apart);
+}
+
+TEST(Compare, ACueWithoutAThresholdIsUnknownAndNeverTheSame) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::amplitude] = b[CueKind::amplitude] = 2;
+  a[CueKind::regularity] = 0.9, b[CueKind::regularity] = 0.2;
+  Comparison comparison = compare(a, b, declarations());
+  EXPECT_EQ(comparison.verdict, Verdict::unknown);
+  EXPECT_FALSE(cue(comparison, CueKind::regularity)->noticeable);
+  b[CueKind::regularity] = 0.9;
+  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::alike);
+  // Where something else tells them apart it does not matter.
+  b[CueKind::regularity] = 0.2, b[CueKind::amplitude] = 4;
+  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::apart);
+}
+
+TEST(Compare, OrientationsAreTheSameAfterHalfATurn) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::orientation] = 0.0, b[CueKind::orientation] = 3.14159265358979;
+  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::alike);
+  b[CueKind::orientation] = 1.0;
+  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::unknown);
+}
+
+TEST(Compare, CuesAreWhatTheMaterialIsMadeOf) {
+  const Cues grating = cues("force = vector(1.2 N * sin(2 * pi * x / 2.5 mm), 0 N)");
+  EXPECT_NEAR(*grating[CueKind::amplitude], 1.2, 0.05);
+  EXPECT_NEAR(*grating[CueKind::period], 2.5e-3, 0.05e-3);
+  EXPECT_NEAR(std::sin(*grating[CueKind::orientation]), 0, 0.03);
+  EXPECT_FALSE(grating[CueKind::stiffness] || grating[CueKind::friction] || grating[CueKind::wall_stiffness]);
+  const Cues spring = cues("force = -120 N/m * hand");
+  EXPECT_NEAR(*spring[CueKind::stiffness], 120, 1);
+  EXPECT_FALSE(spring[CueKind::amplitude] || spring[CueKind::period] || spring[CueKind::bump_amplitude]);
+  const Cues oil = cues("force = -7 N s/m * velocity");
+  EXPECT_NEAR(*oil[CueKind::viscosity], 7, 0.05);
+  EXPECT_FALSE(oil[CueKind::amplitude] || oil[CueKind::stiffness] || oil[CueKind::mass]);
+}
+
+TEST(Compare, TheNearestPairIsTheOneThatIsToldApartTheLeast) {
+  std::vector<Cues> materials;
+  for (const double amplitude : {1.0, 3.0, 3.1, 6.0}) {
+    materials.push_back({std::to_string(amplitude), "sandpaper", {}});
+    materials.back()[CueKind::amplitude] = amplitude;
+  }
+  const ComparisonMatrix matrix = compare_all(materials, declarations());
+  ASSERT_EQ(matrix.pairs.size(), 6u);
+  ASSERT_TRUE(matrix.nearest());
+  EXPECT_EQ(matrix.nearest()->a, 1u);
+  EXPECT_EQ(matrix.nearest()->b, 2u);
+}
+
+}  // namespace
+}  // namespace wale::compare_test
