@@ -10,14 +10,18 @@
 // the next one: what all of them need stays in the registers of the calling convention, each saves only what it uses
 // itself, and the processor predicts each jump by what came before it.
 
-// A function must end in a jump to the next one, or the stack would grow with the program. Clang promises that; GCC
-// does it where it optimises and nothing is left to be done on the way out, as there is for sanitizers. Elsewhere, and
-// with WALE_PORTABLE_DISPATCH, the switch is the only way.
-#if defined(WALE_PORTABLE_DISPATCH) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#elif defined(__clang__)
-#define WALE_TAIL_CALL [[clang::musttail]] return
-#elif defined(__GNUC__) && defined(__OPTIMIZE__)
-#define WALE_TAIL_CALL return
+// A function must end in a jump to the next one, or the stack would grow with the program. GCC and Clang see to that
+// where they optimise and nothing is left to be done on the way out, as there is for sanitizers. Elsewhere, and with
+// WALE_PORTABLE_DISPATCH, the switch is the only way. tests/machine/threaded_code.cpp looks at the stack.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WALE_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define WALE_SANITIZED
+#endif
+#endif
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(WALE_SANITIZED) && !defined(WALE_PORTABLE_DISPATCH)
+#define WALE_TAIL_CALLS
 #endif
 
 namespace wale {
@@ -31,13 +35,6 @@ constexpr unsigned stop = 0;
 constexpr unsigned handler_number(unsigned operation, unsigned forwarded) {
   return operation * forwardings + forwarded;
 }
-
-constexpr std::size_t handlers = [] {
-  std::size_t end = 0;
-  for (std::size_t number = 0; number < operation_table.size(); ++number)
-    if (!operation_table[number].name.empty()) end = handler_number(static_cast<unsigned>(number) + 1, 0);
-  return end;
-}();
 
 /// Runs one instruction and gives its first result, which the next one may take as `last`.
 template <Operation operation, unsigned forwarded>
@@ -96,7 +93,14 @@ void run_by_switch(const ThreadedInstruction* at, const LaneLookups& lookups, fl
   }
 }
 
-#if defined(WALE_TAIL_CALL)
+#if defined(WALE_TAIL_CALLS)
+
+constexpr std::size_t handlers = [] {
+  std::size_t end = 0;
+  for (std::size_t number = 0; number < operation_table.size(); ++number)
+    if (!operation_table[number].name.empty()) end = handler_number(static_cast<unsigned>(number) + 1, 0);
+  return end;
+}();
 
 using Handler = void (*)(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers,
                          float last) noexcept;
@@ -106,7 +110,7 @@ using Handler = void (*)(const ThreadedInstruction* at, const LaneLookups& looku
   last = step<operation, forwarded>(*at, last, registers, lookups); \
   ++at;                                                             \
   asm("" : "+r"(at));                                               \
-  WALE_TAIL_CALL reinterpret_cast<Handler>(at->handler)(at, lookups, registers, last)
+  return reinterpret_cast<Handler>(at->handler)(at, lookups, registers, last)
 
 template <Operation operation, unsigned forwarded>
 void run_from(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers, float last) noexcept {
@@ -155,7 +159,7 @@ constexpr auto handlers_by_number = [] {
 
 /// What an instruction's handler is called under a way of dispatch.
 std::uintptr_t handler_of(unsigned number, [[maybe_unused]] Dispatch dispatch) {
-#if defined(WALE_TAIL_CALL)
+#if defined(WALE_TAIL_CALLS)
   if (dispatch == Dispatch::wide_tail_calls) return reinterpret_cast<std::uintptr_t>(handlers_by_number<true>[number]);
   if (dispatch == Dispatch::tail_calls) return reinterpret_cast<std::uintptr_t>(handlers_by_number<false>[number]);
 #endif
@@ -165,7 +169,7 @@ std::uintptr_t handler_of(unsigned number, [[maybe_unused]] Dispatch dispatch) {
 }  // namespace
 
 Dispatch fastest_dispatch() {
-#if defined(WALE_TAIL_CALL)
+#if defined(WALE_TAIL_CALLS)
   return has_wide_instructions() ? Dispatch::wide_tail_calls : Dispatch::tail_calls;
 #else
   return Dispatch::portable_switch;
@@ -192,7 +196,7 @@ ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatc
 }
 
 void run_threaded(const ThreadedCode& code, const LaneLookups& lookups, float* registers) noexcept {
-#if defined(WALE_TAIL_CALL)
+#if defined(WALE_TAIL_CALLS)
   if (code.dispatch != Dispatch::portable_switch) {
     const ThreadedInstruction* const first = code.instructions.data();
     return reinterpret_cast<Handler>(first->handler)(first, lookups, registers, 0.0f);
