@@ -12,7 +12,8 @@ namespace {
 /// `value` held within +-`bound`; not-a-number gives 0, and a subnormal number the zero of its sign.
 float within(float value, float bound) {
   // A branch, which is foreseen: a tick does not wait for it as it would for a minimum and a maximum.
-  if (absolute(value) >= arithmetic::least_normal && value >= -bound && value <= bound) [[likely]]
+  const float size = absolute(value);
+  if (size >= arithmetic::least_normal && size <= bound) [[likely]]
     return value;
   return held_within(arithmetic::flushed(value), -bound, bound, 0.0f);
 }

@@ -70,7 +70,8 @@ template <Operation operation, unsigned forwarded>
 }
 
 // clang-format off
-#define WALE_ALL_FORWARDINGS(name) WALE_HANDLER(name, 0) WALE_HANDLER(name, 1) WALE_HANDLER(name, 2) WALE_HANDLER(name, 3)
+#define WALE_ALL_FORWARDINGS(name) \
+  WALE_HANDLER(name, 0) WALE_HANDLER(name, 1) WALE_HANDLER(name, 2) WALE_HANDLER(name, 3)
 #define WALE_STEP(name, forwarded) step<Operation::name, forwarded>(*at, last, registers, lookups)
 // clang-format on
 
