@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "compiler/describe/describe_figure.hpp"
+
 namespace wale {
 namespace {
 
@@ -42,14 +44,6 @@ std::string signature(const DescribedFunction& function) {
                         argument.dimension.empty() ? "" : ": " + argument.dimension,
                         argument.default_value.empty() ? "" : " = " + argument.default_value);
   return fmt::format("{}({})", function.name, text);
-}
-
-void write_documentation(std::string& text, const std::string& documentation) {
-  for (std::size_t at = 0; at < documentation.size();) {
-    const std::size_t end = std::min(documentation.find('\n', at), documentation.size());
-    text += fmt::format("      {}\n", documentation.substr(at, end - at));
-    at = end + 1;
-  }
 }
 
 }  // namespace
@@ -89,18 +83,18 @@ std::string module_text(const ModuleDescription& description) {
   if (!description.functions.empty()) text += "\nfunctions\n";
   for (const auto& function : description.functions) {
     text += fmt::format("  {}\n", signature(function));
-    write_documentation(text, function.documentation);
+    write_documentation(text, 6, function.documentation);
   }
   if (!description.constants.empty()) text += "\nconstants\n";
   for (const auto& constant : description.constants) {
     text += fmt::format("  {} = {}\n", constant.name, constant.value);
-    write_documentation(text, constant.documentation);
+    write_documentation(text, 6, constant.documentation);
   }
   if (!description.units.empty()) text += "\nunits\n";
   for (const auto& unit : description.units) {
     text += fmt::format("  {:<12} {:.6g}{}{} ({})\n", unit.name, unit.in_si, unit.si_unit.empty() ? "" : " ",
                         unit.si_unit, unit.dimension);
-    write_documentation(text, unit.documentation);
+    write_documentation(text, 6, unit.documentation);
   }
   if (!description.dimensions.empty()) text += "\ndimensions\n";
   for (const auto& dimension : description.dimensions)

@@ -39,14 +39,6 @@ void write_percepts(std::string& text, const Description& description) {
 }
 
 /// The comment above the material, as its author broke the lines.
-void write_documentation(std::string& text, const std::string& documentation) {
-  for (std::size_t at = 0; at < documentation.size();) {
-    const std::size_t end = std::min(documentation.find('\n', at), documentation.size());
-    text += fmt::format("  {}\n", documentation.substr(at, end - at));
-    at = end + 1;
-  }
-}
-
 std::string range_text(const Parameter& parameter, float low, float high) {
   return fmt::format("{} .. {}{}{}", shown(low, parameter.unit_in_si), shown(high, parameter.unit_in_si),
                      parameter.unit.empty() ? "" : " ", parameter.unit);
@@ -104,7 +96,7 @@ void write_shown(std::string& text, const Description& description) {
 std::string description_text(const Description& description) {
   std::string text = fmt::format("{}\n  built for {}, {:.3g} N at {:.4g} Hz\n", heading(description),
                                  description.device.name, description.device.force_newton, description.device.rate);
-  write_documentation(text, description.layers.documentation);
+  write_documentation(text, 2, description.layers.documentation);
   for (const auto& [key, values] : description.layers.representative)
     if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
   write_percepts(text, description);

@@ -96,6 +96,8 @@ bool spaced(const std::vector<Piece>& pieces, std::size_t index, std::size_t par
     case TokenKind::caret: return false;
     case TokenKind::colon: return parentheses == 0;  // `state p : position`, but `period: 2 mm`
     case TokenKind::left_parenthesis:
+      // Behind a setting's key, where values are put below each other, as if nobody had written it close.
+      if (roles.setting_keys.count(previous.token.begin) > 0) return true;
       if (previous.is(TokenKind::name)) return roles.called.count(previous.token.begin) == 0 && !piece.touches;
       break;
     case TokenKind::slash:

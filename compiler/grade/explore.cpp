@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "wale/memory.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double seconds = 1;
 
 /// Where the hand is, m: it begins at the centre and at rest, and has its whole radius after a quarter of the time.

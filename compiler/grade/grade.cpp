@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "compiler/grade/explore.hpp"
 #include "compiler/grade/slopes.hpp"
@@ -15,7 +16,7 @@
 namespace wale {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::size_t places = 4096;     // of the lattice over the patch
 constexpr std::size_t climbers = 8;      // of the steepest places, from which steeper ones are looked for
 constexpr int climbs = 14;               // each with half the step of the one before

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace wale {
@@ -11,7 +12,7 @@ namespace {
 using Complex = std::complex<double>;
 using Matrix2 = std::array<std::array<Complex, 2>, 2>;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double lowest_frequency = 0.05;  // Hz
 constexpr int frequencies = 128;
 constexpr long long most_parabola = 64;  // ticks; the acceleration filter's own bound

@@ -14,7 +14,7 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t place_column = 84;
+constexpr std::size_t comment_column = 84;
 
 /// The column `meaning` of schema/instruction.def as it is written there; nothing for special operations.
 constexpr std::string_view meaning_of(Operation operation) {
@@ -166,7 +166,7 @@ std::string CppCode::lines(const Surroundings& surroundings, std::size_t indent)
                          : operation == Operation::recall ? "GridSample"
                                                           : "float";
       const std::string line = fmt::format("{}const {} {} = {};", before, type, name, expression(instruction));
-      text += beside(line, place_column, place.empty() ? "" : "// " + place) + '\n';
+      text += beside(line, comment_column, place.empty() ? "" : "// " + place) + '\n';
     }
     const int results = facts(operation).results;
     for (int k = 0; k < results; ++k)

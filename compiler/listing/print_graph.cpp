@@ -9,7 +9,7 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t rate_column = 8, value_column = 30, place_column = 76;
+constexpr std::size_t rate_column = 8, value_column = 30, origin_column = 76;
 
 /// Sections that work out values of the tick's rate, a bit each.
 enum SectionBit : unsigned { peak = 1, enter = 2, tick = 4, picture = 8, frame = 16, prediction = 32 };
@@ -104,7 +104,7 @@ class GraphPrinter {
     const std::string place = placed && node.span != Span{}
                                   ? fmt::format("{}:{}", lines_.file(node.span.source), lines_.line(node.span))
                                   : "";
-    text_ += beside(std::move(text), place_column, place) + '\n';
+    text_ += beside(std::move(text), origin_column, place) + '\n';
   }
 
   void print_results() {

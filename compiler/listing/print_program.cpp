@@ -8,7 +8,7 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t cost_column = 58, place_column = 66, interval_column = 92;
+constexpr std::size_t cost_column = 58, line_column = 66, interval_column = 92;
 
 std::string quoted(const std::string& text) { return text.empty() ? "" : fmt::format("  \"{}\"", text); }
 
@@ -121,7 +121,7 @@ class ProgramPrinter {
       const OperationFacts* known = operation_facts(code[number].operation);
       std::string text = fmt::format("{:>5}  {}", number, instruction_text(code[number]));
       text = beside(text, cost_column, fmt::format("{:>4}", known ? known->cost : 0));
-      text = beside(text, place_column, shown(program_.place_of(section, index, number)));
+      text = beside(text, line_column, shown(program_.place_of(section, index, number)));
       if (const auto interval = interval_of_ ? interval_of_(section, index, number) : std::nullopt)
         text = beside(text, interval_column, fmt::format("[{}]", *interval));
       line("{}", text);

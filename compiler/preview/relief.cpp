@@ -11,7 +11,7 @@ namespace wale {
 namespace {
 
 constexpr Colour plaster = {0.865f, 0.820f, 0.745f};
-constexpr Colour shadow = {0.225f, 0.190f, 0.180f};
+constexpr Colour umbra = {0.225f, 0.190f, 0.180f};
 constexpr Colour glint = {1.0f, 0.992f, 0.965f};
 
 /// Rows from the top, one more pixel on every side than is shown, so that slopes at the edge have both neighbours.
@@ -97,7 +97,7 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Mem
       const float shade =
           std::clamp(0.42f * in_hollow + 0.10f * (1 - height) + (tone < 0 ? -0.95f * tone : 0.0f), 0.0f, 0.92f);
       const float shine = std::clamp(tone * 2.6f, 0.0f, 0.95f);
-      const Colour lamp = mixed(mixed(plaster, glint, shine), shadow, shade);
+      const Colour lamp = mixed(mixed(plaster, glint, shine), umbra, shade);
       pixels.push_back(heights.colours.empty() ? lamp
                                                : lit_by(lamp, heights.colours[heights.index(column + 1, row + 1)]));
     }

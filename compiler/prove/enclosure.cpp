@@ -10,11 +10,11 @@
 namespace wale {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Half a unit in the last place of a float: what a correctly rounded operation may add, of its result.
 constexpr double half_unit = 0x1p-24;
 /// What may become zero, twice over: operands and results.
-constexpr double flushed = 2 * 1.1754943508222875e-38;
+constexpr double flushed_operands = 2 * 1.1754943508222875e-38;
 /// Of all figures of a form together: far more than a few operations in double, summed over a hundred quantities, lose.
 constexpr double double_rounding = 0x1p-44;
 
@@ -40,9 +40,9 @@ Enclosure line(const Enclosure& a, double slope, double value, double at) {
 Enclosure finished(Enclosure form, const Interval& range, double error) {
   double size = std::abs(form.centre) + form.rest;
   for (const double slope : form.slopes) size += std::abs(slope);
-  form.rest += error + flushed + double_rounding * (size + error);
+  form.rest += error + flushed_operands + double_rounding * (size + error);
   const double radius = form.radius();
-  if (!(radius < infinity) || !std::isfinite(form.centre)) return Enclosure::of(range);
+  if (!(radius < unbounded) || !std::isfinite(form.centre)) return Enclosure::of(range);
   const double low = form.centre - radius, high = form.centre + radius;
   form.range = intersection(range, outward(low - double_rounding * size, high + double_rounding * size, true));
   // A form that is much wider than what is known anyway says nothing more.
@@ -103,12 +103,12 @@ Enclosure Enclosure::of(const Interval& range) {
   Enclosure result;
   result.range = range;
   if (!range.is_finite()) {
-    result.rest = infinity;
+    result.rest = unbounded;
     return result;
   }
   result.centre = 0.5 * (static_cast<double>(range.low) + range.high);
   // The ends are floats, so that the middle and half the width are exact in double but for floats very far apart.
-  result.rest = 0.5 * (static_cast<double>(range.high) - range.low) * (1 + 0x1p-50) + flushed;
+  result.rest = 0.5 * (static_cast<double>(range.high) - range.low) * (1 + 0x1p-50) + flushed_operands;
   return result;
 }
 
@@ -116,7 +116,7 @@ Enclosure Enclosure::quantity(const Interval& range, std::size_t index) {
   Enclosure result = of(range);
   if (!range.is_finite()) return result;
   result.slopes[index] = 0.5 * (static_cast<double>(range.high) - range.low);
-  result.rest = flushed + double_rounding * (std::abs(result.centre) + result.slopes[index]);
+  result.rest = flushed_operands + double_rounding * (std::abs(result.centre) + result.slopes[index]);
   return result;
 }
 

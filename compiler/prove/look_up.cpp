@@ -15,7 +15,7 @@ constexpr double table_rounding = 32 * 0x1p-24;
 /// Of the largest cell: the same for two weights in each direction.
 constexpr double grid_rounding = 16 * 0x1p-24;
 /// What products and sums that are flushed to zero may take away.
-constexpr double flushed = 32 * 1.1754943508222875e-38;
+constexpr double flushed_sums = 32 * 1.1754943508222875e-38;
 /// Coefficients that are looked at for one instruction, at most.
 constexpr double most_coefficients = 4096;
 
@@ -55,7 +55,7 @@ ResultRanges TableRanges::extremes(const Rectangle& part, bool may_run_backwards
     high_b = std::max(high_b, -low_b);
     low_b = -high_b;
   }
-  const double rounding = table_rounding * largest_ + flushed;
+  const double rounding = table_rounding * largest_ + flushed_sums;
   return {outward(low - rounding, high + rounding), outward(low_a - rounding, high_a + rounding),
           outward(low_b - rounding, high_b + rounding)};
 }
@@ -77,7 +77,7 @@ ResultRanges TableRanges::at(const Interval& a, const Interval& b) const {
 
 ResultRanges recall_ranges(const Grid& grid) {
   const double low = grid.low, high = grid.high;
-  const double rounding = grid_rounding * std::max(std::abs(low), std::abs(high)) + flushed;
+  const double rounding = grid_rounding * std::max(std::abs(low), std::abs(high)) + flushed_sums;
   const double difference = high - low + rounding;
   const bool overflows = difference + rounding > std::numeric_limits<float>::max();
   if (overflows) return {Interval::everything(true), Interval::everything(true), Interval::everything(true)};

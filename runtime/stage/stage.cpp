@@ -18,7 +18,7 @@
 namespace wale {
 namespace {
 
-constexpr long most_ticks = 1L << 24;
+constexpr long longest_run = 1L << 24;
 constexpr double progress_seconds = 0.1;
 
 /// Six digits are enough to tell a person a value.
@@ -49,8 +49,8 @@ std::optional<Refusal> lacks(const DeviceProfile& profile) {
 /// How many ticks the run is to have, at least one.
 std::variant<long, Refusal> ticks_of(double seconds, double rate) {
   if (!(seconds > 0)) return Refusal{"a run lasts longer than no time at all; asked for " + digits(seconds) + " s"};
-  if (seconds * rate > static_cast<double>(most_ticks)) {
-    return Refusal{"a run lasts at most " + digits(static_cast<double>(most_ticks) / rate) + " s at " + digits(rate) +
+  if (seconds * rate > static_cast<double>(longest_run)) {
+    return Refusal{"a run lasts at most " + digits(static_cast<double>(longest_run) / rate) + " s at " + digits(rate) +
                    " Hz; asked for " + digits(seconds) + " s"};
   }
   return std::max(1L, std::lround(seconds * rate));

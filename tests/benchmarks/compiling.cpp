@@ -7,7 +7,7 @@
 #include "compiler/parse/parse.hpp"
 #include "tests/benchmarks/materials.hpp"
 
-namespace wale::benchmarks {
+namespace wale::benchmarks::compiling_test {
 namespace {
 
 /// Text to program without measuring. Bar: 100 us; aim: 40 us. What of it the language's own files take,
@@ -130,4 +130,4 @@ void CompileAChainOfLets(benchmark::State& state) {
 BENCHMARK(CompileAChainOfLets)->RangeMultiplier(10)->Range(100, 10000)->Complexity()->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace wale::benchmarks
+}  // namespace wale::benchmarks::compiling_test

@@ -5,7 +5,7 @@
 #include "compiler/measure/measure.hpp"
 #include "tests/benchmarks/materials.hpp"
 
-namespace wale::benchmarks {
+namespace wale::benchmarks::measuring_test {
 namespace {
 
 void MeasureAProgram(benchmark::State& state) {
@@ -22,4 +22,4 @@ void FillABank(benchmark::State& state) {
 BENCHMARK(FillABank)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace wale::benchmarks
+}  // namespace wale::benchmarks::measuring_test

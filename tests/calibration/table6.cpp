@@ -17,7 +17,7 @@
 
 #include "compiler/compile.hpp"
 
-namespace wale {
+namespace wale::table6_test {
 namespace {
 
 // Figure 19, as printed.
@@ -242,4 +242,4 @@ TEST(Figure19, StandsInNoProgram) {
   EXPECT_GT(searched, 50);
 }
 
-}  // namespace wale
+}  // namespace wale::table6_test

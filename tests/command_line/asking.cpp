@@ -4,7 +4,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::asking_test {
 namespace {
 
 const std::vector<std::string> verbs{"check", "explain", "build", "describe", "feel", "sample", "preview", "devices"};
@@ -168,4 +168,4 @@ TEST(Choices, UnknownNamesAreRefusedWithTheNearest) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::asking_test

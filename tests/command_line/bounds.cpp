@@ -5,7 +5,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::bounds_test {
 namespace {
 
 /// Of the processor, since tests share it. A second is usual; a step that grows with the square of the file would take
@@ -181,4 +181,4 @@ TEST(Bounds, AThousandImportsAreTheMost) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::bounds_test

@@ -4,7 +4,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::collections_test {
 namespace {
 
 const std::string three =
@@ -108,4 +108,4 @@ TEST(Libraries, AFilesOwnFolderComesFirst) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::collections_test

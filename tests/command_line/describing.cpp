@@ -6,7 +6,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::describing_test {
 namespace {
 
 const std::string sledge = R"(wale 1
@@ -206,4 +206,4 @@ TEST(Set, OutsideTheUsualRangeIsAWarning) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::describing_test

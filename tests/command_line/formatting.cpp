@@ -6,7 +6,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::formatting_test {
 namespace {
 
 const std::string untidy = "wale 1\nlet a=1//one\n", tidy = "wale 1\nlet a = 1   // one\n";
@@ -66,4 +66,4 @@ TEST(Formatting, ADashIsStandardInputToStandardOutput) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::formatting_test

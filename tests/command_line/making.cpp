@@ -6,7 +6,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::making_test {
 namespace {
 
 /// The fields of the last line of a CSV text.
@@ -271,4 +271,4 @@ TEST(Preview, FormatsThatNobodyWritesAreRefused) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::making_test

@@ -5,7 +5,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::mending_test {
 namespace {
 
 const char* const wrong =
@@ -178,4 +178,4 @@ TEST(Explain, ProposesTheNearestCode) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::mending_test

@@ -4,7 +4,7 @@
 
 #include "tests/command_line/running.hpp"
 
-namespace wale::command_line {
+namespace wale::command_line::stages_test {
 namespace {
 
 TEST(Emit, WritesEachStageToStandardOutputOrAFile) {
@@ -62,4 +62,4 @@ TEST(Emit, StopsWhereTheMaterialIsWrong) {
 }
 
 }  // namespace
-}  // namespace wale::command_line
+}  // namespace wale::command_line::stages_test

@@ -10,7 +10,7 @@
 #include "compiler/measure/measure.hpp"
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::deriving_test {
 namespace {
 
 const char* const base = R"(wale 1
@@ -217,4 +217,4 @@ material two = 0.5 swing + 0.25 * swing(k: 30 N/m)
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::deriving_test

@@ -7,7 +7,7 @@
 #include "tests/compiler/compiling.hpp"
 #include "tests/compiler/random_material.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::determinism_test {
 namespace {
 
 TEST(Determinism, SameTextSameBytes) {
@@ -85,4 +85,4 @@ TEST(Sharing, EqualExpressionsAreOneValue) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::determinism_test

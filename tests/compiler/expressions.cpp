@@ -11,7 +11,7 @@
 #include "tests/compiler/random_material.hpp"
 #include "tests/reference/evaluator.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::expressions_test {
 namespace {
 
 constexpr int materials = 2000, hands_each = 12;
@@ -152,4 +152,4 @@ TEST(Arguments, AreEvaluatedWhereTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::expressions_test

@@ -9,7 +9,7 @@
 
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::fields_test {
 namespace {
 
 struct Point {
@@ -257,4 +257,4 @@ TEST(Reliefs, PushByTheSlopeOfThePicture) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::fields_test

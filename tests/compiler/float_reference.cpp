@@ -16,7 +16,7 @@
 #include "tests/reference/float_evaluator.hpp"
 #include "wale/memory.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::float_reference_test {
 namespace {
 
 constexpr int ticks_each = 6;
@@ -246,4 +246,4 @@ TEST(FloatReference, AgreesWithTheMachineOnTables) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::float_reference_test

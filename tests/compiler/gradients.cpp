@@ -10,7 +10,7 @@
 
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::gradients_test {
 namespace {
 
 using Height = std::function<double(double, double)>;
@@ -217,4 +217,4 @@ TEST(Gradient, OfAnImageRunsTheRightWayUp) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::gradients_test

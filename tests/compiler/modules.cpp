@@ -7,7 +7,7 @@
 
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::modules_test {
 namespace {
 
 /// Files by module name, and how often each was asked for.
@@ -256,4 +256,4 @@ TEST(Modules, ThatAreNowhereAreAnErrorAndSoAreCircles) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::modules_test

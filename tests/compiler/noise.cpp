@@ -12,7 +12,7 @@
 
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::noise_test {
 namespace {
 
 // A cell is 1/1024 m wide, so that every whole place and most in between are floats: x * 1024.
@@ -203,4 +203,4 @@ TEST(Noise, IsAnotherForEachSeed) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::noise_test

@@ -10,7 +10,7 @@
 #include "tests/reference/evaluator.hpp"
 #include "wale/memory.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::random_states_test {
 namespace {
 
 constexpr std::uint32_t materials = 600;
@@ -143,4 +143,4 @@ TEST(RandomStates, ParametersThatAreConstantsChangeNoBit) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::random_states_test

@@ -7,7 +7,7 @@
 
 #include "compiler/compile.hpp"
 
-namespace wale {
+namespace wale::records_test {
 namespace {
 
 TEST(DeviceRecord, AFigureIsAssumedWhicheverSideTheWordStands) {
@@ -35,4 +35,4 @@ device bench {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::records_test

@@ -12,7 +12,7 @@
 #include "tests/reference/evaluator.hpp"
 #include "wale/memory.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::remembering_test {
 namespace {
 
 constexpr double dt = 1.0 / 900;
@@ -218,4 +218,4 @@ TEST(Shown, MarksFollowTheState) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::remembering_test

@@ -12,7 +12,7 @@
 
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::robustness_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ TEST(MangledFiles, AreToldWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::robustness_test

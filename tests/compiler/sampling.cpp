@@ -5,7 +5,7 @@
 #include "compiler/measure/sample.hpp"
 #include "tests/runtime/programs.hpp"
 
-namespace wale {
+namespace wale::sampling_test {
 namespace {
 
 /// force x = what was in the state, which counts ticks from entering on; y = an input.
@@ -46,4 +46,4 @@ TEST(Sampling, ATraceTellsDifferences) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::sampling_test

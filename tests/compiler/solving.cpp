@@ -9,7 +9,7 @@
 #include "compiler/solve/solve.hpp"
 #include "tests/compiler/compiling.hpp"
 
-namespace wale::compiling {
+namespace wale::compiling::solving_test {
 namespace {
 
 /// An equation in one unknown; everything else is a number.
@@ -176,4 +176,4 @@ TEST(SolvedAmplitude, IsNoOtherForATolerance) {
 }
 
 }  // namespace
-}  // namespace wale::compiling
+}  // namespace wale::compiling::solving_test

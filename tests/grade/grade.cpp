@@ -6,7 +6,7 @@
 
 #include "tests/grade/grading.hpp"
 
-namespace wale {
+namespace wale::grade_test {
 namespace {
 
 using grading::device;
@@ -170,4 +170,4 @@ TEST(Grade, IsTheSameEveryTime) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::grade_test

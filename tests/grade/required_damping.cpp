@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-namespace wale {
+namespace wale::required_damping_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -118,4 +118,4 @@ TEST(RequiredDamping, IsInfiniteWhereStatesOnlyGrow) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::required_damping_test

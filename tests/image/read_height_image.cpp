@@ -17,7 +17,7 @@ using LeaksOfPngReader = __lsan::ScopedDisabler;
 struct LeaksOfPngReader {};
 #endif
 
-namespace wale {
+namespace wale::read_height_image_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -329,4 +329,4 @@ TEST(Image, SameBytesSameHeights) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::read_height_image_test

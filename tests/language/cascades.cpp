@@ -14,7 +14,7 @@
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/parse/lex.hpp"
 
-namespace wale {
+namespace wale::cascades_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST(Cascades, AreNone) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::cascades_test

@@ -7,7 +7,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
 
-namespace wale {
+namespace wale::checker_fixes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST(Imports, EndWhoeverSuppliesThem) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::checker_fixes_test

@@ -12,7 +12,7 @@
 #include "compiler/diagnostics/explain.hpp"
 #include "compiler/diagnostics/render.hpp"
 
-namespace wale {
+namespace wale::explanations_test {
 namespace {
 
 /// Why the first example of a code does not yield it as it stands.
@@ -148,4 +148,4 @@ TEST(CodesByName, AreListedWithTheirTitles) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::explanations_test

@@ -58,6 +58,10 @@ TEST(Format, SettingsStandInColumns) {
   EXPECT_EQ(
       formatted("wale 1\nmap a from b{valid amplitude -3N..3N, (a - b)*2 .. c on d\nlaw log(x) - 1=2}"),
       "wale 1\nmap a from b {\n  valid amplitude -3 N .. 3 N, (a - b) * 2 .. c on d\n  law   log(x) - 1 = 2\n}\n");
+  // Also where the value begins with a parenthesis, written close or apart.
+  for (const std::string between : {"", " ", "    "})
+    EXPECT_EQ(formatted("wale 1\nmap a from b{valid c 1 N..2 N\nlaw" + between + "(x)=2}"),
+              "wale 1\nmap a from b {\n  valid c 1 N .. 2 N\n  law   (x) = 2\n}\n");
 }
 
 TEST(Format, ConsecutiveDeclarationsOfOneKindStandInColumns) {

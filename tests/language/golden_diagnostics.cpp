@@ -28,7 +28,7 @@
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/diagnostics/render.hpp"
 
-namespace wale {
+namespace wale::golden_diagnostics_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -284,4 +284,4 @@ TEST(Choices, AFileWithoutMaterialsSaysSo) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::golden_diagnostics_test

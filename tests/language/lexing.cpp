@@ -2,7 +2,7 @@
 
 #include "compiler/parse/lex.hpp"
 
-namespace wale {
+namespace wale::lexing_test {
 namespace {
 
 struct Cut {
@@ -172,4 +172,4 @@ TEST(Lexing, WhatIsNoTextGivesOneError) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::lexing_test

@@ -16,7 +16,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/render.hpp"
 
-namespace wale {
+namespace wale::reference_test {
 namespace {
 
 std::string content(const std::string& name) {
@@ -159,4 +159,4 @@ TEST(Reference, NamesEveryDeclarationOfTheSchema) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::reference_test

@@ -4,7 +4,7 @@
 
 #include "compiler/diagnostics/render.hpp"
 
-namespace wale {
+namespace wale::rendering_test {
 namespace {
 
 /// A diagnostic about the first occurrence of `part` in a file of that text.
@@ -245,4 +245,4 @@ TEST(Places, CountLinesAndCharactersFromOne) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::rendering_test

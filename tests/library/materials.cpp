@@ -12,7 +12,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/render.hpp"
 
-namespace wale {
+namespace wale::materials_test {
 namespace {
 
 /// One file, read and checked from scratch.
@@ -116,4 +116,4 @@ TEST_P(LibraryFile, StandsInTheFolderOfItsKind) {
 INSTANTIATE_TEST_SUITE_P(Library, LibraryFile, testing::ValuesIn(library_files()), name_of);
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::materials_test

@@ -4,7 +4,7 @@
 #include "compiler/text/resolver.hpp"
 #include "library/stone/slate_heights.hpp"
 
-namespace wale {
+namespace wale::slate_test {
 namespace {
 
 TEST(Slate, ThePictureIsWhatItsProgramDraws) {
@@ -19,4 +19,4 @@ TEST(Slate, ThePictureIsWhatItsProgramDraws) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::slate_test

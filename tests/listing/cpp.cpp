@@ -17,7 +17,7 @@
 #include "tests/machine/random_program.hpp"
 #include "wale/memory.hpp"
 
-namespace wale::listing {
+namespace wale::listing::cpp_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,4 +234,4 @@ TEST(Cpp, CompiledByClangGivesTheBitsOfTheMachine) {
 }
 
 }  // namespace
-}  // namespace wale::listing
+}  // namespace wale::listing::cpp_test

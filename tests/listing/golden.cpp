@@ -12,7 +12,7 @@
 
 #include "tests/listing/opening.hpp"
 
-namespace wale::listing {
+namespace wale::listing::golden_test {
 namespace {
 
 void compare_with_golden(const std::string& name, const std::string& text) {
@@ -69,4 +69,4 @@ TEST(GoldenStages, OfABrickOnASpring) {
 }
 
 }  // namespace
-}  // namespace wale::listing
+}  // namespace wale::listing::golden_test

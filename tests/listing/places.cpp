@@ -8,7 +8,7 @@
 #include "schema/patch_program_format.hpp"
 #include "tests/listing/opening.hpp"
 
-namespace wale::listing {
+namespace wale::listing::places_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,4 +133,4 @@ TEST(Places, OfAllThatIsShippedAreKnown) {
 }
 
 }  // namespace
-}  // namespace wale::listing
+}  // namespace wale::listing::places_test

@@ -8,7 +8,7 @@
 #include "tests/listing/opening.hpp"
 #include "tests/schema/example_program.hpp"
 
-namespace wale::listing {
+namespace wale::listing::stages_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -74,4 +74,4 @@ TEST(Stages, TheTreeStandsAlsoWhereTheMaterialIsWrong) {
 }
 
 }  // namespace
-}  // namespace wale::listing
+}  // namespace wale::listing::stages_test

@@ -11,7 +11,7 @@
 #include "wale/memory.hpp"
 #include "wale/picture.hpp"
 
-namespace wale {
+namespace wale::agreement_test {
 namespace {
 
 using example::loaded;
@@ -133,4 +133,4 @@ TEST(Agreement, TicksDoNotDependOnTheTicksBefore) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::agreement_test

@@ -15,7 +15,7 @@
 
 #include "runtime/machine/floating_point_mode.hpp"
 
-namespace wale {
+namespace wale::arithmetic_test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -216,4 +216,4 @@ TEST(Arithmetic, ModeComesBack) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::arithmetic_test

@@ -10,7 +10,7 @@
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::batch_test {
 namespace {
 
 using example::loaded;
@@ -162,4 +162,4 @@ TEST(TickAll, ManyHandsGiveTheSameBitsAsFew) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::batch_test

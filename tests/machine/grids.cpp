@@ -9,7 +9,7 @@
 
 #include "runtime/machine/grid.hpp"
 
-namespace wale {
+namespace wale::grids_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -102,4 +102,4 @@ TEST(Grids, OneCellIsTheSameEverywhere) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::grids_test

@@ -11,7 +11,7 @@
 
 #include "runtime/machine/arithmetic.hpp"
 
-namespace wale {
+namespace wale::hash_test {
 namespace {
 
 constexpr int side = 128;  // of a cube of lattice points about the origin
@@ -146,4 +146,4 @@ TEST(Hash, EveryBitTurnsEveryBit) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::hash_test

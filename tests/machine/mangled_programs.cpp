@@ -13,7 +13,7 @@
 #include "wale/memory.hpp"
 #include "wale/picture.hpp"
 
-namespace wale {
+namespace wale::mangled_programs_test {
 namespace {
 
 PatchProgram small_example() {
@@ -106,4 +106,4 @@ TEST(MangledPrograms, NeverCrashAndNeverPushTooHard) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::mangled_programs_test

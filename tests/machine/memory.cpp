@@ -11,7 +11,7 @@
 #include "tests/machine/running.hpp"
 #include "tests/runtime/programs.hpp"
 
-namespace wale {
+namespace wale::memory_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -283,4 +283,4 @@ TEST(Memory, WritesHappenInOrderAndKnowNothingOfEachOther) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::memory_test

@@ -9,7 +9,7 @@
 #include "tests/runtime/programs.hpp"
 #include "wale/picture.hpp"
 
-namespace wale {
+namespace wale::pictures_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -100,4 +100,4 @@ TEST(Pictures, MarksHoldWhatTheFrameLeaves) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::pictures_test

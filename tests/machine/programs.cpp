@@ -9,7 +9,7 @@
 #include "runtime/machine/arithmetic.hpp"
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::programs_test {
 namespace {
 
 using enum Operation;
@@ -266,4 +266,4 @@ TEST(Machine, LoadSaysWhyNot) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::programs_test

@@ -23,7 +23,7 @@ thread_local long allocations = 0;
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace wale {
+namespace wale::real_time_test {
 namespace {
 
 static_assert(noexcept(tick(std::declval<Bank&>(), std::declval<const Hand&>())));
@@ -50,4 +50,4 @@ TEST(RealTime, TickAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::real_time_test

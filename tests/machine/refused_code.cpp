@@ -8,7 +8,7 @@
 
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::refused_code_test {
 namespace {
 
 using enum Operation;
@@ -117,4 +117,4 @@ TEST(Documentation, OfVerificationHasTheCodesFigures) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::refused_code_test

@@ -11,7 +11,7 @@
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::shared_maps_test {
 namespace {
 
 HeightTable table(std::uint16_t first) { return {3, 2, {first, 65535, 100, 7, 8, 9}}; }
@@ -86,4 +86,4 @@ TEST(SharedHeights, AChangeIsOnesOwn) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::shared_maps_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace wale {
+namespace wale::spline_test {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -166,4 +166,4 @@ TEST(Spline, AnyCoordinateIsSafe) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::spline_test

@@ -16,7 +16,7 @@
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::threaded_code_test {
 namespace {
 
 using example::instruction;
@@ -164,4 +164,4 @@ TEST(ThreadedCode, EmptyCodeDoesNothing) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::threaded_code_test

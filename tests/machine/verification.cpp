@@ -8,7 +8,7 @@
 
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::verification_test {
 namespace {
 
 using enum Operation;
@@ -344,4 +344,4 @@ TEST(Verification, PeaksEndInTime) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::verification_test

@@ -7,7 +7,7 @@
 
 #include "tests/machine/running.hpp"
 
-namespace wale {
+namespace wale::verification_of_memory_test {
 namespace {
 
 using enum Operation;
@@ -220,4 +220,4 @@ TEST(VerificationOfMemory, UsualRangesLieWithinTheHardOnes) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::verification_of_memory_test

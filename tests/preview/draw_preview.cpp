@@ -10,7 +10,7 @@
 #include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
 
-namespace wale {
+namespace wale::draw_preview_test {
 namespace {
 
 // Where the parts of the page stand, in pixels.
@@ -228,4 +228,4 @@ TEST(SaveDrawing, FullDeviceIsReportedAndLeftAlone) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::draw_preview_test

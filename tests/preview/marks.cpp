@@ -11,7 +11,7 @@
 #include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
 
-namespace wale {
+namespace wale::marks_test {
 namespace {
 
 // The picture's square on the page, in pixels, shows the patch's 80 mm.
@@ -264,4 +264,4 @@ TEST(Preview, HeightsAreInTheUnitTheProgramSays) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::marks_test

@@ -13,7 +13,7 @@
 
 #include "tests/promises/running.hpp"
 
-namespace wale {
+namespace wale::corduroy_test {
 namespace {
 
 // Minsky 1995, figure 19: log10 R = 0.759593 log10 F - 0.513365, F in program units of 10 N / 512 up to 194 of them,
@@ -143,4 +143,4 @@ TEST(Corduroy, TheSameRunGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::corduroy_test

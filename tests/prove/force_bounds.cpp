@@ -10,7 +10,7 @@
 #include "tests/prove/programs.hpp"
 #include "tests/prove/values.hpp"
 
-namespace wale {
+namespace wale::force_bounds_test {
 namespace {
 
 using enum Operation;
@@ -121,4 +121,4 @@ TEST(ForceBounds, TheSameBoundEveryTime) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::force_bounds_test

@@ -14,7 +14,7 @@
 #include "runtime/machine/meaning.hpp"
 #include "tests/prove/values.hpp"
 
-namespace wale {
+namespace wale::intervals_test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -160,4 +160,4 @@ TEST(Intervals, AreShownAsTheyAreRead) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::intervals_test

@@ -10,7 +10,7 @@
 #include "runtime/machine/grid.hpp"
 #include "tests/prove/values.hpp"
 
-namespace wale {
+namespace wale::look_ups_test {
 namespace {
 
 using prove_test::Values;
@@ -134,4 +134,4 @@ TEST(LookUps, BetweenTheSmallestCellsThereMayBeZero) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::look_ups_test

@@ -10,7 +10,7 @@
 #include "tests/prove/values.hpp"
 #include "wale/memory.hpp"
 
-namespace wale {
+namespace wale::proofs_test {
 namespace {
 
 using example::instruction;
@@ -144,4 +144,4 @@ TEST(Proofs, WhatRegistersHaveInCommonTightensTheBound) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::proofs_test

@@ -12,7 +12,7 @@
 #include "compiler/prove/force_bound.hpp"
 #include "compiler/prove/prove.hpp"
 
-namespace wale {
+namespace wale::shipped_test {
 namespace {
 
 struct Material {
@@ -78,4 +78,4 @@ TEST(Shipped, MaterialsHaveBoundsThatHoldAndAreClose) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::shipped_test

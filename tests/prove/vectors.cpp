@@ -13,7 +13,7 @@
 #include "tests/prove/stepping.hpp"
 #include "tests/prove/values.hpp"
 
-namespace wale {
+namespace wale::vectors_test {
 namespace {
 
 using enum Operation;
@@ -286,4 +286,4 @@ TEST(Vectors, OfOneDirectionAreLongerWhereSquaresAreFlushed) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::vectors_test

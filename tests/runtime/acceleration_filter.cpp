@@ -8,7 +8,7 @@
 
 #include "tests/runtime/figures.hpp"
 
-namespace wale {
+namespace wale::acceleration_filter_test {
 namespace {
 
 // The profile's velocity window has 15 ticks: acceleration windows have 8 to 30.
@@ -160,4 +160,4 @@ TEST(PlainDifferences, SkippedPeriodsCount) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::acceleration_filter_test

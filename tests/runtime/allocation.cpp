@@ -25,7 +25,7 @@ thread_local long allocations = 0, releases = 0;
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
-namespace wale {
+namespace wale::allocation_test {
 namespace {
 
 TEST(Allocation, IsNoticed) {
@@ -58,4 +58,4 @@ TEST(Allocation, ABeatNeitherAllocatesNorFreesEvenWhenABankArrives) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::allocation_test

@@ -9,7 +9,7 @@
 
 #include "runtime/stage/latest.hpp"
 
-namespace wale {
+namespace wale::exchange_test {
 namespace {
 
 /// Counts how many of it live, and on which thread they die.
@@ -106,4 +106,4 @@ TEST(Latest, IsWholeAndNeverOlderThanOneSeenBefore) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::exchange_test

@@ -10,7 +10,7 @@
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/programs.hpp"
 
-namespace wale {
+namespace wale::felt_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, step = 0.2286 / 4096;
@@ -207,4 +207,4 @@ TEST(LevelsBack, NoPerceptsNoLevels) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::felt_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace wale {
+namespace wale::front_most_test {
 namespace {
 
 /// Of all patches with the point within them, one of the greatest layer, and of those the last.
@@ -137,4 +137,4 @@ TEST(FrontMost, WhatIsCoveredIsNotListed) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::front_most_test

@@ -7,7 +7,7 @@
 
 #include "tests/runtime/figures.hpp"
 
-namespace wale {
+namespace wale::guards_test {
 namespace {
 
 constexpr float step = 200.0f / 900;  // N per tick
@@ -87,4 +87,4 @@ TEST(Guards, WithoutADeclaredSlewNothingIsSlowed) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::guards_test

@@ -7,7 +7,7 @@
 
 #include "runtime/stage/lateness.hpp"
 
-namespace wale {
+namespace wale::loop_test {
 namespace {
 
 constexpr auto never = []() noexcept { return false; };
@@ -138,4 +138,4 @@ TEST(Lateness, TakesAnyNumber) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::loop_test

@@ -10,7 +10,7 @@
 #include "tests/runtime/programs.hpp"
 #include "wale/stage.hpp"
 
-namespace wale {
+namespace wale::remembering_test {
 namespace {
 
 /// A device whose hand is where the test says at each period, in counts, and which notes nothing else.
@@ -214,4 +214,4 @@ TEST(Telling, MotionInMetresAndSeconds) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::remembering_test

@@ -9,7 +9,7 @@
 
 #include "tests/runtime/figures.hpp"
 
-namespace wale {
+namespace wale::simulated_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -197,4 +197,4 @@ TEST(Motion, HandFollowsATrace) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::simulated_test

@@ -11,7 +11,7 @@
 #include "tests/runtime/programs.hpp"
 #include "wale/felt.hpp"
 
-namespace wale {
+namespace wale::stage_test {
 namespace {
 
 constexpr float amplitude = 1.934f;  // roughness 0.6
@@ -381,4 +381,4 @@ TEST(Stage, AnExceptionInProgressEndsTheRunWithoutForce) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::stage_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wale {
+namespace wale::trace_test {
 namespace {
 
 Trace good(std::string_view text) {
@@ -112,4 +112,4 @@ TEST(Trace, RestsBeforeItsBeginningAndAfterItsEnd) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::trace_test

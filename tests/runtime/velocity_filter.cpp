@@ -8,7 +8,7 @@
 
 #include "tests/runtime/figures.hpp"
 
-namespace wale {
+namespace wale::velocity_filter_test {
 namespace {
 
 TEST(VelocityFilter, FirstSampleHasNoVelocity) {
@@ -88,4 +88,4 @@ TEST(VelocityFilter, AWindowOfOneTickIsThePlainDifference) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::velocity_filter_test

@@ -4,7 +4,7 @@
 
 #include "tests/sandpaper/reading.hpp"
 
-namespace wale::sandpaper {
+namespace wale::sandpaper::collections_test {
 namespace {
 
 constexpr double pu = 10.0 / 512;
@@ -124,4 +124,4 @@ TEST(Collections, ParametersStayWithinWhatTheDeviceCanPush) {
 }
 
 }  // namespace
-}  // namespace wale::sandpaper
+}  // namespace wale::sandpaper::collections_test

@@ -4,7 +4,7 @@
 
 #include "tests/sandpaper/reading.hpp"
 
-namespace wale::sandpaper {
+namespace wale::sandpaper::dynamics_test {
 namespace {
 
 constexpr double dt = 1.0 / 900;
@@ -245,4 +245,4 @@ TEST(Dynamics, OneMassNeitherGainsNorLosesEnergyWithoutDragAndLosesItWith) {
 }
 
 }  // namespace
-}  // namespace wale::sandpaper
+}  // namespace wale::sandpaper::dynamics_test

@@ -5,7 +5,7 @@
 
 #include "tests/sandpaper/reading.hpp"
 
-namespace wale::sandpaper {
+namespace wale::sandpaper::gratings_test {
 namespace {
 
 constexpr double pixel = 0.37e-3;
@@ -211,4 +211,4 @@ TEST(Gratings, StimuliPushHalfAProgramUnitForEachGreyLevelOfTheirMap) {
 }
 
 }  // namespace
-}  // namespace wale::sandpaper
+}  // namespace wale::sandpaper::gratings_test

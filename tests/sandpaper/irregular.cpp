@@ -4,7 +4,7 @@
 
 #include "tests/sandpaper/reading.hpp"
 
-namespace wale::sandpaper {
+namespace wale::sandpaper::irregular_test {
 namespace {
 
 /// A program of a material whose force is the two given plain numbers, in newtons.
@@ -133,4 +133,4 @@ TEST(Noise, JumpsFromPixelToPixelWithinItsLargestForce) {
 }
 
 }  // namespace
-}  // namespace wale::sandpaper
+}  // namespace wale::sandpaper::irregular_test

@@ -5,7 +5,7 @@
 
 #include "tests/sandpaper/reading.hpp"
 
-namespace wale::sandpaper {
+namespace wale::sandpaper::prototypes_test {
 namespace {
 
 constexpr double dt = 1.0 / 900;
@@ -204,4 +204,4 @@ TEST(TextbookObjects, FollowNewton) {
 }
 
 }  // namespace
-}  // namespace wale::sandpaper
+}  // namespace wale::sandpaper::prototypes_test

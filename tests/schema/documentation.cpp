@@ -12,7 +12,7 @@
 #include "tests/schema/example_program.hpp"
 #include "tests/schema/wpp_bytes.hpp"
 
-namespace wale {
+namespace wale::documentation_test {
 namespace {
 
 std::vector<std::string> lines_of_documentation() {
@@ -74,4 +74,4 @@ TEST(Documentation, NumbersNeverChange) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::documentation_test

@@ -5,7 +5,7 @@
 #include "tests/schema/example_program.hpp"
 #include "tests/schema/wpp_bytes.hpp"
 
-namespace wale {
+namespace wale::patch_program_test {
 namespace {
 
 using wpp::Bytes;
@@ -191,4 +191,4 @@ TEST(PatchProgram, CostIsTheSumOfItsInstructions) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::patch_program_test

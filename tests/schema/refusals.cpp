@@ -8,7 +8,7 @@
 #include "tests/schema/example_program.hpp"
 #include "tests/schema/wpp_bytes.hpp"
 
-namespace wale {
+namespace wale::refusals_test {
 namespace {
 
 using wpp::Bytes;
@@ -264,4 +264,4 @@ TEST(Refusals, WhateverIsAcceptedIsCanonical) {
 }
 
 }  // namespace
-}  // namespace wale
+}  // namespace wale::refusals_test

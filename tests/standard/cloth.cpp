@@ -1,7 +1,7 @@
 // Weaves and knits: what repeats, what mirrors, and which thread lies on top.
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::cloth_test {
 namespace {
 
 /// Whether the warp lies on top where warp thread `end` and weft thread `pick` cross: then the crossing falls off to
@@ -123,4 +123,4 @@ TEST(RibKnit, RepeatsAfterItsKnitAndPurlColumns) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::cloth_test

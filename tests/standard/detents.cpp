@@ -1,7 +1,7 @@
 // Detents and the desktop made of them: where they hold, how much it takes to leave, and that no way round them gains.
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::detents_test {
 namespace {
 
 /// The work that a hand at rest puts in on the straight way, J.
@@ -178,4 +178,4 @@ TEST(Toggle, RestsOnBothSides) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::detents_test

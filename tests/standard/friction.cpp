@@ -1,7 +1,7 @@
 // Friction against what its authors wrote down.
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::friction_test {
 namespace {
 
 TEST(CoulombFromVelocity, IsAgainstTheMotionAndNoLargerThanItsMagnitude) {
@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(Standard, Frictions,
                          [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::friction_test

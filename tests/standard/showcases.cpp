@@ -5,7 +5,7 @@
 
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::showcases_test {
 namespace {
 
 double default_of(const Program& program, const std::string& name) {
@@ -69,4 +69,4 @@ TEST(Page, ItsExampleCompilesAndItsTableIsWhole) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::showcases_test

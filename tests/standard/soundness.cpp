@@ -5,7 +5,7 @@
 #include "wale/library.hpp"
 #include "wale/simulated.hpp"
 
-namespace wale::standard {
+namespace wale::standard::soundness_test {
 namespace {
 
 struct Rested {
@@ -101,4 +101,4 @@ TEST(HeldBack, FrictionKeepsTheHandShortOfItsTarget) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::soundness_test

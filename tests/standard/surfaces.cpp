@@ -3,7 +3,7 @@
 
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::surfaces_test {
 namespace {
 
 TEST(Brickwork, SetsEveryCourseOffByHalfABrick) {
@@ -229,4 +229,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::surfaces_test

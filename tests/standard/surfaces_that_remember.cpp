@@ -1,7 +1,7 @@
 // Napped cloth, crushable paper, a tray of sand: surfaces that know which way they are stroked, and where they were.
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::surfaces_that_remember_test {
 namespace {
 
 TEST(NapFromVelocity, HasTwoCoefficientsAndTheirMeanAcross) {
@@ -121,4 +121,4 @@ TEST(Sandpit, IsPloughedOnce) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::surfaces_that_remember_test

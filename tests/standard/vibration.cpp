@@ -3,7 +3,7 @@
 
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::vibration_test {
 namespace {
 
 /// The force at each of `ticks` ticks of a hand that stays at `place` and yet has `velocity`.
@@ -101,4 +101,4 @@ TEST(Grit, HasABumpForEveryGrainThatTheHandTravels) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::vibration_test

@@ -1,7 +1,7 @@
 // Walls: what they push, what they give back, and how they let go.
 #include "tests/standard/standard.hpp"
 
-namespace wale::standard {
+namespace wale::standard::walls_test {
 namespace {
 
 /// What a wall pushes outwards, written down again from the words of library/std/wall.wale.
@@ -90,4 +90,4 @@ TEST(Room, HasFourWallsAndNothingInBetween) {
 }
 
 }  // namespace
-}  // namespace wale::standard
+}  // namespace wale::standard::walls_test
