@@ -32,6 +32,7 @@
 #include "compiler/diagnostics/explain.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/format/format.hpp"
+#include "compiler/image/image_library.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -381,10 +382,14 @@ int preview(const Choice& choice, const std::vector<std::string>& settings, cons
   const auto parameters = chosen_parameters(programs.front(), settings);
   if (!parameters) return refused;
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  const Drawing drawing = draw_preview(bank, preview_text(bank));
-  if (!drawing.has_text)
-    fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
-  if (const auto problem = save_drawing(drawing, out)) return refuse(problem->reason);
+  try {
+    const Drawing drawing = draw_preview(bank, preview_text(bank));
+    if (!drawing.has_text)
+      fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+    if (const auto problem = save_drawing(drawing, out)) return refuse(problem->reason);
+  } catch (const NoImageLibrary& missing) {
+    return refuse(missing.what());
+  }
   return 0;
 }
 

@@ -8,11 +8,6 @@ namespace wale {
 namespace {
 
 constexpr std::string_view helpers = R"(
-/// `value` held in low .. high; `otherwise` for not-a-number.
-inline float held_within(float value, float low, float high, float otherwise) {
-  return value >= low ? (value <= high ? value : high) : (value < low ? low : otherwise);
-}
-
 /// A constant that the compiler does not see, so that it does not calculate with it: it does not know that subnormals
 /// are zero.
 inline float hidden(float constant) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "compiler/listing/figures.hpp"
+#include "runtime/machine/arithmetic.hpp"
 
 namespace wale {
 namespace {
@@ -53,7 +54,8 @@ std::string with_operands(std::string_view meaning, const std::array<std::string
 
 }  // namespace
 
-std::string cpp_literal(float value) {
+std::string cpp_literal(float number) {
+  const float value = arithmetic::flushed(number);
   if (std::isnan(value)) return fmt::format("arithmetic::float_of(0x{:08x}u)", std::bit_cast<std::uint32_t>(value));
   if (std::isinf(value)) return value > 0 ? "arithmetic::infinity" : "(-arithmetic::infinity)";
   std::string digits = figure(value);
@@ -112,9 +114,7 @@ void CppCode::find_needed(const std::vector<RegisterNumber>& roots) {
 std::string CppCode::operand(RegisterNumber number) const {
   if (!names_[number].empty()) return names_[number];
   if (number >= first_constant && number < program_.first_parameter()) {
-    const float constant = program_.constants[number - first_constant];
-    const bool subnormal = constant != 0 && std::abs(constant) < std::numeric_limits<float>::min();
-    return subnormal ? cpp_hidden(constant) : cpp_literal(constant);
+    return cpp_literal(program_.constants[number - first_constant]);
   }
   return kept_.outside(number);
 }
@@ -133,8 +133,7 @@ std::string CppCode::expression(const Instruction& instruction) const {
     all_constant = all_constant && constant;
     operands[i] = operand(fields[i]);
   }
-  if (all_constant && !operands[0].starts_with("hidden"))
-    operands[0] = cpp_hidden(program_.constants[instruction.a - first_constant]);
+  if (all_constant) operands[0] = cpp_hidden(program_.constants[instruction.a - first_constant]);
   switch (operation) {
     case Operation::sample:
       return fmt::format("sample_of({}, {}, {})", kept_.table(instruction.c), operands[0], operands[1]);

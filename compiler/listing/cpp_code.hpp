@@ -50,8 +50,8 @@ class CppCode {
   Surroundings kept_;                    ///< what `lines` was given
 };
 
-/// A float as C++: "2.5f", "(-1.0f)", "arithmetic::infinity".
-std::string cpp_literal(float value);
+/// A float as C++ as the machine takes it, a subnormal one being zero: "2.5f", "(-1.0f)", "arithmetic::infinity".
+std::string cpp_literal(float number);
 /// The same, hidden from the compiler where it would calculate as if subnormals were not zero.
 std::string cpp_hidden(float value);
 

@@ -10,6 +10,7 @@
 #include "compiler/listing/cpp_code.hpp"
 #include "compiler/listing/cpp_names.hpp"
 #include "compiler/listing/figures.hpp"
+#include "runtime/machine/held_state.hpp"
 
 namespace wale {
 namespace {
@@ -51,6 +52,8 @@ class CppPrinter {
                              "state",
                              "cells",
                              "asked",
+                             "placed",
+                             "flushed",
                              "patch",
                              "within_envelope",
                              "held_within",
@@ -265,13 +268,16 @@ class CppPrinter {
     const std::string lines = code.lines(surroundings, 2);
 
     std::string text = "\n/// What parameters and patch come to. Not for real-time use: it runs the peaks.\n";
-    text += "inline Setup setup([[maybe_unused]] const Parameters& asked, const Patch& patch) {\n";
+    text += "inline Setup setup([[maybe_unused]] const Parameters& asked, const Patch& placed) {\n";
+    text +=
+        "  using arithmetic::flushed;\n"
+        "  const Patch patch{flushed(placed.half_width), flushed(placed.half_height), flushed(placed.rim)};\n";
     std::set<RegisterNumber> needed(kept_.begin(), kept_.end());
     for (const RegisterNumber number : code.read_from_outside()) needed.insert(number);
     for (const RegisterNumber number : needed) {
       if (!is_parameter(number)) continue;
       const Parameter& p = program_.parameters[number - program_.first_parameter()];
-      text += fmt::format("  const float {0} = held_within(asked.{0}, {1}, {2}, {3});\n",
+      text += fmt::format("  const float {0} = held_within(flushed(asked.{0}), {1}, {2}, {3});\n",
                           parameters_[number - program_.first_parameter()], cpp_literal(p.low), cpp_literal(p.high),
                           cpp_literal(p.value));
     }
@@ -327,16 +333,15 @@ class CppPrinter {
 //   Parameters                        what stays adjustable, in SI units, at its defaults
 //   Patch                             half its width and height, and its rim, m
 //   Setup setup(Parameters, Patch)    what they come to; not real-time (peaks, tables)
-//   Hand within_envelope(Hand)        as the runtime hands it on: within the device's reach and speed
+//   Hand within_envelope(Hand)        as the runtime hands it on: within the device's reach and speed, not subnormal
 //   State enter(Setup, Hand)          when the hand enters the patch
 //   Force tick(Setup, State&, {2}Hand)
 //                                     at each period of the device, {3} s
 //
 // The same bits as Wale's own machine, provided that whoever calls rounds to nearest and takes subnormals for zero (on
-// x86, bits FTZ 0x8000 and DAZ 0x0040 of MXCSR), that no number handed in is subnormal, and that this is compiled with
-// -ffp-contract=off and without -ffast-math. Functions are inline and change nothing but what they are handed; enter and
-// tick allocate nothing. Pictures and predictions are left out. `t12` is instruction 12 of its section, as in `wale
-// build --emit listing`.
+// x86, bits FTZ 0x8000 and DAZ 0x0040 of MXCSR), and that this is compiled with -ffp-contract=off and without
+// -ffast-math. Functions are inline and change nothing but what they are handed; enter and tick allocate nothing.
+// Pictures and predictions are left out. `t12` is instruction 12 of its section, as in `wale build --emit listing`.
 )",
         program_.material, name_space_, program_.grids.empty() ? "" : "Cells&, ",
         figure(static_cast<float>(1 / program_.device.rate)));
@@ -397,7 +402,7 @@ class CppPrinter {
     add("\n/// What is remembered from tick to tick, and what it was when the hand entered.\nstruct State {{\n");
     for (std::size_t i = 0; i < program_.states.size(); ++i) {
       const State& state = program_.states[i];
-      const float begin = state.low > 0 ? state.low : state.high < 0 ? state.high : 0.0f;
+      const float begin = initial_state(arithmetic::not_a_number, StateRule(state));
       text_ += beside(fmt::format("  float {} = {}, {} = {};", states_[i], cpp_literal(begin), at_entry_[i],
                                   cpp_literal(begin)),
                       60, fmt::format("///< {} .. {}", figure(state.low), figure(state.high))) +
@@ -412,8 +417,8 @@ class CppPrinter {
     add("\n/// m, m/s and m/s^2 from the patch's centre; `workspace` from the device's; `button` is 1 while it is "
         "pressed.\nstruct Hand {{\n");
     for (const Input input : hand_inputs) add("  float {} = 0;\n", input_name(static_cast<unsigned>(input)));
-    add("}};\n\n/// Each component within what the device can do, not-a-number as 0.\n"
-        "inline Hand within_envelope(const Hand& hand) {{\n  Hand within;\n");
+    add("}};\n\n/// Each component within what the device can do, not-a-number as 0, subnormal numbers as zeros.\n"
+        "inline Hand within_envelope(const Hand& hand) {{\n  using arithmetic::flushed;\n  Hand within;\n");
     const DeviceProfile& device = program_.device;
     for (const Input input : hand_inputs) {
       const std::string name = input_name(static_cast<unsigned>(input));
@@ -435,7 +440,7 @@ class CppPrinter {
       const std::string high = input == Input::time     ? cpp_literal(std::numeric_limits<float>::max())
                                : input == Input::button ? "1.0f"
                                                         : cpp_literal(bound);
-      add("  within.{0} = held_within(hand.{0}, {1}, {2}, 0.0f);\n", name, low, high);
+      add("  within.{0} = held_within(flushed(hand.{0}), {1}, {2}, 0.0f);\n", name, low, high);
     }
     add("  return within;\n}}\n");
   }

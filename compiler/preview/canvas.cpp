@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "compiler/image/openimageio.hpp"
+#include "compiler/image/image_library.hpp"
 #include "compiler/text/utf8.hpp"
 
 namespace wale {
@@ -241,14 +241,7 @@ void Canvas::place(const PageBox& box, std::span<const Colour> pixels) {
 
 Drawing Canvas::finish() const {
   const int width = width_ / fineness, height = height_ / fineness;
-  const OIIO::ROI size(0, width, 0, height, 0, 1, 0, 3);
-  // A wrapped buffer is written to by no one here; ImageBuf has no wrapper of constants.
-  const OIIO::ImageBuf fine(OIIO::ImageSpec(width_, height_, 3, OIIO::TypeFloat), const_cast<float*>(pixels_.data()));
-  const OIIO::ImageBuf page = OIIO::ImageBufAlgo::resize(fine, "box", 1.0f, size, 1);
-  Drawing drawing{width, height, {}, static_cast<bool>(sans_)};
-  drawing.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  page.get_pixels(size, OIIO::TypeUInt8, drawing.rgb.data());
-  return drawing;
+  return {width, height, image_library().shrunk(pixels_, width_, height_, width, height), static_cast<bool>(sans_)};
 }
 
 }  // namespace wale

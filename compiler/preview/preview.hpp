@@ -32,6 +32,7 @@ PreviewText preview_text(const Bank& bank);
 /// force against velocity. A program that says colours, shows marks or remembers shows its surface whatever its relief;
 /// the last two after a simulated hand has rubbed it for a short while, and one that remembers shows the hand and its
 /// force over that time. Forces are those commanded, in N or mN. The same bank and text give the same pixels.
+/// Throws `NoImageLibrary` (compiler/image/image_library.hpp).
 Drawing draw_preview(const Bank& bank, const PreviewText& text);
 
 }  // namespace wale

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "compiler/image/openimageio.hpp"
+#include "compiler/image/image_library.hpp"
 #include "wale/picture.hpp"
 
 namespace wale {
@@ -52,17 +52,7 @@ Colour lit_by(Colour lamp, Colour surface) {
 
 /// How far each point lies below its surroundings, 0 .. 1: the light that a hollow does not get. `reach` in pixels.
 std::vector<float> hollowness(const Heights& heights, double reach) {
-  using namespace OIIO::ImageBufAlgo;
-  OIIO::ImageBuf source(OIIO::ImageSpec(heights.side, heights.side, 1, OIIO::TypeFloat));
-  source.set_pixels(source.roi(), OIIO::TypeFloat, heights.values.data());
-  // What is blurred is blurred as well from a small picture.
-  const int small = std::clamp(static_cast<int>(12 * heights.side / reach), 16, heights.side);
-  const auto width = static_cast<float>(reach * small / heights.side);
-  const auto shrunk = resize(source, "triangle", 0.0f, OIIO::ROI(0, small, 0, small, 0, 1, 0, 1), 1);
-  const auto blurred = convolve(shrunk, make_kernel("gaussian", width, width), true, {}, 1);
-  const auto around = resize(blurred, "gaussian", 0.0f, source.roi(), 1);
-  std::vector<float> hollow(heights.values.size());
-  around.get_pixels(around.roi(), OIIO::TypeFloat, hollow.data());
+  std::vector<float> hollow = image_library().surroundings(heights.values, heights.side, reach);
   for (std::size_t i = 0; i < hollow.size(); ++i) hollow[i] = std::clamp(hollow[i] - heights.values[i], 0.0f, 1.0f);
   return hollow;
 }

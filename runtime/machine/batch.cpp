@@ -31,11 +31,10 @@ struct Shared {
 /// What one block of instances remembers: rows of lanes for the states and for what they were at the last entry.
 class BlockStates {
  public:
-  explicit BlockStates(const PatchProgram& description) : rows_(2 * description.states.size() * lanes) {
+  explicit BlockStates(std::span<const StateRule> rules) : rows_(2 * rules.size() * lanes) {
     float* row = rows_.data();
     for (int copy = 0; copy < 2; ++copy)
-      for (const State& state : description.states)
-        row = std::fill_n(row, lanes, initial_state(arithmetic::not_a_number, state));
+      for (const StateRule& rule : rules) row = std::fill_n(row, lanes, initial_state(arithmetic::not_a_number, rule));
   }
 
   float* now(std::size_t index) { return rows_.data() + index * lanes; }
@@ -119,7 +118,7 @@ struct Batch::Parts {
   Parts(const Bank& bank, std::size_t count, const Memory* grids)
       : shared(bank, grids),
         instances(count),
-        blocks((count + lanes - 1) / lanes, BlockStates(shared.program.description())),
+        blocks((count + lanes - 1) / lanes, BlockStates(shared.program.decoded().state_rules)),
         runner(shared) {}
 
   template <class Work>
@@ -161,7 +160,7 @@ void run_batch(const Bank& bank, std::size_t instances, long ticks, const MoveHa
     Runner runner(shared);
     for (std::size_t block = begin; block < end; ++block) {
       const std::size_t first = block * lanes, count = std::min(lanes, instances - first);
-      BlockStates states(shared.program.description());
+      BlockStates states(shared.program.decoded().state_rules);
       std::array<Hand, lanes> hand_of;
       std::array<Force, lanes> force_on;
       force_on.fill(Force(0));

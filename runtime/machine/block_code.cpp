@@ -42,24 +42,25 @@ void narrow_kernel(float* destination, const float* as, const float* bs, const f
 }
 
 #if defined(__x86_64__)
-/// The same in vectors of eight floats. Each lane goes through the same operations, so its bits are the same.
+bool has_wide_vectors() {
+  static const bool has = __builtin_cpu_supports("avx2") != 0;
+  return has;
+}
+
+/// The same in vectors of eight floats.
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
 [[gnu::target("avx2")]] void wide_kernel(float* destination, const float* as, const float* bs, const float* cs,
                                          const Lookup&, const float*) {
   apply<operation, uniform_a, uniform_b, uniform_c>(destination, as, bs, cs);
 }
-
-const bool has_wide_vectors = [] {
-  __builtin_cpu_init();
-  return __builtin_cpu_supports("avx2") != 0;
-}();
+#else
+constexpr bool has_wide_vectors() { return false; }
 #endif
 
-/// The kernel that suits this processor best.
 template <Operation operation, bool uniform_a, bool uniform_b, bool uniform_c>
-Kernel kernel() {
+Kernel kernel([[maybe_unused]] bool wide) {
 #if defined(__x86_64__)
-  if (has_wide_vectors) return wide_kernel<operation, uniform_a, uniform_b, uniform_c>;
+  if (wide) return wide_kernel<operation, uniform_a, uniform_b, uniform_c>;
 #endif
   return narrow_kernel<operation, uniform_a, uniform_b, uniform_c>;
 }
@@ -72,11 +73,12 @@ template <bool uniform_a, bool uniform_b>
   const float shared_a = *as, shared_b = *bs;
   std::int32_t corner[lanes];
   float along_a[lanes], along_b[lanes], sign_a[lanes], sign_b[lanes];
-  const std::uint32_t width = spline.width, height = spline.height, stride = spline.stride;
+  const float last_column = spline.last_column, last_row = spline.last_row;
+  const std::uint32_t stride = spline.stride;
   WALE_LANES_ARE_INDEPENDENT
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const MirroredCoordinate column = mirrored(lane_of<uniform_a>(as, lane, shared_a), width);
-    const MirroredCoordinate row = mirrored(lane_of<uniform_b>(bs, lane, shared_b), height);
+    const MirroredCoordinate column = mirrored(lane_of<uniform_a>(as, lane, shared_a), last_column);
+    const MirroredCoordinate row = mirrored(lane_of<uniform_b>(bs, lane, shared_b), last_row);
     corner[lane] = static_cast<std::int32_t>(row.cell * stride + column.cell);
     along_a[lane] = column.fraction;
     along_b[lane] = row.fraction;
@@ -158,9 +160,9 @@ template <Operation operation, bool uniform_a, bool uniform_b>
 #endif
 
 template <Operation operation, bool uniform_a, bool uniform_b>
-Kernel look_up_kernel() {
+Kernel look_up_kernel([[maybe_unused]] bool wide) {
 #if defined(__x86_64__)
-  if (has_wide_vectors) return wide_look_up<operation, uniform_a, uniform_b>;
+  if (wide) return wide_look_up<operation, uniform_a, uniform_b>;
 #endif
   return narrow_look_up<operation, uniform_a, uniform_b>;
 }
@@ -170,15 +172,15 @@ using Variants = std::array<Kernel, 8>;
 
 /// Of an operation that looks into something at a and b.
 template <Operation operation>
-Variants look_up_variants() {
-  const Kernel all[] = {look_up_kernel<operation, false, false>(), look_up_kernel<operation, true, false>(),
-                        look_up_kernel<operation, false, true>(), look_up_kernel<operation, true, true>()};
+Variants look_up_variants(bool wide) {
+  const Kernel all[] = {look_up_kernel<operation, false, false>(wide), look_up_kernel<operation, true, false>(wide),
+                        look_up_kernel<operation, false, true>(wide), look_up_kernel<operation, true, true>(wide)};
   return {all[0], all[1], all[2], all[3], all[0], all[1], all[2], all[3]};
 }
 
 /// An operand that an operation does not read is uniform in all its variants, which are then made once.
 template <Operation operation>
-Variants variants() {
+Variants variants(bool wide) {
   constexpr bool a = facts(operation).fields[0] != 'r';
   constexpr bool b = facts(operation).fields[1] != 'r';
   constexpr bool c = facts(operation).fields[2] != 'r';
@@ -186,27 +188,34 @@ Variants variants() {
     return {};  // only setup runs peaks, and it has one lane
   } else if constexpr (operation == Operation::sample || operation == Operation::recall ||
                        operation == Operation::cell) {
-    return look_up_variants<operation>();
+    return look_up_variants<operation>(wide);
   } else {
-    return {kernel<operation, a, b, c>(),       kernel<operation, true, b, c>(),
-            kernel<operation, a, true, c>(),    kernel<operation, true, true, c>(),
-            kernel<operation, a, b, true>(),    kernel<operation, true, b, true>(),
-            kernel<operation, a, true, true>(), kernel<operation, true, true, true>()};
+    return {kernel<operation, a, b, c>(wide),       kernel<operation, true, b, c>(wide),
+            kernel<operation, a, true, c>(wide),    kernel<operation, true, true, c>(wide),
+            kernel<operation, a, b, true>(wide),    kernel<operation, true, b, true>(wide),
+            kernel<operation, a, true, true>(wide), kernel<operation, true, true, true>(wide)};
   }
 }
 
 /// The kernels of every operation, by its number.
-const std::array<Variants, operation_table.size()> all_variants = [] {
-  std::array<Variants, operation_table.size()> all{};
+using Kernels = std::array<Variants, operation_table.size()>;
+
+Kernels all_kernels(bool wide) {
+  Kernels all{};
   // clang-format off
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) \
-  all[number] = variants<Operation::name>();
+  all[number] = variants<Operation::name>(wide);
 #define SPECIAL(number, name, fields, results, cost) \
-  all[number] = variants<Operation::name>();
+  all[number] = variants<Operation::name>(wide);
 #include "schema/instruction.def"
   // clang-format on
   return all;
-}();
+}
+
+const Kernels& kernels_of(Vectors vectors) {
+  static const Kernels baseline = all_kernels(false), widest = all_kernels(has_wide_vectors());
+  return vectors == Vectors::widest ? widest : baseline;
+}
 
 /// A state's row at the end of a tick, `next` being one value for all lanes or a row.
 template <bool uniform>
@@ -245,7 +254,8 @@ BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
 }
 
 BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
-                       std::span<const GridShape> grids, std::span<const Instruction> code) {
+                       std::span<const GridShape> grids, std::span<const Instruction> code, Vectors vectors) {
+  const Kernels& kernels = kernels_of(vectors);
   BlockCode decoded;
   decoded.reserve(code.size());
   const RegisterNumber first_state = program.first_state();
@@ -258,7 +268,7 @@ BlockCode decode_block(const PatchProgram& program, std::span<const std::referen
     if (known.fields[2] == 't') block.lookup.spline = &splines[instruction.c].get();
     if (known.fields[2] == 'g') block.lookup.grid = &grids[instruction.c];
     const unsigned variant = (block.a.uniform ? 1u : 0u) | (block.b.uniform ? 2u : 0u) | (block.c.uniform ? 4u : 0u);
-    block.kernel = all_variants[instruction.operation][variant];
+    block.kernel = kernels[instruction.operation][variant];
     block.destination = block_operand(first_state, instruction.destination).index;
   }
   return decoded;
@@ -290,11 +300,11 @@ void Block::pairs(BlockOperand x, BlockOperand y, const float* registers, std::s
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {xs[i], ys[i]};
 }
 
-void Block::hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise,
-                 float* held) {
+void Block::hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise, float* held,
+                 [[maybe_unused]] Vectors vectors) {
   const float* from = next.uniform ? registers + next.index : row(next);
 #if defined(__x86_64__)
-  if (has_wide_vectors) return wide_hold(from, next.uniform, rule, otherwise, held);
+  if (vectors == Vectors::widest && has_wide_vectors()) return wide_hold(from, next.uniform, rule, otherwise, held);
 #endif
   narrow_hold(from, next.uniform, rule, otherwise, held);
 }

@@ -54,9 +54,17 @@ inline BlockOperand block_operand(const PatchProgram& program, RegisterNumber nu
   return block_operand(program.first_state(), number);
 }
 
+/// Which of the processor's instructions kernels use. Each lane goes through the same operations in either, so its bits
+/// are the same.
+enum class Vectors {
+  baseline,  ///< what every processor has that the build is for
+  widest,    ///< the best that this processor has
+};
+
 /// Code of a section other than setup for blocks. It points into `splines` and `grids`.
 BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
-                       std::span<const GridShape> grids, std::span<const Instruction> code);
+                       std::span<const GridShape> grids, std::span<const Instruction> code,
+                       Vectors vectors = Vectors::widest);
 
 /// The rows of one block at work.
 class Block {
@@ -71,7 +79,8 @@ class Block {
   void run(const BlockCode& code, const float* registers, const float* cells);
   /// What becomes of a state, as `held_state` says: `next` within the rule's range, or `otherwise` for not-a-number.
   /// The last two are rows of `lanes` floats. The caller holds a `FloatingPointMode`.
-  void hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise, float* held);
+  void hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise, float* held,
+            Vectors vectors = Vectors::widest);
   /// Pairs of operands, as many as `pairs` has room for: forces from their components.
   void pairs(BlockOperand x, BlockOperand y, const float* registers, std::span<glm::vec2> pairs) const;
   /// The value of an operand in a lane.

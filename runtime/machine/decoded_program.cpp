@@ -17,7 +17,8 @@ std::vector<GridShape> shapes_of(std::span<const Grid> grids) {
 
 std::vector<float> initial_cells_of(std::span<const Grid> grids) {
   std::vector<float> cells;
-  for (const Grid& grid : grids) cells.insert(cells.end(), std::size_t{grid.columns} * grid.rows, grid.initial);
+  for (const Grid& grid : grids)
+    cells.insert(cells.end(), std::size_t{grid.columns} * grid.rows, arithmetic::flushed(grid.initial));
   return cells;
 }
 
@@ -66,7 +67,9 @@ DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(ve
   picture = block(description.picture.code);
   for (const Peak& peak : description.peaks) peaks.push_back(block(peak.code));
   first_state = description.first_state();
-  for (const State& state : description.states) state_rules.push_back({state.low, state.high, state.next});
+  for (const State& state : description.states) state_rules.emplace_back(state);
+  for (const GridWrite& write : description.writes)
+    write_rules.emplace_back(write, description.grids[write.grid], grids[write.grid]);
   for (const Output& output : description.outputs) (output.axis == 0 ? force_x : force_y) = output.value;
 }
 

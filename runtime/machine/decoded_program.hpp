@@ -36,6 +36,7 @@ struct DecodedProgram {
   RegisterNumber force_x = 0, force_y = 0;  ///< the output registers
   RegisterNumber first_state = 0;
   std::vector<StateRule> state_rules;
+  std::vector<WriteRule> write_rules;
 
   LaneLookups lookups(const float* cells) const { return {splines.data(), grids.data(), cells}; }
 };

@@ -1,32 +1,46 @@
 #pragma once
 
 #include "runtime/machine/arithmetic.hpp"
+#include "runtime/machine/grid.hpp"
 #include "schema/patch_program.hpp"
 
 namespace wale {
 
-/// What becomes of a state at the end of a tick, without its name.
+/// How a state begins and goes on, without its name.
 struct StateRule {
+  explicit StateRule(const State& state)
+      : low(arithmetic::flushed(state.low)),
+        high(arithmetic::flushed(state.high)),
+        initial(state.initial),
+        next(state.next) {}
+
   float low, high;
-  RegisterNumber next;
+  RegisterNumber initial, next;
 };
 
-/// Zero of the same sign for a subnormal, whatever code the compiler made of what came before.
-inline float flushed(float value) {
-  const float zero = arithmetic::float_of(arithmetic::bits_of(value) & 0x80000000u);
-  return absolute(value) < arithmetic::least_normal ? zero : value;
-}
-
 /// What a state becomes when code leaves `value` for it: held in its range, and `otherwise` for not-a-number.
-template <class StateOrRule>
-float held_state(float value, const StateOrRule& state, float otherwise) {
-  return flushed(value >= state.low ? (value <= state.high ? value : state.high)
-                                    : (value < state.low ? state.low : otherwise));
+inline float held_state(float value, const StateRule& rule, float otherwise) {
+  return held_within(value, rule.low, rule.high, otherwise);
 }
 
 /// What a state begins with when `enter` leaves `value` for it.
-inline float initial_state(float value, const State& state) {
-  return held_state(value, state, state.low > 0.0f ? state.low : (state.high < 0.0f ? state.high : 0.0f));
+inline float initial_state(float value, const StateRule& rule) {
+  return held_state(value, rule, rule.low > 0.0f ? rule.low : (rule.high < 0.0f ? rule.high : 0.0f));
 }
+
+/// What is written to a grid at the end of a tick.
+struct WriteRule {
+  WriteRule(const GridWrite& write, const Grid& grid, const GridShape& where)
+      : shape(where),
+        u(write.u),
+        v(write.v),
+        value(write.value),
+        low(arithmetic::flushed(grid.low)),
+        high(arithmetic::flushed(grid.high)) {}
+
+  GridShape shape;
+  RegisterNumber u, v, value;
+  float low, high;  ///< what the value is held in
+};
 
 }  // namespace wale

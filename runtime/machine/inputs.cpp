@@ -4,20 +4,24 @@
 #include <limits>
 #include <optional>
 
+#include "runtime/machine/arithmetic.hpp"
+
 namespace wale {
 namespace {
 
-/// `value` held within +-`bound`; not-a-number gives 0.
+/// `value` held within +-`bound`; not-a-number gives 0, and a subnormal number the zero of its sign.
 float within(float value, float bound) {
   // A branch, which is foreseen: a tick does not wait for it as it would for a minimum and a maximum.
-  if (value >= -bound && value <= bound) [[likely]]
+  const float size = absolute(value);
+  if (size >= arithmetic::least_normal && size <= bound) [[likely]]
     return value;
-  return value >= -bound ? (value <= bound ? value : bound) : (value < 0 ? -bound : 0.0f);
+  return held_within(arithmetic::flushed(value), -bound, bound, 0.0f);
 }
 
+/// `time` as the nearest float, from 0 on, finite and not subnormal; not-a-number gives 0.
 float seconds(double time) {
   constexpr float most = std::numeric_limits<float>::max();
-  return time >= 0 ? (time <= most ? static_cast<float>(time) : most) : 0.0f;
+  return time >= arithmetic::least_normal ? (time <= most ? static_cast<float>(time) : most) : 0.0f;
 }
 
 /// Where a hand keeps an input, and how far it may go; nothing for time and button, which are no components of motion.

@@ -22,7 +22,8 @@ struct Envelope {
   float acceleration;  ///< m/s^2
 };
 
-/// Writes one input of each hand to `values`, which has room for them: held within the envelope, not-a-number as 0.
+/// Writes one input of each hand to `values`, which has room for them: held within the envelope, not-a-number as 0 and
+/// subnormal numbers as zeros.
 /// `input` is one of those that change from tick to tick.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept;

@@ -1,6 +1,5 @@
 #include "wale/memory.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "runtime/machine/decoded_program.hpp"
@@ -11,8 +10,8 @@
 namespace wale {
 
 Memory::Memory(const Program& program) : program_(program), cells_(program.decoded().initial_cells) {
-  for (const State& state : program.description().states) {
-    states_.push_back(initial_state(arithmetic::not_a_number, state));
+  for (const StateRule& rule : program.decoded().state_rules) {
+    states_.push_back(initial_state(arithmetic::not_a_number, rule));
   }
   initial_states_ = states_;
 }
@@ -27,8 +26,8 @@ void Memory::enter(Bank& bank, const Hand& hand) noexcept {
     enter_lane(program, registers);
   }
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i] = initial_states_[i] = registers[program.description.first_state() + i];
-    if (std::isnan(registers[program.description.states[i].initial])) ++restored_;
+    states_[i] = initial_states_[i] = registers[program.first_state + i];
+    if (std::isnan(registers[program.state_rules[i].initial])) ++restored_;
   }
 }
 
@@ -41,24 +40,21 @@ std::span<const float> Memory::grid(std::size_t index) const {
 __attribute__((noinline))  // see FloatingPointMode
 #endif
 void Memory::remember(const float* registers) noexcept {
-  const DecodedProgram& decoded = program_.decoded();
-  const PatchProgram& description = decoded.description;
+  const DecodedProgram& program = program_.decoded();
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const StateRule& rule = decoded.state_rules[i];
+    const StateRule& rule = program.state_rules[i];
     const float next = registers[rule.next];
-    const bool within = next >= rule.low && next <= rule.high && absolute(next) >= arithmetic::least_normal;
-    if (within) [[likely]] {  // foreseen, so the next tick need not wait for it
+    if (next >= rule.low && next <= rule.high) [[likely]] {  // foreseen, so the next tick need not wait for it
       states_[i] = next;
     } else {
       states_[i] = held_state(next, rule, initial_states_[i]);
       if (next != next) ++restored_;
     }
   }
-  for (const GridWrite& write : description.writes) {
-    const float u = registers[write.u], v = registers[write.v], value = registers[write.value];
+  for (const WriteRule& rule : program.write_rules) {
+    const float u = registers[rule.u], v = registers[rule.v], value = registers[rule.value];
     if (u != u || v != v || value != value) continue;
-    const Grid& grid = description.grids[write.grid];
-    cells_[cell_at(decoded.grids[write.grid], u, v)] = std::clamp(value, grid.low, grid.high);
+    cells_[cell_at(rule.shape, u, v)] = held_within(value, rule.low, rule.high, value);
   }
 }
 

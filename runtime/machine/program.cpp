@@ -13,15 +13,16 @@ namespace {
 
 float& at(float* registers, Input input) { return registers[static_cast<std::size_t>(input)]; }
 
-/// The size asked for where it makes sense: no side longer than `most`, the workspace, which proofs count on. A rim
-/// that leaves no middle is cut to a quarter of the smaller side.
+/// The size asked for where it makes sense: no side longer than `most`, the workspace, which proofs count on, and no
+/// half of one subnormal. A rim that leaves no middle is cut to a quarter of the smaller side.
 PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
-  const auto usable = [](float side) { return std::isfinite(side) && side > 0; };
+  const auto usable = [](float side) { return std::isfinite(side) && side >= 2 * arithmetic::least_normal; };
   size.width = std::min(usable(size.width) ? size.width : fallback.width, most);
   size.height = std::min(usable(size.height) ? size.height : fallback.height, most);
   if (!std::isfinite(size.rim) || size.rim < 0) size.rim = fallback.rim;
   const float smaller = std::min(size.width, size.height);
   if (size.rim >= 0.5f * smaller) size.rim = 0.25f * smaller;
+  size.rim = arithmetic::flushed(size.rim);
   return size;
 }
 
@@ -67,11 +68,14 @@ Bank::Bank(const Program& program, std::span<const float> parameters, PatchSize 
   at(registers, Input::patch_half_height) = 0.5f * size_.height;
   at(registers, Input::patch_rim) = size_.rim;
   at(registers, Input::seconds_per_tick) = static_cast<float>(1 / description.device.rate);
-  std::copy(description.constants.begin(), description.constants.end(), registers + first_constant);
+  std::transform(description.constants.begin(), description.constants.end(), registers + first_constant,
+                 arithmetic::flushed);
   for (std::size_t i = 0; i < description.parameters.size(); ++i) {
     const Parameter& parameter = description.parameters[i];
-    const float asked = i < parameters.size() && !std::isnan(parameters[i]) ? parameters[i] : parameter.value;
-    registers[description.first_parameter() + i] = std::clamp(asked, parameter.low, parameter.high);
+    const float asked = i < parameters.size() ? parameters[i] : parameter.value;
+    registers[description.first_parameter() + i] =
+        held_within(arithmetic::flushed(asked), arithmetic::flushed(parameter.low), arithmetic::flushed(parameter.high),
+                    arithmetic::flushed(parameter.value));
   }
   const FloatingPointMode mode;
   run_lane(program_.decoded(), description.setup, registers, nullptr);
@@ -83,7 +87,7 @@ Prediction predict(const Bank& bank, std::size_t index, float amplitude) {
   const DecodedProgram& program = bank.program().decoded();
   const PerceptRecord& percept = program.description.percepts[index];
   std::vector<float> registers(bank.registers().begin(), bank.registers().end());
-  at(registers.data(), Input::probe) = amplitude;
+  at(registers.data(), Input::probe) = arithmetic::flushed(amplitude);
   {
     const FloatingPointMode mode;
     run_lane(program, percept.prediction, registers.data(), nullptr);

@@ -47,6 +47,11 @@ void to_coefficients(std::span<double> lines) {
   for (double& coefficient : lines) coefficient *= 6;
 }
 
+/// As a float that is the same in any mode of the thread: subnormal ones, into which a signal fades, are zeros.
+float coefficient_of(double value) {
+  return value < arithmetic::least_normal && value > -arithmetic::least_normal ? 0.0f : static_cast<float>(value);
+}
+
 /// Where coefficient `i`, -1 .. samples + 1, stands among 0 .. samples - 1.
 std::size_t mirrored_index(std::ptrdiff_t i, std::ptrdiff_t samples) {
   const std::ptrdiff_t period = 2 * (samples - 1);
@@ -59,6 +64,8 @@ std::size_t mirrored_index(std::ptrdiff_t i, std::ptrdiff_t samples) {
 Spline::Spline(const HeightTable& table)
     : width(table.width),
       height(table.height),
+      last_column(static_cast<float>(table.width - 1)),
+      last_row(static_cast<float>(table.height - 1)),
       stride(table.width + 3),
       coefficients(static_cast<std::size_t>(stride) * (table.height + 3)) {
   const auto row = [&](std::size_t j) { return coefficients.data() + (j + 1) * stride + 1; };
@@ -73,7 +80,7 @@ Spline::Spline(const HeightTable& table)
     }
     to_coefficients(lines);
     for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t i = 0; i < width; ++i) row(first + k)[i] = static_cast<float>(lines[i * at_once + k]);
+      for (std::size_t i = 0; i < width; ++i) row(first + k)[i] = coefficient_of(lines[i * at_once + k]);
   }
   lines.assign(std::size_t{height} * at_once, 0.0);
   for (std::size_t first = 0; first < width; first += at_once) {
@@ -81,7 +88,7 @@ Spline::Spline(const HeightTable& table)
     for (std::size_t j = 0; j < height; ++j) std::copy_n(row(j) + first, count, lines.data() + j * at_once);
     to_coefficients(lines);
     for (std::size_t j = 0; j < height; ++j)
-      for (std::size_t k = 0; k < count; ++k) row(j)[first + k] = static_cast<float>(lines[j * at_once + k]);
+      for (std::size_t k = 0; k < count; ++k) row(j)[first + k] = coefficient_of(lines[j * at_once + k]);
   }
 
   for (std::size_t j = 0; j < height; ++j) {

@@ -18,6 +18,7 @@ struct Spline {
   explicit Spline(const HeightTable& table);
 
   std::uint32_t width, height;      ///< samples, 2 or more
+  float last_column, last_row;      ///< numbers of the last samples, width - 1 and height - 1
   std::uint32_t stride;             ///< coefficients in a row, width + 3: the mirrored one before and two after
   std::vector<float> coefficients;  ///< height + 3 rows likewise
 };
@@ -29,15 +30,14 @@ struct SplineSample {
 
 /// A coordinate brought into the table by mirroring.
 struct MirroredCoordinate {
-  std::uint32_t cell;  ///< 0 .. samples - 1
+  std::uint32_t cell;  ///< 0 .. the last sample's number
   float fraction;      ///< within the cell
   float sign;          ///< of the derivative: -1 where the mirror image runs backwards
 };
 
-/// Any float is safe: not-a-number and infinities are taken for 0, and far beyond the table the position within the
-/// image is as good as the float's own resolution.
-inline MirroredCoordinate mirrored(float coordinate, std::uint32_t samples) {
-  const float last = static_cast<float>(samples - 1);
+/// `coordinate` brought between 0 and `last`, the last sample's number. Any float is safe: not-a-number and infinities
+/// are taken for 0, and far beyond the table the position within the image is as good as the float's own resolution.
+inline MirroredCoordinate mirrored(float coordinate, float last) {
   const float period = last + last;
   const float image = coordinate - floor_of(coordinate / period) * period;  // [0, period], rounding aside
   const float folded = image > last ? period - image : image;
@@ -88,8 +88,8 @@ SplineSample sample_among(const Coefficient& coefficient, const CubicWeights& ac
 
 /// The spline at (a, b) samples from the centre of its first sample, a along rows.
 inline SplineSample sample_of(const Spline& spline, float a, float b) {
-  const MirroredCoordinate column = mirrored(a, spline.width);
-  const MirroredCoordinate row = mirrored(b, spline.height);
+  const MirroredCoordinate column = mirrored(a, spline.last_column);
+  const MirroredCoordinate row = mirrored(b, spline.last_row);
   const std::size_t stride = spline.stride;
   const float* corner = spline.coefficients.data() + (row.cell * stride + column.cell);
   const SplineSample sample = sample_among(

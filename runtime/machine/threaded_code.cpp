@@ -1,12 +1,28 @@
 #include "runtime/machine/threaded_code.hpp"
 
+#include <algorithm>
 #include <array>
 
+#include "runtime/machine/lane_spline.hpp"
 #include "runtime/machine/meaning.hpp"
 
-// Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973): every handler ends in a jump of its own to the
-// next one, so that a processor predicts each by what came before it. GCC would merge these jumps into one again: the
-// options that stop it stand in runtime/CMakeLists.txt.
+// Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973), each handler a function that ends by jumping to
+// the next one: what all of them need stays in the registers of the calling convention, each saves only what it uses
+// itself, and the processor predicts each jump by what came before it.
+
+// A function must end in a jump to the next one, or the stack would grow with the program. GCC and Clang see to that
+// where they optimise and nothing is left to be done on the way out, as there is for sanitizers. Elsewhere, and with
+// WALE_PORTABLE_DISPATCH, the switch is the only way. tests/machine/threaded_code.cpp looks at the stack.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WALE_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define WALE_SANITIZED
+#endif
+#endif
+#if defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(WALE_SANITIZED) && !defined(WALE_PORTABLE_DISPATCH)
+#define WALE_TAIL_CALLS
+#endif
 
 namespace wale {
 namespace {
@@ -19,13 +35,6 @@ constexpr unsigned stop = 0;
 constexpr unsigned handler_number(unsigned operation, unsigned forwarded) {
   return operation * forwardings + forwarded;
 }
-
-constexpr std::size_t handlers = [] {
-  std::size_t end = 0;
-  for (std::size_t number = 0; number < operation_table.size(); ++number)
-    if (!operation_table[number].name.empty()) end = handler_number(static_cast<unsigned>(number) + 1, 0);
-  return end;
-}();
 
 /// Runs one instruction and gives its first result, which the next one may take as `last`.
 template <Operation operation, unsigned forwarded>
@@ -41,18 +50,18 @@ template <Operation operation, unsigned forwarded>
     return sample.value;
   };
   if constexpr (operation == Operation::sample) {
-    return three(sample_of(lookups.splines[i.c], a, b));
+    return three(sample_in_lane(lookups.splines[i.c], a, b));
   } else if constexpr (operation == Operation::recall) {
     return three(recall_of(lookups.grids[i.c], lookups.cells, a, b));
   } else if constexpr (operation == Operation::cell) {
     return *results = lookups.cells[cell_at(lookups.grids[i.c], a, b)];
+  } else if constexpr (operation == Operation::select) {
+    return *results = registers[a != 0.0f ? i.b : i.c];
   } else if constexpr (operation == Operation::peak) {
     return last;  // setup's alone, which is not decoded
   } else if constexpr (operation == Operation::limit) {
-    // What is within stays as it is. The branch is foreseen, where a minimum and a maximum would be waited for. These
-    // flush subnormals, so such are left to them.
-    const bool within = a >= -b && a <= b && absolute(a) >= arithmetic::least_normal;
-    if (within) [[likely]]
+    // What is within stays as it is. The branch is foreseen, where a minimum and a maximum would be waited for.
+    if (absolute(a) <= b) [[likely]]
       return *results = a;
     return *results = limited(a, b);
   } else {
@@ -61,7 +70,8 @@ template <Operation operation, unsigned forwarded>
 }
 
 // clang-format off
-#define WALE_ALL_FORWARDINGS(name) WALE_HANDLER(name, 0) WALE_HANDLER(name, 1) WALE_HANDLER(name, 2) WALE_HANDLER(name, 3)
+#define WALE_ALL_FORWARDINGS(name) \
+  WALE_HANDLER(name, 0) WALE_HANDLER(name, 1) WALE_HANDLER(name, 2) WALE_HANDLER(name, 3)
 #define WALE_STEP(name, forwarded) step<Operation::name, forwarded>(*at, last, registers, lookups)
 // clang-format on
 
@@ -84,72 +94,92 @@ void run_by_switch(const ThreadedInstruction* at, const LaneLookups& lookups, fl
   }
 }
 
-#if defined(__GNUC__) && !defined(WALE_PORTABLE_DISPATCH)
+#if defined(WALE_TAIL_CALLS)
 
-using Labels = std::array<std::uintptr_t, handlers>;
+constexpr std::size_t handlers = [] {
+  std::size_t end = 0;
+  for (std::size_t number = 0; number < operation_table.size(); ++number)
+    if (!operation_table[number].name.empty()) end = handler_number(static_cast<unsigned>(number) + 1, 0);
+  return end;
+}();
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpedantic"  // labels have no address in ISO C++
+using Handler = void (*)(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers,
+                         float last) noexcept;
 
-/// Runs code whose handlers are labels of this function; given none, says where they are.
-__attribute__((noinline, flatten)) void run_by_goto(const ThreadedInstruction* at, const LaneLookups& lookups,
-                                                    float* registers, Labels* labels) noexcept {
-  float last = 0;
-  if (at == nullptr) [[unlikely]] {
-    // clang-format off
-#define WALE_HANDLER(name, forwarded) \
-    (*labels)[handler_number(static_cast<unsigned>(Operation::name), forwarded)] = \
-        reinterpret_cast<std::uintptr_t>(&&name##_##forwarded);
-#define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) WALE_ALL_FORWARDINGS(name)
-#define SPECIAL(number, name, fields, results, cost) WALE_ALL_FORWARDINGS(name)
-#include "schema/instruction.def"
-#undef WALE_HANDLER
-    // clang-format on
-    (*labels)[stop] = reinterpret_cast<std::uintptr_t>(&&finish);
-    return;
-  }
-  goto* reinterpret_cast<const void*>(at->handler);
+// `at` is stepped on in its place: GCC would make a copy for the next one and move it.
+#define WALE_RUN_FROM_HERE                                          \
+  last = step<operation, forwarded>(*at, last, registers, lookups); \
+  ++at;                                                             \
+  asm("" : "+r"(at));                                               \
+  return reinterpret_cast<Handler>(at->handler)(at, lookups, registers, last)
+
+template <Operation operation, unsigned forwarded>
+void run_from(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers, float last) noexcept {
+  WALE_RUN_FROM_HERE;
+}
+
+#if defined(__x86_64__)
+template <Operation operation, unsigned forwarded>
+[[gnu::target("avx")]] void run_wide_from(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers,
+                                          float last) noexcept {
+  WALE_RUN_FROM_HERE;
+}
+
+bool has_wide_instructions() { return __builtin_cpu_supports("avx") != 0; }
+#else
+bool has_wide_instructions() { return false; }
+#endif
+
+template <bool wide, Operation operation, unsigned forwarded>
+constexpr Handler handler() {
+#if defined(__x86_64__)
+  if (wide) return run_wide_from<operation, forwarded>;
+#endif
+  return run_from<operation, forwarded>;
+}
+
+void finish(const ThreadedInstruction*, const LaneLookups&, float*, float) noexcept {}
+
+template <bool wide>
+constexpr auto handlers_by_number = [] {
+  std::array<Handler, handlers> all{};
+  all[stop] = finish;
   // clang-format off
-#define WALE_HANDLER(name, forwarded)                  \
-  name##_##forwarded:                                  \
-    last = WALE_STEP(name, forwarded);                 \
-    ++at;                                              \
-    goto* reinterpret_cast<const void*>(at->handler);
+#define WALE_HANDLER(name, forwarded)                                        \
+  all[handler_number(static_cast<unsigned>(Operation::name), forwarded)] = \
+      handler<wide, Operation::name, forwarded>();
 #define INSTRUCTION(number, name, fields, results, cost, meaning, range, derivative) WALE_ALL_FORWARDINGS(name)
 #define SPECIAL(number, name, fields, results, cost) WALE_ALL_FORWARDINGS(name)
 #include "schema/instruction.def"
 #undef WALE_HANDLER
   // clang-format on
-finish:;
-}
-
-#pragma GCC diagnostic pop
-
-const Labels& labels() {
-  static const Labels all = [] {
-    Labels found{};
-    run_by_goto(nullptr, {}, nullptr, &found);
-    return found;
-  }();
   return all;
-}
+}();
 
 #endif
 
 /// What an instruction's handler is called under a way of dispatch.
 std::uintptr_t handler_of(unsigned number, [[maybe_unused]] Dispatch dispatch) {
-#if defined(__GNUC__) && !defined(WALE_PORTABLE_DISPATCH)
-  if (dispatch == Dispatch::computed_goto) return labels()[number];
+#if defined(WALE_TAIL_CALLS)
+  if (dispatch == Dispatch::wide_tail_calls) return reinterpret_cast<std::uintptr_t>(handlers_by_number<true>[number]);
+  if (dispatch == Dispatch::tail_calls) return reinterpret_cast<std::uintptr_t>(handlers_by_number<false>[number]);
 #endif
   return number;
 }
 
 }  // namespace
 
+Dispatch fastest_dispatch() {
+#if defined(WALE_TAIL_CALLS)
+  return has_wide_instructions() ? Dispatch::wide_tail_calls : Dispatch::tail_calls;
+#else
+  return Dispatch::portable_switch;
+#endif
+}
+
 ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch) {
   ThreadedCode decoded;
-  if (fastest_dispatch == Dispatch::portable_switch) dispatch = fastest_dispatch;
-  decoded.dispatch = dispatch;
+  decoded.dispatch = dispatch = std::max(dispatch, fastest_dispatch());  // in their order, what is there
   decoded.instructions.reserve(code.size() + 1);
   const Instruction* before = nullptr;
   for (const Instruction& i : code) {
@@ -167,9 +197,10 @@ ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatc
 }
 
 void run_threaded(const ThreadedCode& code, const LaneLookups& lookups, float* registers) noexcept {
-#if defined(__GNUC__) && !defined(WALE_PORTABLE_DISPATCH)
-  if (code.dispatch == Dispatch::computed_goto) {
-    return run_by_goto(code.instructions.data(), lookups, registers, nullptr);
+#if defined(WALE_TAIL_CALLS)
+  if (code.dispatch != Dispatch::portable_switch) {
+    const ThreadedInstruction* const first = code.instructions.data();
+    return reinterpret_cast<Handler>(first->handler)(first, lookups, registers, 0.0f);
   }
 #endif
   run_by_switch(code.instructions.data(), lookups, registers);

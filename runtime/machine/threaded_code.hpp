@@ -12,18 +12,15 @@
 
 namespace wale {
 
-/// How the machine gets from one instruction to the next. Both give the same bits.
+/// How the machine gets from one instruction to the next. All give the same bits.
 enum class Dispatch {
-  computed_goto,    ///< each instruction holds the address of the code that runs it (GCC, Clang)
+  wide_tail_calls,  ///< as the next, in instructions that not every processor has (AVX)
+  tail_calls,       ///< each instruction holds the address of the function that runs it, which jumps to the next one's
   portable_switch,  ///< each instruction holds a number, and one switch chooses
 };
 
-// WALE_PORTABLE_DISPATCH makes the switch the only one.
-#if defined(__GNUC__) && !defined(WALE_PORTABLE_DISPATCH)
-inline constexpr Dispatch fastest_dispatch = Dispatch::computed_goto;
-#else
-inline constexpr Dispatch fastest_dispatch = Dispatch::portable_switch;
-#endif
+/// The best that this build and this processor have.
+Dispatch fastest_dispatch();
 
 /// An instruction decoded for one lane: what runs it, and its registers. What runs it knows which operands are the
 /// result of the instruction before, and takes these from where that left them instead of from memory.
@@ -43,12 +40,12 @@ struct LaneLookups {
 /// Straight-line code for one lane.
 struct ThreadedCode {
   std::vector<ThreadedInstruction> instructions;  ///< the last one stops
-  Dispatch dispatch = fastest_dispatch;
+  Dispatch dispatch = Dispatch::portable_switch;
 };
 
-/// Verified code of a section other than setup (which alone runs peaks) made ready. A `dispatch` that this build lacks
-/// becomes the one that it has.
-ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch = fastest_dispatch);
+/// Verified code of a section other than setup (which alone runs peaks) made ready. A `dispatch` that this build or
+/// this processor lacks becomes the fastest that they have.
+ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch = fastest_dispatch());
 
 /// Runs the code once over the program's registers. The caller holds a `FloatingPointMode`.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.

@@ -27,7 +27,8 @@ inline constexpr std::size_t writes_limit = 16, marks_limit = 1024;
 inline constexpr std::size_t shown_instructions = 5;
 
 /// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md. A refusal of
-/// code shows the instructions that led to it, at most `shown_instructions`, with the lines that they come from where the program carries them.
+/// code shows the instructions that led to it, at most `shown_instructions`, with the lines that they come from where
+/// the program carries them.
 ///
 /// A program that passes stops in time, reads nothing that is not defined, remembers a bounded amount, and commands no
 /// force beyond its ceilings, whatever its registers hold. Takes time and memory in proportion to the program.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "runtime/machine/arithmetic.hpp"
 #include "runtime/machine/verify.hpp"
 #include "schema/refuse.hpp"
 
@@ -119,7 +120,7 @@ void verify_lattices(const PatchProgram& program) {
 void verify_patch(const PatchProgram& program) {
   const double most = program.device.workspace_diameter;
   const auto side = [most](float value, std::string_view what) {
-    if (!(value > 0 && value <= most)) {
+    if (!(value >= 2 * arithmetic::least_normal && value <= most)) {  // half of less is zero to the machine
       refuse("the patch's ", what, " is ", value, " m and must be above 0 and at most the workspace's ", most);
     }
   };

@@ -34,6 +34,9 @@ TEST(Version, NamesProgramAndLanguage) {
   EXPECT_TRUE(contains(version.out, "language version 1"));
 }
 
+// Linked with OpenImageIO every command would take a quarter of a second longer: compiler/image/image_library.hpp.
+TEST(Version, IsToldWithoutTheLibraryOfPictures) { EXPECT_FALSE(contains(bytes_of(WALE_BINARY), "libOpenImageIO")); }
+
 TEST(Misuse, IsStatus2AndSaysSo) {
   const std::vector<std::vector<std::string>> misuses{{},
                                                       {"nonsense"},

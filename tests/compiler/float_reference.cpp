@@ -63,6 +63,11 @@ std::vector<Hand> random_hands(std::mt19937& random) {
     hand.workspace = {in(0.1), in(0.1)};
     hand.time = 5 + in(5);
     hand.button = in(1) > 0;
+    if (i % 3 == 2) {  // subnormal, or nearly
+      hand.position = {in(1e-38), in(4e-44)};
+      hand.velocity = hand.workspace = {in(2e-38), in(1e-37)};
+      hand.time = 1e-39;
+    }
     hands.push_back(hand);
   }
   return hands;
@@ -205,6 +210,27 @@ TEST(FloatReference, AgreesWithTheMachineOnHeights) {
       compare(solved.materials.front(), random, text);
       if (HasFatalFailure()) return;
     }
+  }
+}
+
+// Operations that choose among their operands, where these are subnormal; a quotient shows the sign of a zero.
+TEST(FloatReference, AgreesWithTheMachineOnSubnormalNumbers) {
+  std::mt19937 random(1999);
+  Files none;
+  for (const std::string length :
+       {"min(x, 1e-40 m)", "max(x, -1e-40 m)", "clamp(x, -1e-41 m, 1e-42 m)", "if x < y then tiny else -tiny",
+        "min(tiny, max(x, -tiny))", "if tiny > 0 m then x else y", "s", "abs(min(s, tiny))",
+        "track(vector(y, x)) + min(x, y)"}) {
+    const std::string text =
+        "wale 1\nmaterial m {\n  physical {\n    param tiny = 1e-40 m in -1e-39 m .. 1 mm\n"
+        "    state s : length = x in -1e-40 m .. 1e-39 m\n    next s = min(x, tiny)\n"
+        "    memory track : length = -1e-41 m in -1e-40 m .. 1e-40 m, cell 20 mm\n    next track = x\n"
+        "    let a = " +
+        length + "\n    force = vector((1e-3 N m) / a, a * 1e38 N/m)\n  }\n}\n";
+    SCOPED_TRACE(text);
+    const Solved solved("test.wale", text, none);
+    for (int i = 0; i < 5; ++i) compare(solved.materials.front(), random, text);
+    if (HasFatalFailure()) return;
   }
 }
 

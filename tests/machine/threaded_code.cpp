@@ -1,9 +1,11 @@
 // Threaded code, by either dispatch, against the plain switch over canonical instructions: every register, bit for bit.
-// Not-a-number is one value: compilers may swap the operands of a sum, and a sum of two of them has the first one's bits.
+// Not-a-number is one value: compilers may swap the operands of a sum, and a sum of two of them has the first one's
+// bits.
 
 #include "runtime/machine/threaded_code.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <bit>
 #include <cmath>
@@ -20,7 +22,7 @@ namespace {
 using example::instruction;
 using example::loaded;
 
-constexpr Dispatch dispatches[] = {Dispatch::computed_goto, Dispatch::portable_switch};
+constexpr Dispatch dispatches[] = {Dispatch::wide_tail_calls, Dispatch::tail_calls, Dispatch::portable_switch};
 
 std::vector<std::uint32_t> bits(const std::vector<float>& registers) {
   std::vector<std::uint32_t> all;
@@ -48,8 +50,8 @@ std::vector<float> threaded(const DecodedProgram& program, std::span<const Instr
 std::vector<float> anything(const Program& program, example::RandomProgram& generator) {
   const Bank bank(program);
   std::vector<float> registers(bank.registers().begin(), bank.registers().end());
-  constexpr float extremes[] = {0.0f,  -0.0f,  1e-40f,           -1e-45f,           1e-20f,
-                                3e38f, -3e38f, __builtin_inff(), -__builtin_inff(), __builtin_nanf("")};
+  constexpr float extremes[] = {
+      0.0f, -0.0f, 1e-20f, -1.2e-38f, 3e38f, -3e38f, __builtin_inff(), -__builtin_inff(), __builtin_nanf("")};
   for (std::size_t i = 0; i < registers.size(); ++i) {
     if (i >= first_constant && i < program.description().first_state()) continue;
     registers[i] =
@@ -119,6 +121,37 @@ TEST(ThreadedCode, ForwardsNothingElse) {
     const auto expected = bits(plain(program.decoded(), code, registers));
     for (const Dispatch dispatch : dispatches)
       ASSERT_EQ(bits(threaded(program.decoded(), code, dispatch, registers)), expected);
+  }
+}
+
+// Handlers that jump to one another leave nothing on the stack: a million instructions run on one of 64 KiB.
+TEST(ThreadedCode, NeedsNoStackHoweverLongItIs) {
+  example::RandomProgram generator(4);
+  const Program program = loaded(generator.make());
+  const unsigned temporary = program.description().first_temporary();
+  constexpr std::size_t often = 1'000'000;
+  const std::vector<Instruction> code(often, instruction(Operation::add, temporary, temporary, temporary + 1));
+  for (const Dispatch dispatch : dispatches) {
+    struct Run {
+      ThreadedCode code;
+      LaneLookups lookups;
+      std::vector<float> registers;
+    } run{decode_threaded(code, dispatch), program.decoded().lookups(nullptr),
+          std::vector<float>(program.description().register_count())};
+    run.registers[temporary + 1] = 1;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    ASSERT_EQ(pthread_attr_setstacksize(&attributes, 64 * 1024), 0);
+    pthread_t thread;
+    const auto body = [](void* argument) -> void* {
+      Run& given = *static_cast<Run*>(argument);
+      run_threaded(given.code, given.lookups, given.registers.data());
+      return nullptr;
+    };
+    ASSERT_EQ(pthread_create(&thread, &attributes, body, &run), 0);
+    pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+    EXPECT_EQ(run.registers[temporary], static_cast<float>(often));
   }
 }
 

@@ -38,6 +38,12 @@ struct Step {
   bool zero() const { return is(0.0f) || is(-0.0f); }
 };
 
+/// What comes from outside as the machine takes it: subnormal numbers are the zeros of their signs.
+float entering(double number) {
+  const auto value = static_cast<float>(number);
+  return std::fpclassify(value) == FP_SUBNORMAL ? std::copysign(0.0f, value) : value;
+}
+
 [[gnu::noinline]] float applied(Operation operation, float a, float b, float c) {
   // clang-format off
   switch (operation) {
@@ -113,19 +119,19 @@ class FloatEvaluation {
 
   const Step* work_out(const Term& term) {
     switch (term.kind) {
-      case TermKind::literal: return constant(static_cast<float>(term.value));
+      case TermKind::literal: return constant(entering(term.value));
       case TermKind::input: {
         const Input input = term.input();
         const bool patch = input == Input::patch_half_width || input == Input::patch_half_height ||
                            input == Input::patch_rim || input == Input::seconds_per_tick;
         return keep({.kind = Step::Kind::input,
-                     .value = (*inputs_)[term.index],
+                     .value = entering((*inputs_)[term.index]),
                      .changes = patch ? Changes::with_parameters : Changes::with_hand,
                      .index = term.index});
       }
       case TermKind::parameter:
         return keep({.kind = Step::Kind::input,
-                     .value = simulation_.parameters_[term.index],
+                     .value = entering(simulation_.parameters_[term.index]),
                      .changes = Changes::with_parameters,
                      .index = 32});
       case TermKind::state:
@@ -326,7 +332,7 @@ namespace {
 /// Within low .. high; `otherwise` for not-a-number.
 float held_within(float value, double low, double high, float otherwise) {
   if (std::isnan(value)) return otherwise;
-  return std::min(std::max(value, static_cast<float>(low)), static_cast<float>(high));
+  return std::min(std::max(value, entering(low)), entering(high));
 }
 
 }  // namespace
@@ -343,7 +349,7 @@ void FloatSimulation::place() {
   cells_.clear();
   for (const Grid& memory : material_.memories) {
     first_cells_.push_back(cells_.size());
-    cells_.insert(cells_.end(), std::size_t{memory.columns} * memory.rows, memory.initial);
+    cells_.insert(cells_.end(), std::size_t{memory.columns} * memory.rows, entering(memory.initial));
   }
   states_.assign(material_.states.size(), 0.0f);
   initial_states_ = states_;

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "compiler/image/openimageio.hpp"
+#include "compiler/image/openimageio/functions.hpp"
+
+namespace wale::openimageio {
+
+std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawing& drawing, const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  const auto unknown = [&] {
+    OIIO::geterror();
+    return DrawingProblem{
+        extension.empty() ? fmt::format("cannot write {}: its name ends in no picture format; try .png", name)
+                          : fmt::format("cannot write {}: pictures are not written as .{}; try .png", name, extension)};
+  };
+  if (extension.empty() || extension == "null" || extension == "nul") return unknown();
+  auto output = OIIO::ImageOutput::create(extension);
+  if (!output || !output->supports("ioproxy")) return unknown();
+
+  std::vector<unsigned char> file;
+  OIIO::Filesystem::IOVecOutput memory(file);
+  output->threads(1);
+  OIIO::ImageSpec spec(drawing.width, drawing.height, 3, OIIO::TypeUInt8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  if (!output->set_ioproxy(&memory) || !output->open("drawing." + extension, spec) ||
+      !output->write_image(OIIO::TypeUInt8, drawing.rgb.data()) || !output->close()) {
+    return DrawingProblem{fmt::format("cannot write {}: {}", name, OIIO::Strutil::strip(output->geterror()))};
+  }
+  const auto* first = reinterpret_cast<const std::byte*>(file.data());
+  return std::vector<std::byte>(first, first + file.size());
+}
+
+std::vector<std::uint8_t> shrunk(std::span<const float> rgb, int width, int height, int columns, int rows) {
+  const OIIO::ROI size(0, columns, 0, rows, 0, 1, 0, 3);
+  // A wrapped buffer is written to by no one here; ImageBuf has no wrapper of constants.
+  const OIIO::ImageBuf fine(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat), const_cast<float*>(rgb.data()));
+  const OIIO::ImageBuf page = OIIO::ImageBufAlgo::resize(fine, "box", 1.0f, size, 1);
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * 3);
+  page.get_pixels(size, OIIO::TypeUInt8, pixels.data());
+  return pixels;
+}
+
+std::vector<float> surroundings(std::span<const float> values, int side, double reach) {
+  using namespace OIIO::ImageBufAlgo;
+  OIIO::ImageBuf source(OIIO::ImageSpec(side, side, 1, OIIO::TypeFloat));
+  source.set_pixels(source.roi(), OIIO::TypeFloat, values.data());
+  // What is blurred is blurred as well from a small picture.
+  const int small = std::clamp(static_cast<int>(12 * side / reach), 16, side);
+  const auto width = static_cast<float>(reach * small / side);
+  const auto few = resize(source, "triangle", 0.0f, OIIO::ROI(0, small, 0, small, 0, 1, 0, 1), 1);
+  const auto blurred = convolve(few, make_kernel("gaussian", width, width), true, {}, 1);
+  const auto around = resize(blurred, "gaussian", 0.0f, source.roi(), 1);
+  std::vector<float> means(values.size());
+  around.get_pixels(around.roi(), OIIO::TypeFloat, means.data());
+  return means;
+}
+
+}  // namespace wale::openimageio

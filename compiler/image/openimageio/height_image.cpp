@@ -1,0 +1,378 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "compiler/image/openimageio.hpp"
+#include "compiler/image/openimageio/functions.hpp"
+
+namespace wale::openimageio {
+namespace {
+
+using OIIO::ImageBuf;
+using OIIO::ImageInput;
+using OIIO::ImageSpec;
+namespace algorithm = OIIO::ImageBufAlgo;
+
+// One thread: the order of additions, and so the last bit, is the same on every machine.
+constexpr int threads = 1;
+constexpr int most_channels = 64;
+constexpr long long samples_per_band = 1 << 22;
+
+/// Heights of 0 .. 1, one channel, rows from the top.
+struct HeightField {
+  int width = 0, height = 0;
+  int orientation = 1;
+  std::vector<float> heights;
+};
+
+/// Sends what is written to standard error nowhere while it lives: libpng writes its complaints there, past
+/// OpenImageIO's errors, which hold the same words. Lines that other threads write meanwhile are lost.
+class MutedStandardError {
+ public:
+  MutedStandardError() : lock_(mutex_) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    std::fflush(stderr);
+    kept_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (kept_ >= 0) ::dup2(nowhere, STDERR_FILENO);
+    ::close(nowhere);
+  }
+  ~MutedStandardError() {
+    if (kept_ < 0) return;
+    std::fflush(stderr);
+    ::dup2(kept_, STDERR_FILENO);
+    ::close(kept_);
+  }
+  MutedStandardError(const MutedStandardError&) = delete;
+  MutedStandardError& operator=(const MutedStandardError&) = delete;
+
+ private:
+  inline static std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_;
+  int kept_ = -1;
+};
+
+/// A file that holds given bytes while this object lives, for decoders that cannot read from memory.
+class TemporaryFile {
+ public:
+  TemporaryFile(std::span<const std::byte> bytes, const std::string& extension) {
+    std::error_code error;
+    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error) return;
+    path_ = (folder / ("wale-XXXXXX." + extension)).string();
+    const int file = ::mkstemps(path_.data(), static_cast<int>(extension.size() + 1));
+    if (file < 0) {
+      path_.clear();
+      return;
+    }
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file, bytes.data(), bytes.size());
+      if (written <= 0) break;
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    whole_ = bytes.empty();
+    ::close(file);
+  }
+  ~TemporaryFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  bool whole() const { return whole_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  bool whole_ = false;
+};
+
+/// OpenImageIO's words on one line, or ours where it has none.
+std::string words_of(std::string error, const std::string& otherwise) {
+  const auto lines = OIIO::Strutil::splits(OIIO::Strutil::strip(error), "\n");
+  const std::string words = OIIO::Strutil::join(lines, "; ");
+  return words.empty() ? otherwise : words;
+}
+
+/// Which channels are summed into the height, with what weights; the other weights are zero.
+std::vector<float> luminance_weights(const ImageSpec& spec) {
+  constexpr std::array<float, 3> rec709 = {0.2126f, 0.7152f, 0.0722f};
+  std::vector<float> weights(static_cast<std::size_t>(spec.nchannels), 0.0f);
+  std::array<int, 3> named = {-1, -1, -1};
+  std::vector<int> colours;
+  for (int channel = 0; channel < spec.nchannels; ++channel) {
+    const std::string name = OIIO::Strutil::lower(spec.channel_name(channel));
+    if (channel != spec.alpha_channel && channel != spec.z_channel) colours.push_back(channel);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string letter(1, "rgb"[i]);
+      const bool is_named = name == letter || OIIO::Strutil::ends_with(name, "." + letter);
+      if (is_named && named[i] < 0) named[i] = channel;
+    }
+  }
+  if (colours.empty()) colours.push_back(0);
+  // Two channels are grey and alpha, whatever they are called.
+  if (colours.size() < 3) {
+    weights[static_cast<std::size_t>(colours[0])] = 1.0f;
+    return weights;
+  }
+  const bool all_named = std::ranges::all_of(named, [](int channel) { return channel >= 0; });
+  for (std::size_t i = 0; i < 3; ++i) weights[static_cast<std::size_t>(all_named ? named[i] : colours[i])] = rec709[i];
+  return weights;
+}
+
+std::optional<ImageProblem> refusal_of(const ImageSpec& spec) {
+  if (spec.deep) return ImageProblem{"is a deep image, which has no single height per pixel"};
+  if (spec.depth > 1) return ImageProblem{"is a volume; a height map has two dimensions"};
+  if (spec.width < smallest_image_side || spec.height < smallest_image_side) {
+    return ImageProblem{fmt::format("is {} x {} pixels; heights need at least {} x {}", spec.width, spec.height,
+                                    smallest_image_side, smallest_image_side),
+                        true};
+  }
+  if (static_cast<long long>(spec.width) * spec.height > most_image_pixels) {
+    return ImageProblem{fmt::format("is {} x {} pixels, more than {} million; make it smaller", spec.width, spec.height,
+                                    most_image_pixels / 1'000'000),
+                        true};
+  }
+  if (spec.nchannels < 1 || spec.nchannels > most_channels) {
+    return ImageProblem{fmt::format("has {} channels; a picture has 1 to {}", spec.nchannels, most_channels)};
+  }
+  if (static_cast<long long>(spec.tile_width) * spec.tile_height * spec.nchannels > most_image_pixels) {
+    return ImageProblem{
+        fmt::format("is made of tiles of {} x {} pixels, which is too much to hold", spec.tile_width, spec.tile_height),
+        true};
+  }
+  return std::nullopt;
+}
+
+/// Reads band by band, so that a large picture of many channels never stands in memory whole.
+std::variant<HeightField, ImageProblem> read_luminance(ImageInput& input) {
+  const ImageSpec spec = input.spec();
+  if (auto refused = refusal_of(spec)) return *refused;
+  const std::vector<float> weights = luminance_weights(spec);
+  HeightField field{spec.width, spec.height, spec.get_int_attribute("Orientation", 1), {}};
+  field.heights.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
+
+  const bool tiled = spec.tile_width > 0;
+  const long long samples_per_row = static_cast<long long>(spec.width) * spec.nchannels;
+  const int rows =
+      tiled ? spec.tile_height : static_cast<int>(std::clamp(samples_per_band / samples_per_row, 1LL, 64LL));
+  std::vector<float> band(static_cast<std::size_t>(samples_per_row * std::min(rows, spec.height)));
+  for (int top = 0; top < spec.height; top += rows) {
+    const int count = std::min(rows, spec.height - top);
+    const int first = spec.y + top, last = first + count;
+    const bool read = tiled
+                          ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, first, last, 0, 1, 0, spec.nchannels,
+                                             OIIO::TypeFloat, band.data())
+                          : input.read_scanlines(0, 0, first, last, 0, 0, spec.nchannels, OIIO::TypeFloat, band.data());
+    // A decoder that patches over a gap in the data returns true and leaves its complaint.
+    if (!read || input.has_error())
+      return ImageProblem{"cannot be read: " + words_of(input.geterror(), "its pixels end too soon")};
+    for (float& value : band) value = value > 0 ? std::min(value, 1.0f) : 0.0f;
+
+    const ImageBuf source(ImageSpec(spec.width, count, spec.nchannels, OIIO::TypeFloat), band.data());
+    float* row = &field.heights[static_cast<std::size_t>(top) * static_cast<std::size_t>(spec.width)];
+    ImageBuf sum(ImageSpec(spec.width, count, 1, OIIO::TypeFloat), row);
+    if (!algorithm::channel_sum(sum, source, weights, {}, threads)) {
+      return ImageProblem{"cannot be turned into heights: " + words_of(sum.geterror(), "channels")};
+    }
+  }
+  return field;
+}
+
+std::variant<HeightField, ImageProblem> decode_as(const std::string& format, std::span<const std::byte> bytes,
+                                                  const std::string& extension) {
+  std::unique_ptr<ImageInput> input = ImageInput::create(format);
+  if (!input) return ImageProblem{"cannot be read: " + words_of(OIIO::geterror(), "no decoder for " + format)};
+  input->threads(threads);
+
+  ImageSpec found, wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);  // else colours come multiplied by alpha
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
+  std::optional<TemporaryFile> file;
+  std::string name = "image." + extension;
+  if (input->supports("ioproxy")) {
+    input->set_ioproxy(&memory);
+  } else {
+    file.emplace(bytes, extension);
+    if (!file->whole()) return ImageProblem{"cannot be read: no room for a temporary file"};
+    name = file->path();
+  }
+  if (!input->open(name, found, wishes)) {
+    return ImageProblem{"cannot be read: " + words_of(input->geterror(), "not a " + format + " file")};
+  }
+  auto field = read_luminance(*input);
+  input->close();
+  return field;
+}
+
+/// The decoders that are let near a stranger's file: each survived thousands of damaged ones. Of OpenImageIO 2.4's
+/// others, dpx, heif, iff, ico and psd were brought to crash, and the rest are rare or read something else than a
+/// picture's bytes.
+constexpr std::array<std::string_view, 14> trusted_formats = {"png", "tiff", "jpeg",  "openexr",  "bmp", "gif", "webp",
+                                                              "hdr", "pnm",  "targa", "jpeg2000", "sgi", "rla", "fits"};
+
+bool is_trusted(std::string_view format) { return std::ranges::find(trusted_formats, format) != trusted_formats.end(); }
+
+/// The decoder that OpenImageIO keeps for an extension, empty if there is none.
+std::string format_of(const std::string& extension) {
+  for (const std::string& entry : OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";")) {
+    const auto parts = OIIO::Strutil::splits(entry, ":");
+    if (parts.size() != 2) continue;
+    const auto extensions = OIIO::Strutil::splits(parts[1], ",");
+    if (std::ranges::find(extensions, extension) != extensions.end()) return parts[0];
+  }
+  return {};
+}
+
+std::variant<HeightField, ImageProblem> decode(std::span<const std::byte> bytes, const std::string& name) {
+  std::string extension = OIIO::Strutil::lower(std::filesystem::path(name).extension().string());
+  if (!extension.empty()) extension.erase(0, 1);
+  const std::string expected = format_of(extension);
+  std::optional<ImageProblem> problem;
+  if (!expected.empty() && !is_trusted(expected)) {
+    problem = ImageProblem{"is in a format that is not read as heights; save it as PNG, TIFF or EXR"};
+  } else if (!expected.empty()) {
+    auto field = decode_as(expected, bytes, extension);
+    if (std::holds_alternative<HeightField>(field)) return field;
+    problem = std::get<ImageProblem>(field);
+  }
+  // A wrong extension is common; these formats know their own files by the first bytes and read from memory.
+  struct Signature {
+    const char* format;
+    std::string_view first_bytes;
+  };
+  using namespace std::string_view_literals;
+  constexpr std::array signatures = {
+      Signature{"png", "\x89PNG"sv},     Signature{"jpeg", "\xff\xd8\xff"sv},
+      Signature{"tiff", "II*\0"sv},      Signature{"tiff", "MM\0*"sv},
+      Signature{"tiff", "II+\0"sv},      Signature{"tiff", "MM\0+"sv},
+      Signature{"openexr", "v/1\x01"sv}, Signature{"bmp", "BM"sv},
+      Signature{"gif", "GIF8"sv},        Signature{"hdr", "#?R"sv},
+      Signature{"webp", "RIFF"sv},
+  };
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const Signature& signature : signatures) {
+    if (signature.format == expected || !text.starts_with(signature.first_bytes)) continue;
+    auto field = decode_as(signature.format, bytes, signature.format);
+    // The bytes outweigh the extension: it is this decoder's complaint that helps.
+    if (std::holds_alternative<HeightField>(field)) return field;
+    problem = std::get<ImageProblem>(field);
+  }
+  return problem.value_or(ImageProblem{"is in no format that OpenImageIO knows (PNG, TIFF, JPEG, EXR, ...)"});
+}
+
+HeightField field_of(const ImageBuf& buffer) {
+  HeightField field{buffer.spec().width, buffer.spec().height, 1, {}};
+  field.heights.resize(static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.height));
+  buffer.get_pixels(buffer.roi(), OIIO::TypeFloat, field.heights.data());
+  return field;
+}
+
+ImageBuf buffer_of(HeightField& field) {
+  ImageSpec spec(field.width, field.height, 1, OIIO::TypeFloat);
+  return ImageBuf(spec, field.heights.data());
+}
+
+/// As its photographer held the camera.
+HeightField upright(HeightField field) {
+  if (field.orientation <= 1 || field.orientation > 8) return field;
+  ImageBuf source = buffer_of(field);
+  source.set_orientation(field.orientation);
+  ImageBuf turned = algorithm::reorient(source, threads);
+  return turned.has_error() ? field : field_of(turned);
+}
+
+/// No side longer than `largest_image_side`. The filter has no negative lobes: they would ring at a step, and a ripple
+/// that the eye forgives is felt.
+HeightField fitted(HeightField field) {
+  const int longest = std::max(field.width, field.height);
+  if (longest <= largest_image_side) return field;
+  const auto shrink = [&](int side) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * largest_image_side / longest)));
+  };
+  const OIIO::ROI size(0, shrink(field.width), 0, shrink(field.height), 0, 1, 0, 1);
+  const ImageBuf source = buffer_of(field);
+  return field_of(algorithm::resize(source, "blackman-harris", 0.0f, size, threads));
+}
+
+/// A Gaussian row of weights with its centre at 0, standard deviation `sigma` samples, out to 4 of them.
+/// ImageBufAlgo::make_kernel("gaussian") ends at 2 standard deviations, which makes it narrower than it says.
+ImageBuf gaussian_row(double sigma, bool upright_row) {
+  const int reach = std::max(1, static_cast<int>(std::ceil(4 * sigma)));
+  const int length = 2 * reach + 1;
+  ImageSpec spec(upright_row ? 1 : length, upright_row ? length : 1, 1, OIIO::TypeFloat);
+  (upright_row ? spec.y : spec.x) = -reach;
+  (upright_row ? spec.full_y : spec.full_x) = -reach;
+  ImageBuf kernel(spec);
+  for (int i = -reach; i <= reach; ++i) {
+    const float weight = static_cast<float>(std::exp(-0.5 * i * i / (sigma * sigma)));
+    kernel.setpixel(upright_row ? 0 : i, upright_row ? i : 0, OIIO::cspan<float>(weight));
+  }
+  return kernel;
+}
+
+HeightField smoothed(HeightField field, double sigma_x, double sigma_y) {
+  const ImageBuf source = buffer_of(field);
+  const ImageBuf across = algorithm::convolve(source, gaussian_row(sigma_x, false), true, {}, threads);
+  return field_of(algorithm::convolve(across, gaussian_row(sigma_y, true), true, {}, threads));
+}
+
+HeightTable quantised(const HeightField& field) {
+  HeightTable table{static_cast<std::uint32_t>(field.width), static_cast<std::uint32_t>(field.height), {}};
+  table.heights.reserve(field.heights.size());
+  for (float height : field.heights) {
+    table.heights.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(height, 0.0f, 1.0f) * 65535.0)));
+  }
+  return table;
+}
+
+std::variant<HeightImage, ImageProblem> heights_from(HeightField whole, double smooth_pixels) {
+  whole = upright(std::move(whole));
+  const double columns = whole.width, rows = whole.height;
+  HeightField field = fitted(std::move(whole));
+  if (std::min(field.width, field.height) < smallest_image_side) {
+    return ImageProblem{fmt::format("is {} x {} pixels, too long and narrow for heights", columns, rows), true};
+  }
+  HeightImage image;
+  image.pixels_per_column = columns / field.width;
+  image.pixels_per_row = rows / field.height;
+  if (smooth_pixels > 0) {
+    const double sigma_x = smooth_pixels / image.pixels_per_column, sigma_y = smooth_pixels / image.pixels_per_row;
+    if (std::max(sigma_x, sigma_y) > widest_smoothing) {
+      return ImageProblem{fmt::format("cannot be smoothed by {} pixels; {} is the most: make it smaller first",
+                                      smooth_pixels, std::floor(widest_smoothing * image.pixels_per_column))};
+    }
+    field = smoothed(std::move(field), sigma_x, sigma_y);
+  }
+  image.table = quantised(field);
+  return image;
+}
+
+}  // namespace
+
+std::variant<HeightImage, ImageProblem> read_height_image(std::span<const std::byte> bytes, const std::string& name,
+                                                          double smooth_pixels) {
+  if (!(smooth_pixels >= 0)) return ImageProblem{"cannot be smoothed by a negative number of pixels"};
+  if (bytes.empty()) return ImageProblem{"is empty"};
+  const MutedStandardError muted;
+  const auto decoded = [&]() -> std::variant<HeightImage, ImageProblem> {
+    try {
+      auto field = decode(bytes, name);
+      if (auto* problem = std::get_if<ImageProblem>(&field)) return *problem;
+      return heights_from(std::get<HeightField>(std::move(field)), smooth_pixels);
+    } catch (const std::exception& exception) {  // a decoder's own, or memory that a crafted header asked for
+      return ImageProblem{std::string("cannot be read: ") + exception.what()};
+    }
+  }();
+  OIIO::geterror();  // what attempts at other formats left behind
+  return decoded;
+}
+
+}  // namespace wale::openimageio
