@@ -136,12 +136,12 @@ const Labels& labels() {
 
 #endif
 
-/// What an instruction's handler is called under a way of dispatch.
-std::uintptr_t handler_of(unsigned number, [[maybe_unused]] Dispatch dispatch) {
+/// What the handlers are called under a way of dispatch, by number; null where by their numbers.
+const std::uintptr_t* handler_names([[maybe_unused]] Dispatch dispatch) {
 #if defined(__GNUC__) && !defined(WALE_PORTABLE_DISPATCH)
-  if (dispatch == Dispatch::computed_goto) return labels()[number];
+  if (dispatch == Dispatch::computed_goto) return labels().data();
 #endif
-  return number;
+  return nullptr;
 }
 
 }  // namespace
@@ -150,19 +150,19 @@ ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatc
   ThreadedCode decoded;
   if (fastest_dispatch == Dispatch::portable_switch) dispatch = fastest_dispatch;
   decoded.dispatch = dispatch;
-  decoded.instructions.reserve(code.size() + 1);
-  const Instruction* before = nullptr;
+  const std::uintptr_t* names = handler_names(dispatch);
+  const auto named = [names](unsigned number) { return names ? names[number] : std::uintptr_t{number}; };
+  decoded.instructions.resize(code.size() + 1);
+  ThreadedInstruction* next = decoded.instructions.data();
+  constexpr unsigned nothing = register_limit;  // no register: what comes before the first instruction
+  unsigned last = nothing;
   for (const Instruction& i : code) {
     const int operands = operation_table[i.operation].operands;
-    const auto is_last = [&](int operand, RegisterNumber number) {
-      return before != nullptr && operands > operand && before->destination == number;
-    };
-    const unsigned forwarded = (is_last(0, i.a) ? 1u : 0u) | (is_last(1, i.b) ? 2u : 0u);
-    decoded.instructions.push_back(
-        {handler_of(handler_number(i.operation, forwarded), dispatch), i.destination, i.a, i.b, i.c});
-    before = &i;
+    const unsigned forwarded = (operands > 0 && i.a == last ? 1u : 0u) | (operands > 1 && i.b == last ? 2u : 0u);
+    *next++ = {named(handler_number(i.operation, forwarded)), i.destination, i.a, i.b, i.c};
+    last = i.destination;
   }
-  decoded.instructions.push_back({handler_of(stop, dispatch)});
+  *next = {named(stop)};
   return decoded;
 }
 
