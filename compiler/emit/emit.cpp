@@ -40,6 +40,8 @@ class TemporaryAllocator {
     return first;
   }
   void give_back(std::size_t first, std::size_t count) {
+    free_[first / word_bits] |= bit(first);
+    if (count == 1) return;
     for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
   }
   std::size_t most() const { return most_; }
@@ -321,7 +323,8 @@ class Emitter {
     for (NodeId id = end; id-- > 0;) {
       if (wanted_[id] != section) continue;
       order.push_back(id);
-      for (const NodeId operand : steps_[id].operands) want(operand, id);
+      const auto& operands = steps_[id].operands;
+      want(operands[0], id), want(operands[1], id), want(operands[2], id);
     }
     std::ranges::reverse(order);
     return order;
@@ -337,9 +340,12 @@ class Emitter {
       const NodeId id = order[i];
       registers_[id] = static_cast<RegisterNumber>(first_temporary_ + temporaries.take(steps_[id].width));
       code[i] = instruction(id);
-      for (const NodeId operand : steps_[id].operands)
+      const auto end_of = [&](NodeId operand) {
         if (last_use_[operand] == id)  // giving back twice is giving back once
           temporaries.give_back(registers_[operand] - first_temporary_, steps_[operand].width);
+      };
+      const auto& operands = steps_[id].operands;
+      end_of(operands[0]), end_of(operands[1]), end_of(operands[2]);
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
