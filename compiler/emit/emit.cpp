@@ -187,45 +187,49 @@ class Emitter {
     // Each constant is one node, so there is nothing to look up: the register of the first comes first.
     const auto pooled = [&](float value) {
       program_.constants.push_back(value);
-      return static_cast<RegisterNumber>(first_constant + program_.constants.size() - 1);
+      return static_cast<std::uint32_t>(first_constant + program_.constants.size() - 1);
     };
     for (NodeId id = 0; id < graph_.size(); ++id) {
-      if (!needed_[id] || graph_[id].kind != Node::Kind::constant) continue;
+      if (graph_[id].kind != Node::Kind::constant || !needed(id)) continue;
       registers_[id] = pooled(graph_[id].value);
-      if (graph_.is_constant(id, 0.0f)) zero_register_ = registers_[id];
+      if (graph_.is_constant(id, 0.0f)) zero_register_ = at(id);
     }
-    if (!lowered_.relief && zero_register_ == 0) zero_register_ = pooled(0.0f);
+    if (!lowered_.relief && zero_register_ == 0) zero_register_ = static_cast<RegisterNumber>(pooled(0.0f));
 
     const std::size_t first_parameter = first_constant + program_.constants.size();
     const std::size_t first_setup = first_parameter + program_.parameters.size();
     std::size_t next = first_setup;
     std::vector<NodeId> states;
     for (NodeId id = 0; id < graph_.size(); ++id) {
-      if (!needed_[id]) continue;
+      if (!needed(id)) continue;
       const Node& node = graph_[id];
       switch (node.kind) {
         case Node::Kind::constant:
         case Node::Kind::component: break;
-        case Node::Kind::input: registers_[id] = static_cast<RegisterNumber>(node.index); break;
-        case Node::Kind::parameter: registers_[id] = static_cast<RegisterNumber>(first_parameter + node.index); break;
+        case Node::Kind::input: registers_[id] = node.index; break;
+        case Node::Kind::parameter: registers_[id] = static_cast<std::uint32_t>(first_parameter + node.index); break;
         case Node::Kind::state: states.push_back(id); break;
         case Node::Kind::operation:
         case Node::Kind::peak:
           if (node.rate != Rate::setup) break;
           setup_nodes_.push_back(id);
-          registers_[id] = static_cast<RegisterNumber>(next);
+          registers_[id] = static_cast<std::uint32_t>(next);
           next += steps_[id].width;
       }
     }
     program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(next - first_setup, register_limit));
-    for (const NodeId id : states) registers_[id] = static_cast<RegisterNumber>(next + graph_[id].index);
+    for (const NodeId id : states) registers_[id] = static_cast<std::uint32_t>(next + graph_[id].index);
     first_temporary_ = next + lowered_.states.size();
   }
 
   /// Says what is needed, and what sections are to know of it.
   void find_needed() {
-    needed_.assign(graph_.size(), false);
-    const auto need = [&](NodeId id) { needed_[id] = true; };
+    steps_.resize(graph_.size());
+    registers_.resize(graph_.size() + 1);
+    last_use_.resize(graph_.size() + 1, no_use);
+    wanted_.resize(graph_.size() + 1, not_needed);
+    const auto need = [&](NodeId id) { wanted_[id] = in_no_section; };
+    need(nothing_);
     for (const NodeId id : {lowered_.force[0], lowered_.force[1], lowered_.ceiling}) need(id);
     if (lowered_.relief) need(*lowered_.relief);
     if (lowered_.colour) std::ranges::for_each(*lowered_.colour, need);
@@ -234,34 +238,36 @@ class Emitter {
     for (const auto& operands : lowered_.marks) std::ranges::for_each(operands, need);
     for (const auto& percept : lowered_.percepts) need(percept.amplitude), need(percept.magnitude), need(percept.level);
 
-    steps_.resize(graph_.size());
-    registers_.resize(graph_.size() + 1);
-    last_use_.resize(graph_.size() + 1, no_use);
-    wanted_.resize(graph_.size() + 1, in_no_section);
     for (NodeId id = nothing_; id-- > 0;) {
-      if (!needed_[id]) continue;
-      const Operands operands = graph_.operands(id);
-      for (const NodeId operand : operands) need(operand);
+      if (!needed(id)) continue;
       const Node& node = graph_[id];
-      if (node.kind == Node::Kind::operation) {
-        steps_[id] = step_of(node, operands);
-        if (node.rate == Rate::tick) wanted_[id] = 0;
+      if (node.kind == Node::Kind::component) {
+        need(node.a);
       } else if (node.kind == Node::Kind::peak) {
+        need(node.a), need(node.b), need(node.c);
         steps_[id].width = 1;
+      } else if (node.kind == Node::Kind::operation) {
+        steps_[id] = step_of(node);
+        for (const NodeId operand : steps_[id].operands) need(operand);
+        if (node.rate == Rate::tick) wanted_[id] = 0;
       }
     }
   }
 
-  Step step_of(const Node& node, const Operands& operands) const {
+  bool needed(NodeId id) const { return wanted_[id] != not_needed; }
+
+  Step step_of(const Node& node) const {
     const OperationFacts& known = facts(node.operation);
     Step step{.operands = {nothing_, nothing_, nothing_},
               .width = static_cast<std::uint8_t>(known.results),
               .operation = node.operation};
-    for (std::size_t i = 0; i < operands.size(); ++i) {
-      const Node& operand = graph_[operands[i]];
-      const bool component = operand.kind == Node::Kind::component;
-      step.operands[i] = component ? operand.a : operands[i];
-      step.results[i] = static_cast<RegisterNumber>(component ? operand.index : 0);
+    const std::array<NodeId, 3> operands{node.a, node.b, node.c};
+    for (int i = 0; i < known.operands; ++i) {
+      step.operands[i] = operands[i];
+      if (const Node& operand = graph_[operands[i]]; operand.kind == Node::Kind::component) {
+        step.operands[i] = operand.a;
+        step.results[i] = static_cast<RegisterNumber>(operand.index);
+      }
     }
     if (known.fields[2] == 't' || known.fields[2] == 'g') step.results[2] = static_cast<RegisterNumber>(node.index);
     return step;
@@ -270,7 +276,7 @@ class Emitter {
   /// Where a value is found.
   RegisterNumber at(NodeId id) const {
     const Node& node = graph_[id];
-    if (node.kind != Node::Kind::component) return registers_[id];
+    if (node.kind != Node::Kind::component) return static_cast<RegisterNumber>(registers_[id]);
     return static_cast<RegisterNumber>(registers_[node.a] + node.index);
   }
 
@@ -279,7 +285,8 @@ class Emitter {
     const auto operand = [&](std::size_t i) {
       return static_cast<RegisterNumber>(registers_[step.operands[i]] + step.results[i]);
     };
-    return {static_cast<std::uint8_t>(step.operation), registers_[id], operand(0), operand(1), operand(2)};
+    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers_[id]), operand(0),
+            operand(1), operand(2)};
   }
 
   void emit_setup() {
@@ -297,7 +304,7 @@ class Emitter {
       peak.points = peak_points;
       peak.percentile = peak_percentile;
       program_.setup.push_back({.operation = static_cast<std::uint8_t>(Operation::peak),
-                                .destination = registers_[id],
+                                .destination = at(id),
                                 .a = static_cast<RegisterNumber>(program_.peaks.size())});
       program_.peaks.push_back(std::move(peak));
     }
@@ -306,11 +313,13 @@ class Emitter {
   /// What a section has to work out for its roots, operands first; `last_use_` says until when each is needed.
   std::vector<NodeId> order_for(const std::vector<NodeId>& roots) {
     const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
+    std::size_t pending = 0;  // asked for and not looked at yet
     // Values are asked for from the last to the first, so whoever is first to ask for one is last to use it.
     const auto want = [&](NodeId id, NodeId user) {
       if (wanted_[id] >= section) return;
       wanted_[id] = section;
       last_use_[id] = user;
+      ++pending;
     };
     NodeId end = 0;
     for (const NodeId root : roots) {
@@ -318,16 +327,15 @@ class Emitter {
       want(id, no_use);
       end = std::max(end, id + 1);
     }
-    std::vector<NodeId> order;
-    order.reserve(end);
-    for (NodeId id = end; id-- > 0;) {
-      if (wanted_[id] != section) continue;
-      order.push_back(id);
+    backwards_.clear();
+    for (NodeId id = end; pending > 0;) {
+      if (wanted_[--id] != section) continue;
+      --pending;
+      backwards_.push_back(id);
       const auto& operands = steps_[id].operands;
       want(operands[0], id), want(operands[1], id), want(operands[2], id);
     }
-    std::ranges::reverse(order);
-    return order;
+    return {backwards_.rbegin(), backwards_.rend()};
   }
 
   /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `registers_` the
@@ -338,7 +346,7 @@ class Emitter {
     std::vector<Instruction> code(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
       const NodeId id = order[i];
-      registers_[id] = static_cast<RegisterNumber>(first_temporary_ + temporaries.take(steps_[id].width));
+      registers_[id] = static_cast<std::uint32_t>(first_temporary_ + temporaries.take(steps_[id].width));
       code[i] = instruction(id);
       const auto end_of = [&](NodeId operand) {
         if (last_use_[operand] == id)  // giving back twice is giving back once
@@ -356,15 +364,16 @@ class Emitter {
   const SolvedMaterial& material_;
   PatchProgram program_;
   static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
-  static constexpr std::uint32_t in_no_section = ~std::uint32_t{0};
+  static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
 
-  const NodeId
-      nothing_;  ///< stands for the operands that an operation does not have: register 0, which no section sets
-  std::vector<char> needed_;  ///< by node, like all that follows
-  std::vector<Step> steps_;
-  std::vector<RegisterNumber> registers_;
-  std::vector<std::uint32_t> wanted_;  ///< the last section that works it out, from 1; `in_no_section` where none may
-  std::vector<NodeId> last_use_;       ///< who is the last in that section to use it
+  /// Stands for the operands that an operation does not have: register 0, which no section sets.
+  const NodeId nothing_;
+  std::vector<Step> steps_;               ///< by node, like all that follows
+  std::vector<std::uint32_t> registers_;  ///< there may be more of them than a program may have: `emit` refuses it then
+  /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
+  std::vector<std::uint32_t> wanted_;
+  std::vector<NodeId> last_use_;   ///< who is the last in that section to use it
+  std::vector<NodeId> backwards_;  ///< what the section at work needs, the last first
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
   RegisterNumber zero_register_ = 0;                ///< of the constant 0: the relief of a program that has none
