@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include "compiler/graph/graph.hpp"
@@ -15,7 +14,7 @@ struct Expression {
   Graph* graph;
   NodeId id;
 
-  bool zero() const { return (*graph)[id].kind == Node::Kind::constant && (*graph)[id].value == 0; }  // or -0
+  bool zero() const { return graph->is_constant(id, 0.0f) || graph->is_constant(id, -0.0f); }
   bool one() const { return graph->is_constant(id, 1.0f); }
 };
 
@@ -113,18 +112,16 @@ NodeId Derivatives::operator()(NodeId of) {
   const NodeId zero = graph.constant(0);
   if (known_.size() <= of) known_.resize(of + 1, none);
   std::vector<char> needed(of + 1, false);  // as bool: bits are slower to look at one by one
-  std::vector<NodeId> changing;             ///< those of them that change from tick to tick, the last first
-  changing.reserve(of + 1);
   needed[of] = known_[of] == none;
   for (NodeId id = of + 1; id-- > 0;) {
     if (!needed[id]) continue;
     known_[id] = zero;  // unless there is more to say, below
     if (graph[id].rate != Rate::tick) continue;
-    changing.push_back(id);
     for (const NodeId operand : graph.operands(id)) needed[operand] = known_[operand] == none;
   }
 
-  for (const NodeId id : changing | std::views::reverse) {
+  for (NodeId id = 0; id <= of; ++id) {
+    if (!needed[id] || graph[id].rate != Rate::tick) continue;
     const Node node = graph[id];  // a copy: the graph grows below
     graph.attribute(node.span);
     switch (node.kind) {

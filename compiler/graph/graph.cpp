@@ -35,7 +35,7 @@ void Graph::reserve(std::size_t nodes) {
   if (2 * nodes > table_.size()) enlarge_table(std::bit_ceil(2 * nodes));
 }
 
-[[gnu::noinline]] void Graph::enlarge_table(std::size_t slots) {
+void Graph::enlarge_table(std::size_t slots) {
   const std::vector<Slot> entries = std::move(table_);
   table_.assign(slots, {});
   for (const Slot& entry : entries) {
@@ -49,16 +49,14 @@ void Graph::reserve(std::size_t nodes) {
 NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
   const std::uint32_t hash = hash_of(node);
-  const std::size_t mask = table_.size() - 1;
-  Slot* slot = &table_[hash & mask];
-  for (; slot->node != none; slot = &table_[(slot - table_.data() + 1) & mask])
-    if (slot->hash == hash && same(nodes_[slot->node], node)) return slot->node;
-  const auto added = static_cast<NodeId>(nodes_.size());
-  *slot = {hash, added};
+  std::size_t at = hash & (table_.size() - 1);
+  for (; table_[at].node != none; at = (at + 1) & (table_.size() - 1))
+    if (table_[at].hash == hash && same(nodes_[table_[at].node], node)) return table_[at].node;
+  table_[at] = {hash, static_cast<NodeId>(nodes_.size())};
   ++in_table_;
   nodes_.push_back(node);
   if (node.span == Span{}) nodes_.back().span = place_;
-  return added;
+  return table_[at].node;
 }
 
 NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }
