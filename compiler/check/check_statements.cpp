@@ -15,6 +15,7 @@ StatementChecker::StatementChecker(CheckedMaterial& material, ExpressionChecker&
 }
 
 void StatementChecker::check(const std::vector<AssembledStatement>& statements) {
+  scope_.reserve(statements.size());
   for (const auto& assembled : statements) {
     statement_ = &assembled;
     checker_.read(*assembled.home);

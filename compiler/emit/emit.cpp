@@ -19,10 +19,10 @@ class TemporaryAllocator {
   /// The lowest register that is free.
   std::size_t take() {
     std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
-    while (word < used_.size() && used_[word] == ~std::uint64_t{0}) ++word;
-    if (word == used_.size()) used_.push_back(0);
-    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_one(used_[word]));
-    used_[word] |= bit(first);
+    while (free_[word] == 0)
+      if (++word == free_.size()) free_.push_back(~std::uint64_t{0});
+    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free_[word]));
+    free_[word] &= free_[word] - 1;
     most_ = std::max(most_, first + 1);
     return first;
   }
@@ -31,16 +31,18 @@ class TemporaryAllocator {
     if (count == 1) return take();
     std::size_t first = 0;
     for (std::size_t run = 0, i = 0; run < count; ++i) {
-      run = is_used(i) ? 0 : run + 1;
+      if (i / word_bits == free_.size()) free_.push_back(~std::uint64_t{0});
+      run = (free_[i / word_bits] & bit(i)) != 0 ? run + 1 : 0;
       first = i + 1 - run;
     }
-    used_.resize(std::max(used_.size(), (first + count - 1) / word_bits + 1));
-    for (std::size_t i = first; i < first + count; ++i) used_[i / word_bits] |= bit(i);
+    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] &= ~bit(i);
     most_ = std::max(most_, first + count);
     return first;
   }
   void give_back(std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) used_[i / word_bits] &= ~bit(i);
+    free_[first / word_bits] |= bit(first);
+    if (count == 1) return;
+    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
   }
   std::size_t most() const { return most_; }
 
@@ -48,49 +50,15 @@ class TemporaryAllocator {
   static constexpr std::size_t word_bits = 64;
 
   static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % word_bits; }
-  bool is_used(std::size_t i) const { return i / word_bits < used_.size() && (used_[i / word_bits] & bit(i)) != 0; }
 
-  std::vector<std::uint64_t> used_;  ///< a bit for each register
+  std::vector<std::uint64_t> free_{~std::uint64_t{0}};  ///< a bit for each register
   std::size_t most_ = 0;
-};
-
-/// The nodes that a section still has to look at, the highest first. What comes in is lower than what was taken last.
-class PendingNodes {
- public:
-  explicit PendingNodes(std::size_t nodes) : words_(nodes / word_bits + 1) {}
-
-  /// Whether it was not there yet.
-  bool insert(NodeId id) {
-    const std::size_t word = id / word_bits;
-    const std::uint64_t bit = std::uint64_t{1} << id % word_bits;
-    if ((words_[word] & bit) != 0) return false;
-    words_[word] |= bit;
-    highest_word_ = std::max(highest_word_, word);
-    return true;
-  }
-  /// The highest of them, or nothing when there is none.
-  std::optional<NodeId> take() {
-    while (words_[highest_word_] == 0) {
-      if (highest_word_ == 0) return std::nullopt;
-      --highest_word_;
-    }
-    std::uint64_t& word = words_[highest_word_];
-    const int bit = std::bit_width(word) - 1;
-    word ^= std::uint64_t{1} << bit;
-    return static_cast<NodeId>(highest_word_ * word_bits + static_cast<std::size_t>(bit));
-  }
-
- private:
-  static constexpr std::size_t word_bits = 64;
-
-  std::vector<std::uint64_t> words_;  ///< a bit for each node
-  std::size_t highest_word_ = 0;      ///< above it all bits are zero
 };
 
 class Emitter {
  public:
   Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material)
-      : graph_(lowered.graph), lowered_(lowered), material_(material), pending_(graph_.size()) {}
+      : graph_(lowered.graph), lowered_(lowered), material_(material), nothing_(static_cast<NodeId>(graph_.size())) {}
 
   PatchProgram emit() {
     program_.material = material_.name;
@@ -173,13 +141,21 @@ class Emitter {
   SourcePlaces places(const SourceLines& lines) const {
     SourcePlaces places;
     std::map<SourceId, std::uint16_t> files;
-    const auto runs_of = [&](const std::vector<Span>& spans) {
+    // A node stands in several sections: its line is looked for once.
+    std::vector<SourcePlaces::Run> known(graph_.size(), {0, 0, 0});
+    const auto run_of = [&](NodeId id) {
+      SourcePlaces::Run& run = known[id];
+      if (run.instructions == 1) return run;
+      const Span span = graph_[id].span == Span{} ? material_.span : graph_[id].span;
+      const auto [file, added] = files.try_emplace(span.source, static_cast<std::uint16_t>(places.files.size()));
+      if (added) places.files.push_back(lines.file(span.source));
+      run = {1, file->second, lines.line(span)};
+      return run;
+    };
+    const auto runs_of = [&](const std::vector<NodeId>& nodes) {
       std::vector<SourcePlaces::Run> runs;
-      for (const Span& known : spans) {
-        const Span span = known == Span{} ? material_.span : known;
-        const auto [file, added] = files.try_emplace(span.source, static_cast<std::uint16_t>(places.files.size()));
-        if (added) places.files.push_back(lines.file(span.source));
-        const SourcePlaces::Run run{1, file->second, lines.line(span)};
+      for (const NodeId id : nodes) {
+        const SourcePlaces::Run run = run_of(id);
         if (!runs.empty() && runs.back().file == run.file && runs.back().line == run.line)
           ++runs.back().instructions;
         else
@@ -187,150 +163,197 @@ class Emitter {
       }
       return runs;
     };
-    places.sections.push_back(runs_of(setup_spans_));
-    for (const auto& spans : section_spans_) places.sections.push_back(runs_of(spans));
+    places.sections.push_back(runs_of(setup_nodes_));
+    for (const auto& nodes : section_nodes_) places.sections.push_back(runs_of(nodes));
     return places;
   }
 
   std::size_t registers_needed() const { return first_temporary_ + most_temporaries_; }
 
  private:
+  /// What sections see of a node, each of them anew. A component is a register of its sample, which stands for it. What
+  /// is no operand is result 0 of `nothing_`.
+  struct Step {
+    std::array<NodeId, 3> operands{};  ///< of a component its sample
+    std::array<RegisterNumber, 3>
+        results{};           ///< which of that one's registers; of `nothing_` a table's number or a grid's
+    std::uint8_t width = 0;  ///< registers
+    Operation operation = Operation::add;
+  };
+
   /// Finds what is needed at all, then lays out constants, parameters and setup results.
   void plan() {
-    std::vector<NodeId> roots{lowered_.force[0], lowered_.force[1], lowered_.ceiling};
-    if (lowered_.relief) roots.push_back(*lowered_.relief);
-    if (lowered_.colour) roots.insert(roots.end(), lowered_.colour->begin(), lowered_.colour->end());
-    for (const auto& state : lowered_.states) roots.insert(roots.end(), {state.initial, state.next});
-    for (const auto& write : lowered_.writes) roots.insert(roots.end(), {write.u, write.v, write.value});
-    for (const auto& operands : lowered_.marks) roots.insert(roots.end(), operands.begin(), operands.end());
-    for (const auto& percept : lowered_.percepts)
-      roots.insert(roots.end(), {percept.amplitude, percept.magnitude, percept.level});
-    needed_.assign(graph_.size(), false);
-    for (const NodeId root : roots) needed_[root] = true;
-    for (NodeId id = static_cast<NodeId>(graph_.size()); id-- > 0;)
-      if (needed_[id])
-        for (const NodeId operand : graph_.operands(id)) needed_[operand] = true;
-    registers_.assign(graph_.size(), 0);
-    last_use_.assign(graph_.size(), no_use);
-
+    find_needed();
     // Each constant is one node, so there is nothing to look up: the register of the first comes first.
     const auto pooled = [&](float value) {
       program_.constants.push_back(value);
-      return static_cast<RegisterNumber>(first_constant + program_.constants.size() - 1);
+      return static_cast<std::uint32_t>(first_constant + program_.constants.size() - 1);
     };
     for (NodeId id = 0; id < graph_.size(); ++id) {
-      if (!needed_[id] || graph_[id].kind != Node::Kind::constant) continue;
+      if (graph_[id].kind != Node::Kind::constant || !needed(id)) continue;
       registers_[id] = pooled(graph_[id].value);
-      if (graph_.is_constant(id, 0.0f)) zero_register_ = registers_[id];
+      if (graph_.is_constant(id, 0.0f)) zero_register_ = at(id);
     }
-    if (!lowered_.relief && zero_register_ == 0) zero_register_ = pooled(0.0f);
+    if (!lowered_.relief && zero_register_ == 0) zero_register_ = static_cast<RegisterNumber>(pooled(0.0f));
 
     const std::size_t first_parameter = first_constant + program_.constants.size();
-    std::size_t next = first_parameter + program_.parameters.size();
+    const std::size_t first_setup = first_parameter + program_.parameters.size();
+    std::size_t next = first_setup;
+    std::vector<NodeId> states;
     for (NodeId id = 0; id < graph_.size(); ++id) {
+      if (!needed(id)) continue;
       const Node& node = graph_[id];
-      if (!needed_[id]) continue;
-      if (node.kind == Node::Kind::input) registers_[id] = static_cast<RegisterNumber>(node.index);
-      if (node.kind == Node::Kind::parameter)
-        registers_[id] = static_cast<RegisterNumber>(first_parameter + node.index);
-      if (node.rate == Rate::setup && node.kind == Node::Kind::component)
-        registers_[id] = static_cast<RegisterNumber>(registers_[node.a] + node.index);
-      if (node.rate == Rate::setup && in_code(node)) {
-        registers_[id] = static_cast<RegisterNumber>(next);
-        next += node.kind == Node::Kind::operation ? static_cast<std::size_t>(facts(node.operation).results) : 1;
+      switch (node.kind) {
+        case Node::Kind::constant:
+        case Node::Kind::component: break;
+        case Node::Kind::input: registers_[id] = node.index; break;
+        case Node::Kind::parameter: registers_[id] = static_cast<std::uint32_t>(first_parameter + node.index); break;
+        case Node::Kind::state: states.push_back(id); break;
+        case Node::Kind::operation:
+        case Node::Kind::peak:
+          if (node.rate != Rate::setup) break;
+          setup_nodes_.push_back(id);
+          registers_[id] = static_cast<std::uint32_t>(next);
+          next += steps_[id].width;
       }
     }
-    const std::size_t setup_registers = next - first_parameter - program_.parameters.size();
-    program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(setup_registers, register_limit));
-    for (NodeId id = 0; id < graph_.size(); ++id)
-      if (needed_[id] && graph_[id].kind == Node::Kind::state)
-        registers_[id] = static_cast<RegisterNumber>(next + graph_[id].index);
+    program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(next - first_setup, register_limit));
+    for (const NodeId id : states) registers_[id] = static_cast<std::uint32_t>(next + graph_[id].index);
     first_temporary_ = next + lowered_.states.size();
   }
 
-  static bool in_code(const Node& node) { return node.kind == Node::Kind::operation || node.kind == Node::Kind::peak; }
+  /// Says what is needed, and what sections are to know of it.
+  void find_needed() {
+    steps_.resize(graph_.size());
+    registers_.resize(graph_.size() + 1);
+    last_use_.resize(graph_.size() + 1, no_use);
+    wanted_.resize(graph_.size() + 1, not_needed);
+    const auto need = [&](NodeId id) { wanted_[id] = in_no_section; };
+    need(nothing_);
+    for (const NodeId id : {lowered_.force[0], lowered_.force[1], lowered_.ceiling}) need(id);
+    if (lowered_.relief) need(*lowered_.relief);
+    if (lowered_.colour) std::ranges::for_each(*lowered_.colour, need);
+    for (const auto& state : lowered_.states) need(state.initial), need(state.next);
+    for (const auto& write : lowered_.writes) need(write.u), need(write.v), need(write.value);
+    for (const auto& operands : lowered_.marks) std::ranges::for_each(operands, need);
+    for (const auto& percept : lowered_.percepts) need(percept.amplitude), need(percept.magnitude), need(percept.level);
 
-  RegisterNumber at(NodeId id) const { return registers_[id]; }
+    for (NodeId id = nothing_; id-- > 0;) {
+      if (!needed(id)) continue;
+      const Node& node = graph_[id];
+      if (node.kind == Node::Kind::component) {
+        need(node.a);
+      } else if (node.kind == Node::Kind::peak) {
+        need(node.a), need(node.b), need(node.c);
+        steps_[id].width = 1;
+      } else if (node.kind == Node::Kind::operation) {
+        steps_[id] = step_of(node);
+        for (const NodeId operand : steps_[id].operands) need(operand);
+        if (node.rate == Rate::tick) wanted_[id] = 0;
+      }
+    }
+  }
+
+  bool needed(NodeId id) const { return wanted_[id] != not_needed; }
+
+  Step step_of(const Node& node) const {
+    const OperationFacts& known = facts(node.operation);
+    Step step{.operands = {nothing_, nothing_, nothing_},
+              .width = static_cast<std::uint8_t>(known.results),
+              .operation = node.operation};
+    const std::array<NodeId, 3> operands{node.a, node.b, node.c};
+    for (int i = 0; i < known.operands; ++i) {
+      step.operands[i] = operands[i];
+      if (const Node& operand = graph_[operands[i]]; operand.kind == Node::Kind::component) {
+        step.operands[i] = operand.a;
+        step.results[i] = static_cast<RegisterNumber>(operand.index);
+      }
+    }
+    if (known.fields[2] == 't' || known.fields[2] == 'g') step.results[2] = static_cast<RegisterNumber>(node.index);
+    return step;
+  }
+
+  /// Where a value is found.
+  RegisterNumber at(NodeId id) const {
+    const Node& node = graph_[id];
+    if (node.kind != Node::Kind::component) return static_cast<RegisterNumber>(registers_[id]);
+    return static_cast<RegisterNumber>(registers_[node.a] + node.index);
+  }
 
   Instruction instruction(NodeId id) const {
-    const Node& node = graph_[id];
-    const OperationFacts& known = facts(node.operation);
-    Instruction code{.operation = static_cast<std::uint8_t>(node.operation), .destination = registers_[id]};
-    if (known.operands > 0) code.a = registers_[node.a];
-    if (known.operands > 1) code.b = registers_[node.b];
-    if (known.operands > 2) code.c = registers_[node.c];
-    if (known.fields[2] == 't' || known.fields[2] == 'g') code.c = static_cast<RegisterNumber>(node.index);
-    return code;
+    const Step& step = steps_[id];
+    const auto operand = [&](std::size_t i) {
+      return static_cast<RegisterNumber>(registers_[step.operands[i]] + step.results[i]);
+    };
+    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers_[id]), operand(0),
+            operand(1), operand(2)};
   }
 
   void emit_setup() {
-    for (NodeId id = 0; id < graph_.size(); ++id) {
+    for (const NodeId id : setup_nodes_) {
       const Node& node = graph_[id];
-      if (!needed_[id] || node.rate != Rate::setup || !in_code(node)) continue;
-      setup_spans_.push_back(node.span);
       if (node.kind == Node::Kind::operation) {
         program_.setup.push_back(instruction(id));
         continue;
       }
       Peak peak;
       peak.code = section({node.a});
-      peak.value = registers_[node.a];
-      peak.half_width = registers_[node.b];
-      peak.half_height = registers_[node.c];
+      peak.value = at(node.a);
+      peak.half_width = at(node.b);
+      peak.half_height = at(node.c);
       peak.points = peak_points;
       peak.percentile = peak_percentile;
       program_.setup.push_back({.operation = static_cast<std::uint8_t>(Operation::peak),
-                                .destination = registers_[id],
+                                .destination = at(id),
                                 .a = static_cast<RegisterNumber>(program_.peaks.size())});
       program_.peaks.push_back(std::move(peak));
     }
   }
 
-  /// Asks for a value in the section at work, if that is where it is worked out. Values are asked for from the last to
-  /// the first, so whoever is first to ask for one is last to use it.
-  void want(NodeId id, NodeId user) {
-    const Node& node = graph_[id];
-    if (node.rate != Rate::tick) return;
-    if (node.kind == Node::Kind::component) want(node.a, user);  // it is a register of its sample
-    const bool worked_out = node.kind == Node::Kind::operation || node.kind == Node::Kind::component;
-    if (worked_out && pending_.insert(id)) last_use_[id] = user;
-  }
-
   /// What a section has to work out for its roots, operands first; `last_use_` says until when each is needed.
-  std::vector<NodeId> wanted_by(const std::vector<NodeId>& roots) {
-    std::vector<NodeId> wanted;
-    for (const NodeId root : roots) want(root, no_use);
-    while (const auto id = pending_.take()) {
-      wanted.push_back(*id);
-      for (const NodeId operand : graph_.operands(*id)) want(operand, *id);
+  std::vector<NodeId> order_for(const std::vector<NodeId>& roots) {
+    const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
+    std::size_t pending = 0;  // asked for and not looked at yet
+    // Values are asked for from the last to the first, so whoever is first to ask for one is last to use it.
+    const auto want = [&](NodeId id, NodeId user) {
+      if (wanted_[id] >= section) return;
+      wanted_[id] = section;
+      last_use_[id] = user;
+      ++pending;
+    };
+    NodeId end = 0;
+    for (const NodeId root : roots) {
+      const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
+      want(id, no_use);
+      end = std::max(end, id + 1);
     }
-    std::ranges::reverse(wanted);
-    return wanted;
+    backwards_.clear();
+    for (NodeId id = end; pending > 0;) {
+      if (wanted_[--id] != section) continue;
+      --pending;
+      backwards_.push_back(id);
+      const auto& operands = steps_[id].operands;
+      want(operands[0], id), want(operands[1], id), want(operands[2], id);
+    }
+    return {backwards_.rbegin(), backwards_.rend()};
   }
 
   /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `registers_` the
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
-    const std::vector<NodeId> order = wanted_by(roots);
+    const std::vector<NodeId>& order = section_nodes_.emplace_back(order_for(roots));
     TemporaryAllocator temporaries;
-    std::vector<Instruction> code;
-    code.reserve(order.size());
-    auto& spans = section_spans_.emplace_back();
-    const auto width = [&](NodeId id) { return static_cast<std::size_t>(facts(graph_[id].operation).results); };
-    for (const NodeId id : order) {
-      const Node& node = graph_[id];
-      if (node.kind == Node::Kind::component) {
-        registers_[id] = static_cast<RegisterNumber>(registers_[node.a] + node.index);
-        continue;
-      }
-      registers_[id] = static_cast<RegisterNumber>(first_temporary_ + temporaries.take(width(id)));
-      code.push_back(instruction(id));
-      spans.push_back(node.span);
-      for (const NodeId operand : graph_.operands(id)) {
-        const NodeId owner = graph_[operand].kind == Node::Kind::component ? graph_[operand].a : operand;
-        if (last_use_[owner] == id)  // giving back twice is giving back once
-          temporaries.give_back(registers_[owner] - first_temporary_, width(owner));
-      }
+    std::vector<Instruction> code(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const NodeId id = order[i];
+      registers_[id] = static_cast<std::uint32_t>(first_temporary_ + temporaries.take(steps_[id].width));
+      code[i] = instruction(id);
+      const auto end_of = [&](NodeId operand) {
+        if (last_use_[operand] == id)  // giving back twice is giving back once
+          temporaries.give_back(registers_[operand] - first_temporary_, steps_[operand].width);
+      };
+      const auto& operands = steps_[id].operands;
+      end_of(operands[0]), end_of(operands[1]), end_of(operands[2]);
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
@@ -340,16 +363,22 @@ class Emitter {
   const LoweredMaterial& lowered_;
   const SolvedMaterial& material_;
   PatchProgram program_;
-  std::vector<char> needed_;
-  std::vector<RegisterNumber> registers_;
-  PendingNodes pending_;          ///< of the section at work
-  std::vector<NodeId> last_use_;  ///< by node: who is the last in that section to use it
+  static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
+  static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
+
+  /// Stands for the operands that an operation does not have: register 0, which no section sets.
+  const NodeId nothing_;
+  std::vector<Step> steps_;               ///< by node, like all that follows
+  std::vector<std::uint32_t> registers_;  ///< there may be more of them than a program may have: `emit` refuses it then
+  /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
+  std::vector<std::uint32_t> wanted_;
+  std::vector<NodeId> last_use_;   ///< who is the last in that section to use it
+  std::vector<NodeId> backwards_;  ///< what the section at work needs, the last first
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
-  static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
-  RegisterNumber zero_register_ = 0;            ///< of the constant 0: the relief of a program that has none
-  std::vector<Span> setup_spans_;                 ///< of setup's instructions
-  std::vector<std::vector<Span>> section_spans_;  ///< of the other sections', which are made in the format's order
+  RegisterNumber zero_register_ = 0;                ///< of the constant 0: the relief of a program that has none
+  std::vector<NodeId> setup_nodes_;                 ///< what setup works out, an instruction each
+  std::vector<std::vector<NodeId>> section_nodes_;  ///< the same of the other sections, made in the format's order
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace wale {
 
@@ -44,9 +45,17 @@ const std::vector<Builtin>& builtins() {
   return table;
 }
 
-bool is_builtin_function(std::string_view name) {
-  return name == "curve" || std::ranges::find(builtins(), name, &Builtin::name) != builtins().end();
+const Builtin* builtin_named(std::string_view name) {
+  static const auto table = [] {
+    std::unordered_map<std::string_view, const Builtin*> by_name;
+    for (const Builtin& each : builtins()) by_name.emplace(each.name, &each);
+    return by_name;
+  }();
+  const auto found = table.find(name);
+  return found == table.end() ? nullptr : found->second;
 }
+
+bool is_builtin_function(std::string_view name) { return name == "curve" || builtin_named(name) != nullptr; }
 
 bool BuiltinFunctions::number(std::size_t i) const {
   if (value(i).type == Value::Type::number) return true;

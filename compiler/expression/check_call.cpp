@@ -98,8 +98,8 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
   }
   if (function) return call_function(tree, expr, call, *function, scope);
   if (call.callee.text == "curve") return curve(tree, expr, call, scope);
-  const auto builtin = std::ranges::find(builtins(), call.callee.text, &Builtin::name);
-  if (builtin == builtins().end()) {
+  const Builtin* builtin = builtin_named(call.callee.text);
+  if (!builtin) {
     if (declarations_->constants.contains(call.callee.text)) {
       const Value constant = name(call.callee, scope);
       if (constant.failed()) return constant;

@@ -1,5 +1,9 @@
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory_resource>
 #include <unordered_map>
+#include <vector>
 
 #include "compiler/expression/check_expression.hpp"
 #include "runtime/machine/arithmetic.hpp"
@@ -45,9 +49,12 @@ std::optional<double> constant_value(const Terms& terms, TermId id, const std::v
   if (parameters) dependence = dependence.without(Dependence::parameter);
   if (!dependence.constant()) return std::nullopt;
   if (terms[id].kind == TermKind::literal) return terms[id].value;
-  // A term may be used many times over: each is evaluated once, operands first, without recursion.
-  std::unordered_map<TermId, double> known;
-  std::vector<TermId> waiting{id};
+  // A term may be used many times over: each is evaluated once, operands first, without recursion. Most constants are
+  // worked out of a few, for which there is room here.
+  std::array<std::byte, 4096> room;
+  std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+  std::pmr::unordered_map<TermId, double> known(&memory);
+  std::pmr::vector<TermId> waiting({id}, &memory);
   while (!waiting.empty()) {
     const TermId current = waiting.back();
     const Term& term = terms[current];

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstring>
 
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/lexer.hpp"
@@ -23,6 +24,12 @@ constexpr Spelling reserved_words[] = {
     {"in", TokenKind::word_in},   {"on", TokenKind::word_on},     {"from", TokenKind::word_from},
     {"and", TokenKind::word_and}, {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
 };
+
+constexpr std::size_t longest_reserved_word = [] {
+  std::size_t longest = 0;
+  for (const Spelling& each : reserved_words) longest = std::max(longest, each.text.size());
+  return longest;
+}();
 
 /// Spellings that begin alike stand together, the longer ones first, so that `<=` is not read as `<` and `=`.
 constexpr Spelling punctuation[] = {
@@ -95,11 +102,9 @@ bool Lexer::is_readable() {
          {"limit", NumberWithUnit{largest_source / 1048576.0, "MB"}}});
     return false;
   }
-  for (std::size_t at = 0; at < text_.size();) {
-    if (text_[at] > 0) {  // ASCII
-      ++at;
-      continue;
-    }
+  for (std::size_t at = 0;;) {
+    at = end_of_ascii(at);
+    if (at == text_.size()) return true;
     const Character character = decode(text_, at);
     if (!character.valid || character.code == 0) {
       report(Code::invalid_encoding, at, at + 1,
@@ -110,7 +115,17 @@ bool Lexer::is_readable() {
     }
     at += character.bytes;
   }
-  return true;
+}
+
+/// The first byte from `at` on that is no ASCII character, or NUL; eight at a time, since nearly all are.
+std::size_t Lexer::end_of_ascii(std::size_t at) const {
+  constexpr std::uint64_t ones = 0x0101010101010101, tops = 0x8080808080808080;
+  for (std::uint64_t eight; at + sizeof eight <= text_.size(); at += sizeof eight) {
+    std::memcpy(&eight, text_.data() + at, sizeof eight);
+    if (((eight | (eight - ones)) & tops) != 0) break;  // a top bit is set, or something borrowed one
+  }
+  while (at < text_.size() && text_[at] > 0) ++at;
+  return at;
 }
 
 void Lexer::next() {
@@ -213,11 +228,15 @@ void Lexer::exponent() {
 void Lexer::name() {
   const std::size_t begin = at_;
   bool micro = false, foreign = false;
-  while (at_ < text_.size()) {
-    if (continues_name(text_[at_]) || is_dot_in_name()) {
+  for (;;) {
+    const auto end = std::find_if_not(text_.begin() + at_, text_.end(), continues_name);
+    at_ = static_cast<std::size_t>(end - text_.begin());
+    if (end == text_.end()) break;
+    if (is_dot_in_name()) {
       ++at_;
       continue;
     }
+    if (*end > 0) break;  // another ASCII character
     const Character character = decode(text_, at_);
     if (is_micro(character.code)) {
       micro = true;
@@ -243,9 +262,9 @@ void Lexer::name() {
     result_.texts.push_back(ascii);
     return add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
   }
-  for (const Spelling& reserved : reserved_words) {
-    if (word.front() == reserved.text.front() && word == reserved.text) return add(reserved.kind, begin);
-  }
+  if (word.size() <= longest_reserved_word)
+    for (const Spelling& reserved : reserved_words)
+      if (word.front() == reserved.text.front() && word == reserved.text) return add(reserved.kind, begin);
   add(TokenKind::name, begin);
 }
 
@@ -271,7 +290,9 @@ void Lexer::text(std::size_t quote_bytes) {
         return add_text(begin, std::move(value));
       }
     }
-    value += text_[at_++];
+    const std::size_t plain = at_++;
+    while (!typographic && at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\\' && text_[at_] != '\n') ++at_;
+    value.append(text_, plain, at_ - plain);
   }
   if (at_ > begin && text_[at_ - 1] == '\r') --at_;
   if (!typographic) {

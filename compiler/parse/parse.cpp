@@ -242,8 +242,8 @@ void Parser::unit(bool exported) {
              {insert_after(unit.name.span, " :", "write `:`")});
     unit.dimension = take_word();
   } else {
-    expect(TokenKind::equals, "`=` or `:`", "write `unit thou = 25.4 um`, or `unit m : length` for a base unit",
-           insert_equals());
+    if (!take(TokenKind::equals))
+      missing("`=` or `:`", "write `unit thou = 25.4 um`, or `unit m : length` for a base unit", insert_equals());
     unit.definition = expression();
   }
   tree_.declarations.push_back(std::move(unit));
@@ -255,7 +255,7 @@ void Parser::constant(bool exported) {
   constant.documentation = documentation_here();
   advance();
   constant.name = declared_name("value");
-  expect(TokenKind::equals, "`=`", fmt::format("write `let {} = …`", constant.name.text), insert_equals());
+  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `let {} = …`", constant.name.text), insert_equals());
   constant.value = expression();
   tree_.declarations.push_back(std::move(constant));
 }
@@ -278,7 +278,8 @@ void Parser::function(bool exported) {
     advance();
   }
   close_parenthesis("`,` or `)`");
-  expect(TokenKind::equals, "`=`", fmt::format("write `function {}(…) = …`", function.name.text), insert_equals());
+  if (!take(TokenKind::equals))
+    missing("`=`", fmt::format("write `function {}(…) = …`", function.name.text), insert_equals());
   function.body = expression();
   tree_.declarations.push_back(std::move(function));
 }
@@ -304,7 +305,8 @@ void Parser::record(bool exported) {
   if (!is_record(record.keyword.text) && meant) record.keyword.text = *meant;
   record.name = declared_name(record.keyword.text);
   if (record.keyword.text == "map") {
-    expect(TokenKind::word_from, "`from`", fmt::format("write `map {} from amplitude {{ … }}`", record.name.text));
+    if (!take(TokenKind::word_from))
+      missing("`from`", fmt::format("write `map {} from amplitude {{ … }}`", record.name.text));
     if (!at(TokenKind::name)) fail("expected the name of a quantity" + after_previous(), "a name", {});
     record.from = take_word();
   }

@@ -11,8 +11,8 @@ constexpr std::string_view sections[] = {"representative", "perceptual", "physic
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
 /// What begins a physical statement; `x' = …` has no word of its own.
-const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch", "active",
-                                                 "state", "memory", "next",   "show"};
+const std::vector<std::string> physical_words = {"param",  "let",   "height", "force", "patch",
+                                                 "active", "state", "memory", "next",  "show"};
 
 template <class List>
 bool holds(const List& list, std::string_view word) {
@@ -128,6 +128,7 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
       end_statement();
     });
   } else {
+    material.physical.reserve(32);  // few materials have more statements
     material.physical_span = block(true, [&] {
       material.physical.push_back(physical_statement());
       end_statement();
@@ -261,14 +262,15 @@ PhysicalStatement Parser::physical_statement() {
     advance();
     ForceStatement force{};
     if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
-    expect(TokenKind::equals, "`=`", "write `force = …`", insert_equals());
+    if (!take(TokenKind::equals)) missing("`=`", "write `force = …`", insert_equals());
     force.value = expression();
     result.what = std::move(force);
   } else {
     if (keyword != "=") advance();
     Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
-    expect(TokenKind::equals, "`=`",
-           fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text), insert_equals());
+    if (!take(TokenKind::equals))
+      missing("`=`", fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text),
+              insert_equals());
     const ExprId value = expression();
     if (keyword == "height") {
       result.what = HeightStatement{std::move(name), value};
@@ -286,7 +288,7 @@ ParamStatement Parser::param() {
   param.documentation = documentation_here();
   advance();
   param.name = declared_name("parameter");
-  expect(TokenKind::equals, "`=`", fmt::format("write `param {} = …`", param.name.text), insert_equals());
+  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `param {} = …`", param.name.text), insert_equals());
   param.value = expression();
   param.range = optional_range();
   if (at(TokenKind::comma) && is_word(at_ + 1, "soft")) {
@@ -307,8 +309,8 @@ StateStatement Parser::state() {
   StateStatement state;
   state.name = declared_name("state");
   state.dimension = optional_dimension();
-  expect(TokenKind::equals, "`=`", fmt::format("a state begins somewhere: write `state {} = …`", state.name.text),
-         insert_equals());
+  if (!take(TokenKind::equals))
+    missing("`=`", fmt::format("a state begins somewhere: write `state {} = …`", state.name.text), insert_equals());
   state.value = expression();
   state.range = optional_range();
   return state;
@@ -320,7 +322,7 @@ MemoryStatement Parser::memory() {
   MemoryStatement memory{};
   memory.name = declared_name("memory");
   memory.dimension = optional_dimension();
-  expect(TokenKind::equals, "`=`", fmt::format("write `memory {} = …`", memory.name.text));
+  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `memory {} = …`", memory.name.text));
   memory.value = expression();
   memory.range = optional_range();
   if (!at(TokenKind::comma) || !is_word(at_ + 1, "cell"))
@@ -346,7 +348,7 @@ UpdateStatement Parser::update() {
   if (!update.derivative) advance();
   update.name = update.derivative ? take_word() : declared_name("state");
   if (update.derivative) advance();
-  expect(TokenKind::equals, "`=`", fmt::format("write `next {} = …`", update.name.text), insert_equals());
+  if (!take(TokenKind::equals)) missing("`=`", fmt::format("write `next {} = …`", update.name.text), insert_equals());
   update.value = expression();
   return update;
 }
@@ -385,7 +387,7 @@ std::optional<Range> Parser::optional_range() {
 Range Parser::range() {
   Range range{};
   range.low = expression();
-  expect(TokenKind::range, "`..`", "a range is written `in 1 mm .. 5 mm`", insert_range());
+  if (!take(TokenKind::range)) missing("`..`", "a range is written `in 1 mm .. 5 mm`", insert_range());
   range.high = expression();
   return range;
 }

@@ -117,9 +117,7 @@ Word Parser::declared_name(std::string_view declares) {
   return name;
 }
 
-/// Takes the token. When it is missing, says so and goes on as if it had been there.
-void Parser::expect(TokenKind expected, std::string_view spelling, std::string help, std::vector<Fix> fixes) {
-  if (at(expected)) return advance();
+void Parser::missing(std::string_view spelling, std::string help, std::vector<Fix> fixes) {
   if (here().kind == TokenKind::unreadable && !ends_statement(at_)) throw Abandon{};
   complain(fmt::format("expected {}{}", spelling, after_previous()), std::string(spelling), std::move(help),
            std::move(fixes));

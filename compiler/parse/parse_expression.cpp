@@ -213,6 +213,7 @@ bool Parser::suffix_factor(std::vector<SuffixFactor>& suffix) {
     factor.exponent = static_cast<int>(negative ? -exponent : exponent);
     next += negative ? 3 : 2;
   }
+  if (suffix.empty()) suffix.reserve(3);  // few units have more factors than `N s/m`
   suffix.push_back(std::move(factor));
   at_ = next;
   return true;

@@ -128,7 +128,14 @@ class Parser {
   void advance() { at_ += at_ + 1 < tokens_.size() ? 1 : 0; }
   Word take_word();
   Word declared_name(std::string_view declares);
-  void expect(TokenKind kind, std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
+  /// Takes a token of that kind if one is here.
+  bool take(TokenKind kind) {
+    if (!at(kind)) return false;
+    advance();
+    return true;
+  }
+  /// Says that a token is missing here; whoever asks goes on as if it had been there.
+  void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
   Span since(std::size_t first_token) const;

@@ -256,12 +256,12 @@ BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
 BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
                        std::span<const GridShape> grids, std::span<const Instruction> code, Vectors vectors) {
   const Kernels& kernels = kernels_of(vectors);
-  BlockCode decoded;
-  decoded.reserve(code.size());
+  BlockCode decoded(code.size());
+  BlockInstruction* next = decoded.data();
   const RegisterNumber first_state = program.first_state();
   for (const Instruction& instruction : code) {
     const OperationFacts& known = operation_table[instruction.operation];
-    BlockInstruction& block = decoded.emplace_back();
+    BlockInstruction& block = *next++;
     if (known.operands > 0) block.a = block_operand(first_state, instruction.a);
     if (known.operands > 1) block.b = block_operand(first_state, instruction.b);
     if (known.operands > 2) block.c = block_operand(first_state, instruction.c);

@@ -180,19 +180,17 @@ Dispatch fastest_dispatch() {
 ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch) {
   ThreadedCode decoded;
   decoded.dispatch = dispatch = std::max(dispatch, fastest_dispatch());  // in their order, what is there
-  decoded.instructions.reserve(code.size() + 1);
-  const Instruction* before = nullptr;
+  decoded.instructions.resize(code.size() + 1);
+  ThreadedInstruction* next = decoded.instructions.data();
+  constexpr unsigned nothing = register_limit;  // no register: what comes before the first instruction
+  unsigned last = nothing;
   for (const Instruction& i : code) {
     const int operands = operation_table[i.operation].operands;
-    const auto is_last = [&](int operand, RegisterNumber number) {
-      return before != nullptr && operands > operand && before->destination == number;
-    };
-    const unsigned forwarded = (is_last(0, i.a) ? 1u : 0u) | (is_last(1, i.b) ? 2u : 0u);
-    decoded.instructions.push_back(
-        {handler_of(handler_number(i.operation, forwarded), dispatch), i.destination, i.a, i.b, i.c});
-    before = &i;
+    const unsigned forwarded = (operands > 0 && i.a == last ? 1u : 0u) | (operands > 1 && i.b == last ? 2u : 0u);
+    *next++ = {handler_of(handler_number(i.operation, forwarded), dispatch), i.destination, i.a, i.b, i.c};
+    last = i.destination;
   }
-  decoded.instructions.push_back({handler_of(stop, dispatch)});
+  *next = {handler_of(stop, dispatch)};
   return decoded;
 }
 

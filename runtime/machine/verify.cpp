@@ -31,6 +31,7 @@ constexpr Inputs prediction_inputs = those(&InputFacts::prediction);
 
 /// What an operand names.
 enum class Field : std::uint8_t { nothing, reg, table, grid, peak };
+constexpr std::size_t field_kinds = 5;
 
 /// What the fields of an operation's instruction may hold, by number; of numbers that no operation has nothing.
 struct LegalFields {
@@ -69,7 +70,7 @@ struct Section {
   bool peaks = false;                    ///< it may hold `peak` instructions
   bool grids = false;                    ///< it may hold `recall` and `cell` instructions
   bool states = false;                   ///< it may read states
-  std::uint32_t stamp = 0;               ///< what `Verifier::written_` says of registers that it wrote
+  std::uint32_t stamp = 0;               ///< what `Verifier::readable_` says of what it alone may read
 };
 
 /// Follows code in order and refuses the first instruction that breaks a rule.
@@ -81,8 +82,10 @@ class Verifier {
         first_state_(program.first_state()),
         first_temporary_(program.first_temporary()),
         register_count_(program.register_count()),
-        written_(register_count_),
-        proved_(program.setup_registers) {}
+        readable_(register_count_),
+        proved_(program.setup_registers) {
+    std::fill(readable_.begin() + first_constant, readable_.begin() + first_setup_, always);
+  }
 
   void verify_program() {
     verify_setup();
@@ -105,6 +108,7 @@ class Verifier {
     const Section setup{
         "setup", CodeSection::setup, 0, patch_inputs, first_setup_, program_.setup_registers, true, false, false,
         always};
+    begin(setup);
     const Code code = program_.setup;
     std::vector<char> invoked(program_.peaks.size());
     for (std::size_t number = 0; number < code.size(); ++number) {
@@ -117,6 +121,7 @@ class Verifier {
         }
         invoked[instruction.a] = true;
         verify_peak(instruction.a);
+        begin(setup);
       }
       define(setup, instruction);
       note_ceiling(instruction);
@@ -125,7 +130,7 @@ class Verifier {
       if (!invoked[i]) refuse("peak ", i, " is run by no instruction of setup");
     }
     for (std::size_t i = 0; i < program_.setup_registers; ++i) {
-      if (written_[first_setup_ + i] != always) refuse("setup leaves register ", first_setup_ + i, " undefined");
+      if (readable_[first_setup_ + i] != always) refuse("setup leaves register ", first_setup_ + i, " undefined");
     }
   }
 
@@ -134,7 +139,9 @@ class Verifier {
     const Peak& peak = program_.peaks[index];
     const Section section =
         temporary_section("peak " + std::to_string(index), CodeSection::peak, index, picture_inputs);
-    const Section extents{section.name, section.kind, section.index, patch_inputs};
+    Section extents{section.name, section.kind, section.index, patch_inputs};
+    extents.stamp = ++stamp_;
+    begin(extents);
     require_result(extents, peak.half_width, "half width");
     require_result(extents, peak.half_height, "half height");
     run(section, peak.code);
@@ -199,14 +206,43 @@ class Verifier {
   }
 
   void run(const Section& section, Code code) {
+    begin(section);
     for (std::size_t number = 0; number < code.size(); ++number) {
       check(section, code, number);
       define(section, code[number]);
     }
   }
 
+  /// From now on, inputs and states are readable that the section may read, and what earlier sections wrote is not.
+  void begin(const Section& section) {
+    for (RegisterNumber input = 0; input < first_constant; ++input)
+      readable_[input] = (section.inputs >> input & 1) != 0 ? section.stamp : never;
+    std::fill(readable_.begin() + first_state_, readable_.begin() + first_temporary_,
+              section.states ? section.stamp : never);
+    ends_[static_cast<std::size_t>(Field::nothing)] = 1;  // zero
+    ends_[static_cast<std::size_t>(Field::reg)] = register_count_;
+    ends_[static_cast<std::size_t>(Field::table)] = program_.tables.size();
+    ends_[static_cast<std::size_t>(Field::grid)] = section.grids ? program_.grids.size() : 0;
+    ends_[static_cast<std::size_t>(Field::peak)] = section.peaks ? program_.peaks.size() : 0;
+  }
+
   /// The instruction against the table of legal fields and what the section may do.
   void check(const Section& section, Code code, std::size_t number) const {
+    const Instruction& instruction = code[number];
+    const LegalFields& legal = legal_fields[instruction.operation];
+    const auto names = [&](Field field, RegisterNumber operand) {
+      return operand < ends_[static_cast<std::size_t>(field)] && (field != Field::reg || may_read(section, operand));
+    };
+    const bool writes_its_own =
+        instruction.destination >= section.first_destination &&
+        instruction.destination + std::size_t{legal.results} <= section.first_destination + section.destination_count;
+    if (!(legal.known && writes_its_own && names(legal.operands[0], instruction.a) &&
+          names(legal.operands[1], instruction.b) && names(legal.operands[2], instruction.c)))
+      refuse_illegal(section, code, number);
+  }
+
+  /// Says what is wrong with an instruction that `check` found to be illegal.
+  [[noreturn, gnu::noinline]] void refuse_illegal(const Section& section, Code code, std::size_t number) const {
     const Instruction& instruction = code[number];
     const LegalFields& legal = legal_fields[instruction.operation];
     if (!legal.known) {
@@ -244,22 +280,14 @@ class Verifier {
           }
       }
     }
-    const std::size_t end = section.first_destination + section.destination_count;
-    if (instruction.destination < section.first_destination ||
-        instruction.destination + std::size_t{legal.results} > end) {
-      refuse_here(" writes register ", instruction.destination, legal.results > 1 ? " and those after it" : "",
-                  ", and ", section.name, " may write only ", section.destination_count, " registers from ",
-                  section.first_destination, " on");
-    }
+    refuse_at(section, code, number, place(section, number, instruction), " writes register ", instruction.destination,
+              legal.results > 1 ? " and those after it" : "", ", and ", section.name, " may write only ",
+              section.destination_count, " registers from ", section.first_destination, " on");
   }
 
   /// Whether the register has a meaning for the section at this point of its code.
   bool may_read(const Section& section, RegisterNumber number) const {
-    if (number < first_constant) return (section.inputs >> number & 1) != 0;
-    if (number < first_setup_) return true;
-    if (number >= register_count_) return false;
-    if (number >= first_state_ && number < first_temporary_) return section.states;
-    return written_[number] == always || (written_[number] != never && written_[number] == section.stamp);
+    return number < register_count_ && (readable_[number] == always || readable_[number] == section.stamp);
   }
 
   /// The rest of a sentence about a register that may not be read.
@@ -280,8 +308,9 @@ class Verifier {
   }
 
   void define(const Section& section, const Instruction& instruction) {
-    const int results = legal_fields[instruction.operation].results;
-    for (int i = 0; i < results; ++i) written_[instruction.destination + i] = section.stamp;
+    std::uint32_t* result = readable_.data() + instruction.destination;
+    *result = section.stamp;  // nearly always that is all
+    for (int i = legal_fields[instruction.operation].results; --i > 0;) *++result = section.stamp;
   }
 
   /// Keeps up to date which setup registers are proved to lie below the device's force.
@@ -432,9 +461,10 @@ class Verifier {
   const PatchProgram& program_;
   const RegisterNumber first_setup_, first_state_, first_temporary_;
   const std::size_t register_count_;
-  /// Which section wrote a register last: `never`, `always` for setup, else the section's stamp. What a section wrote
-  /// means nothing to the next, whose stamp is another, so that nothing is cleared in between.
-  std::vector<std::uint32_t> written_;
+  /// Who may read a register: `always` all, as constants and what setup wrote; else the section of that stamp. What a
+  /// section wrote means nothing to the next, whose stamp is another, so that nothing is cleared in between.
+  std::vector<std::uint32_t> readable_;
+  std::array<std::size_t, field_kinds> ends_{};  ///< by field: operands of the section at work are below
   std::uint32_t stamp_ = always;
   std::vector<char> proved_;  ///< setup registers below the device's force
 };

@@ -98,5 +98,23 @@ TEST(MangledFiles, AreToldWhatIsWrong) {
   EXPECT_GT(right, 10) << "some changes change nothing that matters";
 }
 
+/// More constants than 16 bits can count: the registers that it would need are counted all the same.
+TEST(VastMaterial, IsRefusedForItsRegisters) {
+  constexpr int lets = 90, terms = 900;
+  std::string physical = "let u = x / 1 m\nlet a0 = u\n";
+  for (int let = 1; let <= lets; ++let) {
+    physical += "let a" + std::to_string(let) + " = a" + std::to_string(let - 1);
+    for (int term = 0; term < terms; ++term) physical += " + " + std::to_string(let * terms + term) + " * u";
+    physical += "\n";
+  }
+  physical += "force = vector(a" + std::to_string(lets) + " * 1 N, 0 N)";
+  try {
+    compiled(physical);
+    FAIL() << "a program of " << lets * terms << " constants";
+  } catch (const std::runtime_error& refused) {
+    EXPECT_NE(std::string(refused.what()).find("registers, and a patch program has 16384"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace wale::compiling::robustness_test
