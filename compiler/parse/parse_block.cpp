@@ -11,8 +11,8 @@ constexpr std::string_view sections[] = {"representative", "perceptual", "physic
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
 /// What begins a physical statement; `x' = …` has no word of its own.
-const std::vector<std::string> physical_words = {"param", "let",    "height", "force", "patch", "active",
-                                                 "state", "memory", "next",   "show"};
+const std::vector<std::string> physical_words = {"param",  "let",   "height", "force", "patch",
+                                                 "active", "state", "memory", "next",  "show"};
 
 template <class List>
 bool holds(const List& list, std::string_view word) {
@@ -253,12 +253,7 @@ PhysicalStatement Parser::physical_statement() {
     advance();
     result.what = ShowStatement{expression()};
   } else if (keyword == "force") {
-    advance();
-    ForceStatement force{};
-    if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
-    expect(TokenKind::equals, "`=`", "write `force = …`", insert_equals());
-    force.value = expression();
-    result.what = std::move(force);
+    result.what = force();
   } else {
     if (keyword != "=") advance();
     Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
@@ -273,6 +268,21 @@ PhysicalStatement Parser::physical_statement() {
   }
   result.span = since(begin);
   return result;
+}
+
+/// `force drag = viscous(2 N s/m) limit 3 N`.
+ForceStatement Parser::force() {
+  advance();
+  ForceStatement force{};
+  if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
+  expect(TokenKind::equals, "`=`", "write `force = …`", insert_equals());
+  in_force_ = true;
+  force.value = expression();
+  if (at(TokenKind::name) && is_word(at_, "limit")) {
+    advance();
+    force.limit = expression();
+  }
+  return force;
 }
 
 /// `param wale = 2.5 mm in 1 mm .. 5 mm "distance between ribs"`.
