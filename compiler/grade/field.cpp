@@ -4,9 +4,13 @@
 
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
+#include "runtime/machine/parallel.hpp"
 
 namespace wale {
 namespace {
+
+/// More than this, in units of cost over all hands, is worth another thread: about a millisecond in blocks.
+constexpr double worth_a_thread = 4e6;
 
 /// Gives each value that is needed a register: those of a moment and states their own, constants theirs, and what is
 /// worked out temporaries that are used again after the last use.
@@ -108,17 +112,29 @@ Field::Field(const Graph& graph, std::span<const NodeId> roots, const Bank& bank
 
   registers_.assign(bank.registers().begin(), bank.registers().begin() + first_constant);
   registers_.insert(registers_.end(), layout_.constants.begin(), layout_.constants.end());
+  cost_ = cost_of(code);
   code_ = decode_block(layout_, program_.decoded().splines, program_.decoded().grids, code);
   fits_ = true;
 }
 
 void Field::evaluate(std::span<const Hand> hands, std::span<const float> states, std::vector<float>& values) {
+  values.resize(roots_.size() * hands.size());
+  const std::size_t blocks = (hands.size() + lanes - 1) / lanes;
+  // Every block writes values of its own, so that it does not matter which thread works out which.
+  const auto work = [&](std::size_t begin, std::size_t end) { evaluate_blocks(begin, end, hands, states, values); };
+  if (static_cast<double>(hands.size()) * static_cast<double>(cost_) < worth_a_thread)
+    work(0, blocks);
+  else
+    in_parallel(blocks, work);
+}
+
+void Field::evaluate_blocks(std::size_t begin, std::size_t end, std::span<const Hand> hands,
+                            std::span<const float> states, std::vector<float>& values) const {
   const DecodedProgram& program = program_.decoded();
   const std::size_t state_count = layout_.states.size();
   const RegisterNumber first_state = layout_.first_state();
-  values.resize(roots_.size() * hands.size());
   Block block(layout_);
-  for (std::size_t first = 0; first < hands.size(); first += lanes) {
+  for (std::size_t first = begin * lanes; first < std::min(end * lanes, hands.size()); first += lanes) {
     const std::size_t count = std::min(lanes, hands.size() - first);
     for (const Input input : inputs_)
       place_input(input, hands.subspan(first, count), program.envelope,

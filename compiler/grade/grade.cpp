@@ -11,6 +11,7 @@
 #include "compiler/grade/slopes.hpp"
 #include "compiler/measure/hands.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "runtime/machine/parallel.hpp"
 
 namespace wale {
 namespace {
@@ -322,18 +323,27 @@ class Grader {
     const LoopTiming timing(device_);
     const auto all = slopes_.at(hands, states);
     if (all.empty()) return false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!is_smooth(all[i].linear) || stiffness(all[i]) > sharp_over_step * grade_.stiffness) continue;
-      const double needed = required_damping(all[i].linear, timing);
-      if (!(needed > grade_.required_damping)) continue;
-      grade_.required_damping = needed;
-      grade_.worst = {hands[i].position, hands[i].velocity};
-    }
+    std::vector<double> needed(all.size());
+    const auto work = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (is_smooth(all[i].linear) && stiffness(all[i]) <= sharp_over_step * grade_.stiffness)
+          needed[i] = required_damping(all[i].linear, timing);
+    };
+    // In closed form, without motion and states, they are not worth a thread.
+    if (slopes_.depends_on_motion() || !program_.states.empty())
+      in_parallel(all.size(), work);
+    else
+      work(0, all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (needed[i] > grade_.required_damping) {
+        grade_.required_damping = needed[i];
+        grade_.worst = {hands[i].position, hands[i].velocity};
+      }
     // Across a jump the sampled loop sees the slope between two counts.
     if (!grade_.jumps) return true;
-    const double needed = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.delay);
-    if (needed <= grade_.required_damping) return true;
-    grade_.required_damping = needed;
+    const double across = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.delay);
+    if (across <= grade_.required_damping) return true;
+    grade_.required_damping = across;
     grade_.worst = {worst_step_.position, worst_step_.velocity};
     return true;
   }
