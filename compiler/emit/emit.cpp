@@ -6,53 +6,14 @@
 #include <bit>
 #include <map>
 
+#include "compiler/graph/temporaries.hpp"
+
 namespace wale {
 
 namespace {
 
 constexpr std::uint32_t peak_points = 16384;  // 164 of them above the 99th percentile
 constexpr float peak_percentile = 0.99f;
-
-/// Hands out temporaries of one section and takes them back after their last use.
-class TemporaryAllocator {
- public:
-  /// The lowest register that is free.
-  std::size_t take() {
-    std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
-    while (word < used_.size() && used_[word] == ~std::uint64_t{0}) ++word;
-    if (word == used_.size()) used_.push_back(0);
-    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_one(used_[word]));
-    used_[word] |= bit(first);
-    most_ = std::max(most_, first + 1);
-    return first;
-  }
-  /// `count` neighbouring registers, the lowest that are free.
-  std::size_t take(std::size_t count) {
-    if (count == 1) return take();
-    std::size_t first = 0;
-    for (std::size_t run = 0, i = 0; run < count; ++i) {
-      run = is_used(i) ? 0 : run + 1;
-      first = i + 1 - run;
-    }
-    used_.resize(std::max(used_.size(), (first + count - 1) / word_bits + 1));
-    for (std::size_t i = first; i < first + count; ++i) used_[i / word_bits] |= bit(i);
-    most_ = std::max(most_, first + count);
-    return first;
-  }
-  void give_back(std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) used_[i / word_bits] &= ~bit(i);
-  }
-  std::size_t most() const { return most_; }
-
- private:
-  static constexpr std::size_t word_bits = 64;
-
-  static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % word_bits; }
-  bool is_used(std::size_t i) const { return i / word_bits < used_.size() && (used_[i / word_bits] & bit(i)) != 0; }
-
-  std::vector<std::uint64_t> used_;  ///< a bit for each register
-  std::size_t most_ = 0;
-};
 
 /// The nodes that a section still has to look at, the highest first. What comes in is lower than what was taken last.
 class PendingNodes {
@@ -312,7 +273,7 @@ class Emitter {
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
     const std::vector<NodeId> order = wanted_by(roots);
-    TemporaryAllocator temporaries;
+    Temporaries temporaries;
     std::vector<Instruction> code;
     code.reserve(order.size());
     auto& spans = section_spans_.emplace_back();
@@ -346,8 +307,8 @@ class Emitter {
   std::vector<NodeId> last_use_;  ///< by node: who is the last in that section to use it
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
-  static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
-  RegisterNumber zero_register_ = 0;            ///< of the constant 0: the relief of a program that has none
+  static constexpr NodeId no_use = ~NodeId{0};    ///< of a root, needed to the end, and of what no section works out
+  RegisterNumber zero_register_ = 0;              ///< of the constant 0: the relief of a program that has none
   std::vector<Span> setup_spans_;                 ///< of setup's instructions
   std::vector<std::vector<Span>> section_spans_;  ///< of the other sections', which are made in the format's order
 };

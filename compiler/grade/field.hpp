@@ -10,10 +10,10 @@
 namespace wale {
 
 /// Some values of a lifted tick, worked out for many hands by the machine's own blocks of lanes.
-class Field {
+class LiftedField {
  public:
   /// The values of `roots`, any nodes of `graph`, which was lifted from the bank's program. Check `fits` before use.
-  Field(const Graph& graph, std::span<const NodeId> roots, const Bank& bank);
+  LiftedField(const Graph& graph, std::span<const NodeId> roots, const Bank& bank);
 
   /// Whether the machine has registers enough for what was asked; otherwise nothing can be worked out.
   bool fits() const { return fits_; }

@@ -147,7 +147,7 @@ class Search {
     Dice dice(11);
     while (!live_.empty() && all.size() < most) {
       Choice any = usual;
-      const bool corner = all.size() % 4 != 0;  // where most forces are at their largest
+      const bool corner = all.size() % 2 != 0;  // where most forces are at their largest
       for (const std::size_t i : live_) {
         const Interval& range = domain_.parameters[i];
         const double share = corner ? (dice.coin() ? 1.0 : 0.0) : dice.next();
