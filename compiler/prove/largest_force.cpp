@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t starts = 1024;      ///< hands for each choice of parameters
 constexpr std::size_t neighbours = 128;   ///< hands of one step around the best
 constexpr int steps = 14;                 ///< each half as wide as the one before
+constexpr int passes = 4;                 ///< of all steps, the first of which may lead out of a dead end again
 constexpr std::size_t refined = 4;        ///< of the choices of parameters, the best
 constexpr double setup_budget = 3e7;      ///< units of cost, for the peaks of all choices together
 constexpr std::size_t most_choices = 32;  ///< of parameters
@@ -147,10 +148,10 @@ class Search {
     Dice dice(11);
     while (!live_.empty() && all.size() < most) {
       Choice any = usual;
-      const bool corner = all.size() % 2 != 0;  // where most forces are at their largest
       for (const std::size_t i : live_) {
         const Interval& range = domain_.parameters[i];
-        const double share = corner ? (dice.coin() ? 1.0 : 0.0) : dice.next();
+        // At the ends of most ranges forces are at their largest; in others, as of angles, anywhere.
+        const double end = dice.next(), share = end < 0.35 ? 0.0 : end < 0.7 ? 1.0 : dice.next();
         any.parameters[i] = within(range, static_cast<float>(range.low + share * (range.high - range.low)));
       }
       all.push_back(any);
@@ -230,8 +231,8 @@ class Search {
   void refine(const Bank& bank, LargestForce& best) const {
     if (moving_.empty()) return;
     Dice dice(3);
-    double width = 0.25;
-    for (int step = 0; step < steps; ++step, width *= 0.5) {
+    for (int step = 0; step < passes * steps; ++step) {
+      const double width = std::ldexp(0.25, -(step % steps));
       std::vector<Hand> hands;
       for (std::size_t i = 0; i < neighbours; ++i) {
         Hand near = best.hand;
