@@ -23,9 +23,11 @@ struct DeviceProfile {
   double mass = 0;                   ///< kg, moving mass at the handle
   double damping = 0;                ///< N s/m
   double friction = 0;               ///< N, Coulomb
-  double delay = 0;                  ///< s, from a sample to the force that answers it, beyond the period it is held
-  bool damping_known = false;        ///< somebody measured it; otherwise it is assumed and no grade leans on it
-  bool friction_known = false;       ///< the same of the friction
+  double delay_x = 0, delay_y = 0;   ///< s, from a sample to the force that answers it, beyond the period it is held
+  /// Hz, of each axis: where the actuator, taken for a first-order low-pass, has 3 dB less force; 0: it has them all.
+  double bandwidth_x = 0, bandwidth_y = 0;
+  bool damping_known = false;   ///< somebody measured it; otherwise it is assumed and no grade leans on it
+  bool friction_known = false;  ///< the same of the friction
 
   /// Metres per encoder count.
   double position_step() const { return workspace_diameter / position_counts; }

@@ -250,7 +250,10 @@ DeviceProfile read_device(ByteReader& in) {
   figure(device.mass, "the mass");
   figure(device.damping, "the damping");
   figure(device.friction, "the friction");
-  figure(device.delay, "the delay");
+  figure(device.delay_x, "the delay along x");
+  figure(device.delay_y, "the delay along y");
+  figure(device.bandwidth_x, "the bandwidth along x");
+  figure(device.bandwidth_y, "the bandwidth along y");
   device.damping_known = in.boolean("whether the damping is known");
   device.friction_known = in.boolean("whether the friction is known");
   return device;

@@ -142,8 +142,8 @@ void write_device(ByteWriter& out, const DeviceProfile& device) {
   for (const double figure :
        {device.workspace_diameter, device.position_counts, device.force_newton, device.force_counts, device.rate,
         device.speed_limit, device.slew, device.velocity_window, device.velocity_noise_counts, device.patch_width,
-        device.patch_height, device.patch_rim, device.mass, device.damping, device.friction,
-        device.delay}) {
+        device.patch_height, device.patch_rim, device.mass, device.damping, device.friction, device.delay_x,
+        device.delay_y, device.bandwidth_x, device.bandwidth_y}) {
     out.f64(figure);
   }
   out.u8(device.damping_known);

@@ -72,12 +72,39 @@ void StatementChecker::operator()(const ForceStatement& node) {
            Advice("add the terms up, or give each a name: `force texture = …`, `force drag = …`")
                .see(*whole_force_, "the first one"));
   if (!node.name && !whole_force_) whole_force_ = span;
-  const Value value =
-      checker_.check_as(tree(), node.value, scope_, Value::Type::vector, declarations().dimension("force"));
+  Value value = checker_.check_as(tree(), node.value, scope_, Value::Type::vector, declarations().dimension("force"));
+  if (node.limit) {
+    const auto ceiling = force_limit(*node.limit);
+    if (ceiling && !value.failed()) value = held(material_.terms, value, *ceiling, tree().span(node.value));
+  }
   if (!value.failed()) layers_.push_back({value, tree().span(node.value)});
   if (!node.name) return;
   declare(*node.name, value);
   if (auto* binding = scope_.find(node.name->text)) binding->used = true;
+}
+
+/// `limit 3 N`: nothing when it is no force that stays as it is from tick to tick, which is reported.
+std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
+  const Value limit = checker_.check_as(tree(), expr, scope_, Value::Type::number, declarations().dimension("force"));
+  if (limit.failed()) return std::nullopt;
+  const Terms& terms = material_.terms;
+  if (const auto dependence = terms.dependence(limit.x); dependence.in_tick()) {
+    report(Code::wrong_rate, limit.span,
+           fmt::format("a force's limit stays as it is, and this changes with {}",
+                       dependence.changing() ? what_changes(dependence) : "place"),
+           "use numbers and parameters; for a limit that moves write `hold(force, ceiling)`");
+    return std::nullopt;
+  }
+  // What a parameter's whole range comes to is known of the parameter itself only.
+  const auto known = constant_value(terms, limit.x, &material_.parameters);
+  const bool moves = terms[limit.x].kind == TermKind::parameter;
+  if ((known && !(*known > 0)) || (moves && material_.parameters[terms[limit.x].index].low < 0)) {
+    report(Code::value_out_of_range, limit.span, "a force's limit is more than nothing",
+           known && *known < 0 && !moves ? "it holds the force's size, whatever its direction: leave out the `-`"
+                                         : "write, for example, `limit 3 N`");
+    return std::nullopt;
+  }
+  return limit.x;
 }
 
 void StatementChecker::operator()(const PatchStatement& node) {

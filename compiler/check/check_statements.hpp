@@ -53,6 +53,7 @@ class StatementChecker {
   const Declarations& declarations() const { return *statement_->home; }
   const SyntaxTree& tree() const { return *statement_->tree; }
 
+  std::optional<TermId> force_limit(ExprId expr);
   std::optional<double> parameter_value(const ParamStatement& node, const Value& own_value);
   std::optional<double> mixed(const Mixture& mixture, const Dimension& dimension);
   bool lacks_its_unit(const ParamStatement& node, const Value& value);

@@ -123,6 +123,8 @@ struct HandDeclaration {
   double mass = 0, damping = 0, stiffness = 0;
   double lateral_amplitude = 0, lateral_frequency = 0;
   double circular_radius = 0, circular_frequency = 0;
+  double fewest_counts = 0, faithful_counts = 0;  ///< encoder counts in a period
+  double fewest_levels = 0;                       ///< command steps of the largest force
   std::string source;
   Span span;
 };

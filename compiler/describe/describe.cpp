@@ -137,6 +137,7 @@ Description describe(const Bank& bank) {
   description.bound = force_bound(bank.program());
   const Proof proof = prove(bank.program());
   description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
+  description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
   description.grade = grade(bank);
   description.no_percept = why_no_texture(program, description.force);
   description.parameters = program.parameters;

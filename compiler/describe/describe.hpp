@@ -39,6 +39,7 @@ struct Description {
   Measured force;                     ///< `max_newton` also of a rehearsal, when the program remembers
   ForceBound bound;                   ///< that no force exceeds, proved, and the largest that a search found
   bool limit_matters = false;         ///< without its last limit the program could ask for more than the device gives
+  Interval asked;                     ///< of both components before that limit, N, as far as it is proved
   Grade grade;                        ///< how stable the loop is
   std::vector<Parameter> parameters;  ///< with the values described
   std::vector<State> states;          ///< a vector is two of them, "p.x" and "p.y"

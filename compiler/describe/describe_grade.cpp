@@ -7,9 +7,6 @@
 namespace wale {
 namespace {
 
-constexpr double fewest_counts = 2, faithful_counts = 10;  // of the encoder in a period (psychophysics.md, 2.2)
-constexpr double fewest_levels = 8;                        // of force, from where on steps are not felt as such
-
 std::string line(std::string_view key, const std::string& words) { return fmt::format("  {:<12} {}\n", key, words); }
 
 std::string place_words(const WorstPlace& place) {
@@ -52,9 +49,9 @@ std::string step_line(const Grade& grade) {
 std::string resolution_line(const Grade& grade) {
   std::string words =
       fmt::format("details of {:.3g} mm, {:.3g} encoder counts", 1e3 * grade.finest_period, grade.counts_per_period);
-  if (grade.counts_per_period < fewest_counts)
+  if (grade.counts_per_period < grade.fewest_counts)
     words += ", too few to be felt as it is";
-  else if (grade.counts_per_period < faithful_counts)
+  else if (grade.counts_per_period < grade.faithful_counts)
     words += ", coarse";
   words += fmt::format("; sampled in time up to {:.2g} m/s", grade.fastest_hand);
   return words;
@@ -71,9 +68,10 @@ std::string grade_text(const Grade& grade, const DeviceProfile& device) {
   if (grade.required_damping > 0) text += line("", fmt::format("most at {}", place_words(grade.worst)));
   if (grade.stiffness > 0)
     text += line("stiffness", fmt::format("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));
+  // Less than that no command shows.
   if (grade.step_newton > 0.1 * device.force_step()) text += line("steps", step_line(grade));
   if (grade.finest_period < device.workspace_diameter) text += line("resolution", resolution_line(grade));
-  if (grade.force_levels > 0 && grade.force_levels < fewest_levels)
+  if (grade.force_levels > 0 && grade.force_levels < grade.fewest_levels)
     text += line("", fmt::format("only {:.2g} command steps of force: coarse", grade.force_levels));
   return text;
 }

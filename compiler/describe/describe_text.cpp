@@ -67,9 +67,16 @@ std::string bound_lines(const Description& description) {
   if (bound.found.newton > 0)
     line += fmt::format(", {:.2f} times the largest found ({:.3f} N)", bound.ratio(), bound.found.newton);
   line += "\n";
-  if (description.limit_matters)
-    line += fmt::format("  held at the {:.3g} N of `{}`, which its formulas alone may pass\n",
-                        description.device.force_newton, description.device.name);
+  if (!description.limit_matters) return line;
+  const double most = description.device.force_newton, asked = description.asked.largest();
+  if (asked > most)
+    line += fmt::format(
+        "  limited by the compiler: its formulas may ask for {} along x or y, where `{}` gives {:.4g} N; held there, "
+        "a\n"
+        "  force changes its direction, and under `force = … limit {:.4g} N` it would keep it\n",
+        std::isfinite(asked) ? fmt::format("{:.3g} N", asked) : "any force", description.device.name, most, most);
+  if (description.asked.maybe_nan)
+    line += "  limited by the compiler: where its formulas give no number, it pushes with nothing\n";
   return line;
 }
 

@@ -14,6 +14,22 @@ constexpr double log2_e = 1.4426950408889634, log10_2 = 0.30102999566398120, ln_
 
 }  // namespace
 
+Value held(Terms& terms, const Value& value, TermId ceiling, Span span) {
+  const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b, span); };
+  Value result{.type = value.type, .dimension = value.dimension, .span = span};
+  if (value.type == Value::Type::number) {
+    result.x = apply(Operation::limit, value.x, ceiling);
+    return result;
+  }
+  const TermId square =
+      apply(Operation::add, apply(Operation::multiply, value.x, value.x), apply(Operation::multiply, value.y, value.y));
+  const TermId size = terms.apply(Operation::square_root, square, span);
+  const TermId factor = apply(Operation::minimum, terms.literal(1, span), apply(Operation::divide, ceiling, size));
+  result.x = apply(Operation::limit, apply(Operation::multiply, value.x, factor), ceiling);
+  result.y = apply(Operation::limit, apply(Operation::multiply, value.y, factor), ceiling);
+  return result;
+}
+
 const std::vector<Builtin>& builtins() {
   static const std::vector<Builtin> table{
       {"abs", {"value"}, 1},
@@ -33,6 +49,7 @@ const std::vector<Builtin>& builtins() {
       {"vector", {"x", "y"}, 2},
       {"length", {"vector"}, 1},
       {"dot", {"a", "b"}, 2},
+      {"normalise", {"vector"}, 1},
       {"within", {"value", "low", "high"}, 3},
       {"grad", {"height"}, 1, true},
       {"peak", {"value"}, 1, true},
@@ -148,6 +165,21 @@ Value BuiltinFunctions::length() const {
   return scalar(terms().apply(Operation::square_root, dot_product(value(0), value(0)), span), value(0).dimension);
 }
 
+/// A vector's direction. Squares of what is shorter than about 1e-19 flush to zero, so that its length would be too
+/// small and its direction too long; that is no direction at all.
+Value BuiltinFunctions::normalise() const {
+  if (!is_vector(0)) return failed();
+  constexpr double shortest = 1e-15;  // in units of SI, whatever the dimension
+  const auto apply = [&](Operation operation, TermId a, TermId b) { return terms().apply(operation, a, b, span); };
+  const TermId size = terms().apply(Operation::square_root, dot_product(value(0), value(0)), span);
+  const TermId has_direction = apply(Operation::less, terms().literal(shortest, span), size);
+  const auto share = [&](TermId part) {
+    return terms().apply(Operation::select, has_direction, apply(Operation::divide, part, size),
+                         terms().literal(0, span), span);
+  };
+  return {.type = Value::Type::vector, .x = share(value(0).x), .y = share(value(0).y), .span = span};
+}
+
 /// A number held between two constants; a constant outside them is an error.
 Value BuiltinFunctions::within() const {
   if (!number(0) || !number(1) || !number(2)) return failed();
@@ -190,25 +222,11 @@ Value BuiltinFunctions::peak() const {
   return scalar(terms().add({.kind = TermKind::peak, .a = value(0).x, .span = span}), value(0).dimension);
 }
 
-/// A force held at a ceiling: a vector by its length, then each part again, which is exact whatever the rounding.
 Value BuiltinFunctions::hold() const {
   if (!number(1)) return failed();
   if (value(0).dimension != value(1).dimension) return mismatched(1, 0);
-  const TermId ceiling = value(1).x;
-  Value result{.type = value(0).type, .dimension = value(0).dimension, .span = span};
-  if (value(0).type == Value::Type::number) {
-    result.x = terms().apply(Operation::limit, value(0).x, ceiling, span);
-    return result;
-  }
-  if (!is_vector(0)) return failed();
-  const TermId size = terms().apply(Operation::square_root, dot_product(value(0), value(0)), span);
-  const TermId factor = terms().apply(Operation::minimum, terms().literal(1, span),
-                                      terms().apply(Operation::divide, ceiling, size, span), span);
-  result.x =
-      terms().apply(Operation::limit, terms().apply(Operation::multiply, value(0).x, factor, span), ceiling, span);
-  result.y =
-      terms().apply(Operation::limit, terms().apply(Operation::multiply, value(0).y, factor, span), ceiling, span);
-  return result;
+  if (value(0).type != Value::Type::number && !is_vector(0)) return failed();
+  return held(terms(), value(0), value(1).x, span);
 }
 
 std::optional<double> BuiltinFunctions::constant_argument(std::size_t i, const Dimension& dimension,
@@ -295,6 +313,7 @@ Value BuiltinFunctions::dispatch(std::string_view name) const {
   if (name == "vector") return vector();
   if (name == "length") return length();
   if (name == "dot") return dot();
+  if (name == "normalise") return normalise();
   if (name == "within") return within();
   if (name == "grad") return gradient();
   if (name == "peak") return peak();

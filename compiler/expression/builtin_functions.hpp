@@ -60,6 +60,7 @@ struct BuiltinFunctions {
   Value vector() const;
   Value dot() const;
   Value length() const;
+  Value normalise() const;
   Value within() const;
   Value gradient() const;
   Value peak() const;

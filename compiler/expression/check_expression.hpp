@@ -159,8 +159,8 @@ class ExpressionChecker {
   std::vector<CheckedPeriod> periods_;
   std::map<const Constant*, Value> constants_;
   std::set<std::pair<SourceId, std::uint32_t>> misspelt_;  ///< words whose likely meaning was looked for, by place
-  std::vector<Span> ambiguous_;  ///< declarations of names that are units too, reported
-  bool too_large_ = false;       ///< reported
+  std::vector<Span> ambiguous_;                            ///< declarations of names that are units too, reported
+  bool too_large_ = false;                                 ///< reported
   std::vector<Span> call_sites_;
   std::optional<Span> outside_;  ///< what terms were attributed to before the outermost call
   std::vector<Callee> callees_;
@@ -183,6 +183,10 @@ bool names_hand_or_patch(std::string_view name);
 /// The value of a term that depends on nothing, in double precision, or nothing. With `parameters` it may depend on
 /// those too.
 std::optional<double> constant_value(const Terms& terms, TermId id, const std::vector<Parameter>* parameters = nullptr);
+
+/// `hold(value, ceiling)` and `force = value limit ceiling`: a vector held by its length, then each part again, which
+/// is exact whatever the rounding.
+Value held(Terms& terms, const Value& value, TermId ceiling, Span span);
 
 /// The unit that people would write a quantity of this dimension in: "mm" for a length, the coherent unit otherwise.
 std::string customary_unit(const Declarations& declarations, const Dimension& dimension);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/measure/strokes.hpp"
 #include "wale/memory.hpp"
 
 namespace wale {
@@ -14,35 +15,26 @@ constexpr double seconds = 1;
 
 /// Where the hand is, m: it begins at the centre and at rest, and has its whole radius after a quarter of the time.
 glm::dvec2 place(double time, double radius, double frequency, bool circles) {
-  const double u = std::clamp(4 * time / seconds, 0.0, 1.0), rise = u * u * u * (10 + u * (6 * u - 15));
   const double angle = 2 * pi * frequency * time;
-  return radius * rise * glm::dvec2(std::sin(angle), circles ? std::cos(angle) : 0.0);
+  return radius * coming_up(time, seconds / 4) * glm::dvec2(std::sin(angle), circles ? std::cos(angle) : 0.0);
 }
 
 }  // namespace
 
 Exploration explore(Bank bank, const GradingHand& hand) {
   const DeviceProfile& device = bank.program().description().device;
-  const double room = 0.5 * std::min(bank.size().width, bank.size().height) - bank.size().rim;
-  const double radius = std::min(hand.radius, 0.9 * room), period = 1 / device.rate;
+  const double radius = std::min(hand.radius, room_to_stroke(bank.size())), period = 1 / device.rate;
   const long ticks = std::lround(seconds * device.rate);
   Exploration exploration;
   exploration.changing.assign(bank.program().description().states.size(), false);
   for (const bool circles : {false, true}) {
     Memory memory(bank.program());
-    const auto at = [&](long tick) {
-      return place(static_cast<double>(tick) * period, radius, hand.frequency, circles);
-    };
+    const auto at = [&](double time) { return place(time, radius, hand.frequency, circles); };
     std::vector<float> entered;
     double work = 0, gained = 0, moved = 0;
     for (long i = 0; i < ticks; ++i) {
-      const glm::dvec2 before = at(std::max(0L, i - 1)), here = at(i), after = at(i + 1);
-      Hand now;
-      now.position = now.workspace = glm::vec2(here);
-      now.velocity = now.raw_velocity = glm::vec2((here - before) / period);
-      now.acceleration = now.raw_acceleration =
-          glm::vec2((at(std::max(0L, i - 2)) - 2.0 * before + here) / (period * period));
-      now.time = static_cast<double>(i) * period;
+      const double time = static_cast<double>(i) * period;
+      const Hand now = hand_along(at, time, period);
       if (i == 0) {
         memory.enter(bank, now);
         entered.assign(memory.states().begin(), memory.states().end());
@@ -52,7 +44,8 @@ Exploration explore(Bank bank, const GradingHand& hand) {
       exploration.hands.push_back(now);
       exploration.states.insert(exploration.states.end(), memory.states().begin(), memory.states().end());
       // Half a step before and half a step after, so that a field's own rounding of steps does not count.
-      const glm::dvec2 force = glm::dvec2(tick(bank, memory, now)), step = 0.5 * (after - before);
+      const glm::dvec2 force = glm::dvec2(tick(bank, memory, now)),
+                       step = 0.5 * (at(time + period) - at(time - period));
       const double joule = force.x * step.x + force.y * step.y;
       work += joule;
       moved += std::abs(joule);

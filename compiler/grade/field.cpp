@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
+#include "compiler/graph/temporaries.hpp"
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
+#include "runtime/machine/parallel.hpp"
 
 namespace wale {
 namespace {
+
+/// More than this, in units of cost over all hands, is worth another thread: about a millisecond in blocks.
+constexpr double worth_a_thread = 4e6;
 
 /// Gives each value that is needed a register: those of a moment and states their own, constants theirs, and what is
 /// worked out temporaries that are used again after the last use.
@@ -28,21 +33,16 @@ class Layout {
   /// `count` neighbouring temporaries, free from the first of them on.
   std::size_t take(NodeId id, std::size_t count) {
     while (!busy_.empty() && busy_.front().until < id) {
-      free_[busy_.front().count == 1 ? 0 : 1].push_back(busy_.front().first);
+      temporaries_.give_back(busy_.front().first, busy_.front().count);
       std::ranges::pop_heap(busy_, later);
       busy_.pop_back();
     }
-    auto& free = free_[count == 1 ? 0 : 1];
-    std::size_t first = most_;
-    if (free.empty())
-      most_ += count;
-    else
-      first = free.back(), free.pop_back();
+    const std::size_t first = temporaries_.take(count);
     busy_.push_back({last_use_[id], first, count});
     std::ranges::push_heap(busy_, later);
     return first;
   }
-  std::size_t most() const { return most_; }
+  std::size_t most() const { return temporaries_.most(); }
 
  private:
   static constexpr NodeId unused = ~NodeId{0};
@@ -54,14 +54,14 @@ class Layout {
 
   const Graph& graph_;
   std::vector<NodeId> last_use_;
-  std::vector<Busy> busy_;            ///< a heap, the first to be free in front
-  std::vector<std::size_t> free_[2];  ///< single registers, and those of look-ups
-  std::size_t most_ = 0;
+  std::vector<Busy> busy_;  ///< a heap, the first to be free in front
+  Temporaries temporaries_;
 };
 
 }  // namespace
 
-Field::Field(const Graph& graph, std::span<const NodeId> roots, const Bank& bank) : program_(bank.program()) {
+LiftedField::LiftedField(const Graph& graph, std::span<const NodeId> roots, const Bank& bank)
+    : program_(bank.program()) {
   const PatchProgram& described = program_.description();
   Layout layout(graph, roots);
   std::vector<std::size_t> constants(graph.size()), temporaries(graph.size());
@@ -108,17 +108,29 @@ Field::Field(const Graph& graph, std::span<const NodeId> roots, const Bank& bank
 
   registers_.assign(bank.registers().begin(), bank.registers().begin() + first_constant);
   registers_.insert(registers_.end(), layout_.constants.begin(), layout_.constants.end());
+  cost_ = cost_of(code);
   code_ = decode_block(layout_, program_.decoded().splines, program_.decoded().grids, code);
   fits_ = true;
 }
 
-void Field::evaluate(std::span<const Hand> hands, std::span<const float> states, std::vector<float>& values) {
+void LiftedField::evaluate(std::span<const Hand> hands, std::span<const float> states, std::vector<float>& values) {
+  values.resize(roots_.size() * hands.size());
+  const std::size_t blocks = (hands.size() + lanes - 1) / lanes;
+  // Every block writes values of its own, so that it does not matter which thread works out which.
+  const auto work = [&](std::size_t begin, std::size_t end) { evaluate_blocks(begin, end, hands, states, values); };
+  if (static_cast<double>(hands.size()) * static_cast<double>(cost_) < worth_a_thread)
+    work(0, blocks);
+  else
+    in_parallel(blocks, work);
+}
+
+void LiftedField::evaluate_blocks(std::size_t begin, std::size_t end, std::span<const Hand> hands,
+                                  std::span<const float> states, std::vector<float>& values) const {
   const DecodedProgram& program = program_.decoded();
   const std::size_t state_count = layout_.states.size();
   const RegisterNumber first_state = layout_.first_state();
-  values.resize(roots_.size() * hands.size());
   Block block(layout_);
-  for (std::size_t first = 0; first < hands.size(); first += lanes) {
+  for (std::size_t first = begin * lanes; first < std::min(end * lanes, hands.size()); first += lanes) {
     const std::size_t count = std::min(lanes, hands.size() - first);
     for (const Input input : inputs_)
       place_input(input, hands.subspan(first, count), program.envelope,

@@ -10,16 +10,15 @@
 
 #include "compiler/grade/explore.hpp"
 #include "compiler/grade/slopes.hpp"
+#include "compiler/grade/steep_places.hpp"
 #include "compiler/measure/hands.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "runtime/machine/parallel.hpp"
 
 namespace wale {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t places = 4096;     // of the lattice over the patch
-constexpr std::size_t climbers = 8;      // of the steepest places, from which steeper ones are looked for
-constexpr int climbs = 14;               // each with half the step of the one before
 constexpr std::size_t candidates = 12;   // of each kind whose required damping is worked out
 constexpr std::size_t tiles = 4;         // of the patch along each side, for the mean of the curl
 constexpr double significant = 4;        // standard errors of a mean
@@ -45,6 +44,9 @@ class Grader {
     grade_.friction = device_.friction;
     grade_.friction_known = device_.friction_known;
     grade_.hand_damping = hand_.damping;
+    grade_.fewest_counts = hand_.fewest_counts;
+    grade_.faithful_counts = hand_.faithful_counts;
+    grade_.fewest_levels = hand_.fewest_levels;
     if (!slopes_.fits()) return grade_;
     choose_hands();
     at_ = slopes_.by_place(hands_, states_);
@@ -91,9 +93,9 @@ class Grader {
       states_ = exploration_->states;
       return;
     }
-    hands_ = hands_at_rest(places, extent_);
+    hands_ = hands_at_rest(lattice_hands, extent_);
     if (!depends_on_the_moment(program_)) return;
-    for (Hand& hand : hands_in_motion(places, extent_, static_cast<float>(peak_speed()))) hands_.push_back(hand);
+    for (Hand& hand : hands_in_motion(lattice_hands, extent_, static_cast<float>(peak_speed()))) hands_.push_back(hand);
   }
 
   /// Of a hand that circles at its own pace, m/s.
@@ -107,56 +109,9 @@ class Grader {
   }
 
   void find_stiffness() {
-    std::vector<std::size_t> steepest(hands_.size());
-    for (std::size_t i = 0; i < steepest.size(); ++i) steepest[i] = i;
-    const std::size_t count = std::min(climbers, steepest.size());
-    std::ranges::partial_sort(steepest, steepest.begin() + static_cast<std::ptrdiff_t>(count),
-                              [&](std::size_t a, std::size_t b) {
-                                return std::pair(stiffness(at_[a]), b) > std::pair(stiffness(at_[b]), a);
-                              });
-    steepest.resize(count);
-    climb(steepest);
-  }
-
-  static double stiffness(const ProgramSlopes::At& at) {
-    const double norm = spectral_norm(at.linear.direct.place);
-    return std::isfinite(norm) ? norm : 0;
-  }
-
-  /// From the steepest places of the lattice to steeper ones beside them.
-  void climb(const std::vector<std::size_t>& from) {
-    std::vector<Hand> best, tried;
-    std::vector<float> best_states, tried_states;
-    std::vector<double> steepness;
-    for (const std::size_t i : from) {
-      best.push_back(hands_[i]);
-      best_states.insert(best_states.end(), states_of(i).begin(), states_of(i).end());
-      steepness.push_back(stiffness(at_[i]));
-    }
-    glm::vec2 step = extent_ / std::sqrt(static_cast<float>(places));
-    for (int round = 0; round < climbs; ++round, step *= 0.5f) {
-      tried.clear(), tried_states.clear();
-      for (std::size_t i = 0; i < best.size(); ++i)
-        for (int direction = 0; direction < 8; ++direction) {
-          const float angle = static_cast<float>(direction * pi / 4);
-          Hand& hand = tried.emplace_back(best[i]);
-          const glm::vec2 moved = step * glm::vec2(std::cos(angle), std::sin(angle));
-          hand.position = glm::clamp(hand.position + moved, -extent_, extent_);
-          hand.workspace += moved;
-          const auto states = std::span(best_states).subspan(i * program_.states.size(), program_.states.size());
-          tried_states.insert(tried_states.end(), states.begin(), states.end());
-        }
-      const auto at = slopes_.by_place(tried, tried_states);
-      for (std::size_t i = 0; i < tried.size(); ++i)
-        if (const double here = stiffness(at[i]); here > steepness[i / 8])
-          steepness[i / 8] = here, best[i / 8] = tried[i];
-    }
-    const auto top = static_cast<std::size_t>(std::ranges::max_element(steepness) - steepness.begin());
-    grade_.stiffness = steepness[top];
-    grade_.stiffest = {best[top].position, best[top].velocity};
-    // The damping that they need is worked out with that of the others.
-    steepest_hands_ = best;
-    steepest_states_ = best_states;
+    steepest_ = find_steepest(slopes_, {hands_, states_, at_}, extent_);
+    grade_.stiffness = steepest_.stiffness;
+    grade_.stiffest = steepest_.where;
   }
 
   /// What one count of the encoder changes: of the force, which for one that jumps is more than its slope says, and of
@@ -231,7 +186,7 @@ class Grader {
       };
       Sum& sum = sums[tile(hand.position.y, extent_.y) * tiles + tile(hand.position.x, extent_.x)];
       sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
-      squares += stiffness(at_[i]) * stiffness(at_[i]);
+      squares += steepness(at_[i]) * steepness(at_[i]);
       ++counted;
     }
     const double usual_slope = counted > 0 ? std::sqrt(squares / static_cast<double>(counted)) : 0;
@@ -292,8 +247,9 @@ class Grader {
 
   /// False when there are more derivatives than the machine has registers for.
   bool find_required_damping() {
-    std::vector<Hand> hands = steepest_hands_;
-    std::vector<float> states = steepest_states_;
+    // The damping that the steepest places need is worked out with that of the others.
+    std::vector<Hand> hands = steepest_.hands;
+    std::vector<float> states = steepest_.states;
     if (slopes_.depends_on_motion() || !program_.states.empty()) {
       // Those of the lattice where either kind of slope, or both together, is greatest; and some of all others.
       const auto all = slopes_.at(hands_, states_);
@@ -317,24 +273,33 @@ class Grader {
         std::for_each(order.begin(), end, add);
       };
       add_greatest(motion);
-      add_greatest([&](std::size_t i) { return motion(i) + half * stiffness(all[i]); });
+      add_greatest([&](std::size_t i) { return motion(i) + half * steepness(all[i]); });
       for (std::size_t i = 0; i < candidates; ++i) add(i * hands_.size() / candidates);
     }
     const LoopTiming timing(device_);
     const auto all = slopes_.at(hands, states);
     if (all.empty()) return false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!is_smooth(all[i].linear) || stiffness(all[i]) > sharp_over_step * grade_.stiffness) continue;
-      const double needed = required_damping(all[i].linear, timing);
-      if (!(needed > grade_.required_damping)) continue;
-      grade_.required_damping = needed;
-      grade_.worst = {hands[i].position, hands[i].velocity};
-    }
+    std::vector<double> needed(all.size());
+    const auto work = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (is_smooth(all[i].linear) && steepness(all[i]) <= sharp_over_step * grade_.stiffness)
+          needed[i] = required_damping(all[i].linear, timing);
+    };
+    // In closed form, without motion and states, they are not worth a thread.
+    if (slopes_.depends_on_motion() || !program_.states.empty())
+      in_parallel(all.size(), work);
+    else
+      work(0, all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (needed[i] > grade_.required_damping) {
+        grade_.required_damping = needed[i];
+        grade_.worst = {hands[i].position, hands[i].velocity};
+      }
     // Across a jump the sampled loop sees the slope between two counts.
     if (!grade_.jumps) return true;
-    const double needed = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.delay);
-    if (needed <= grade_.required_damping) return true;
-    grade_.required_damping = needed;
+    const double across = grade_.step_newton / device_.position_step() * (timing.period / 2 + timing.latest());
+    if (across <= grade_.required_damping) return true;
+    grade_.required_damping = across;
     grade_.worst = {worst_step_.position, worst_step_.velocity};
     return true;
   }
@@ -378,8 +343,7 @@ class Grader {
   std::vector<Hand> hands_;
   std::vector<float> states_;
   std::vector<ProgramSlopes::At> at_;  ///< by place, beside `hands_`
-  std::vector<Hand> steepest_hands_;
-  std::vector<float> steepest_states_;
+  SteepPlaces steepest_;
   Hand worst_step_;
   double largest_force_ = 0;
 };
@@ -387,7 +351,13 @@ class Grader {
 GradingHand normal_hand() {
   GradingHand hand{.name = "normal"};
   if (const HandDeclaration* declared = common_modules()->declarations.hands.find(hand.name))
-    hand = {declared->damping, declared->circular_radius, declared->circular_frequency, declared->name};
+    hand = {.damping = declared->damping,
+            .radius = declared->circular_radius,
+            .frequency = declared->circular_frequency,
+            .name = declared->name,
+            .fewest_counts = declared->fewest_counts,
+            .faithful_counts = declared->faithful_counts,
+            .fewest_levels = declared->fewest_levels};
   return hand;
 }
 

@@ -31,10 +31,13 @@ struct WorstPlace {
 
 /// The hand that a grade leans on and the pace at which it explores.
 struct GradingHand {
-  double damping = 0;    ///< N s/m
-  double radius = 0;     ///< m, of its circles, and to either side of its strokes
-  double frequency = 0;  ///< Hz, of both
-  std::string name;      ///< of its declaration
+  double damping = 0;          ///< N s/m
+  double radius = 0;           ///< m, of its circles, and to either side of its strokes
+  double frequency = 0;        ///< Hz, of both
+  std::string name;            ///< of its declaration
+  double fewest_counts = 0;    ///< of the encoder in a period: with less it is not felt as it is
+  double faithful_counts = 0;  ///< from which on it is
+  double fewest_levels = 0;    ///< command steps of the largest force that are not felt as steps
 };
 
 /// Energy that a program gives to the hand by itself, at a hand's own pace.
@@ -74,9 +77,10 @@ struct Grade {
   /// m: the period of the sine whose slope changes from one encoder count to the next as much as this force's does, in
   /// the root mean square over the patch, and so its finest strong detail; infinite for a slope that never changes.
   double finest_period = 0;
-  double counts_per_period = 0;  ///< encoder counts over it; below 2 it cannot be sampled, from 10 on it is faithful
+  double counts_per_period = 0;  ///< encoder counts over it
   double fastest_hand = 0;       ///< m/s: from which on less than two ticks fall into it
   double force_levels = 0;       ///< command steps that the largest force uses
+  double fewest_counts = 0, faithful_counts = 0, fewest_levels = 0;  ///< of the hand: see `GradingHand`
 
   Energy energy;
 

@@ -118,7 +118,9 @@ bool all_zero(const Slopes& slopes) {
 
 }  // namespace
 
-LoopTiming::LoopTiming(const DeviceProfile& device) : period(1 / device.rate), delay(device.delay) {
+LoopTiming::LoopTiming(const DeviceProfile& device) : period(1 / device.rate), delay{device.delay_x, device.delay_y} {
+  const auto time_constant = [](double bandwidth) { return bandwidth > 0 ? 1 / (2 * pi * bandwidth) : 0.0; };
+  lag = {time_constant(device.bandwidth_x), time_constant(device.bandwidth_y)};
   const int longest = std::max(1, static_cast<int>(std::lround(device.velocity_window)));
   for (int window = 1; window < longest; window *= 2) windows.push_back(window);
   windows.push_back(longest);
@@ -144,7 +146,7 @@ double required_damping(const LinearProgram& program, const LoopTiming& timing) 
   const bool static_only = program.states == 0 && !uses(&HandSlopes::velocity) && !uses(&HandSlopes::raw_velocity) &&
                            !uses(&HandSlopes::acceleration) && !uses(&HandSlopes::raw_acceleration);
   // With nothing but place the supremum is where the frequency goes to 0.
-  if (static_only) return stiffness * (timing.period / 2 + timing.delay);
+  if (static_only) return stiffness * (timing.period / 2 + timing.latest());
 
   const std::vector<int> one{1};
   const auto& windows = uses(&HandSlopes::velocity) ? timing.windows : one;
@@ -154,7 +156,10 @@ double required_damping(const LinearProgram& program, const LoopTiming& timing) 
   for (int i = 0; i < frequencies; ++i) {
     const double angle = pi * std::pow(lowest, 1 - static_cast<double>(i) / (frequencies - 1));
     const Complex z = std::polar(1.0, angle), back = std::conj(z);
-    const Complex late = (1.0 - back) * std::polar(1.0, -angle * timing.delay / timing.period);
+    std::array<Complex, 2> late;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      late[axis] = (1.0 - back) * std::polar(1.0, -angle * timing.delay[axis] / timing.period) /
+                   Complex(1, angle * timing.lag[axis] / timing.period);
     const double scale = timing.period / 2 / (1 - std::cos(angle));
     for (const int window : windows)
       for (const int parabola : parabolas) {
@@ -166,7 +171,7 @@ double required_damping(const LinearProgram& program, const LoopTiming& timing) 
         Matrix2 sum{};
         for (std::size_t row = 0; row < 2; ++row)
           for (std::size_t column = 0; column < 2; ++column)
-            sum[row][column] = late * ((row == column ? stiffness : 0.0) - (*moving)[row][column]);
+            sum[row][column] = late[row] * ((row == column ? stiffness : 0.0) - (*moving)[row][column]);
         const double here = scale * greatest_eigenvalue(sum);
         if (std::isnan(here)) return std::numeric_limits<double>::infinity();
         needed = std::max(needed, here);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <vector>
@@ -35,8 +36,11 @@ struct LinearProgram {
 struct LoopTiming {
   explicit LoopTiming(const DeviceProfile& device);
 
-  double period = 0;           ///< s
-  double delay = 0;            ///< s
+  double period = 0;              ///< s
+  std::array<double, 2> delay{};  ///< s, of each axis
+  std::array<double, 2> lag{};    ///< s, of each axis: the time constant of its actuator's low-pass
+  /// s: what slow changes are late, on the later axis.
+  double latest() const { return std::max(delay[0] + lag[0], delay[1] + lag[1]); }
   std::vector<int> windows;    ///< of the velocity filter, in ticks, from 1 to its longest
   std::vector<int> parabolas;  ///< of the acceleration filter, in ticks, from its shortest to its longest
 };
@@ -48,12 +52,11 @@ double spectral_norm(const Slopes& slopes);
 /// frequencies to the Nyquist frequency (from 1/20 Hz on, on a grid) and over the windows that the profile's filters
 /// may choose, of
 ///
-///     T/2 / (1 - cos wT) * greatest eigenvalue of the Hermitian part of (1 - e^-jwT) e^-jwd H(e^jwT),  force = -H
-///     place
+///     T/2 / (1 - cos wT) * greatest eigenvalue of the Hermitian part of (1 - e^-jwT) L(w) H(e^jwT),  force = -H place
 ///
-/// (Colgate and Schenkel 1997, general form, with the delay d), where the direct dependence on place counts with its
-/// spectral norm in every direction: a texture that pulls here pushes half a period further. Infinite when a linear
-/// program has no frequency response. At least 0.
+/// (Colgate and Schenkel 1997, general form), where L has e^-jwd / (1 + jwl) for each axis, d its delay and l its
+/// actuator's lag. The direct dependence on place counts with its spectral norm in every direction: a texture that
+/// pulls here pushes half a period further. Infinite when a linear program has no frequency response. At least 0.
 double required_damping(const LinearProgram& program, const LoopTiming& timing);
 
 }  // namespace wale

@@ -26,8 +26,8 @@ class ProgramSlopes {
     glm::dvec2 force{0.0};
     LinearProgram linear;
   };
-  /// One for each hand; `states` as for `Field::evaluate`. None when the machine has not registers enough for so many
-  /// derivatives.
+  /// One for each hand; `states` as for `LiftedField::evaluate`. None when the machine has not registers enough for so
+  /// many derivatives.
   std::vector<At> at(std::span<const Hand> hands, std::span<const float> states);
   /// Force and slope by place alone, which is quicker: `linear` has nothing else.
   std::vector<At> by_place(std::span<const Hand> hands, std::span<const float> states);
@@ -46,7 +46,7 @@ class ProgramSlopes {
   std::size_t states_ = 0;
   bool depends_on_motion_ = false, moves_by_itself_ = false;
   std::vector<Slopes HandSlopes::*> quantities_;  ///< that the tick depends on
-  std::optional<Field> field_, place_field_;
+  std::optional<LiftedField> field_, place_field_;
   std::vector<float> values_;
 };
 

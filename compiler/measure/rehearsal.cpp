@@ -3,35 +3,39 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/measure/strokes.hpp"
+#include "compiler/modules/load_modules.hpp"
+
 namespace wale {
 namespace {
 
 constexpr double least_seconds = 1, most_seconds = 5;
-constexpr double strokes_a_second = 1.2;  // there and back
-constexpr double reach = 0.3;             // of the patch's shorter side, to either side of the centre
-constexpr double bend = 0.3;              // of the stroke's reach, across it
-constexpr double coming_up = 0.3;         // s until the stroke has its whole reach
-constexpr double last_phase = 0.9;        // rad; the picture is taken while the hand is under way
-constexpr double most_rate = 20000;       // Hz; a device that claims more is rehearsed at this
+constexpr double bend = 0.3;         // of the stroke's reach, across it: so that a trajectory is seen
+constexpr double whole_after = 0.3;  // s until the stroke has its whole reach
+constexpr double last_phase = 0.9;   // rad; the picture is taken while the hand is under way
+constexpr double most_rate = 20000;  // Hz; a device that claims more is rehearsed at this
 constexpr long most_samples = 2400;
 constexpr double two_pi = 6.283185307179586;
 
-/// Where the hand is at a time of a rehearsal of so many seconds, m. It begins at rest at the centre.
-glm::dvec2 stroke(double time, double seconds, double side) {
-  const double u = std::clamp(time / coming_up, 0.0, 1.0), rise = u * u * u * (10 + u * (6 * u - 15));
-  const double phase = two_pi * strokes_a_second * (time - seconds) + last_phase;
-  return glm::dvec2(std::sin(phase), bend * std::sin(phase / 2 + 0.7)) * (rise * reach * side);
-}
+/// To and fro, as the hand called `showing` does (calibration/hands.wale).
+struct Stroke {
+  double reach = 0, frequency = 0;  ///< m to either side of the centre; Hz
+  double seconds = 0;               ///< how long it goes on
 
-Hand hand_at(double time, double step, double seconds, double side) {
-  const glm::dvec2 here = stroke(time, seconds, side), before = stroke(time - step, seconds, side),
-                   earlier = stroke(time - 2 * step, seconds, side);
-  Hand hand;
-  hand.position = hand.workspace = glm::vec2(here);
-  hand.velocity = hand.raw_velocity = glm::vec2((here - before) / step);
-  hand.acceleration = hand.raw_acceleration = glm::vec2((here - 2.0 * before + earlier) / (step * step));
-  hand.time = time;
-  return hand;
+  /// Where the hand is, m. It begins at rest at the centre.
+  glm::dvec2 operator()(double time) const {
+    const double phase = two_pi * frequency * (time - seconds) + last_phase;
+    return glm::dvec2(std::sin(phase), bend * std::sin(phase / 2 + 0.7)) * (coming_up(time, whole_after) * reach);
+  }
+};
+
+Stroke stroke_over(PatchSize size, double seconds) {
+  Stroke stroke{.reach = room_to_stroke(size), .seconds = seconds};
+  if (const HandDeclaration* hand = common_modules()->declarations.hands.find("showing")) {
+    stroke.reach = std::min(stroke.reach, hand->lateral_amplitude);
+    stroke.frequency = hand->lateral_frequency;
+  }
+  return stroke;
 }
 
 double longest_trajectory(const std::vector<ShownMark>& marks) {
@@ -56,11 +60,11 @@ Rehearsal rehearse(Bank bank) {
 
   const double rate = program.device.rate > 0 ? std::min(program.device.rate, most_rate) : 1000;
   result.seconds = std::clamp(longest_trajectory(result.marks), least_seconds, most_seconds);
-  const double side = std::min(bank.size().width, bank.size().height);
+  const Stroke stroke = stroke_over(bank.size(), result.seconds);
   const long ticks = std::lround(result.seconds * rate), every = std::max(1L, ticks / most_samples);
   std::vector<std::vector<ShownMark>> shown;
   for (long i = 0; i <= ticks; ++i) {
-    result.hand = hand_at(static_cast<double>(i) / rate, 1 / rate, result.seconds, side);
+    result.hand = hand_along(stroke, static_cast<double>(i) / rate, 1 / rate);
     const Force force = tick(bank, result.memory, result.hand);
     if ((ticks - i) % every != 0) continue;
     result.times.push_back(result.hand.time);

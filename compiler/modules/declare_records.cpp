@@ -177,7 +177,18 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   optional("mass", "mass", profile.mass);
   optional("damping", "viscosity", profile.damping);
   optional("friction", "force", profile.friction);
-  optional("delay", "time", profile.delay);
+  // One value for both axes, or one for each.
+  const auto per_axis = [&](const char* key, const char* dimension, double& x, double& y) {
+    const auto* found = reader.setting(key);
+    if (found == nullptr) return;
+    x = reader.quantity(*found, 0, dimension).value_or(0);
+    y = found->items.size() > 1 ? reader.quantity(*found, 1, dimension).value_or(0) : x;
+    if (x < 0 || y < 0)
+      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` is not less than nothing", key),
+                    fmt::format("leave out the `-`, or `{}` where nobody knows it", key));
+  };
+  per_axis("delay", "time", profile.delay_x, profile.delay_y);
+  per_axis("bandwidth", "frequency", profile.bandwidth_x, profile.bandwidth_y);
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed")) device.assumed.push_back(setting.key.text);
@@ -241,6 +252,12 @@ void declare_hand(RecordReader& reader, Declarations& declarations) {
   };
   motion("lateral", hand.lateral_amplitude, hand.lateral_frequency);
   motion("circular", hand.circular_radius, hand.circular_frequency);
+  if (const auto* counts = reader.setting("counts_per_period")) {
+    hand.fewest_counts = reader.quantity(*counts, 0, "number").value_or(0);
+    hand.faithful_counts = reader.quantity(*counts, 1, "number").value_or(0);
+  }
+  if (const auto* levels = reader.setting("force_levels"))
+    hand.fewest_levels = reader.quantity(*levels, 0, "number").value_or(0);
   hand.source = reader.text("source");
   declarations.hands.add(hand.name, {.what = hand, .declared = record.name.span, .exported = record.exported});
 }

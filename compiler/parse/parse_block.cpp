@@ -259,12 +259,7 @@ PhysicalStatement Parser::physical_statement() {
     advance();
     result.what = ShowStatement{expression()};
   } else if (keyword == "force") {
-    advance();
-    ForceStatement force{};
-    if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
-    if (!take(TokenKind::equals)) missing("`=`", "write `force = …`", insert_equals());
-    force.value = expression();
-    result.what = std::move(force);
+    result.what = force();
   } else {
     if (keyword != "=") advance();
     Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
@@ -280,6 +275,21 @@ PhysicalStatement Parser::physical_statement() {
   }
   result.span = since(begin);
   return result;
+}
+
+/// `force drag = viscous(2 N s/m) limit 3 N`.
+ForceStatement Parser::force() {
+  advance();
+  ForceStatement force{};
+  if (at(TokenKind::name) && followed_by(TokenKind::equals)) force.name = declared_name("force");
+  if (!take(TokenKind::equals)) missing("`=`", "write `force = …`", insert_equals());
+  in_force_ = true;
+  force.value = expression();
+  if (at(TokenKind::name) && is_word(at_, "limit")) {
+    advance();
+    force.limit = expression();
+  }
+  return force;
 }
 
 /// `param wale = 2.5 mm in 1 mm .. 5 mm "distance between ribs"`.

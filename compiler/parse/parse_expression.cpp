@@ -185,6 +185,7 @@ bool Parser::is_suffix_name(std::size_t index) const {
   if (kind(index) == TokenKind::percent) return true;
   if (kind(index) != TokenKind::name) return false;
   if (token(index).starts_line && begins_statement(index)) return false;
+  if (in_force_ && is_word(index, "limit")) return false;
   const TokenKind next = kind(index + 1);
   if (!ends_statement(index + 1) && (next == TokenKind::left_parenthesis || next == TokenKind::colon)) return false;
   const auto is_this = [&](std::string_view word) { return is_word(index, word); };

@@ -67,6 +67,7 @@ class Parser {
   PerceptStatement percept_statement();
   PhysicalStatement physical_statement();
   std::string_view physical_keyword();
+  ForceStatement force();
   ParamStatement param();
   StateStatement state();
   MemoryStatement memory();
@@ -183,13 +184,14 @@ class Parser {
   std::size_t statements_ = 0;
   bool lost_ = false;        ///< outside all declarations; one error has said so
   bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
+  bool in_force_ = false;    ///< `limit` ends a unit: `k * 5 mm limit 2 N`
 };
 
 template <class Body>
 void Parser::statement(Body body) {
   const std::size_t begin = at_;
   statement_begin_ = begin;
-  reported_ = in_setting_ = false;
+  reported_ = in_setting_ = in_force_ = false;
   last_expression_.reset();
   open_parentheses_.clear();
   nesting_ = 0;

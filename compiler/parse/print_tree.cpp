@@ -200,7 +200,8 @@ class TreePrinter {
     return "(height " + height.name.text + " " + expr(height.value) + ")";
   }
   std::string statement_text(const ForceStatement& force) const {
-    return "(force " + (force.name ? force.name->text + " " : "") + expr(force.value) + ")";
+    return "(force " + (force.name ? force.name->text + " " : "") + expr(force.value) +
+           (force.limit ? " (limit " + expr(*force.limit) + ")" : "") + ")";
   }
   std::string statement_text(const PatchStatement& patch) const {
     std::string text = "(patch";

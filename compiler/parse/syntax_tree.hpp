@@ -181,10 +181,11 @@ struct HeightStatement {
   Word name;
   ExprId value;
 };
-/// `force = …`, or a layer of it, `force texture = …`.
+/// `force = …`, or a layer of it, `force texture = …`, perhaps with `limit 3 N`.
 struct ForceStatement {
   std::optional<Word> name;
   ExprId value;
+  std::optional<ExprId> limit;
 };
 /// `patch 95 mm, 95 mm`: the patch's width and height.
 struct PatchStatement {
@@ -218,8 +219,8 @@ struct ShowStatement {
 };
 
 struct PhysicalStatement {
-  std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, ActiveStatement, StateStatement,
-               MemoryStatement, UpdateStatement, ShowStatement>
+  std::variant<ParamStatement, LetStatement, HeightStatement, ForceStatement, PatchStatement, ActiveStatement,
+               StateStatement, MemoryStatement, UpdateStatement, ShowStatement>
       what;
   Span span;
 };

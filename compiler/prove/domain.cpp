@@ -30,6 +30,7 @@ Domain whole_domain(const PatchProgram& program) {
     domain.parameters.push_back(Interval::between(parameter.low, parameter.high));
   }
   for (const State& state : program.states) domain.states.push_back(Interval::between(state.low, state.high));
+  for (const Grid& grid : program.grids) domain.cells.push_back(Interval::between(grid.low, grid.high));
   return domain;
 }
 

@@ -8,11 +8,12 @@
 
 namespace wale {
 
-/// What a program may find in its registers before it runs: a box of inputs, parameters and states.
+/// What a program may find before it runs: a box of inputs, parameters, states and what memories hold.
 struct Domain {
   std::array<Interval, first_constant> inputs;  ///< by register; those that are reserved are zero
   std::vector<Interval> parameters;             ///< in the order of `PatchProgram::parameters`
   std::vector<Interval> states;                 ///< in the order of `PatchProgram::states`
+  std::vector<Interval> cells;                  ///< of the memories, in the order of `PatchProgram::grids`
 
   Interval& operator[](Input input) { return inputs[static_cast<RegisterNumber>(input)]; }
   const Interval& operator[](Input input) const { return inputs[static_cast<RegisterNumber>(input)]; }

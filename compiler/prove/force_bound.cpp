@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "compiler/prove/range_machine.hpp"
+#include "compiler/prove/reachable.hpp"
 
 namespace wale {
 namespace {
@@ -32,15 +33,15 @@ struct Lower {
 class Splitting {
  public:
   Splitting(const Program& program, const ForceSlice& slice)
-      : machine_(program), slice_(slice), relations_(program.description(), slice.tick) {
+      : machine_(program), slice_(slice), relations_(program.description(), slice.setup, slice.tick) {
     machine_.replace_peaks(slice.peaks);
     for (const Output& output : program.description().outputs) values_[output.axis] = output.value;
   }
 
   Part evaluated(const Domain& domain) {
     machine_.start(domain, slice_.quantities);
-    machine_.run(slice_.setup);
-    machine_.run(slice_.tick, relations_);
+    machine_.run(slice_.setup, relations_, 0);
+    machine_.run(slice_.tick, relations_, slice_.setup.size());
     const Interval x = machine_.range(values_[0]), y = machine_.range(values_[1]);
     return {domain, x, y, std::min(length_bound(x, y), machine_.length(relations_, values_[0], values_[1])),
             evaluations_++};
@@ -140,6 +141,6 @@ ForceBound force_bound(const Program& program, const Domain& domain, long effort
   return result;
 }
 
-ForceBound force_bound(const Program& program) { return force_bound(program, whole_domain(program.description())); }
+ForceBound force_bound(const Program& program) { return force_bound(program, reachable_domain(program)); }
 
 }  // namespace wale

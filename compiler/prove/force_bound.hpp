@@ -27,7 +27,7 @@ inline constexpr long usual_effort = 400'000;
 /// quantity that lowers it most, until it is within a thousandth of what the search found or the effort is spent.
 ForceBound force_bound(const Program& program, const Domain& domain, long effort = usual_effort);
 
-/// The bound over everything that the runtime lets a program see.
+/// The bound over everything that the runtime lets a program see, of what it can remember by then.
 ForceBound force_bound(const Program& program);
 
 }  // namespace wale

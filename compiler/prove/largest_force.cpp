@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t starts = 1024;      ///< hands for each choice of parameters
 constexpr std::size_t neighbours = 128;   ///< hands of one step around the best
 constexpr int steps = 14;                 ///< each half as wide as the one before
+constexpr int passes = 4;                 ///< of all steps, the first of which may lead out of a dead end again
 constexpr std::size_t refined = 4;        ///< of the choices of parameters, the best
 constexpr double setup_budget = 3e7;      ///< units of cost, for the peaks of all choices together
 constexpr std::size_t most_choices = 32;  ///< of parameters
@@ -83,7 +84,13 @@ class Search {
       const Bank bank(program_, each.parameters, each.size);
       refine(bank, each);
       consider(each);
-      if (remembers_) consider(stroked(each));
+      if (remembers_) consider(stroked({bank}));
+    }
+    // What was remembered under one setting of the parameters is felt under another.
+    if (remembers_ && !live_.empty()) {
+      std::vector<Bank> banks;
+      for (const LargestForce& each : found) banks.emplace_back(program_, each.parameters, found.front().size);
+      consider(stroked(std::move(banks)));
     }
     return refined_parameters(best);
   }
@@ -143,7 +150,9 @@ class Search {
       Choice any = usual;
       for (const std::size_t i : live_) {
         const Interval& range = domain_.parameters[i];
-        any.parameters[i] = within(range, static_cast<float>(range.low + dice.next() * (range.high - range.low)));
+        // At the ends of most ranges forces are at their largest; in others, as of angles, anywhere.
+        const double end = dice.next(), share = end < 0.35 ? 0.0 : end < 0.7 ? 1.0 : dice.next();
+        any.parameters[i] = within(range, static_cast<float>(range.low + share * (range.high - range.low)));
       }
       all.push_back(any);
     }
@@ -222,8 +231,8 @@ class Search {
   void refine(const Bank& bank, LargestForce& best) const {
     if (moving_.empty()) return;
     Dice dice(3);
-    double width = 0.25;
-    for (int step = 0; step < steps; ++step, width *= 0.5) {
+    for (int step = 0; step < passes * steps; ++step) {
+      const double width = std::ldexp(0.25, -(step % steps));
       std::vector<Hand> hands;
       for (std::size_t i = 0; i < neighbours; ++i) {
         Hand near = best.hand;
@@ -243,24 +252,26 @@ class Search {
     }
   }
 
-  /// The hand goes from place to place while the program remembers, at steady speeds and by leaps.
-  LargestForce stroked(const LargestForce& around) const {
-    Bank bank(program_, around.parameters, around.size);
-    LargestForce best{0, {}, around.parameters, around.size, true};
+  /// The hand goes from place to place while the program remembers, at steady speeds and by leaps. Each time any of the
+  /// banks, all of one patch size, takes over.
+  LargestForce stroked(std::vector<Bank> banks) const {
+    const PatchSize size = banks.front().size();
+    LargestForce best{0, {}, {}, size, true};
     Dice dice(17);
     for (std::size_t stroke = 0; stroke < strokes; ++stroke) {
       Memory memory(program_);
+      std::size_t chosen = 0;
       const bool over_patch = stroke % 2 == 0;
       const auto place = [&] {
         Hand somewhere = hand([&](Input) { return dice.coin() ? dice.next() : dice.coin() ? 1.0 : 0.0; });
         if (over_patch && dice.coin()) {
-          somewhere.position = {static_cast<float>(dice.next() - 0.5) * around.size.width,
-                                static_cast<float>(dice.next() - 0.5) * around.size.height};
+          somewhere.position = {static_cast<float>(dice.next() - 0.5) * size.width,
+                                static_cast<float>(dice.next() - 0.5) * size.height};
         }
         return somewhere;
       };
       Hand from = place(), to = place();
-      memory.enter(bank, from);
+      memory.enter(banks[chosen], from);
       std::size_t leg = 0;
       std::size_t length = 1 + static_cast<std::size_t>(dice.next() * 60);
       double time = 0;
@@ -268,14 +279,20 @@ class Search {
         if (++leg > length) {
           from = to, to = place();
           leg = 1, length = 1 + static_cast<std::size_t>(dice.next() * 60);
+          if (banks.size() > 1) chosen = static_cast<std::size_t>(dice.next() * static_cast<double>(banks.size()));
         }
+        Bank& bank = banks[chosen];
         const auto share = static_cast<float>(static_cast<double>(leg) / static_cast<double>(length));
         Hand now = to;
         now.position = from.position + share * (to.position - from.position);
         now.workspace = from.workspace + share * (to.workspace - from.workspace);
         now.time = std::clamp<double>(time, domain_[Input::time].low, domain_[Input::time].high);
         const double newton = size_of(tick(bank, memory, now));
-        if (newton > best.newton) best.newton = newton, best.hand = now;
+        if (newton > best.newton) {
+          const auto first = bank.registers().begin() + description_.first_parameter();
+          best.newton = newton, best.hand = now;
+          best.parameters.assign(first, first + static_cast<std::ptrdiff_t>(description_.parameters.size()));
+        }
       }
     }
     return best;

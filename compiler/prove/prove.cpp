@@ -20,6 +20,7 @@ Proof prove(const Program& program, const Domain& domain) {
   };
   machine.start(domain, quantities);
   proof.peaks.resize(description.peaks.size());
+  const Relations relations(description, description.setup, description.tick);
   // A peak finds the setup registers as they are when its instruction runs it.
   for (const Instruction& instruction : description.setup) {
     if (instruction.operation == static_cast<std::uint8_t>(Operation::peak)) {
@@ -28,12 +29,12 @@ Proof prove(const Program& program, const Domain& domain) {
       ranges.resize(code.size());
       machine.run_peak(instruction.a, code, ranges);
     }
-    machine.run({&instruction, 1}, {&proof.setup.emplace_back(), 1});
+    const std::size_t number = proof.setup.size();
+    machine.run({&instruction, 1}, relations, number, {&proof.setup.emplace_back(), 1});
   }
   proof.enter = run(description.enter);
-  const Relations relations(description, description.tick);
   proof.tick.resize(description.tick.size());
-  machine.run(description.tick, relations, proof.tick);
+  machine.run(description.tick, relations, description.setup.size(), proof.tick);
   std::array<RegisterNumber, 2> values{};
   for (const Output& output : description.outputs) {
     proof.force[output.axis] = machine.range(output.value);
@@ -48,7 +49,7 @@ Proof prove(const Program& program, const Domain& domain) {
     std::size_t limit = description.tick.size() - 1;
     while (description.tick[limit].destination != output.value) --limit;
     const std::span before(description.tick.data(), limit);
-    machine.run(before, Relations(description, before));
+    machine.run(before, relations, description.setup.size());
     proof.unlimited[output.axis] = machine.range(description.tick[limit].a);
   }
   proof.picture = run(description.picture.code);

@@ -23,7 +23,7 @@ RangeMachine::RangeMachine(const Program& program)
     : program_(program), description_(program_.description()), registers_(description_.register_count()) {
   tables_.reserve(description_.tables.size());
   for (const Spline& spline : program_.decoded().splines) tables_.emplace_back(spline);
-  for (const Grid& grid : description_.grids) grids_.push_back(recall_ranges(grid));
+  grids_ = description_.grids;
   for (const Peak& peak : description_.peaks) peaks_.push_back(peak.code);
 }
 
@@ -37,6 +37,10 @@ void RangeMachine::start(const Domain& domain, std::span<const Quantity> quantit
   }
   set(description_.first_parameter(), domain.parameters);
   set(description_.first_state(), domain.states);
+  for (std::size_t i = 0; i < domain.cells.size(); ++i) {
+    grids_[i].low = domain.cells[i].low;
+    grids_[i].high = domain.cells[i].high;
+  }
   for (std::size_t i = 0; i < std::min(quantities.size(), quantities_limit); ++i) {
     const Quantity& quantity = quantities[i];
     const std::size_t first = quantity.kind == Quantity::Kind::input       ? 0
@@ -47,12 +51,13 @@ void RangeMachine::start(const Domain& domain, std::span<const Quantity> quantit
 }
 
 void RangeMachine::run(std::span<const Instruction> code, std::span<ResultRanges> results) {
-  run(code, nullptr, results);
+  run(code, nullptr, 0, results);
 }
 
-void RangeMachine::run(std::span<const Instruction> code, const Relations& relations, std::span<ResultRanges> results) {
-  known_.assign(3 * code.size(), {});
-  run(code, &relations, results);
+void RangeMachine::run(std::span<const Instruction> code, const Relations& relations, std::size_t first,
+                       std::span<ResultRanges> results) {
+  if (first == 0) known_.assign(3 * relations.instructions(), {});
+  run(code, &relations, first, results);
 }
 
 double RangeMachine::length(const Relations& relations, RegisterNumber x, RegisterNumber y) const {
@@ -81,9 +86,10 @@ Enclosure RangeMachine::related(const Instruction& i, std::size_t number, const 
   return result;
 }
 
-void RangeMachine::run(std::span<const Instruction> code, const Relations* relations, std::span<ResultRanges> results) {
+void RangeMachine::run(std::span<const Instruction> code, const Relations* relations, std::size_t first,
+                       std::span<ResultRanges> results) {
   const auto note = [&](std::size_t number, std::size_t result, const Interval& range) {
-    if (relations != nullptr) known_[3 * number + result] = range;
+    if (relations != nullptr) known_[3 * (first + number) + result] = range;
     if (!results.empty()) results[number][result] = range;
   };
   for (std::size_t number = 0; number < code.size(); ++number) {
@@ -92,12 +98,12 @@ void RangeMachine::run(std::span<const Instruction> code, const Relations* relat
     ResultRanges found{};
     switch (operation) {
       case Operation::sample: found = tables_[i.c].at(range(i.a), range(i.b)); break;
-      case Operation::recall: found = grids_[i.c]; break;
-      case Operation::cell: found[0] = cell_range(description_.grids[i.c]); break;
+      case Operation::recall: found = recall_ranges(grids_[i.c]); break;
+      case Operation::cell: found[0] = cell_range(grids_[i.c]); break;
       case Operation::peak: found[0] = peak_range(i.a); break;
       default: {
         Enclosure result = relations != nullptr
-                               ? related(i, number, *relations)
+                               ? related(i, first + number, *relations)
                                : enclose(operation, registers_[i.a], registers_[i.b], registers_[i.c], i.a == i.b);
         note(number, 0, result.range);
         registers_[i.destination] = result;

@@ -32,8 +32,10 @@ class RangeMachine {
   void start(const Domain& domain, std::span<const Quantity> quantities);
   /// Runs code; writes what each instruction's results may be to `results`, which has room for all or is empty.
   void run(std::span<const Instruction> code, std::span<ResultRanges> results = {});
-  /// The same for code whose values are related so; afterwards `length` knows it.
-  void run(std::span<const Instruction> code, const Relations& relations, std::span<ResultRanges> results = {});
+  /// The same for code whose values are related so, from instruction number `first` of the relations on; those before
+  /// have been run in the same way. Afterwards `length` knows it.
+  void run(std::span<const Instruction> code, const Relations& relations, std::size_t first,
+           std::span<ResultRanges> results = {});
   /// No vector of the values that two registers have is longer, by the code that was run last with its `relations`.
   double length(const Relations& relations, RegisterNumber x, RegisterNumber y) const;
   /// Runs the code of a peak, which finds positions within its extents.
@@ -45,7 +47,8 @@ class RangeMachine {
   void replace_peaks(std::vector<std::vector<Instruction>> code) { peaks_ = std::move(code); }
 
  private:
-  void run(std::span<const Instruction> code, const Relations* relations, std::span<ResultRanges> results);
+  void run(std::span<const Instruction> code, const Relations* relations, std::size_t first,
+           std::span<ResultRanges> results);
   /// One instruction that reads registers only, with what is known of its relations.
   Enclosure related(const Instruction& instruction, std::size_t number, const Relations& relations) const;
   Interval peak_range(std::size_t index);
@@ -54,7 +57,7 @@ class RangeMachine {
   Program program_;
   const PatchProgram& description_;
   std::vector<TableRanges> tables_;
-  std::vector<ResultRanges> grids_;
+  std::vector<Grid> grids_;  ///< their cells narrowed to the domain's
   std::vector<std::vector<Instruction>> peaks_;
   std::vector<Enclosure> registers_;
   std::vector<Interval> known_;  ///< of the code that is run with its relations, by result

@@ -14,6 +14,9 @@ namespace {
 constexpr double roundings = 0x1p-20;
 constexpr double flushed_squares = 1e-17;
 constexpr float one = 1 + 0x1p-20f;
+/// The largest value of the fifth power's smooth step: its polynomial's terms of up to 15 cancel, so that some of their
+/// last places are left.
+constexpr float one_of_cancelling = 1 + 0x1p-18f;
 /// Above it a component whose square is flushed, 1.1e-19 at most, does not count in a length. Below it a unit vector's
 /// components may be 1 each.
 constexpr float exact_above = 1e-15f;
@@ -22,12 +25,12 @@ constexpr int deepest = 16, most_pairs = 64;
 
 }  // namespace
 
-Relations::Relations(const PatchProgram& program, std::span<const Instruction> code)
+Relations::Relations(const PatchProgram& program, std::span<const Instruction> setup, std::span<const Instruction> tick)
     : registers_(static_cast<ValueNumber>(program.register_count())), last_(program.register_count()) {
   for (ValueNumber number = 0; number < registers_; ++number) last_[number] = number;
-  operands_.reserve(code.size());
-  for (std::size_t i = 0; i < code.size(); ++i) {
-    const Instruction& instruction = code[i];
+  operands_.reserve(setup.size() + tick.size());
+  for (std::size_t i = 0; i < setup.size() + tick.size(); ++i) {
+    const Instruction& instruction = i < setup.size() ? setup[i] : tick[i - setup.size()];
     const auto operation = static_cast<Operation>(instruction.operation);
     const OperationFacts& known = facts(operation);
     // Operands that are no registers name none either.
@@ -101,10 +104,117 @@ std::optional<Interval> Relations::remainder(const Definition& difference, const
         !known(difference.operands[1]).is_finite()) {
       continue;
     }
-    const double error = known(x).largest() * roundings + flushed_squares;
+    // A quotient so small that it is flushed to zero has a floor of 0, also below 0.
+    const double error = known(x).largest() * roundings + flushed_squares +
+                         static_cast<double>(known(period).high) * arithmetic::least_normal * (1 + roundings);
     return outward(-error, known(period).high * (1 + roundings) + error, true);
   }
   return {};
+}
+
+/// t^3 (t (6 t - 15) + 10).
+bool Relations::is_smoother_step(const Definition& product, const KnownRanges& known) const {
+  const auto is = [&](ValueNumber value, float number) { return known(value) == Interval::of(number); };
+  for (const std::size_t i : {0u, 1u}) {
+    const Definition* cube = made_by(product.operands[i], Operation::multiply);
+    const Definition* sum = made_by(product.operands[1 - i], Operation::add);
+    if (cube == nullptr || sum == nullptr) continue;
+    for (const std::size_t j : {0u, 1u}) {
+      const ValueNumber t = cube->operands[j];
+      const Definition* square = made_by(cube->operands[1 - j], Operation::multiply);
+      if (square == nullptr || square->operands[0] != t || square->operands[1] != t) continue;
+      if (!(known(t).low >= 0 && known(t).high <= 1)) continue;
+      const std::size_t ten = is(sum->operands[1], 10) ? 1 : 0;
+      const auto rest = times(sum->operands[1 - ten], t);
+      const Definition* less = rest && is(sum->operands[ten], 10) ? made_by(*rest, Operation::subtract) : nullptr;
+      const auto six = less != nullptr && is(less->operands[1], 15) ? times(less->operands[0], t) : std::nullopt;
+      if (six && is(*six, 6)) return true;
+    }
+  }
+  return false;
+}
+
+/// What `factor` is multiplied by in `product`, where it is one.
+std::optional<ValueNumber> Relations::times(ValueNumber product, ValueNumber factor) const {
+  const Definition* made = made_by(product, Operation::multiply);
+  if (made == nullptr) return {};
+  if (made->operands[0] == factor) return made->operands[1];
+  if (made->operands[1] == factor) return made->operands[0];
+  return {};
+}
+
+/// a + t (b - a) is between a and b for a t in [0, 1], and no further off than t is.
+std::optional<Interval> Relations::mixture(const Definition& sum, const KnownRanges& known) const {
+  for (const std::size_t i : {0u, 1u}) {
+    const ValueNumber from = sum.operands[i];
+    const Definition* product = made_by(sum.operands[1 - i], Operation::multiply);
+    if (product == nullptr) continue;
+    for (const std::size_t j : {0u, 1u}) {
+      const Definition* way = made_by(product->operands[j], Operation::subtract);
+      if (way == nullptr || way->operands[1] != from) continue;
+      const Interval &a = known(from), &b = known(way->operands[0]), &t = known(product->operands[1 - j]),
+                     &whole = known(product->operands[j]);
+      if (!a.is_finite() || !b.is_finite() || !t.is_finite() || !whole.is_finite()) continue;
+      const double beyond = std::max({0.0, static_cast<double>(t.high) - 1, -static_cast<double>(t.low)});
+      const double length = whole.largest();
+      const double more =
+          beyond * length + flushed_squares +
+          roundings * (static_cast<double>(a.largest()) + length * (1 + static_cast<double>(t.largest())));
+      return outward(std::min(a.low, b.low) - more, std::max(a.high, b.high) + more, true);
+    }
+  }
+  return {};
+}
+
+/// u1 v1 + u2 v2 is no larger than the two vectors' lengths, of which one is a direction.
+std::optional<Interval> Relations::scalar_product(const Definition& sum, const KnownRanges& known) const {
+  const Definition* first = made_by(sum.operands[0], Operation::multiply);
+  const Definition* second = made_by(sum.operands[1], Operation::multiply);
+  if (first == nullptr || second == nullptr) return {};
+  const auto direction = [&](ValueNumber u, ValueNumber v) {
+    const Definition* made = definition(u);
+    if (made == nullptr || definition(v) == nullptr) return false;
+    switch (made->operation) {
+      case Operation::sine:
+      case Operation::cosine: return is_turn(*made, *definition(v), known);
+      case Operation::divide:
+      case Operation::select: return made->operation == definition(v)->operation;
+      default: return false;
+    }
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : {0u, 1u}) {
+    for (const std::size_t j : {0u, 1u}) {
+      const ValueNumber u1 = first->operands[i], u2 = second->operands[j];
+      if (!direction(u1, u2)) continue;
+      const ValueNumber v1 = first->operands[1 - i], v2 = second->operands[1 - j];
+      least = std::min(least, length(u1, u2, known) * length(v1, v2, known));
+    }
+  }
+  if (!(least < std::numeric_limits<float>::max())) return {};
+  const double most = least * (1 + roundings) + flushed_squares;
+  return outward(-most, most, true);
+}
+
+/// The sine and the cosine of one angle, which is not so large that they lose their error bounds.
+bool Relations::is_turn(const Definition& a, const Definition& b, const KnownRanges& known) const {
+  constexpr float largest_angle = 1e4f;
+  return a.operands[0] == b.operands[0] && known(a.operands[0]).largest() <= largest_angle &&
+         ((a.operation == Operation::sine && b.operation == Operation::cosine) ||
+          (a.operation == Operation::cosine && b.operation == Operation::sine));
+}
+
+/// How large g (C / g) can be at most, where the quotient is finite: as large as C, but for two roundings.
+std::optional<double> Relations::cancelled(ValueNumber factor, ValueNumber quotient, const KnownRanges& known) const {
+  const Definition* made = made_by(quotient, Operation::divide);
+  if (made == nullptr || !known(quotient).is_finite() || !known(made->operands[0]).is_finite()) return {};
+  const auto is_negative_of = [&](ValueNumber a, ValueNumber b) {
+    const Definition* negative = made_by(a, Operation::negate);
+    return negative != nullptr && negative->operands[0] == b;
+  };
+  const ValueNumber divisor = made->operands[1];
+  if (factor != divisor && !is_negative_of(factor, divisor) && !is_negative_of(divisor, factor)) return {};
+  return known(made->operands[0]).largest() * (1 + roundings);
 }
 
 bool Relations::is_smooth_step(const Definition& product, const KnownRanges& known) const {
@@ -136,8 +246,17 @@ std::optional<Interval> Relations::bound(std::size_t number, const KnownRanges& 
       if (whole != nullptr && whole->operands[0] == made.operands[0]) return Interval{0, 1, true};
       return remainder(made, known);
     }
+    case Operation::add:
+      if (auto range = mixture(made, known)) return range;
+      return scalar_product(made, known);
     case Operation::multiply:
       if (is_smooth_step(made, known)) return Interval{0, one, true};
+      if (is_smoother_step(made, known)) return Interval{0, one_of_cancelling, true};
+      for (const std::size_t i : {0u, 1u}) {
+        const Definition* held = made_by(made.operands[1 - i], Operation::limit);
+        const auto most = held != nullptr ? cancelled(made.operands[i], held->operands[1], known) : std::nullopt;
+        if (most) return outward(-*most, *most, true);
+      }
       return {};
     default: return {};
   }
@@ -177,8 +296,8 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known)
 
 /// x = u s and y = v s where s = min(.., A / |(u, v)|), so that the vector is no longer than A. Not-a-number in u or v
 /// leaves the other as it is, which `ceiling` must then hold within A.
-std::optional<double> Relations::limited_length(ValueNumber x, ValueNumber y, std::optional<ValueNumber> ceiling,
-                                                const KnownRanges& known) const {
+std::optional<Relations::Limited> Relations::limited(ValueNumber x, ValueNumber y, std::optional<ValueNumber> ceiling,
+                                                     const KnownRanges& known) const {
   const Definition* first = made_by(x, Operation::multiply);
   const Definition* second = made_by(y, Operation::multiply);
   if (first == nullptr || second == nullptr) return {};
@@ -204,12 +323,27 @@ std::optional<double> Relations::limited_length(ValueNumber x, ValueNumber y, st
                              known(most).is_finite() && known(most).low >= 0;
         // Where the length is zero the scale is the other operand, times squares that were flushed.
         if (!other.is_finite() || other.low < 0 || other.maybe_nan || (u == v) || (!held && !numbers)) continue;
-        return std::max(0.0, static_cast<double>(known(most).high)) * (1 + roundings) +
-               flushed_squares * (1 + static_cast<double>(other.high));
+        return Limited{most, flushed_squares * (1 + static_cast<double>(other.high))};
       }
     }
   }
   return {};
+}
+
+double Relations::Limited::length(const KnownRanges& known) const {
+  return std::max(0.0, static_cast<double>(known(most).high)) * (1 + roundings) + more;
+}
+
+/// g times a vector that is limited to C / g.
+std::optional<double> Relations::scaled_back(ValueNumber factor, ValueNumber x, ValueNumber y,
+                                             const KnownRanges& known) const {
+  const Definition* first = made_by(x, Operation::limit);
+  const Definition* second = made_by(y, Operation::limit);
+  if (first == nullptr || second == nullptr || first->operands[1] != second->operands[1]) return {};
+  const auto most = cancelled(factor, first->operands[1], known);
+  const auto held = most ? limited(first->operands[0], second->operands[0], first->operands[1], known) : std::nullopt;
+  if (!held || held->most != first->operands[1] || !known(factor).is_finite()) return {};
+  return *most * (1 + roundings) + known(factor).largest() * held->more;
 }
 
 double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known, int depth, int& left) const {
@@ -228,6 +362,7 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known,
            u.operands[0] != v.operands[0] && is_length_of(u.operands[1], u.operands[0]) &&
            is_length_of(v.operands[1], v.operands[0]);
   };
+  if (is_turn(*first, *second, known)) return less_of(1);
   if (first->operation != second->operation) return alone;
   const auto& a = first->operands;
   const auto& b = second->operands;
@@ -236,7 +371,7 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known,
       // Holding the components within ceilings makes no vector longer.
       double best = pair(a[0], b[0]);
       if (a[1] == b[1]) {
-        if (const auto limited = limited_length(a[0], b[0], a[1], known)) best = std::min(best, *limited);
+        if (const auto held = limited(a[0], b[0], a[1], known)) best = std::min(best, held->length(known));
       }
       return less_of(best);
     }
@@ -248,12 +383,13 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known,
                                                                        : std::numeric_limits<double>::infinity()));
     case Operation::multiply: {
       double best = alone;
-      if (const auto limited = limited_length(x, y, std::nullopt, known)) best = std::min(best, *limited);
+      if (const auto held = limited(x, y, std::nullopt, known)) best = std::min(best, held->length(known));
       for (const std::size_t i : {0u, 1u}) {
         for (const std::size_t j : {0u, 1u}) {
           // Infinity times zero would be not-a-number, which counts as zero; infinity times anything else has no bound.
           if (a[i] == b[j] && known(a[i]).is_finite()) {
             best = std::min(best, less_of(known(a[i]).largest() * pair(a[1 - i], b[1 - j])));
+            if (const auto back = scaled_back(a[i], a[1 - i], b[1 - j], known)) best = std::min(best, *back);
           }
         }
       }

@@ -151,7 +151,10 @@ void verify_device(const DeviceProfile& device) {
   require_within(device.mass, 0, 1000, "the device's mass (kg)");
   require_within(device.damping, 0, 1e6, "the device's damping (N s/m)");
   require_within(device.friction, 0, 1000, "the device's friction (N)");
-  require_within(device.delay, 0, 1, "the device's delay (s)");
+  require_within(device.delay_x, 0, 1, "the device's delay along x (s)");
+  require_within(device.delay_y, 0, 1, "the device's delay along y (s)");
+  require_within(device.bandwidth_x, 0, 1e6, "the device's bandwidth along x (Hz)");
+  require_within(device.bandwidth_y, 0, 1e6, "the device's bandwidth along y (Hz)");
 }
 
 void verify_percepts(const PatchProgram& program) {

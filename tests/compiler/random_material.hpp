@@ -62,8 +62,11 @@ class RandomMaterial {
       if (one_in(3)) write_update();
       body_ += fmt::format("    let push{} = {}\n", i, vector_of(force, 4));
       const bool last = i == layers - 1;
-      body_ += fmt::format("    force{0} = push{1} * ({2} N / (1 N + length(push{1})))\n",
-                           last && one_in(2) ? "" : fmt::format(" layer{}", i), i, 4.5 / layers);
+      const std::string layer = last && one_in(2) ? "" : fmt::format(" layer{}", i), push = fmt::format("push{}", i);
+      if (one_in(3))
+        body_ += fmt::format("    force{} = {} limit {} N\n", layer, push, 4.5 / layers);
+      else
+        body_ += fmt::format("    force{0} = {1} * ({2} N / (1 N + length({1})))\n", layer, push, 4.5 / layers);
       if (!last && one_in(2)) names_.push_back({fmt::format("layer{}", i), force, true});
     }
     while (!unmoved_.empty()) write_update();

@@ -56,6 +56,18 @@ TEST(Grade, KnownDampingDecidesBetweenPassiveHandAndUnstable) {
   EXPECT_EQ(steep.standing, Standing::unstable);  // 11.2 against 1 and 6.5
 }
 
+// K (T / 2 + d + 1 / (2 pi f)), of the axis that is later.
+TEST(Grade, TheDevicesAxesAreAsLateAsItsDeclarationSays) {
+  const auto needed = [](const std::string& settings) {
+    return graded("    force = -100 N/m * hand", device(settings), "bench").required_damping;
+  };
+  EXPECT_NEAR(needed(""), 100.0 / 1800, 1e-4);
+  EXPECT_NEAR(needed("  delay 1 ms"), 100 * (1.0 / 1800 + 0.001), 1e-4);
+  EXPECT_NEAR(needed("  delay 1 ms, 2 ms"), 100 * (1.0 / 1800 + 0.002), 1e-4);
+  EXPECT_NEAR(needed("  delay 1 ms, 2 ms\n  bandwidth 20 Hz, 200 Hz"), 100 * (1.0 / 1800 + 0.001 + 1 / (2 * pi * 20)),
+              1e-4);
+}
+
 TEST(Grade, FrictionHoldsOneCountOrItBuzzes) {
   const auto buzzes = [](const std::string& friction) {
     return graded("    force = vector(1 N * sin(2 pi * x / 2.5 mm), 0 N)", device("  friction " + friction), "bench")

@@ -13,7 +13,7 @@ constexpr double pi = 3.14159265358979323846;
 DeviceProfile device(double delay = 0, double window = 1) {
   DeviceProfile profile;
   profile.rate = 900;
-  profile.delay = delay;
+  profile.delay_x = profile.delay_y = delay;
   profile.velocity_window = window;
   return profile;
 }
@@ -40,6 +40,39 @@ TEST(RequiredDamping, IsThatOfTheVirtualWall) {
 TEST(RequiredDamping, GrowsByTheDelay) {
   for (const double delay : {0.0, 0.0005, 0.001, 0.002})
     EXPECT_NEAR(required_damping(wall(5010, 0), LoopTiming(device(delay))), 5010 * (1.0 / 1800 + delay), 1e-6);
+}
+
+// An actuator's low-pass delays what is slow by its time constant. Held against the form itself, frequency by
+// frequency.
+TEST(RequiredDamping, GrowsByTheActuatorsLag) {
+  DeviceProfile profile = device(0.0007);
+  profile.bandwidth_x = profile.bandwidth_y = 60;
+  const double T = 1.0 / 900, d = 0.0007, lag = 1 / (2 * pi * 60);
+  double worst = 0;
+  for (int i = 1; i <= 100000; ++i) {
+    const double a = pi * i / 100000;
+    const std::complex<double> late =
+        (1.0 - std::polar(1.0, -a)) * std::polar(1.0, -a * d / T) / std::complex<double>(1, a * lag / T);
+    worst = std::max(worst, 2000 * T / 2 / (1 - std::cos(a)) * late.real());
+  }
+  const double needed = required_damping(wall(2000, 0), LoopTiming(profile));
+  EXPECT_NEAR(needed, worst, 1e-6 * worst);
+  EXPECT_NEAR(needed, 2000 * (T / 2 + d + lag), 1e-9);
+}
+
+// A damper along x alone is as late as x is, whatever y does; a slope may turn up along either axis.
+TEST(RequiredDamping, EveryAxisIsAsLateAsItIs) {
+  const double undelayed = required_damping(wall(0, 4), LoopTiming(device()));
+  DeviceProfile late_along_y = device();
+  late_along_y.delay_y = 0.003;
+  late_along_y.bandwidth_y = 30;
+  EXPECT_NEAR(required_damping(wall(0, 4), LoopTiming(late_along_y)), undelayed, 1e-9);
+  DeviceProfile late_along_x = device();
+  late_along_x.delay_x = 0.003;
+  LinearProgram along_y;
+  along_y.direct.velocity[1][1] = -4;
+  EXPECT_NEAR(required_damping(along_y, LoopTiming(late_along_x)), undelayed, 1e-9);
+  EXPECT_NEAR(required_damping(wall(500, 0), LoopTiming(late_along_x)), 500 * (1.0 / 1800 + 0.003), 1e-9);
 }
 
 TEST(RequiredDamping, CountsTheStiffestDirection) {

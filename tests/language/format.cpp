@@ -38,6 +38,8 @@ TEST(Format, SpacesOperatorsAndNotParentheses) {
   EXPECT_EQ(statement("param p=5mm in 1mm..9mm\"why\""), "    param p = 5 mm in 1 mm .. 9 mm  \"why\"\n");
   EXPECT_EQ(statement("state p:position=hand in -6mm..6mm"), "    state p : position = hand in -6 mm .. 6 mm\n");
   EXPECT_EQ(statement("v '=-k; next  v=0"), "    v' = -k\n    next v = 0\n");
+  EXPECT_EQ(statement("force a=b  limit-c"), "    force a = b limit -c\n");
+  EXPECT_EQ(statement("force=2mm*k  limit\t3N"), "    force = 2 mm * k limit 3 N\n");
   EXPECT_EQ(statement("show- x; patch 2mm ,3mm"), "    show -x\n    patch 2 mm, 3 mm\n");
 }
 

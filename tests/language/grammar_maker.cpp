@@ -87,8 +87,8 @@ class Grammar::Maker {
   bool tired() const { return effort_ <= 0 || depth_ > 40; }
 
   std::string terminal(const std::string& kind) {
-    static const std::vector<std::string> names = {"a",        "b",  "x", "wale", "k",    "map",  "force", "material",
-                                                   "function", "mm", "N", "ribs", "unit", "kg_m", "words", "hand"};
+    static const std::vector<std::string> names = {"a",        "b",  "x", "wale", "k",    "map",   "force", "material",
+                                                   "function", "mm", "N", "ribs", "unit", "limit", "words", "hand"};
     static const std::vector<std::string> numbers = {"2", "0.5", "24", "1e-3", "3.25", "100", "7E2"};
     const auto any = [&](const std::vector<std::string>& list) { return list[random_() % list.size()]; };
     if (kind == "NAME") return any(names);

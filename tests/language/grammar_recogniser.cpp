@@ -20,14 +20,15 @@ class Grammar::Recogniser {
  private:
   using Ends = std::set<std::size_t>;
   struct Context {
-    bool setting = false, suffix = false;
+    bool setting = false, force = false, suffix = false;
   };
 
   bool is(std::size_t at, const std::string& kind) const { return at < input_.size() && input_[at].kind == kind; }
 
   Ends read_rule(const std::string& name, std::size_t at, Context context) {
     context.setting = context.setting || name == "setting";
-    const auto key = std::make_tuple(name, at, context.setting);
+    context.force = context.force || name == "force";
+    const auto key = std::make_tuple(name, at, context.setting, context.force);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
     Ends ends;
     if ((name == "setting" || name == "percept") && begins_declaration(at)) {
@@ -80,9 +81,11 @@ class Grammar::Recogniser {
     }
     if (terminal == "NAME") return here.kind == "DOTTED" && here.text.find('.') == std::string::npos;
     if (here.kind != terminal) return false;
-    // "A name before `(` or `:`, a reserved word and the words of evidence in a setting are no part of it."
+    // "A name before `(` or `:`, a reserved word, the words of evidence in a setting and the word `limit` in a force
+    // are no part of it."
     if (context.suffix && terminal == "DOTTED")
-      return !is(at + 1, "(") && !is(at + 1, ":") && !(context.setting && grammar_.evidence_.count(here.text) > 0);
+      return !is(at + 1, "(") && !is(at + 1, ":") && !(context.setting && grammar_.evidence_.count(here.text) > 0) &&
+             !(context.force && here.text == "limit");
     // "the version: 1", and nothing may stand between it and `wale`.
     if (terminal == "NUMBER" && at == 1) return std::atof(here.text.c_str()) == 1;
     return true;
@@ -134,7 +137,7 @@ class Grammar::Recogniser {
 
   const Grammar& grammar_;
   const Terminals& input_;
-  std::map<std::tuple<std::string, std::size_t, bool>, Ends> known_;
+  std::map<std::tuple<std::string, std::size_t, bool, bool>, Ends> known_;
 };
 
 bool Grammar::recognises(const std::string& text) const {

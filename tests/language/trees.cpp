@@ -70,6 +70,16 @@ TEST(Suffixes, EndWhereArithmeticBegins) {
   EXPECT_EQ(expression("f(2 m, period: 3 s)"), "(f [2 m] period: [3 s])");
 }
 
+TEST(Suffixes, EndAtTheLimitOfAForce) {
+  EXPECT_EQ(physical("force = k * 5 mm limit 3 N"), "(force (* k [5 mm]) (limit [3 N]))");
+  EXPECT_EQ(physical("force drag = viscous(2 N s/m) limit\n  a + b"), "expected a value after `limit`");
+  EXPECT_EQ(physical("force drag = a limit b / 2"), "(force drag a (limit (/ b 2)))");
+  EXPECT_EQ(physical("force = limit limit 3"), "(force limit (limit 3))");
+  EXPECT_EQ(physical("force = 3 limit limit"), "(force 3 (limit limit))");
+  EXPECT_EQ(physical("let a = 2 limit"), "(let a [2 limit])");
+  EXPECT_EQ(physical("let limit = 2\nforce = limit"), "(let limit 2)\n    (force limit)");
+}
+
 TEST(Suffixes, DoNotCrossALineUnlessInParentheses) {
   EXPECT_EQ(physical("let a = 5\nforce = a"), "(let a 5)\n    (force a)");
   EXPECT_EQ(expression("(5\n  mm)"), "[5 mm]");

@@ -279,7 +279,8 @@ TEST(Verification, Device) {
   for (double DeviceProfile::*figure :
        {&DeviceProfile::slew, &DeviceProfile::velocity_window, &DeviceProfile::velocity_noise_counts,
         &DeviceProfile::patch_width, &DeviceProfile::patch_height, &DeviceProfile::patch_rim, &DeviceProfile::mass,
-        &DeviceProfile::damping, &DeviceProfile::friction, &DeviceProfile::delay}) {
+        &DeviceProfile::damping, &DeviceProfile::friction, &DeviceProfile::delay_x, &DeviceProfile::delay_y,
+        &DeviceProfile::bandwidth_x, &DeviceProfile::bandwidth_y}) {
     for (const double value : {-1.0, 1e12, std::nan("")}) {
       PatchProgram p = program();
       p.device.*figure = value;

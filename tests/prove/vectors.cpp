@@ -29,7 +29,7 @@ class VectorProgram {
   };
 
   explicit VectorProgram(unsigned seed) : random_(seed), program_(example::least()) {
-    program_.constants = {0.0f, 10.0f, 1.0f, 1e-12f, 0.5f, 3.0f, -2.0f, 40.0f};
+    program_.constants = {0.0f, 10.0f, 1.0f, 1e-12f, 0.5f, 3.0f, -2.0f, 40.0f, 6.0f, 15.0f};
     if (seed % 3 == 0) {
       for (const float wild : {1e-19f, 3e-20f, 1e19f, 1e30f, __builtin_inff(), __builtin_nanf("")}) {
         program_.constants.push_back(wild);
@@ -76,9 +76,21 @@ class VectorProgram {
     return write(square_root, write(add, write(multiply, v.x, v.x), write(multiply, v.y, v.y)));
   }
 
+  /// v, no longer than `most`.
+  Vector held(const Vector& v, unsigned most, bool by_component) {
+    const unsigned ratio = write(divide, most, length(v));
+    const unsigned scale = pick(2) == 0 ? write(minimum, 34, ratio) : write(minimum, ratio, 34);
+    const Vector scaled{write(multiply, v.x, scale), write(multiply, scale, v.y)};
+    if (!by_component) return scaled;
+    return {write(limit, scaled.x, most), write(limit, scaled.y, most)};
+  }
+
+  /// A value brought into [0, 1].
+  unsigned share(unsigned value) { return write(minimum, write(maximum, value, 32), 34); }
+
   Vector any() {
     const Vector v = any_vector(), w = any_vector();
-    switch (pick(9)) {
+    switch (pick(13)) {
       case 0: {  // v / |v|, guarded
         const unsigned r = length(v), bound = pick(2) == 0 ? 32 : pick(4) == 0 ? 38 : 35;
         const unsigned x = write(divide, v.x, r), y = write(divide, v.y, r);
@@ -93,14 +105,8 @@ class VectorProgram {
         const unsigned r = length(v);
         return {write(divide, v.x, r), write(divide, v.y, r)};
       }
-      case 2: {  // |v| limited, the components too
-        const unsigned most = pick(2) == 0 ? program_.first_parameter() : any_constant();
-        const unsigned ratio = write(divide, most, length(v));
-        const unsigned scale = pick(2) == 0 ? write(minimum, 34, ratio) : write(minimum, ratio, 34);
-        const Vector scaled{write(multiply, v.x, scale), write(multiply, scale, v.y)};
-        if (pick(3) == 0) return scaled;
-        return {write(limit, scaled.x, most), write(limit, scaled.y, most)};
-      }
+      case 2:  // |v| limited, the components too
+        return held(v, pick(2) == 0 ? program_.first_parameter() : any_constant(), pick(3) != 0);
       case 3: {
         const unsigned factor = any_factor();
         return {write(multiply, factor, v.x), write(multiply, v.y, factor)};
@@ -116,6 +122,29 @@ class VectorProgram {
       case 7: {
         const unsigned condition = write(less, any_factor(), any_factor());
         return {write(select, condition, v.x, w.x), write(select, condition, v.y, w.y)};
+      }
+      case 8: {  // a mixture, or what is no further off
+        const unsigned t = pick(3) == 0 ? any_factor() : share(w.x);
+        return {write(add, v.x, write(multiply, t, write(subtract, w.x, v.x))),
+                write(add, write(multiply, write(subtract, w.y, v.y), t), v.y)};
+      }
+      case 9: {  // a share of v by the fifth power's smooth step
+        const unsigned t = share(w.y), cube = write(multiply, write(multiply, t, t), t);
+        const unsigned inner = write(multiply, t, write(subtract, write(multiply, 40, t), 41));
+        const unsigned step = write(multiply, cube, pick(2) == 0 ? write(add, inner, 33) : write(add, 33, inner));
+        return {write(multiply, v.x, step), write(multiply, step, v.y)};
+      }
+      case 10: {  // what v has in a direction, and that in this direction again
+        const unsigned angle = any_factor();
+        const Vector u = pick(2) == 0 ? any_vector() : Vector{write(cosine, angle), write(sine, angle)};
+        const unsigned along = write(add, write(multiply, v.x, u.x), write(multiply, u.y, v.y));
+        return {write(multiply, along, u.x), write(multiply, u.y, along)};
+      }
+      case 11: {  // limited to C / g, and times g
+        const unsigned g = any_factor(), ceiling = write(divide, pick(3) == 0 ? w.x : any_factor(), g);
+        const Vector limited = held(v, ceiling, pick(4) != 0);
+        const unsigned factor = pick(3) == 0 ? write(negate, g) : g;
+        return {write(multiply, limited.x, factor), write(multiply, factor, limited.y)};
       }
       default: {
         const unsigned ceiling = any_constant();

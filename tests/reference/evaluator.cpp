@@ -134,6 +134,16 @@ class Evaluator {
     return std::visit([&](const auto& node) { return (*this)(node, names); }, tree_.expr(id));
   }
 
+  /// What `force = … limit …` says: the force's length held, its direction kept.
+  Quantity limited(const Quantity& force, const Quantity& ceiling) {
+    require(force.type == Quantity::Type::vector && ceiling.type == Quantity::Type::number &&
+                force.dimension == ceiling.dimension,
+            "no limit of that force");
+    const Component x = part(force, 0), y = part(force, 1);
+    const Component size = square_root(add(multiply(x, x), multiply(y, y)));
+    return product(force, of(smaller({1, 0}, divide(part(ceiling, 0), size))), false);
+  }
+
  private:
   Quantity operator()(const NumberLiteral& node, const Names& names) {
     Quantity result = number(node.value);
@@ -467,7 +477,8 @@ Quantity Simulation::tick(const HandState& hand, bool entering) {
       names[state->name.text] = states_.at(state->name.text);
     }
     if (const auto* force = std::get_if<ForceStatement>(&statement.what)) {
-      const Quantity term = evaluator.evaluate(force->value, names);
+      Quantity term = evaluator.evaluate(force->value, names);
+      if (force->limit) term = evaluator.limited(term, evaluator.evaluate(*force->limit, names));
       require(term.type == Quantity::Type::vector && term.dimension == Dimension{1, 1, -2}, "no force");
       if (force->name) names[force->name->text] = term;
       if (sum)

@@ -28,7 +28,10 @@ inline DeviceProfile device() {
   device.mass = 0.3;
   device.damping = 1;
   device.friction = 0.15;
-  device.delay = 0.0005;
+  device.delay_x = 0.0005;
+  device.delay_y = 0.0006;
+  device.bandwidth_x = 120;
+  device.bandwidth_y = 90;
   device.damping_known = true;
   return device;
 }

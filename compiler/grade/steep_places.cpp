@@ -1,0 +1,75 @@
+#include "compiler/grade/steep_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace wale {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::size_t climbers = 8;    // of the steepest places, from which steeper ones are looked for
+constexpr std::size_t directions = 8;  // of each step
+constexpr int climbs = 14;             // each with half the step of the one before
+
+/// The steepest of the hands, by number; of equally steep ones the first.
+std::vector<std::size_t> steepest_of(std::span<const ProgramSlopes::At> at) {
+  std::vector<std::size_t> numbers(at.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+  const std::size_t count = std::min(climbers, numbers.size());
+  std::ranges::partial_sort(
+      numbers, numbers.begin() + static_cast<std::ptrdiff_t>(count),
+      [&](std::size_t a, std::size_t b) { return std::pair(steepness(at[a]), b) > std::pair(steepness(at[b]), a); });
+  numbers.resize(count);
+  return numbers;
+}
+
+}  // namespace
+
+double steepness(const ProgramSlopes::At& at) {
+  const double norm = spectral_norm(at.linear.direct.place);
+  return std::isfinite(norm) ? norm : 0;
+}
+
+SteepPlaces find_steepest(ProgramSlopes& slopes, const LookedAt& looked_at, glm::vec2 extent) {
+  if (looked_at.hands.empty()) return {};
+  const std::size_t state_count = looked_at.states.size() / looked_at.hands.size();
+  const auto states_of = [state_count](std::span<const float> states, std::size_t hand) {
+    return states.subspan(hand * state_count, state_count);
+  };
+  SteepPlaces best;
+  std::vector<double> steepest;
+  for (const std::size_t i : steepest_of(looked_at.at)) {
+    best.hands.push_back(looked_at.hands[i]);
+    const auto states = states_of(looked_at.states, i);
+    best.states.insert(best.states.end(), states.begin(), states.end());
+    steepest.push_back(steepness(looked_at.at[i]));
+  }
+  // At first as far as the hands are apart that were looked at all over the patch.
+  glm::vec2 step = extent / std::sqrt(static_cast<float>(lattice_hands));
+  std::vector<Hand> tried;
+  std::vector<float> tried_states;
+  for (int round = 0; round < climbs; ++round, step *= 0.5f) {
+    tried.clear(), tried_states.clear();
+    for (std::size_t i = 0; i < best.hands.size(); ++i)
+      for (std::size_t direction = 0; direction < directions; ++direction) {
+        const auto angle = static_cast<float>(static_cast<double>(direction) * pi / 4);
+        Hand& hand = tried.emplace_back(best.hands[i]);
+        const glm::vec2 moved = step * glm::vec2(std::cos(angle), std::sin(angle));
+        hand.position = glm::clamp(hand.position + moved, -extent, extent);
+        hand.workspace += moved;
+        const auto states = states_of(best.states, i);
+        tried_states.insert(tried_states.end(), states.begin(), states.end());
+      }
+    const auto at = slopes.by_place(tried, tried_states);
+    for (std::size_t i = 0; i < tried.size(); ++i)
+      if (const double here = steepness(at[i]); here > steepest[i / directions])
+        steepest[i / directions] = here, best.hands[i / directions] = tried[i];
+  }
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(steepest) - steepest.begin());
+  best.stiffness = steepest[top];
+  best.where = {best.hands[top].position, best.hands[top].velocity};
+  return best;
+}
+
+}  // namespace wale

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wale {
+
+/// Hands out the temporary registers of one piece of code and takes them back after their last use.
+class Temporaries {
+ public:
+  /// The lowest register that is free.
+  std::size_t take() {
+    std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
+    while (free_[word] == 0)
+      if (++word == free_.size()) free_.push_back(~std::uint64_t{0});
+    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free_[word]));
+    free_[word] &= free_[word] - 1;
+    most_ = std::max(most_, first + 1);
+    return first;
+  }
+  /// `count` neighbouring registers, the lowest that are free.
+  std::size_t take(std::size_t count) {
+    if (count == 1) return take();
+    std::size_t first = 0;
+    for (std::size_t run = 0, i = 0; run < count; ++i) {
+      if (i / word_bits == free_.size()) free_.push_back(~std::uint64_t{0});
+      run = (free_[i / word_bits] & bit(i)) != 0 ? run + 1 : 0;
+      first = i + 1 - run;
+    }
+    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] &= ~bit(i);
+    most_ = std::max(most_, first + count);
+    return first;
+  }
+  void give_back(std::size_t first, std::size_t count) {
+    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
+  }
+  std::size_t most() const { return most_; }
+
+ private:
+  static constexpr std::size_t word_bits = 64;
+
+  static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % word_bits; }
+
+  std::vector<std::uint64_t> free_{~std::uint64_t{0}};  ///< a bit for each register
+  std::size_t most_ = 0;
+};
+
+}  // namespace wale
