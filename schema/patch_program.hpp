@@ -146,6 +146,22 @@ struct Picture {
 /// How a figure came to be known, best first.
 enum class Evidence : std::uint8_t { measured = 1, published = 2, estimated = 3, recalled = 4, transferred = 5 };
 
+/// What reads a percept's carrier from a program, or from the force at the handle. Each looks at something of its own,
+/// so that no percept's carrier is taken for another's.
+enum class Extractor : std::uint8_t {
+  none = 0,            ///< nothing does
+  lateral_force = 1,   ///< N: 99th percentile of the static force, its periods within a band
+  opposing_force = 2,  ///< N: what opposes a moving hand whatever its speed
+  damping = 3,         ///< N s/m: what opposes it in proportion to its speed
+  stiffness = 4,       ///< N/m: slope of the static force over distances that no texture has
+  wall_stiffness = 5,  ///< N/m: the steepest slope of a force on one side of a place, none on the other
+  wall_damping = 6,    ///< N s/m: what opposes a hand as it comes in there
+  inertia = 7,         ///< kg: what opposes its acceleration
+  vibration = 8,       ///< N: amplitude of the force on a hand at rest
+  steepness = 9,       ///< 1/m: the lateral force's steepest change over its amplitude
+  periodicity = 10,    ///< share of the lateral force that comes back after a period, 0 .. 1
+};
+
 /// One percept of the program: what was asked, through which map it is realised, and how to read it back.
 ///
 /// `prediction` is pure code that turns the carrier's size in the `probe` input into magnitude and level.
@@ -153,7 +169,7 @@ struct PerceptRecord {
   std::string name;                        ///< "roughness"
   std::string carrier;                     ///< "lateral amplitude"
   std::optional<std::uint16_t> parameter;  ///< the live level, when the percept was asked for
-  RegisterNumber amplitude = 0;            ///< constant or setup register: the carrier's size, N
+  RegisterNumber amplitude = 0;            ///< constant or setup register: the carrier's size, SI
   bool alone = false;                      ///< nothing but this carrier pushes, so total force reads it
   std::vector<Instruction> prediction;
   RegisterNumber magnitude = 0, level = 0;
@@ -161,6 +177,20 @@ struct PerceptRecord {
   float scatter = 0;                    ///< standard deviation of log10 magnitude
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   std::string map, device, source;  ///< the map's name, the device it was measured on, the citation
+
+  std::string unit;      ///< of the carrier's size, SI: "N", "N s/m"
+  Extractor extractor = Extractor::none;
+  float period_low = 0, period_high = 0;  ///< m: the band that the extractor reads; 0, 0 for any
+  float one = 0;                          ///< the carrier's size at level 1
+  float near_threshold = 0;               ///< level below which it is near or below threshold
+  float spread = 0;                       ///< standard deviation of the observers' own exponents; 0: not known
+  std::uint16_t observers = 0;            ///< 0: not known
+  /// How small a difference of the carrier's size is noticed, at d' = 1: as a share of it, and no less than `floor`.
+  /// 0: not known.
+  float weber = 0, floor = 0;
+  Evidence weber_evidence = Evidence::estimated;
+  std::string weber_source;
+  std::string realisation;  ///< the device's own force for it, as written; empty where the author's physics carries it
 
   friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
 };

@@ -266,7 +266,7 @@ Evidence read_evidence(ByteReader& in, std::string_view what) {
 }
 
 std::vector<PerceptRecord> read_percepts(ByteReader& in) {
-  std::vector<PerceptRecord> percepts(in.count(49, "percepts"));
+  std::vector<PerceptRecord> percepts(in.count(93, "percepts"));
   for (PerceptRecord& percept : percepts) {
     percept.name = in.text("a percept's name");
     percept.carrier = in.text("a percept's carrier");
@@ -288,6 +288,20 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.map = in.text("a map's name");
     percept.device = in.text("a map's device");
     percept.source = in.text("a map's source");
+    percept.unit = in.text("a carrier's unit");
+    const std::uint8_t extractor = in.u8();
+    if (extractor > static_cast<std::uint8_t>(Extractor::periodicity)) {
+      refuse(in.name(), " reads a percept by extractor ", int{extractor}, ", which this Wale does not know");
+    }
+    percept.extractor = static_cast<Extractor>(extractor);
+    for (float* figure : {&percept.period_low, &percept.period_high, &percept.one, &percept.near_threshold,
+                          &percept.spread, &percept.weber, &percept.floor}) {
+      *figure = in.finite_f32("a percept's figure");
+    }
+    percept.observers = in.u16();
+    percept.weber_evidence = read_evidence(in, "a threshold");
+    percept.weber_source = in.text("a threshold's source");
+    percept.realisation = in.text("a realisation");
   }
   if (percepts.empty()) refuse(in.name(), " is there and empty; a file without percepts leaves it out");
   return percepts;

@@ -171,6 +171,15 @@ void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
     out.text(percept.map);
     out.text(percept.device);
     out.text(percept.source);
+    out.text(percept.unit);
+    out.u8(static_cast<std::uint8_t>(percept.extractor));
+    for (const float figure : {percept.period_low, percept.period_high, percept.one, percept.near_threshold,
+                               percept.spread, percept.weber, percept.floor})
+      out.f32(figure);
+    out.u16(percept.observers);
+    out.u8(static_cast<std::uint8_t>(percept.weber_evidence));
+    out.text(percept.weber_source);
+    out.text(percept.realisation);
   }
 }
 

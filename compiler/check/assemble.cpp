@@ -269,7 +269,8 @@ class Assembler {
       for (const auto& asked : component.material->percepts) {
         auto found = std::ranges::find(result->percepts, asked.name, &AskedPercept::name);
         if (found == result->percepts.end()) {
-          result->percepts.push_back({asked.name, 0, 0, from.tree->span(expr)});
+          result->percepts.push_back(
+              {.name = asked.name, .span = from.tree->span(expr), .by = asked.by, .essential = asked.essential});
           found = result->percepts.end() - 1;
         }
         found->level += component.weight / whole * asked.level;
@@ -350,8 +351,9 @@ class Assembler {
   void add_percept(const Declared<MaterialDecl>& declared, const PerceptStatement& node,
                    std::vector<AskedPercept>& percepts) {
     const auto& declarations = *declared.home;
-    if (!declarations.percepts.contains(node.name.text)) {
-      const auto known = declarations.percepts.spellings();
+    const PerceptName meant = declarations.percept_named(node.name.text);
+    if (!meant.percept) {
+      const auto known = declarations.percept_spellings();
       return report(
           Code::unknown_name, node.name.span, fmt::format("nothing declares a percept `{}`", node.name.text),
           did_you_mean(node.name.span, node.name.text, known,
@@ -359,11 +361,12 @@ class Assembler {
     }
     for (const auto& other : declared.node->perceptual) {
       if (&other == &node) break;
-      if (other.name.text == node.name.text)
+      if (declarations.percept_named(other.name.text).percept == meant.percept)
         return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text),
                       Advice("keep one of them").see(other.name.span, "asked for here first"));
     }
-    AskedPercept asked{node.name.text, 0, 0, node.span};
+    AskedPercept asked{.name = meant.percept->name, .span = node.span, .essential = node.essential};
+    if (node.by) asked.by = node.by->text;
     if (node.level_name) {
       asked.span = node.level_name->span;
       const auto named = named_level(declarations, node.name.text, *node.level_name);
@@ -396,6 +399,7 @@ class Assembler {
                       Advice("write, for example, `0.6 ± 0.1`").fact("low", 0).fact("high", 1));
       asked.tolerance = *tolerance;
     }
+    if (meant.reversed) asked.level = 1 - asked.level;
     const auto taken_over = std::ranges::find(percepts, asked.name, &AskedPercept::name);
     if (taken_over == percepts.end())
       percepts.push_back(asked);

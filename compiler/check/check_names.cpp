@@ -180,7 +180,8 @@ bool uses_any(const Declarations& from, const UsedNames& used) {
   return uses_any(from.dimensions, used) || uses_any(from.units, used) || uses_any(from.constants, used) ||
          uses_any(from.functions, used) || uses_any(from.percepts, used) || uses_any(from.devices, used) ||
          uses_any(from.hands, used) || uses_any(from.materials, used) || std::ranges::any_of(from.own_maps, exported) ||
-         std::ranges::any_of(from.own_levels, exported);
+         uses_any(from.classes, used) || std::ranges::any_of(from.own_thresholds, exported) ||
+         std::ranges::any_of(from.own_rules, exported) || std::ranges::any_of(from.own_levels, exported);
 }
 
 template <typename T>

@@ -10,21 +10,63 @@ Declarations::Declarations(const Declarations& beneath)
   constants.stand_on(beneath.constants);
   functions.stand_on(beneath.functions);
   percepts.stand_on(beneath.percepts);
+  classes.stand_on(beneath.classes);
   devices.stand_on(beneath.devices);
   hands.stand_on(beneath.hands);
   materials.stand_on(beneath.materials);
 }
 
-std::vector<const Map*> Declarations::maps() const {
-  std::vector<const Map*> all = common ? common->maps() : std::vector<const Map*>{};
-  for (const auto& map : own_maps) all.push_back(&map);
+namespace {
+
+/// What lies beneath first, then a file's own.
+template <typename T>
+std::vector<const T*> gathered(std::vector<const T*> all, const std::vector<T>& own) {
+  for (const auto& each : own) all.push_back(&each);
   return all;
 }
 
+}  // namespace
+
+std::vector<const Map*> Declarations::maps() const {
+  return gathered(common ? common->maps() : std::vector<const Map*>{}, own_maps);
+}
+
+std::vector<const Threshold*> Declarations::thresholds() const {
+  return gathered(common ? common->thresholds() : std::vector<const Threshold*>{}, own_thresholds);
+}
+
+std::vector<const Rule*> Declarations::rules() const {
+  return gathered(common ? common->rules() : std::vector<const Rule*>{}, own_rules);
+}
+
 std::vector<const Levels*> Declarations::levels() const {
-  std::vector<const Levels*> all = common ? common->levels() : std::vector<const Levels*>{};
-  for (const auto& levels : own_levels) all.push_back(&levels);
+  return gathered(common ? common->levels() : std::vector<const Levels*>{}, own_levels);
+}
+
+PerceptName Declarations::percept_named(std::string_view name) const {
+  if (const Percept* found = percepts.find(name)) return {found, false};
+  PerceptName found;
+  percepts.each([&](const std::string&, const Percept& percept) {
+    if (percept.antonym == name) found = {&percept, true};
+  });
+  return found;
+}
+
+std::vector<std::string> Declarations::percept_spellings() const {
+  std::vector<std::string> all;
+  percepts.each([&](const std::string& name, const Percept& percept) {
+    all.push_back(name);
+    if (!percept.antonym.empty()) all.push_back(percept.antonym);
+  });
   return all;
+}
+
+const Threshold* Declarations::threshold(std::string_view cue, std::string_view device) const {
+  const Threshold* found = nullptr;
+  for (const Threshold* threshold : thresholds())
+    if (threshold->cue == cue && (!found || (found->device != device && threshold->device == device)))
+      found = threshold;
+  return found;
 }
 
 }  // namespace wale

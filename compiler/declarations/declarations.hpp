@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compiler/declarations/dimension.hpp"
+#include "compiler/declarations/percepts.hpp"
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
 #include "schema/device_profile.hpp"
@@ -93,45 +94,13 @@ struct Unit {
   Dimension dimension;
 };
 
-/// A percept's scale: level 1 is the magnitude of a carrier of size `one` by any map tied to it.
-struct Percept {
-  std::string name;
-  std::string carrier;  ///< "lateral amplitude": the argument `amplitude` of the function `lateral`
-  Dimension carrier_dimension;
-  double one = 0;                ///< the carrier's size at level 1, SI
-  std::string reference_device;  ///< on which the reference stimulus was felt
-  double near_threshold = 0;     ///< level below which the percept is near or below threshold
-  std::string documentation;
-  Span span;
-};
-
-/// A psychophysical map: an equation between a percept's magnitude and a carrier's size, and what is known of it.
-struct Map {
-  std::string percept;
-  std::string from;  ///< the carrier's name in the law, "amplitude"
-  Terms terms;       ///< of the law, in `magnitude` and `carrier`
-  TermId left = 0, right = 0;
-  double valid_low = 0, valid_high = 0;  ///< of the carrier's size, SI
-  double scatter = 0;
-  Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
-  std::string device;
-  std::string source;
-  std::vector<std::string> validity;  ///< the conditions as written, "period 0.7 mm .. 10 mm"
-  Span span;
-  bool exported = false;
-};
-
 struct DeviceDeclaration {
   DeviceProfile profile;
   std::string source;
   std::string documentation;
-  std::vector<std::string> assumed;  ///< settings that nobody measured
-  struct Realisation {
-    const SyntaxTree* tree = nullptr;
-    ExprId force = 0;
-    const Declarations* home = nullptr;
-  };
-  std::map<std::string, Realisation> realise;  ///< a force for a percept alone
+  std::vector<std::string> assumed;            ///< settings that nobody measured
+  std::string of_class;                        ///< the name of its `class`; may be empty
+  std::map<std::string, Realisation> realise;  ///< by percept: its own, and what its class says besides
   Span span;
 };
 
@@ -169,12 +138,15 @@ struct Declarations {
   Names<Declared<Constant>> constants;
   Names<Declared<FunctionDecl>> functions;
   Names<Percept> percepts;
+  Names<DeviceClass> classes;
   Names<DeviceDeclaration> devices;
   Names<HandDeclaration> hands;
   Names<Declared<MaterialDecl>> materials;
   /// What imported files keep to themselves, and where: to tell it from what is unknown.
   std::map<std::string, Span> private_names;
   std::vector<Map> own_maps;
+  std::vector<Threshold> own_thresholds;
+  std::vector<Rule> own_rules;
   std::vector<Levels> own_levels;
 
   Declarations() = default;
@@ -185,9 +157,18 @@ struct Declarations {
   DimensionNames& names() { return *shared_names; }
   const DimensionNames& names() const { return *shared_names; }
 
-  /// Maps and levels have no names of their own; what every file knows comes first.
+  /// Maps, thresholds, rules and levels need no names of their own; what every file knows comes first.
   std::vector<const Map*> maps() const;
+  std::vector<const Threshold*> thresholds() const;
+  std::vector<const Rule*> rules() const;
   std::vector<const Levels*> levels() const;
+
+  /// The percept of that name, or the one whose antonym it is; a null percept where there is none.
+  PerceptName percept_named(std::string_view name) const;
+  /// All names of percepts, antonyms included.
+  std::vector<std::string> percept_spellings() const;
+  /// The threshold of a cue on a device: the one measured there, or else the first declared; null where there is none.
+  const Threshold* threshold(std::string_view cue, std::string_view device) const;
 
   /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
   Dimension dimension(std::string_view name) const {

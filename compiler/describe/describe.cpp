@@ -23,6 +23,8 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   DescribedPercept percept{.name = record.name,
                            .carrier = record.carrier,
                            .asked = {},
+                           .unit = record.unit,
+                           .realisation = record.realisation,
                            .alone = record.alone,
                            .slope = record.slope,
                            .anchor = record.anchor,
@@ -32,7 +34,8 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
                            .device = record.device,
                            .source = record.source};
   const float aimed = amplitude(bank, index);
-  const float most = static_cast<float>(program.device.force_newton);
+  // Only a carrier that is a force itself is what the device's limit cuts.
+  const float most = record.unit == "N" ? static_cast<float>(program.device.force_newton) : HUGE_VALF;
   percept.saturated = aimed > most;
   percept.amplitude = std::min(aimed, most);
   const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
@@ -81,9 +84,11 @@ std::vector<std::string> dependences(const PatchProgram& program) {
   return found;
 }
 
-/// Why no percept is told, in a line; empty where one is.
-std::string why_nothing(const PatchProgram& program, const Measured& force) {
-  if (!program.percepts.empty()) return {};
+/// Why no texture is told, in a line; empty where one is.
+std::string why_no_texture(const PatchProgram& program, const Measured& force) {
+  if (std::ranges::find(program.percepts, Extractor::lateral_force, &PerceptRecord::extractor) !=
+      program.percepts.end())
+    return {};
   if (force.max_newton == 0) return "it pushes nowhere";
   const auto found = dependences(program);
   if (found.empty()) return "its force is a field of places, of no carrier that a percept's map knows";
@@ -122,7 +127,11 @@ Description describe(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
-  for (std::size_t i = 0; i < program.percepts.size(); ++i) description.percepts.push_back(describe_percept(bank, i));
+  for (std::size_t i = 0; i < program.percepts.size(); ++i) {
+    const DescribedPercept percept = describe_percept(bank, i);
+    // A slider may make a viscosity or a spring push along instead of against: nothing that a map knows.
+    if (std::isfinite(percept.level)) description.percepts.push_back(percept);
+  }
   description.force = measure(bank);
   // What a program remembers pushes too, once it has something to remember.
   if (remembers(program))
@@ -133,7 +142,7 @@ Description describe(const Bank& bank) {
   const Proof proof = prove(bank.program());
   description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
   description.grade = grade(bank);
-  description.no_percept = why_nothing(program, description.force);
+  description.no_percept = why_no_texture(program, description.force);
   description.parameters = program.parameters;
   description.states = program.states;
   description.memories = program.grids;

@@ -17,7 +17,9 @@ struct DescribedPercept {
   std::string name;
   std::string carrier;
   std::optional<double> asked;  ///< the level asked for, when the author asked
-  double amplitude = 0;         ///< the carrier's size, N
+  double amplitude = 0;         ///< the carrier's size, in `unit`
+  std::string unit;             ///< of the carrier's size, SI: "N", "N s/m"
+  std::string realisation;      ///< the device's own force for it, as written; empty where the author's carries it
   double level = 0, magnitude = 0;
   double low = 0, high = 0;  ///< level within which 95 % of such means lie, by the map's scatter
   bool saturated = false;    ///< the device pushes less than the percept needs; level is what comes out
@@ -33,7 +35,7 @@ struct Description {
   DeviceProfile device;
   Layers layers;
   std::vector<DescribedPercept> percepts;
-  std::string no_percept;             ///< why there is none, in a line; empty when there is one
+  std::string no_percept;             ///< why none is of a texture, in a line; empty when there is one
   Measured force;                     ///< `max_newton` also of a rehearsal, when the program remembers
   ForceBound bound;                   ///< that no force exceeds, proved, and the largest that a search found
   bool limit_matters = false;         ///< without its last limit the program could ask for more than the device gives

@@ -71,7 +71,10 @@ nlohmann::ordered_json to_json(const Description& description) {
     entry["low"] = figure(percept.low);
     entry["high"] = figure(percept.high);
     entry["carrier"] = percept.carrier;
-    entry["amplitude_newton"] = figure(percept.amplitude);
+    entry["size"] = figure(percept.amplitude);
+    entry["unit"] = percept.unit;
+    if (percept.unit == "N") entry["amplitude_newton"] = figure(percept.amplitude);
+    if (!percept.realisation.empty()) entry["realised_as"] = percept.realisation;
     if (percept.asked) entry["asked"] = figure(*percept.asked);
     entry["saturated"] = percept.saturated;
     entry["outside_validity"] = percept.outside_validity;

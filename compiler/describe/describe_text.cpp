@@ -18,18 +18,20 @@ std::string heading(const Description& description) {
 
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
-  if (description.percepts.empty()) {
-    text += fmt::format("  none that can be told: {}\n", description.no_percept);
-    return;
-  }
+  if (!description.no_percept.empty())
+    text += fmt::format("  {}: {}\n", description.percepts.empty() ? "none that can be told" : "no roughness",
+                        description.no_percept);
   for (const auto& percept : description.percepts) {
     text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
                         percept.level, percept.low, percept.high, percept.magnitude);
     text += fmt::format(
-        "  {:<12} {} {:.3f} N{}\n", "", percept.carrier, percept.amplitude,
+        "  {:<12} {} {:.3f} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
         percept.asked ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked) : ", fixed by the author");
     if (percept.saturated)
       text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
+    if (!percept.realisation.empty())
+      text += fmt::format("  {:<12} nothing was said of its physics: `{}` renders it as {}\n", "",
+                          description.device.name, percept.realisation);
     if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
     if (!percept.alone) text += fmt::format("  {:<12} other forces push too; a run cannot read it back\n", "");
     text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),

@@ -12,12 +12,14 @@
 
 namespace wale {
 
-/// A percept that a material asks for.
+/// A percept that a material asks for. They stand in the order of the author's text: the first matters most.
 struct AskedPercept {
   std::string name;
   double level = 0;
   double tolerance = 0;  ///< to either side of the level
   Span span;
+  std::string by{};        ///< the map that the author chose; empty where none was
+  bool essential = false;  ///< a device that cannot render it will not do
 };
 
 /// One number that is remembered from tick to tick; a vector is two of them.

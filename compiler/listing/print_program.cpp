@@ -165,8 +165,9 @@ class ProgramPrinter {
         break;
       case CodeSection::prediction: {
         const PerceptRecord& percept = program_.percepts[index];
-        results.push_back(fmt::format("{} of {} {} N has magnitude {}, level {}", percept.name, percept.carrier,
-                                      operand(percept.amplitude), operand(percept.magnitude), operand(percept.level)));
+        results.push_back(fmt::format("{} of {} {} {} has magnitude {}, level {}", percept.name, percept.carrier,
+                                      operand(percept.amplitude), percept.unit, operand(percept.magnitude),
+                                      operand(percept.level)));
         break;
       }
       case CodeSection::setup:

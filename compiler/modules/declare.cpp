@@ -107,6 +107,9 @@ class Declarer {
     const auto& keyword = node.keyword.text;
     if (keyword == "percept") declare_percept(reader, declarations_);
     if (keyword == "map") declare_map(reader, declarations_);
+    if (keyword == "threshold") declare_threshold(reader, declarations_);
+    if (keyword == "rule") declare_rule(reader, declarations_);
+    if (keyword == "class") declare_class(reader, declarations_);
     if (keyword == "device") declare_device(reader, declarations_);
     if (keyword == "levels") declare_levels(reader, declarations_);
     if (keyword == "hand") declare_hand(reader, declarations_);
@@ -237,6 +240,13 @@ void import_kind(const Names<T>& from, const Import& import, Names<T>& into, con
   }
 }
 
+/// What has no name that could clash; it is not handed on from file to file.
+template <typename T>
+void import_unnamed(const std::vector<T>& from, std::vector<T>& into) {
+  for (const auto& each : from)
+    if (each.exported) into.push_back(each), into.back().exported = false;
+}
+
 }  // namespace
 
 void import_names(const Declarations& from, const Import& import, Declarations& into, const SourceSet& sources,
@@ -248,13 +258,14 @@ void import_names(const Declarations& from, const Import& import, Declarations& 
   import_kind(from.constants, import, into.constants, "constant", into.private_names, sources, diagnostics);
   import_kind(from.functions, import, into.functions, "function", into.private_names, sources, diagnostics);
   import_kind(from.percepts, import, into.percepts, "percept", into.private_names, sources, diagnostics);
+  import_kind(from.classes, import, into.classes, "class of devices", into.private_names, sources, diagnostics);
   import_kind(from.devices, import, into.devices, "device", into.private_names, sources, diagnostics);
   import_kind(from.hands, import, into.hands, "hand", into.private_names, sources, diagnostics);
   import_kind(from.materials, import, into.materials, "material", into.private_names, sources, diagnostics);
-  for (const auto& map : from.own_maps)
-    if (map.exported) into.own_maps.push_back(map), into.own_maps.back().exported = false;
-  for (const auto& levels : from.own_levels)
-    if (levels.exported) into.own_levels.push_back(levels), into.own_levels.back().exported = false;
+  import_unnamed(from.own_maps, into.own_maps);
+  import_unnamed(from.own_thresholds, into.own_thresholds);
+  import_unnamed(from.own_rules, into.own_rules);
+  import_unnamed(from.own_levels, into.own_levels);
 }
 
 void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& declarations, Diagnostics& diagnostics) {
@@ -262,7 +273,7 @@ void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& dec
   // Records speak of units, percepts and functions wherever in the file those stand.
   for (const auto& declaration : tree.declarations)
     if (!std::holds_alternative<RecordDecl>(declaration)) std::visit(declarer, declaration);
-  for (const char* keyword : {"percept", "map", "device", "levels", "hand"})
+  for (const char* keyword : {"percept", "map", "threshold", "rule", "class", "device", "levels", "hand"})
     for (const auto& declaration : tree.declarations)
       if (const auto* record = std::get_if<RecordDecl>(&declaration); record && record->keyword.text == keyword)
         declarer(*record);

@@ -8,44 +8,20 @@
 
 namespace wale {
 
-namespace {
-
-const std::pair<const char*, Evidence> evidence_words[] = {{"measured", Evidence::measured},
-                                                           {"published", Evidence::published},
-                                                           {"estimated", Evidence::estimated},
-                                                           {"recalled", Evidence::recalled},
-                                                           {"transferred", Evidence::transferred}};
-
-/// "lateral amplitude" of `lateral amplitude 194 pu`.
-std::string joined(const std::vector<Word>& words) {
+std::string words_of(const SettingItem& item) {
   std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : " ") + word.text;
+  for (const auto& word : item.words) text += (text.empty() ? "" : " ") + word.text;
   return text;
 }
 
-/// Whether an item holds a word, before its value or behind it.
 bool has_word(const SettingItem& item, std::string_view word) {
   return std::ranges::find(item.words, word, &Word::text) != item.words.end() ||
          std::ranges::find(item.trailing, word, &Word::text) != item.trailing.end();
 }
 
-/// The dimension of a carrier, "lateral amplitude", from the declaration of the function's argument.
-std::optional<Dimension> carrier_dimension(const Declarations& declarations, const SettingItem& item) {
-  if (item.words.size() != 2) return std::nullopt;
-  const auto* function = declarations.functions.find(item.words[0].text);
-  if (!function) return std::nullopt;
-  for (const auto& formal : function->node->parameters)
-    if (formal.name.text == item.words[1].text && formal.dimension)
-      if (const auto* known = function->home->dimensions.find(formal.dimension->text)) return *known;
-  return std::nullopt;
+Advice another_name(Span declared) {
+  return Advice("give one of them another name").see(declared, "declared here first");
 }
-
-template <typename Entry>
-Advice another_name(const Entry& other) {
-  return Advice("give one of them another name").see(other.declared, "declared here first");
-}
-
-}  // namespace
 
 RecordReader::RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources,
                            const Declarations& declarations, Diagnostics& diagnostics)
@@ -121,6 +97,30 @@ std::string RecordReader::text(const std::string& key) {
   return {};
 }
 
+std::optional<RecordReader::Quantity> RecordReader::constant(ExprId expr) {
+  Terms terms;
+  std::vector<HeightTable> tables;
+  ExpressionChecker checker({sources, declarations, diagnostics}, terms, tables);
+  Scope scope;
+  const Value value = checker.check(tree, expr, scope);
+  const auto known = value.failed() ? std::nullopt : checker.constant(value);
+  if (!known) return std::nullopt;
+  return Quantity{*known, value.dimension};
+}
+
+std::vector<std::string> RecordReader::texts(const Setting& setting) {
+  std::vector<std::string> found;
+  for (const auto& item : setting.items) {
+    const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
+    if (literal)
+      found.push_back(literal->text);
+    else
+      report(Code::wrong_type, item.span, fmt::format("`{}` takes texts in quotes", setting.key.text),
+             fmt::format("write `{} \"…\"`", setting.key.text));
+  }
+  return found;
+}
+
 void RecordReader::reject(Code code, Span span, std::string message, Advice advice) {
   report(code, span, std::move(message), std::move(advice));
   rejected_ = true;
@@ -137,132 +137,6 @@ void RecordReader::report_unknown_settings() {
   }
 }
 
-void declare_percept(RecordReader& reader, Declarations& declarations) {
-  const RecordDecl& record = reader.record;
-  Percept percept{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
-  if (const auto* other = declarations.percepts.entry(percept.name))
-    return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a percept `{}` is declared already", percept.name), another_name(*other));
-  if (const auto* one = reader.required("one", "lateral amplitude 194 pu on sandpaper"); one && !one->items.empty()) {
-    const SettingItem& item = one->items.front();
-    percept.carrier = joined(item.words);
-    if (one->on) percept.reference_device = one->on->text;
-    const auto dimension = carrier_dimension(declarations, item);
-    if (!dimension) {
-      reader.report(Code::unknown_name, item.span,
-                    fmt::format("`{}` is not an argument of a force function", percept.carrier),
-                    "name the function and its argument, as in `lateral amplitude`");
-    } else {
-      percept.carrier_dimension = *dimension;
-      const auto size = item.value ? reader.value(*item.value, *dimension) : std::optional<double>(0.0);
-      percept.one = size.value_or(0);
-      if (size && !(*size > 0))
-        reader.report(Code::value_out_of_range, item.span, "the reference stimulus has no size",
-                      "give it one, as in `lateral amplitude 194 pu`");
-    }
-  }
-  reader.setting("zero");
-  reader.setting("words");
-  if (const auto* threshold = reader.setting("near_threshold"))
-    percept.near_threshold = reader.quantity(*threshold, 0, "number").value_or(0);
-  declarations.percepts.add(percept.name, {.what = percept, .declared = record.name.span, .exported = record.exported});
-}
-
-void declare_map(RecordReader& reader, Declarations& declarations) {
-  const RecordDecl& record = reader.record;
-  const Percept* percept = declarations.percepts.find(record.name.text);
-  if (!percept)
-    return reader.reject(Code::unknown_name, record.name.span,
-                         fmt::format("nothing declares a percept `{}`", record.name.text),
-                         did_you_mean(record.name.span, record.name.text, declarations.percepts.spellings(),
-                                      "declare it, as in schema/percepts.wale"));
-  Map map{.percept = record.name.text, .from = record.from ? record.from->text : "", .span = record.name.span};
-  map.exported = record.exported;
-  if (!percept->carrier.ends_with(" " + map.from))
-    reader.report(Code::unknown_name, record.from ? record.from->span : record.name.span,
-                  fmt::format("`{}` is carried by its `{}`, not by `{}`", map.percept, percept->carrier, map.from),
-                  Advice(fmt::format("write `map {} from {}`", map.percept,
-                                     percept->carrier.substr(percept->carrier.find(' ') + 1)))
-                      .see(percept->span, "declared here"));
-
-  const auto* law = reader.required("law", "log10(magnitude) = …");
-  const SettingItem* equation = law && law->items.size() == 1 && law->items[0].equals ? &law->items[0] : nullptr;
-  // In `law magnitude = …` the parser takes the lone name before `=` for a word.
-  const Word* lone = equation && !equation->value && equation->words.size() == 1 ? &equation->words[0] : nullptr;
-  if (equation && (equation->value || lone)) {
-    std::vector<HeightTable> tables;
-    const std::size_t errors_before = reader.diagnostics.error_count();
-    ExpressionChecker checker({reader.sources, declarations, reader.diagnostics}, map.terms, tables);
-    Scope scope;
-    scope.declare("magnitude", {.type = Value::Type::number, .x = map.terms.add({.kind = TermKind::magnitude})},
-                  law->span);
-    scope.declare(map.from,
-                  {.type = Value::Type::number,
-                   .x = map.terms.add({.kind = TermKind::carrier}),
-                   .dimension = percept->carrier_dimension},
-                  law->span);
-    const Value left = lone ? checker.named(*lone, scope) : checker.check(reader.tree, *equation->value, scope);
-    if (!left.failed()) {
-      const Value right = checker.check_as(reader.tree, *equation->equals, scope, Value::Type::number, left.dimension);
-      map.left = left.x;
-      map.right = right.x;
-    }
-    const bool read = reader.diagnostics.error_count() == errors_before;
-    for (const auto& name : scope.spellings())
-      if (read && !scope.at(name).used)
-        reader.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name),
-                      "tie the magnitude to the carrier");
-  } else if (law) {
-    reader.report(Code::wrong_type, law->span, "a law is an equation",
-                  fmt::format("write `law log10(magnitude) = …` in `magnitude` and `{}`", map.from));
-  }
-
-  if (const auto* valid = reader.required("valid", map.from + " … .. …")) {
-    for (const auto& item : valid->items) {
-      map.validity.emplace_back(reader.sources.text(item.span));
-      if (joined(item.words) != map.from) continue;
-      if (item.value) map.valid_low = reader.value(*item.value, percept->carrier_dimension).value_or(0);
-      if (item.range_end) map.valid_high = reader.value(*item.range_end, percept->carrier_dimension).value_or(0);
-    }
-    if (!(map.valid_low > 0 && map.valid_high > map.valid_low))
-      reader.report(Code::value_out_of_range, valid->span,
-                    fmt::format("the range of `{}` is empty or missing", map.from),
-                    fmt::format("write, for example, `valid {} 9 pu .. 194 pu`", map.from));
-  }
-  if (const auto* scatter = reader.required("scatter", "0.05"))
-    map.scatter = reader.quantity(*scatter, 0, "number").value_or(0);
-  if (const auto* evidence = reader.required("evidence", "slope measured, anchor measured, handle measured")) {
-    for (const auto& item : evidence->items) {
-      const auto grade = item.words.size() == 2
-                             ? std::ranges::find(evidence_words, item.words[1].text,
-                                                 [](auto& entry) { return std::string(entry.first); })
-                             : std::end(evidence_words);
-      Evidence* part = item.words.empty()               ? nullptr
-                       : item.words[0].text == "slope"  ? &map.slope
-                       : item.words[0].text == "anchor" ? &map.anchor
-                       : item.words[0].text == "handle" ? &map.handle
-                                                        : nullptr;
-      if (grade == std::end(evidence_words) || !part)
-        reader.report(Code::wrong_type, item.span, "evidence is graded apart for slope, anchor and handle",
-                      "write `slope`, `anchor` or `handle`, then `measured`, `published`, `estimated`, `recalled` or "
-                      "`transferred`");
-      else
-        *part = grade->second;
-    }
-  }
-  if (const auto* on = reader.required("on", "sandpaper")) {
-    if (on->on)
-      map.device = on->on->text;
-    else if (on->items.size() == 1)
-      map.device = joined(on->items[0].words);
-  }
-  map.source = reader.text("source");
-  if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a map without a source is a rumour",
-                  "add `source \"author, year, figure\"`");
-  declarations.own_maps.push_back(std::move(map));
-}
-
 void declare_device(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
   DeviceDeclaration device{.documentation = record.documentation, .span = record.name.span};
@@ -270,7 +144,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   profile.name = record.name.text;
   if (const auto* other = declarations.devices.entry(profile.name))
     return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a device `{}` is declared already", profile.name), another_name(*other));
+                         fmt::format("a device `{}` is declared already", profile.name), another_name(other->declared));
 
   if (const auto* workspace = reader.required("workspace", "disc(228.6 mm)"); workspace && !workspace->items.empty()) {
     const auto* call =
@@ -312,14 +186,17 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   };
   profile.damping_known = known("damping");
   profile.friction_known = known("friction");
-  for (const Setting* setting : reader.settings("realise"))
-    for (const auto& item : setting->items) {
-      if (item.words.size() == 1 && item.equals)
-        device.realise[item.words[0].text] = {&reader.tree, *item.equals, &declarations};
-      else
-        reader.report(Code::wrong_type, item.span, "a realisation is a force for a percept",
-                      "write, for example, `realise roughness = lateral(grating(x, period: 2.5 mm))`");
-    }
+  read_realisations(reader, declarations, profile.name, device.realise);
+  if (const auto* of_class = reader.setting("class"); of_class && !of_class->items.empty()) {
+    device.of_class = words_of(of_class->items.front());
+    if (const auto* found = declarations.classes.find(device.of_class))
+      device.realise.insert(found->realise.begin(), found->realise.end());
+    else
+      reader.report(Code::unknown_name, of_class->span,
+                    fmt::format("nothing declares a class of devices `{}`", device.of_class),
+                    did_you_mean(of_class->items.front().span, device.of_class, declarations.classes.spellings(),
+                                 "declare it, as in calibration/device_classes.wale"));
+  }
   device.source = reader.text("source");
   const std::string name = profile.name;
   declarations.devices.add(name,
@@ -352,7 +229,7 @@ void declare_hand(RecordReader& reader, Declarations& declarations) {
   HandDeclaration hand{.name = record.name.text, .span = record.name.span};
   if (const auto* other = declarations.hands.entry(hand.name))
     return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a hand `{}` is declared already", hand.name), another_name(*other));
+                         fmt::format("a hand `{}` is declared already", hand.name), another_name(other->declared));
   hand.mass = reader.positive("mass", 0, "mass", "0.55 kg");
   hand.damping = reader.positive("damping", 0, "viscosity", "6.5 N s/m");
   hand.stiffness = reader.positive("stiffness", 0, "stiffness", "135 N/m");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,6 +26,13 @@ class RecordReader {
   std::string text(const std::string& key);  ///< empty when not written
   /// An expression's value in SI, of the dimension.
   std::optional<double> value(ExprId expr, const Dimension& dimension);
+  struct Quantity {
+    double value = 0;
+    Dimension dimension;
+  };
+  /// An expression's value in SI, whatever its dimension; what is not known at compile time is reported.
+  std::optional<Quantity> constant(ExprId expr);
+  std::vector<std::string> texts(const Setting& setting);  ///< of a list in quotes; others are reported
 
   void report(Code code, Span span, std::string message, Advice advice);
   /// The same about the record as a whole, whose settings then are not read.
@@ -43,9 +51,23 @@ class RecordReader {
   bool rejected_ = false;
 };
 
+/// "lateral amplitude" of `lateral amplitude 194 pu`.
+std::string words_of(const SettingItem& item);
+/// Whether an item holds a word, before its value or behind it.
+bool has_word(const SettingItem& item, std::string_view word);
+/// What to do about a name that is declared already, there.
+Advice another_name(Span declared);
+
+/// `realise roughness = lateral(…), by minsky1995.figure19`: each entered by its percept.
+void read_realisations(RecordReader& reader, const Declarations& declarations, const std::string& owner,
+                       std::map<std::string, Realisation>& realise);
+
 /// Each enters one record of its kind.
 void declare_percept(RecordReader& reader, Declarations& declarations);
 void declare_map(RecordReader& reader, Declarations& declarations);
+void declare_threshold(RecordReader& reader, Declarations& declarations);
+void declare_rule(RecordReader& reader, Declarations& declarations);
+void declare_class(RecordReader& reader, Declarations& declarations);
 void declare_device(RecordReader& reader, Declarations& declarations);
 void declare_levels(RecordReader& reader, Declarations& declarations);
 void declare_hand(RecordReader& reader, Declarations& declarations);

@@ -15,10 +15,12 @@ namespace {
 constexpr int known_version = 1;
 
 /// Declarations whose blocks hold settings; what the settings mean is `check`'s business.
-const std::vector<std::string> record_words = {"percept", "map", "device", "levels", "hand"};
+const std::vector<std::string> record_words = {"percept", "map",    "threshold", "rule",
+                                               "class",   "device", "levels",    "hand"};
 
-const std::vector<std::string> declaration_words = {"material", "percept", "map",  "device",    "levels", "hand",
-                                                    "function", "let",     "unit", "dimension", "import"};
+const std::vector<std::string> declaration_words = {"material", "percept", "map",  "threshold", "rule",
+                                                    "class",    "device",  "levels", "hand", "function",
+                                                    "let",      "unit",    "dimension", "import"};
 
 bool holds(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -181,7 +183,7 @@ void Parser::declaration() {
     if (keyword == "wale") help = "the version is stated once, in the first line";
     complain_at(
         Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
-        "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `device`, `levels` or `hand`",
+        "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, `class`, `device`, `levels` or `hand`",
         shown(here()), std::move(help),
         meant                            ? respell_here(declaration_words)
         : help.starts_with("write `let") ? std::vector{insert_before(span_of(here()), "let ", {}, false)}

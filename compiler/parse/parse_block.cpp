@@ -173,7 +173,7 @@ PerceptStatement Parser::percept_statement() {
              fmt::format("write `{} {}`", percept.name.text, spelling(next)), drop_here());
     advance();
   }
-  const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus;
+  const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus || kind(at_ + 1) == TokenKind::comma;
   if (at(TokenKind::name) && alone) {
     percept.level_name = take_word();
   } else if (ends_statement(at_)) {
@@ -186,6 +186,11 @@ PerceptStatement Parser::percept_statement() {
   if (at(TokenKind::plus_minus)) {
     advance();
     percept.tolerance = expression();
+  }
+  if (at(TokenKind::comma) && is_word(at_ + 1, "by") && kind(at_ + 2) == TokenKind::name) {
+    advance();
+    advance();
+    percept.by = take_word();
   }
   percept.span = since(begin);
   if (at(TokenKind::range)) {

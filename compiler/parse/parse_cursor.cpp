@@ -82,7 +82,7 @@ bool Parser::begins_declaration(std::size_t index) const {
   if (is_word(index, "material")) return third == TokenKind::left_brace || third == TokenKind::equals;
   if (is_word(index, "function")) return third == TokenKind::left_parenthesis;
   if (is_word(index, "map")) return third == TokenKind::word_from || third == TokenKind::left_brace;
-  for (const std::string_view word : {"percept", "device", "levels", "hand"}) {
+  for (const std::string_view word : {"percept", "threshold", "rule", "class", "device", "levels", "hand"}) {
     if (is_word(index, word)) return third == TokenKind::left_brace;
   }
   return false;

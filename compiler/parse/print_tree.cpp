@@ -181,6 +181,7 @@ class TreePrinter {
     text += percept.name.text + optional(percept.value);
     if (percept.level_name) text += " '" + percept.level_name->text;
     if (percept.tolerance) text += " ± " + expr(*percept.tolerance);
+    if (percept.by) text += " by " + percept.by->text;
     return text + ")";
   }
 

@@ -161,6 +161,7 @@ struct PerceptStatement {
   std::optional<ExprId> value;
   std::optional<Word> level_name;
   std::optional<ExprId> tolerance;
+  std::optional<Word> by;  ///< the map that was chosen, `, by minsky1995.figure19`
   Span span;
 };
 

@@ -1,6 +1,7 @@
-#include <algorithm>
+#include "compiler/solve/isolate.hpp"
 
-#include "compiler/solve/solve.hpp"
+#include <algorithm>
+#include <vector>
 
 namespace wale {
 

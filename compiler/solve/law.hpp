@@ -1,114 +1,52 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "compiler/expression/check_expression.hpp"
-#include "compiler/solve/solve.hpp"
+#include "compiler/declarations/percepts.hpp"
 
 namespace wale {
 
-/// Copies an expression from one set of terms to another, some of its terms replaced.
-class TermCopier {
- public:
-  TermCopier(const Terms& from, Terms& to)
-      : from_(from), to_(to), copies_(from.size(), none), needed_(from.size(), false) {}
-
-  void replace(TermId from, TermId to) { copies_[from] = to; }
-
-  TermId operator()(TermId root) {
-    // Operands stand before their users, so one pass over what the root needs copies everything in order.
-    if (copies_[root] != none) return copies_[root];
-    TermId first = root;      // of what is needed and not there yet
-    std::size_t waiting = 1;  // of them: not looked at yet
-    needed_[root] = true;
-    for (TermId id = root; waiting > 0; --id) {
-      if (!needed_[id]) continue;
-      first = id;
-      --waiting;
-      for (const TermId operand : operands(from_[id]))
-        if (copies_[operand] == none && !std::exchange(needed_[operand], true)) ++waiting;
-    }
-    for (TermId id = first; id <= root; ++id) {
-      if (!needed_[id]) continue;
-      needed_[id] = false;
-      Term term = from_[id];
-      const auto count = operands(term).size();
-      if (count > 0) term.a = copies_[term.a];
-      if (count > 1) term.b = copies_[term.b];
-      if (count > 2) term.c = copies_[term.c];
-      copies_[id] = to_.add(term);
-    }
-    return copies_[root];
-  }
-
- private:
-  static constexpr TermId none = ~TermId{0};
-
-  const Terms& from_;
-  Terms& to_;
-  std::vector<TermId> copies_;  ///< by the term copied; `none` where there is none yet
-  std::vector<char> needed_;    ///< by term, as bool; all false between calls
-};
-
-/// A map's law as expressions: the magnitude of a carrier, the level of a carrier, the carrier of a level.
+/// A map's law, both ways: the magnitude of a carrier, the level of a carrier, the carrier of a level; as expressions
+/// and as numbers.
+///
+/// A law is an equation in which magnitude and carrier each stand once, or where the carrier makes a polynomial of at
+/// most the second degree in one function of itself (quadratic in logarithms), or a table. What it couples are sizes in
+/// the map's order; those that are left out are 0, as they are in the reference stimulus.
 class Law {
  public:
-  Law(const Map& map, const Percept& percept) : map_(map), percept_(percept) {}
+  Law(const Map& map, const Percept& percept);
 
-  std::optional<TermId> magnitude(Terms& terms, TermId carrier) const {
-    const TermId unknown = terms.add({.kind = TermKind::magnitude});
-    const auto [left, right] = copy(terms, unknown, carrier);
-    return isolate(terms, left, right, unknown);
-  }
+  using Sizes = std::vector<TermId>;
 
-  std::optional<TermId> level(Terms& terms, TermId carrier) const {
-    const auto asked = magnitude(terms, carrier), one = magnitude(terms, terms.literal(percept_.one));
-    if (!asked || !one) return std::nullopt;
-    return terms.apply(Operation::divide, *asked, *one);
-  }
+  std::optional<TermId> magnitude(Terms& terms, TermId carrier, const Sizes& couples = {}) const;
+  /// The magnitude over that of the reference stimulus.
+  std::optional<TermId> level(Terms& terms, TermId carrier, const Sizes& couples = {}) const;
+  /// Nothing where the law cannot be solved for its carrier. Beyond a quadratic's vertex: the carrier at the vertex.
+  std::optional<TermId> carrier(Terms& terms, TermId level, const Sizes& couples = {}) const;
 
-  std::optional<TermId> carrier(Terms& terms, TermId level) const {
-    const auto one = magnitude(terms, terms.literal(percept_.one));
-    if (!one) return std::nullopt;
-    const TermId unknown = terms.add({.kind = TermKind::carrier});
-    const auto [left, right] = copy(terms, terms.apply(Operation::multiply, level, *one), unknown);
-    return isolate(terms, left, right, unknown);
-  }
-
-  /// The same as numbers.
-  double level_of(double carrier) const {
-    return number([&](Terms& terms) { return level(terms, terms.literal(carrier)); });
-  }
-  double magnitude_of(double carrier) const {
-    return number([&](Terms& terms) { return magnitude(terms, terms.literal(carrier)); });
-  }
-  double carrier_of(double level) const {
-    return number([&](Terms& terms) { return this->carrier(terms, terms.literal(level)); });
-  }
+  /// The same as numbers; not-a-number where there is none.
+  double level_of(double carrier, const std::vector<double>& couples = {}) const;
+  double magnitude_of(double carrier, const std::vector<double>& couples = {}) const;
+  double carrier_of(double level, const std::vector<double>& couples = {}) const;
+  /// d log(magnitude) / d log(carrier): a power law's exponent, another's at that size.
+  double exponent_at(double carrier) const;
+  /// Whether a carrier of that level has it, to 1e-6: not so above a vertex, or where the law would have less than
+  /// nothing.
+  bool reaches(double level, const std::vector<double>& couples = {}) const;
 
  private:
-  std::pair<TermId, TermId> copy(Terms& terms, TermId magnitude, TermId carrier) const {
-    TermCopier copier(map_.terms, terms);
-    for (TermId id = 0; id < map_.terms.size(); ++id) {
-      if (map_.terms[id].kind == TermKind::magnitude) copier.replace(id, magnitude);
-      if (map_.terms[id].kind == TermKind::carrier) copier.replace(id, carrier);
-    }
-    const TermId left = copier(map_.left);
-    return {left, copier(map_.right)};
-  }
+  /// How many sides of a vertex the carriers lie on that were measured.
+  enum class Way { rising, falling, both };
 
-  template <typename Build>
-  static double number(Build build) {
-    Terms terms;
-    const auto term = build(terms);
-    return term ? constant_value(terms, *term).value_or(std::nan("")) : std::nan("");
-  }
+  Way way_within_range() const;
+  /// The magnitude of a carrier by the table, or the carrier of a magnitude.
+  std::optional<TermId> looked_up(Terms& terms, TermId value, bool inverse) const;
+  std::optional<TermId> solved_quadratic(Terms& terms, TermId left, TermId right, TermId unknown) const;
 
   const Map& map_;
   const Percept& percept_;
+  bool upper_root_ = true;  ///< of a quadratic: the one with the square root added
 };
 
 }  // namespace wale

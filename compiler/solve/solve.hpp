@@ -44,7 +44,7 @@ struct SolvedMaterial {
   std::vector<SolvedPercept> percepts;
   DeviceProfile device;
   double patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m
-  double active_watt = 0;  ///< that the program may give by itself, W
+  double active_watt = 0;                                   ///< that the program may give by itself, W
   Layers layers;
 };
 
@@ -53,9 +53,5 @@ struct SolvedMaterial {
 /// warnings about the level asked for. The result is fit for `lower` only when no error was reported.
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
                      const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
-
-/// The equation `left = right` solved for the one place where the unknown stands, or nothing where its inverse is not
-/// known or it stands in several places. `unknown` is a term of `terms`; new terms are added there.
-std::optional<TermId> isolate(Terms& terms, TermId left, TermId right, TermId unknown);
 
 }  // namespace wale

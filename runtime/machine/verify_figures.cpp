@@ -168,7 +168,16 @@ void verify_percepts(const PatchProgram& program) {
       refuse(name, "'s map is valid in ", percept.valid_low, " .. ", percept.valid_high);
     }
     require_within(percept.scatter, 0, 100, name + "'s scatter");
-    if (!graded(percept.slope) || !graded(percept.anchor) || !graded(percept.handle)) {
+    if (!(percept.period_low >= 0 && percept.period_low <= percept.period_high)) {
+      refuse(name, " is read at periods of ", percept.period_low, " .. ", percept.period_high, " m");
+    }
+    require_within(percept.one, 0, 1e9, name + "'s level 1");
+    require_within(percept.near_threshold, 0, 1, name + "'s near threshold");
+    require_within(percept.spread, 0, 100, name + "'s spread");
+    require_within(percept.weber, 0, 100, name + "'s Weber fraction");
+    require_within(percept.floor, 0, 1e9, name + "'s least difference");
+    if (!graded(percept.slope) || !graded(percept.anchor) || !graded(percept.handle) ||
+        !graded(percept.weber_evidence)) {
       refuse(name, " grades its evidence in a way that this Wale does not know");
     }
   }

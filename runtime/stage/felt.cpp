@@ -125,7 +125,9 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i) {
     LevelBack level{i, percepts[i].name, amplitude(bank, i), Prediction{}};
-    if (!percepts[i].alone) {
+    if (percepts[i].extractor != Extractor::lateral_force) {
+      level.back = Refusal{"the force while rubbing does not read " + percepts[i].name};
+    } else if (!percepts[i].alone) {
       level.back = Refusal{"other forces push besides the " + percepts[i].carrier +
                            ", so the force at the handle does not read " + percepts[i].name};
     } else if (felt.crossings < least_crossings) {
@@ -140,7 +142,10 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
 }
 
 float predicted_amplitude(const Bank& bank) {
-  return bank.program().description().percepts.empty() ? 0.0f : amplitude(bank, 0);
+  const auto& percepts = bank.program().description().percepts;
+  for (std::size_t i = 0; i < percepts.size(); ++i)
+    if (percepts[i].extractor == Extractor::lateral_force) return amplitude(bank, i);
+  return 0;
 }
 
 }  // namespace wale

@@ -154,6 +154,7 @@ inline Program corduroy(float amplitude, float wale = 0.0025f) {
       a(code, Operation::exp2, a(code, Operation::multiply, a(code, Operation::log2, ratio), a.constant(6)));
   percept.valid_low = 0.1f;
   percept.valid_high = 4;
+  percept.extractor = Extractor::lateral_force;
   a.program.percepts.push_back(std::move(percept));
   return a.load();
 }

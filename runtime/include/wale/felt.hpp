@@ -50,15 +50,16 @@ Felt measure(const Record& record, const MeasureOptions& options);
 struct LevelBack {
   std::size_t percept = 0;        ///< index into the program's percepts
   std::string name;               ///< "roughness"
-  float predicted_amplitude = 0;  ///< N, what the program aims at
+  float predicted_amplitude = 0;  ///< what the program aims at, in the carrier's unit
   std::variant<Prediction, Refusal> back;
 };
 
 /// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries. Refused
-/// for less than `least_crossings` crossings, and for a percept whose carrier does not push alone.
+/// for less than `least_crossings` crossings, for a percept that a static lateral force does not carry, and for one whose
+/// carrier does not push alone.
 std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
 
-/// The carrier's size that the program aims at, for `MeasureOptions`: its first percept's, 0 when it has none.
+/// The lateral force that the program aims at, for `MeasureOptions`: of its first percept that has one, else 0.
 float predicted_amplitude(const Bank& bank);
 
 }  // namespace wale

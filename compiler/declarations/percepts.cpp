@@ -1,0 +1,43 @@
+#include "compiler/declarations/percepts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wale {
+
+double normal_quantile(double p) {
+  // Bisection of the distribution itself: exact to the last bits, and nowhere near a tick.
+  double low = -9, high = 9;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double sensitivity(Task task, double criterion) {
+  // Macmillan and Creelman 2005, Detection Theory, chapters 1 and 7.
+  return (task == Task::yes_no ? 2.0 : std::sqrt(2.0)) * normal_quantile(criterion);
+}
+
+double Threshold::distance(double a, double b) const {
+  const double small = std::min(a, b), large = std::max(a, b);
+  if (small == large) return 0;
+  const double by_ratio =
+      small > 0 ? std::log(large / small) / std::log1p(weber) : std::numeric_limits<double>::infinity();
+  const double by_floor = floor > 0 ? (large - small) / floor : std::numeric_limits<double>::infinity();
+  return std::min(by_ratio, by_floor);
+}
+
+const Rule::Case* Rule::first(const std::map<std::string, double>& sizes, const std::string& kind) const {
+  const auto found = std::ranges::find_if(cases, [&](const Case& each) {
+    return (each.kind.empty() || each.kind == kind) &&
+           std::ranges::all_of(each.conditions, [&](const Map::Condition& condition) {
+             const auto size = sizes.find(condition.quantity);
+             return size != sizes.end() && condition.range.holds(size->second);
+           });
+  });
+  return found == cases.end() ? nullptr : &*found;
+}
+
+}  // namespace wale

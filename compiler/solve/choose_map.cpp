@@ -1,0 +1,40 @@
+#include "compiler/solve/choose_map.hpp"
+
+#include <algorithm>
+
+namespace wale {
+
+MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, const Declarations& declarations,
+                     const std::string& by) {
+  MapChoice choice;
+  std::vector<const Map*> tied;
+  for (const Map* map : declarations.maps()) {
+    if (map->percept != percept.name || (!by.empty() && map->name != by)) continue;
+    (map->tied && map->of_carrier ? tied : choice.untied).push_back(map);
+  }
+  if (!tied.empty()) choice.untied.clear();
+  const auto choose = [&](const std::vector<const Map*>& candidates) {
+    if (candidates.size() == 1) choice.map = candidates.front();
+    if (candidates.size() > 1) choice.rivals = candidates;
+    return !candidates.empty();
+  };
+  const auto declared_class = [&](const std::string& name) {
+    const auto* found = declarations.devices.find(name);
+    return found ? found->of_class : "";
+  };
+  const auto measured = [&](const auto& there) {
+    std::vector<const Map*> all;
+    std::ranges::copy_if(tied, std::back_inserter(all), there);
+    return all;
+  };
+  const bool found = choose(measured([&](const Map* map) { return map->device == device.profile.name; })) ||
+                     choose(measured([&](const Map* map) {
+                       return !device.of_class.empty() && declared_class(map->device) == device.of_class;
+                     })) ||
+                     choose(measured([&](const Map* map) { return map->device == percept.reference_device; })) ||
+                     choose(tied);
+  (void)found;
+  return choice;
+}
+
+}  // namespace wale

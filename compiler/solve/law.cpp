@@ -1,0 +1,277 @@
+#include "compiler/solve/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/copy_terms.hpp"
+#include "compiler/solve/isolate.hpp"
+
+namespace wale {
+
+namespace {
+
+/// Whether two terms compute the same from the same.
+bool same_term(const Terms& terms, TermId a, TermId b) {
+  if (a == b) return true;
+  const Term &x = terms[a], &y = terms[b];
+  if (x.kind != y.kind || x.operation != y.operation || x.value != y.value || x.index != y.index) return false;
+  const TermOperands of_x = operands(x), of_y = operands(y);
+  if (of_x.size() != of_y.size() || of_x.size() == 0) return of_x.size() == of_y.size();
+  for (std::size_t i = 0; i < of_x.size(); ++i)
+    if (!same_term(terms, of_x[i], of_y[i])) return false;
+  return true;
+}
+
+bool speaks_of(const Terms& terms, TermId id, TermId unknown) {
+  if (id == unknown) return true;
+  for (const TermId operand : operands(terms[id]))
+    if (speaks_of(terms, operand, unknown)) return true;
+  return false;
+}
+
+/// c0 + c1 u + c2 u^2, where u is the `atom` that the unknown stands in.
+struct Polynomial {
+  TermId atom = 0;
+  std::array<std::optional<TermId>, 3> coefficients;  ///< those that are not there are 0
+
+  bool constant() const { return !coefficients[1] && !coefficients[2]; }
+};
+
+/// An expression as a polynomial in the one function of the unknown that it is made of; nothing where it is none.
+class PolynomialReader {
+ public:
+  PolynomialReader(Terms& terms, TermId unknown) : terms_(terms), unknown_(unknown) {}
+
+  std::optional<Polynomial> read(TermId id) {
+    if (!speaks_of(terms_, id, unknown_)) return Polynomial{0, {id, {}, {}}};
+    const Term term = terms_[id];
+    if (term.kind == TermKind::operation) {
+      switch (term.operation) {
+        case Operation::add:
+        case Operation::subtract: return combined(term);
+        case Operation::negate:
+          return scaled(read(term.a), [&](TermId c) { return terms_.apply(Operation::negate, c); });
+        case Operation::multiply: return product(term);
+        case Operation::divide:
+          if (!speaks_of(terms_, term.b, unknown_))
+            return scaled(read(term.a), [&](TermId c) { return terms_.apply(Operation::divide, c, term.b); });
+          break;
+        default: break;
+      }
+    }
+    return Polynomial{id, {std::nullopt, terms_.literal(1), std::nullopt}};
+  }
+
+ private:
+  template <typename Scale>
+  static std::optional<Polynomial> scaled(std::optional<Polynomial> polynomial, Scale scale) {
+    if (polynomial)
+      for (auto& coefficient : polynomial->coefficients)
+        if (coefficient) coefficient = scale(*coefficient);
+    return polynomial;
+  }
+
+  /// The atom of both, or nothing where they have two.
+  std::optional<TermId> common_atom(const Polynomial& a, const Polynomial& b) const {
+    if (a.constant()) return b.atom;
+    if (b.constant() || same_term(terms_, a.atom, b.atom)) return a.atom;
+    return std::nullopt;
+  }
+
+  std::optional<Polynomial> combined(const Term& term) {
+    const auto a = read(term.a), b = read(term.b);
+    const auto atom = a && b ? common_atom(*a, *b) : std::nullopt;
+    if (!atom) return std::nullopt;
+    Polynomial sum{*atom, a->coefficients};
+    for (std::size_t i = 0; i < sum.coefficients.size(); ++i) {
+      const auto& other = b->coefficients[i];
+      if (!other) continue;
+      if (sum.coefficients[i])
+        sum.coefficients[i] = terms_.apply(term.operation, *sum.coefficients[i], *other);
+      else
+        sum.coefficients[i] = term.operation == Operation::add ? *other : terms_.apply(Operation::negate, *other);
+    }
+    return sum;
+  }
+
+  std::optional<Polynomial> product(const Term& term) {
+    const auto a = read(term.a), b = read(term.b);
+    const auto atom = a && b ? common_atom(*a, *b) : std::nullopt;
+    if (!atom) return std::nullopt;
+    Polynomial result{*atom, {}};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (!a->coefficients[i] || !b->coefficients[j]) continue;
+        if (i + j > 2) return std::nullopt;
+        const TermId part = terms_.apply(Operation::multiply, *a->coefficients[i], *b->coefficients[j]);
+        auto& sum = result.coefficients[i + j];
+        sum = sum ? terms_.apply(Operation::add, *sum, part) : part;
+      }
+    return result;
+  }
+
+  Terms& terms_;
+  TermId unknown_;
+};
+
+/// Straight lines through knots, on beyond the first and the last: the first line, and at each knot between two a
+/// change of slope.
+TermId through_knots(Terms& terms, TermId at, const std::vector<std::array<double, 2>>& knots) {
+  const auto slope = [&](std::size_t i) { return (knots[i + 1][1] - knots[i][1]) / (knots[i + 1][0] - knots[i][0]); };
+  const auto from = [&](std::size_t i) { return terms.apply(Operation::subtract, at, terms.literal(knots[i][0])); };
+  TermId value = terms.apply(Operation::add, terms.literal(knots[0][1]),
+                             terms.apply(Operation::multiply, terms.literal(slope(0)), from(0)));
+  for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+    const TermId beyond = terms.apply(Operation::maximum, from(i), terms.literal(0));
+    value = terms.apply(Operation::add, value,
+                        terms.apply(Operation::multiply, terms.literal(slope(i) - slope(i - 1)), beyond));
+  }
+  return value;
+}
+
+template <typename Build>
+double number_of(Build build) {
+  Terms terms;
+  const std::optional<TermId> term = build(terms);
+  return term ? constant_value(terms, *term).value_or(std::nan("")) : std::nan("");
+}
+
+Law::Sizes literals(Terms& terms, const std::vector<double>& values) {
+  Law::Sizes sizes;
+  for (const double value : values) sizes.push_back(terms.literal(value));
+  return sizes;
+}
+
+/// The map's law among other terms, magnitude and carriers in their places.
+std::array<TermId, 2> copied(const Map& map, Terms& terms, TermId magnitude, TermId carrier,
+                             const Law::Sizes& couples) {
+  TermCopier copier(map.terms, terms);
+  for (TermId id = 0; id < map.terms.size(); ++id) {
+    const Term& term = map.terms[id];
+    if (term.kind == TermKind::magnitude) copier.replace(id, magnitude);
+    if (term.kind != TermKind::carrier) continue;
+    if (term.index == 0)
+      copier.replace(id, carrier);
+    else
+      copier.replace(id, term.index <= couples.size() ? couples[term.index - 1] : terms.literal(0));
+  }
+  const TermId left = copier(map.left);
+  return {left, copier(map.right)};
+}
+
+}  // namespace
+
+Law::Law(const Map& map, const Percept& percept) : map_(map), percept_(percept) {
+  if (!map_.table.empty()) return;
+  Terms terms;
+  const TermId unknown = terms.add({.kind = TermKind::carrier});
+  const auto [left, right] = copied(map_, terms, terms.literal(1), unknown, {});
+  if (isolate(terms, left, right, unknown)) return;
+  // Which root of a quadratic gives back what was put in, where there are two.
+  const Way way = map_.branch == Branch::rising    ? Way::rising
+                  : map_.branch == Branch::falling ? Way::falling
+                                                   : way_within_range();
+  if (way == Way::both) return;
+  for (const bool upper : {true, false}) {
+    upper_root_ = upper;
+    const double middle = carrier_of(level_of(std::sqrt(map_.valid_low * map_.valid_high)));
+    const double slope = exponent_at(middle);
+    if (!std::isnan(slope) && (slope > 0) == (way == Way::rising)) return;
+  }
+}
+
+Law::Way Law::way_within_range() const {
+  constexpr int samples = 32;
+  bool rises = false, falls = false;
+  double before = magnitude_of(map_.valid_low);
+  for (int i = 1; i <= samples; ++i) {
+    const double now = magnitude_of(map_.valid_low * std::pow(map_.valid_high / map_.valid_low, double(i) / samples));
+    (now < before ? falls : rises) = true;
+    before = now;
+  }
+  return rises && falls ? Way::both : falls ? Way::falling : Way::rising;
+}
+
+std::optional<TermId> Law::looked_up(Terms& terms, TermId value, bool inverse) const {
+  std::vector<std::array<double, 2>> knots;
+  for (const auto& [size, magnitude] : map_.table)
+    knots.push_back({std::log2(inverse ? magnitude : size), std::log2(inverse ? size : magnitude)});
+  if (inverse && knots.front()[0] > knots.back()[0]) std::ranges::reverse(knots);
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    if (!(knots[i][0] > knots[i - 1][0])) return std::nullopt;  // it turns back
+  return terms.apply(Operation::exp2, through_knots(terms, terms.apply(Operation::log2, value), knots));
+}
+
+std::optional<TermId> Law::solved_quadratic(Terms& terms, TermId left, TermId right, TermId unknown) const {
+  if (map_.branch == Branch::only && way_within_range() == Way::both) return std::nullopt;
+  if (speaks_of(terms, left, unknown)) std::swap(left, right);
+  if (speaks_of(terms, left, unknown)) return std::nullopt;
+  const auto polynomial = PolynomialReader(terms, unknown).read(right);
+  if (!polynomial || polynomial->constant()) return std::nullopt;
+  const auto& [c0, c1, c2] = polynomial->coefficients;
+  const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };
+  const TermId rest = c0 ? apply(Operation::subtract, left, *c0) : left;
+  TermId atom = 0;
+  if (!c2) {
+    atom = apply(Operation::divide, rest, *c1);
+  } else {
+    // c2 u^2 + c1 u - rest = 0. Beyond the vertex there is no root, and the vertex is as near as it gets.
+    const TermId linear = c1 ? *c1 : terms.literal(0);
+    const TermId four = apply(Operation::multiply, terms.literal(4), apply(Operation::multiply, *c2, rest));
+    const TermId square = apply(Operation::add, apply(Operation::multiply, linear, linear), four);
+    const TermId root = terms.apply(Operation::square_root, apply(Operation::maximum, square, terms.literal(0)));
+    const TermId above = apply(upper_root_ ? Operation::subtract : Operation::add, root, linear);
+    const TermId top = upper_root_ ? above : terms.apply(Operation::negate, above);
+    atom = apply(Operation::divide, top, apply(Operation::multiply, terms.literal(2), *c2));
+  }
+  return isolate(terms, polynomial->atom, atom, unknown);
+}
+
+std::optional<TermId> Law::magnitude(Terms& terms, TermId carrier, const Sizes& couples) const {
+  if (!map_.table.empty()) return looked_up(terms, carrier, false);
+  const TermId unknown = terms.add({.kind = TermKind::magnitude});
+  const auto [left, right] = copied(map_, terms, unknown, carrier, couples);
+  return isolate(terms, left, right, unknown);
+}
+
+std::optional<TermId> Law::level(Terms& terms, TermId carrier, const Sizes& couples) const {
+  const auto asked = magnitude(terms, carrier, couples), one = magnitude(terms, terms.literal(percept_.one));
+  if (!asked || !one) return std::nullopt;
+  return terms.apply(Operation::divide, *asked, *one);
+}
+
+std::optional<TermId> Law::carrier(Terms& terms, TermId level, const Sizes& couples) const {
+  const auto one = magnitude(terms, terms.literal(percept_.one));
+  if (!one) return std::nullopt;
+  const TermId unknown = map_.table.empty() ? terms.add({.kind = TermKind::carrier}) : 0;
+  const TermId magnitude = terms.apply(Operation::multiply, level, *one);
+  if (!map_.table.empty()) return looked_up(terms, magnitude, true);
+  const auto [left, right] = copied(map_, terms, magnitude, unknown, couples);
+  if (const auto solved = isolate(terms, left, right, unknown)) return solved;
+  return solved_quadratic(terms, left, right, unknown);
+}
+
+double Law::level_of(double carrier, const std::vector<double>& couples) const {
+  return number_of([&](Terms& terms) { return level(terms, terms.literal(carrier), literals(terms, couples)); });
+}
+
+double Law::magnitude_of(double carrier, const std::vector<double>& couples) const {
+  return number_of([&](Terms& terms) { return magnitude(terms, terms.literal(carrier), literals(terms, couples)); });
+}
+
+double Law::carrier_of(double level, const std::vector<double>& couples) const {
+  return number_of([&](Terms& terms) { return this->carrier(terms, terms.literal(level), literals(terms, couples)); });
+}
+
+double Law::exponent_at(double carrier) const {
+  constexpr double step = 1e-4;
+  return std::log(magnitude_of(carrier * (1 + step)) / magnitude_of(carrier / (1 + step))) / (2 * std::log1p(step));
+}
+
+bool Law::reaches(double level, const std::vector<double>& couples) const {
+  const double size = carrier_of(level, couples);
+  return std::isfinite(size) && size >= 0 && std::abs(level_of(size, couples) - level) <= 1e-6 * std::max(1.0, level);
+}
+
+}  // namespace wale

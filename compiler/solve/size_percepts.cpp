@@ -1,0 +1,272 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/solve_percepts.hpp"
+
+// Sizes as numbers, at the parameters' defaults, and as expressions of the program.
+
+namespace wale {
+
+void PerceptSolver::solve_size(Told& told, std::vector<Parameter>& parameters) {
+  const AskedPercept& asked = *told.asked;
+  for (std::size_t i = 0; i < material_.parameters.size(); ++i)
+    if (material_.parameters[i].name == asked.name)
+      report(Code::declared_twice, material_.parameter_spans[i],
+             fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
+             Advice("give the parameter another name").see(asked.span, "asked for here"));
+  told.parameter = static_cast<std::uint32_t>(parameters.size());
+  parameters.push_back({.name = asked.name,
+                        .unit = "",
+                        .unit_in_si = 1,
+                        .value = static_cast<float>(asked.level),
+                        .low = 0,
+                        .high = 1,
+                        .soft_low = 0,
+                        .soft_high = 1,
+                        .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", asked.name)});
+}
+
+void PerceptSolver::work_out_sizes() {
+  for (const std::size_t index : order_) {
+    Told& told = told_[index];
+    if (!told.solved) {
+      if (told.asked) check_conflict(told);
+      told.size =
+          told.shares != none
+              ? told_[told.shares].size
+              : constant_value(*terms_, (*carriers_)[told.carrier].size, &material_.parameters).value_or(std::nan(""));
+      continue;
+    }
+    const Law law(*told.map, *told.percept);
+    const std::vector<double> couples = coupled_sizes(told);
+    told.size = law.carrier_of(told.asked->level, couples);
+    Terms terms;
+    if (!law.carrier(terms, terms.literal(0.5))) {
+      report(Code::unsolvable_law, told.map->span,
+             fmt::format("the law of {} from {} cannot be solved for `{}`", told.map->percept, told.map->from,
+                         told.map->from),
+             "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can, and quadratics with a `branch`");
+    } else if (told.asked->level > 0 && !law.reaches(told.asked->level, couples)) {
+      report(Code::inverse_out_of_range, told.asked->span,
+             fmt::format("no {} gives {} {:.3g} by this law ({})", told.percept->argument(), told.asked->name,
+                         told.asked->level, told.map->source),
+             Advice(fmt::format("its measured levels are {:.2g} to {:.2g}", law.level_of(told.map->valid_low, couples),
+                                law.level_of(told.map->valid_high, couples)))
+                 .see(told.map->span, "the map"));
+    } else {
+      warn_of_range(told, law);
+    }
+  }
+}
+
+void PerceptSolver::warn_of_range(const Told& told, const Law& law) {
+  const AskedPercept& asked = *told.asked;
+  const Percept& percept = *told.percept;
+  const Map& map = *told.map;
+  const std::string of_carrier = unit(percept);
+  const double most = percept.exerts > 0 ? device_.profile.force_newton / percept.exerts : HUGE_VAL;
+  const double size = told.size;
+  constexpr double rounding = 1e-6;  // a reference stimulus at the very end of the range is inside it
+  if (size > most)
+    report(Code::saturates, asked.span,
+           fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` pushes {:.3g} {} at most", asked.name, asked.level, size,
+                       of_carrier, device_.profile.name, most, of_carrier),
+           Advice(fmt::format("the most it can render is {:.2g}", law.level_of(most)))
+               .fact("most_level", law.level_of(most))
+               .fact("needed", size, of_carrier)
+               .fact("most", most, of_carrier));
+  if (asked.level < percept.near_threshold || size < map.valid_low * (1 - rounding) ||
+      size > map.valid_high * (1 + rounding))
+    report(Code::beyond_validity, asked.span,
+           asked.level < percept.near_threshold
+               ? fmt::format("{} {:.3g} is near or below threshold", asked.name, asked.level)
+               : fmt::format("{} {:.3g} lies outside what was measured ({})", asked.name, asked.level, map.source),
+           fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
+                       law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
+  if (map.slope == Evidence::recalled || map.anchor == Evidence::recalled || map.handle == Evidence::recalled)
+    report(Code::unverified_basis, asked.span,
+           fmt::format("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),
+           Advice("take it as a guess until somebody has seen the source").see(map.span, "the map"));
+}
+
+/// Solved percepts, what matters most first: the essential ones, then the others, each in the author's order.
+std::vector<std::size_t> PerceptSolver::by_priority() const {
+  std::vector<std::size_t> all;
+  for (const bool essential : {true, false})
+    for (std::size_t i = 0; i < told_.size(); ++i)
+      if (told_[i].solved && told_[i].asked->essential == essential) all.push_back(i);
+  return all;
+}
+
+double PerceptSolver::most_size(const Told& told) const {
+  const Law law(*told.map, *told.percept);
+  return std::max(told.size, law.carrier_of(1));
+}
+
+/// Whether the forces of all that is told could come to more than the device gives, wherever the sliders stand.
+bool PerceptSolver::may_exceed() const {
+  double sum = 0;
+  int count = 0;
+  for (const Told& told : told_) {
+    if (exertion(told) == 0) continue;
+    ++count;
+    const bool live =
+        told.solved ? !told.map->couples.empty() : !constant_value(*terms_, (*carriers_)[told.carrier].size);
+    sum += live ? HUGE_VAL : told.percept->exerts * (told.solved ? most_size(told) : told.size);
+  }
+  return count > 1 && !(sum <= device_.profile.force_newton);
+}
+
+void PerceptSolver::reduce() {
+  const double limit = device_.profile.force_newton;
+  double used = 0;
+  int count = 0;
+  for (const Told& told : told_) {
+    count += exertion(told) > 0;
+    if (!told.solved && std::isfinite(told.size)) used += exertion(told) * told.size;
+  }
+  if (count < 2) return;
+  std::vector<std::string> before;
+  for (const std::size_t index : by_priority()) {
+    Told& told = told_[index];
+    if (told.percept->exerts == 0) continue;
+    const double left = std::max(0.0, (limit - used) / told.percept->exerts);
+    if (told.size > left && told.percept->exerts * told.size <= limit) {
+      const Law law(*told.map, *told.percept);
+      const double level = law.level_of(left, coupled_sizes(told));
+      report(Code::reduced_percept, told.asked->span,
+             fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would come to {:.3g} N, and `{}` gives "
+                         "{:.3g} N",
+                         told.asked->name, told.asked->level, level, used + told.percept->exerts * told.size,
+                         device_.profile.name, limit),
+             Advice(before.empty() ? std::string("the forces that are fixed come first; weaken them")
+                                   : fmt::format("what stands above it comes first: {}; put it higher, mark it "
+                                                 "`essential`, or ask for less of the others",
+                                                 fmt::join(before, ", ")))
+                 .fact("asked", told.asked->level)
+                 .fact("reduced", level)
+                 .fact("most", limit, "N"));
+    }
+    told.size = std::min(told.size, left);
+    used += told.percept->exerts * told.size;
+    before.push_back(told.asked->name);
+  }
+}
+
+// ---- expressions ----------------------------------------------------------------------------------------------------
+
+Law::Sizes PerceptSolver::coupled_terms(const Told& told, SolvedMaterial& solved) const {
+  Law::Sizes sizes;
+  for (const std::size_t other : told.couples)
+    sizes.push_back(other == none ? solved.terms.literal(0) : *told_[other].term);
+  return sizes;
+}
+
+std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, TermCopier& copy) {
+  Terms& terms = solved.terms;
+  for (const std::size_t index : order_) {
+    Told& told = told_[index];
+    if (!told.solved) {
+      told.term = told.shares != none ? *told_[told.shares].term : copy((*carriers_)[told.carrier].size);
+      continue;
+    }
+    terms.attribute(told.asked->span);
+    told.term =
+        *Law(*told.map, *told.percept).carrier(terms, terms.parameter(told.parameter), coupled_terms(told, solved));
+  }
+  if (may_exceed()) {
+    // What is left of the device's force for each, after what the author fixed and what matters more.
+    const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };
+    TermId left = terms.literal(device_.profile.force_newton);
+    const auto take = [&](const Told& told) {
+      const TermId force = apply(Operation::multiply, terms.literal(told.percept->exerts), *told.term);
+      left = apply(Operation::maximum, apply(Operation::subtract, left, force), terms.literal(0));
+    };
+    for (const Told& told : told_)
+      if (!told.solved && exertion(told) > 0) take(told);
+    for (const std::size_t index : by_priority()) {
+      Told& told = told_[index];
+      if (told.percept->exerts == 0) continue;
+      terms.attribute(told.asked->span);
+      told.term =
+          apply(Operation::minimum, *told.term, apply(Operation::divide, left, terms.literal(told.percept->exerts)));
+      take(told);
+    }
+  }
+  terms.attribute({});
+  for (Told& told : told_)
+    if (told.shares != none) told.term = told_[told.shares].term;  // perhaps reduced since
+  std::map<std::uint32_t, TermId> sizes;
+  for (const Told& told : told_)
+    if (told.solved) sizes[(*terms_)[(*carriers_)[told.carrier].size].index] = *told.term;
+  return sizes;
+}
+
+PerceptRecord PerceptSolver::record(const Told& told) const {
+  const Percept& percept = *told.percept;
+  const Map& map = *told.map;
+  const Carrier& carrier = (*carriers_)[told.carrier];
+  PerceptRecord record;
+  record.name = percept.name;
+  record.carrier = percept.carrier;
+  const Told& setting = told.shares == none ? told : told_[told.shares];
+  if (setting.solved) record.parameter = static_cast<std::uint16_t>(setting.parameter);
+  record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
+  record.valid_low = static_cast<float>(map.valid_low);
+  record.valid_high = static_cast<float>(map.valid_high);
+  record.scatter = static_cast<float>(map.scatter);
+  record.slope = map.slope;
+  record.anchor = map.anchor;
+  record.handle = map.device == device_.profile.name ? map.handle : Evidence::transferred;
+  record.map = fmt::format("{} from {}", map.percept, map.from);
+  record.device = map.device;
+  record.source = map.source;
+  record.unit = unit(percept);
+  record.extractor = percept.extractor;
+  if (std::isfinite(percept.period.high)) {
+    record.period_low = static_cast<float>(percept.period.low);
+    record.period_high = static_cast<float>(percept.period.high);
+  }
+  record.one = static_cast<float>(percept.one);
+  record.near_threshold = static_cast<float>(percept.near_threshold);
+  record.spread = static_cast<float>(map.spread);
+  record.observers = static_cast<std::uint16_t>(std::clamp(map.observers, 0, 65535));
+  if (const Threshold* threshold = declarations_.threshold(percept.cue, device_.profile.name)) {
+    record.weber = static_cast<float>(threshold->weber);
+    record.floor = static_cast<float>(threshold->floor);
+    const bool own = threshold->device == device_.profile.name;
+    record.weber_evidence = std::max(threshold->evidence, own ? threshold->handle : Evidence::transferred);
+    record.weber_source = threshold->source;
+  }
+  if (const auto rule = realised_.find(percept.name); rule != realised_.end()) record.realisation = rule->second;
+  return record;
+}
+
+void PerceptSolver::describe(SolvedMaterial& solved) {
+  for (Told& told : told_) {
+    const Law law(*told.map, *told.percept);
+    SolvedPercept each;
+    each.amplitude = *told.term;
+    solved.terms.attribute(told.map->span);
+    const TermId probe = solved.terms.input(Input::probe);
+    const Law::Sizes couples = coupled_terms(told, solved);
+    const auto magnitude = law.magnitude(solved.terms, probe, couples), level = law.level(solved.terms, probe, couples);
+    if (!magnitude || !level) {
+      report(Code::unsolvable_law, told.map->span,
+             fmt::format("the law of {} cannot be solved for its magnitude", told.percept->name),
+             "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can");
+      continue;
+    }
+    each.magnitude = *magnitude;
+    each.level = *level;
+    if (told.asked) each.asked = told.asked->level;
+    each.record = record(told);
+    solved.percepts.push_back(std::move(each));
+  }
+}
+
+}  // namespace wale

@@ -1,0 +1,290 @@
+#include "compiler/solve/solve_percepts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "compiler/expression/check_expression.hpp"
+
+namespace wale {
+
+namespace {
+
+/// What to do about several sizes left open, the second of which is where it is reported.
+Advice left_open(const std::vector<const Carrier*>& open) {
+  Advice advice = "add the heights up in one `lateral(a + b)`, or give all but one an amplitude";
+  for (std::size_t i = 0; i < open.size(); ++i)
+    if (i != 1) advice = std::move(advice).see(open[i]->span, "this one is open too");
+  return advice;
+}
+
+std::string sources_of(const std::vector<const Map*>& maps) {
+  std::vector<std::string> all;
+  for (const Map* map : maps) all.push_back(map->source);
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+}  // namespace
+
+/// Whether the force is a sum of which the carrier's is a term as it stands: neither scaled nor bounded nor switched.
+bool PerceptSolver::is_summand(const Carrier& carrier) const {
+  std::vector<std::array<TermId, 2>> waiting{force_};
+  while (!waiting.empty()) {
+    const auto [x, y] = waiting.back();
+    waiting.pop_back();
+    if (x == carrier.force_x && y == carrier.force_y) return true;
+    const Term &of_x = (*terms_)[x], &of_y = (*terms_)[y];
+    const auto is_sum = [](const Term& term) {
+      return term.kind == TermKind::operation && term.operation == Operation::add;
+    };
+    if (!is_sum(of_x) || !is_sum(of_y)) continue;
+    waiting.push_back({of_x.a, of_y.a});
+    waiting.push_back({of_x.b, of_y.b});
+  }
+  return false;
+}
+
+void PerceptSolver::find_told_carriers() {
+  for (std::size_t i = 0; i < carriers_->size(); ++i) {
+    const Carrier& carrier = (*carriers_)[i];
+    // What is left open is meant to be felt. What is fixed may be a part of something else: the slope by which a
+    // friction comes on is no oil.
+    if (carrier.open || (!terms_->dependence(carrier.size).in_tick() && is_summand(carrier))) candidates_.push_back(i);
+  }
+}
+
+void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carriers, const std::array<TermId, 2>& force,
+                         const std::map<std::string, std::string>& realised, const std::set<std::string>& lost,
+                         std::vector<Parameter>& parameters) {
+  terms_ = &terms;
+  carriers_ = &carriers;
+  force_ = force;
+  realised_ = realised;
+  const std::size_t errors_before = diagnostics_.error_count();
+  find_told_carriers();
+  for (const auto& asked : material_.percepts)
+    if (!lost.contains(asked.name)) match(asked);
+  // What nobody asked for is told all the same, where it is alone of its kind and a map is there.
+  for (const auto& name : declarations_.percepts.spellings()) {
+    const Percept& percept = *declarations_.percepts.find(name);
+    if (std::ranges::any_of(told_, [&](const Told& told) { return told.percept == &percept; })) continue;
+    std::vector<std::size_t> mine;
+    for (const std::size_t i : candidates_)
+      if (carriers[i].name == percept.carrier) mine.push_back(i);
+    if (!percept.has_reference) continue;
+    const auto open = std::ranges::find_if(mine, [&](std::size_t i) { return carriers[i].open; });
+    if (mine.size() != 1 && open == mine.end()) continue;
+    const std::size_t index = open == mine.end() ? mine[0] : *open;
+    if (carriers[index].open && std::ranges::find(told_, index, &Told::carrier) == told_.end()) continue;
+    if (std::ranges::any_of(material_.percepts, [&](const auto& asked) { return asked.name == name; })) continue;
+    if (const Map* map = choose_map(percept, device_, declarations_, chosen_by(percept.name)).map)
+      tell({.percept = &percept, .map = map, .carrier = index});
+  }
+  couple();
+  if (diagnostics_.error_count() > errors_before) return;
+  for (Told& told : told_)
+    if (told.solved) solve_size(told, parameters);
+  if (diagnostics_.error_count() > errors_before) return;
+  work_out_sizes();
+  reduce();
+  mark_decalibrating(parameters);
+}
+
+/// The author's parameters that a term depends on.
+std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id) const {
+  std::set<std::uint32_t> found;
+  std::set<TermId> seen;
+  std::vector<TermId> waiting{id};
+  while (!waiting.empty()) {
+    const TermId current = waiting.back();
+    waiting.pop_back();
+    if (!seen.insert(current).second) continue;
+    const Term& term = (*terms_)[current];
+    if (term.kind == TermKind::parameter) found.insert(term.index);
+    for (const TermId operand : operands(term)) waiting.push_back(operand);
+  }
+  return found;
+}
+
+/// A parameter that scales the force of a solved carrier moves the percept off its level, and its slider says so.
+void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const {
+  for (const Told& told : told_) {
+    if (!told.solved) continue;
+    const TermId force = (*carriers_)[told.carrier].force_x;
+    for (TermId id = force + 1; id < terms_->size(); ++id) {
+      const Term& term = (*terms_)[id];
+      const bool product = term.operation == Operation::multiply && (term.a == force || term.b == force);
+      const bool quotient = term.operation == Operation::divide && term.a == force;
+      if (term.kind != TermKind::operation || !(product || quotient)) continue;
+      for (const std::uint32_t index : parameters_of(term.a == force ? term.b : term.a)) {
+        std::string& description = parameters[index].description;
+        const std::string mark = fmt::format("(decalibrates {})", told.percept->name);
+        if (!description.ends_with(mark)) description += (description.empty() ? "" : " ") + mark;
+      }
+    }
+  }
+}
+
+void PerceptSolver::match(const AskedPercept& asked) {
+  const Percept& percept = *declarations_.percepts.find(asked.name);
+  std::vector<std::size_t> mine;
+  std::vector<const Carrier*> open;
+  for (const std::size_t i : candidates_) {
+    const Carrier& carrier = (*carriers_)[i];
+    if (percept.carrier.empty() || carrier.name != percept.carrier) continue;
+    mine.push_back(i);
+    if (carrier.open) open.push_back(&carrier);
+  }
+  const auto settle_all = [&] {
+    for (const Carrier* carrier : open) settle(*carrier);
+  };
+  if (!percept.has_reference) {
+    settle_all();
+    return report(Code::untied_map, asked.span,
+                  fmt::format("{} has no reference stimulus yet, so it has an order and no levels", asked.name),
+                  Advice("leave it out: it is told of the finished material, and two can be compared")
+                      .see(percept.span, "declared here"));
+  }
+  if (mine.empty())
+    return report(Code::percept_unrealised, asked.span, fmt::format("nothing in the force carries {}", asked.name),
+                  fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
+  if (open.size() > 1) {
+    settle_all();
+    return report(Code::several_open, open[1]->span,
+                  fmt::format("{} sizes are left open for one {}", open.size(), asked.name), left_open(open));
+  }
+  settle_all();
+  const Map* map = map_for(percept, asked);
+  if (!map) return;
+  const std::size_t index = open.empty() ? mine.front() : static_cast<std::size_t>(open[0] - carriers_->data());
+  tell({.percept = &percept, .asked = &asked, .map = map, .carrier = index, .solved = !open.empty()});
+}
+
+/// Enters a percept. Where another one is told by the same carrier, the first has set its size.
+void PerceptSolver::tell(Told told) {
+  const auto first = std::ranges::find(told_, told.carrier, &Told::carrier);
+  if (first != told_.end()) {
+    told.shares = static_cast<std::size_t>(first - told_.begin());
+    told.solved = false;
+  }
+  told_.push_back(std::move(told));
+}
+
+std::string PerceptSolver::chosen_by(const std::string& percept) const {
+  const auto rule = device_.realise.find(percept);
+  return rule == device_.realise.end() ? "" : rule->second.by;
+}
+
+const Map* PerceptSolver::map_for(const Percept& percept, const AskedPercept& asked) {
+  const std::string by = asked.by.empty() ? chosen_by(asked.name) : asked.by;
+  const MapChoice choice = choose_map(percept, device_, declarations_, by);
+  if (!choice.map) report_choice(percept, asked, choice, by);
+  return choice.map;
+}
+
+void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& asked, const MapChoice& choice,
+                                  const std::string& by) {
+  if (!choice.rivals.empty()) {
+    std::vector<std::string> names;
+    for (const Map* map : choice.rivals) names.push_back(map->name.empty() ? "(no name)" : map->name);
+    Advice advice = fmt::format("choose one behind the level, as in `{} {:.2g}, by {}`: {}", asked.name, asked.level,
+                                names.front(), fmt::join(names, ", "));
+    for (const Map* map : choice.rivals) advice = std::move(advice).see(map->span, map->source);
+    return report(Code::several_maps, asked.span,
+                  fmt::format("{} maps for {} would do on `{}`: {}", choice.rivals.size(), asked.name,
+                              device_.profile.name, sources_of(choice.rivals)),
+                  std::move(advice));
+  }
+  if (!choice.untied.empty()) {
+    Advice advice = "leave the level out, or measure a map that is tied to the reference stimulus";
+    for (const Map* map : choice.untied) advice = std::move(advice).see(map->span, map->source);
+    return report(Code::untied_map, asked.span,
+                  fmt::format("what is known of {} is not tied to its reference stimulus, so it orders and cannot set "
+                              "levels ({})",
+                              asked.name, sources_of(choice.untied)),
+                  std::move(advice));
+  }
+  if (!by.empty()) {
+    std::vector<std::string> names;
+    for (const Map* map : declarations_.maps())
+      if (map->percept == percept.name && !map->name.empty()) names.push_back(map->name);
+    return report(Code::unknown_name, asked.span, fmt::format("no map for {} is called `{}`", asked.name, by),
+                  names.empty() ? "there is none with a name" : fmt::format("there are: {}", fmt::join(names, ", ")));
+  }
+  report(Code::no_map, asked.span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_.profile.name),
+         "declare one, as in calibration/minsky1995.wale");
+}
+
+/// Percept and physics both given: they disagree beyond what is felt, what the map is sure of, and what the author
+/// allows.
+void PerceptSolver::check_conflict(const Told& told) {
+  const Carrier& carrier = (*carriers_)[told.carrier];
+  const AskedPercept& asked = *told.asked;
+  const Map& map = *told.map;
+  const auto size =
+      told.shares != none ? std::optional(told_[told.shares].size) : constant_value(*terms_, carrier.size);
+  if (!size || !map.couples.empty()) return;
+  const Law law(map, *told.percept);
+  const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);
+  if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.scatter) return;
+  if (std::abs(level - asked.level) <= asked.tolerance) return;
+  const Threshold* threshold = declarations_.threshold(told.percept->cue, device_.profile.name);
+  if (threshold && threshold->distance(*size, asked_size) <= 1) return;
+  const std::string unit = declarations_.names().unit(carrier.dimension);
+  const std::string argument = told.percept->argument();
+  diagnostics_.report(
+      {.code = Code::percept_conflict,
+       .span = asked.span,
+       .message = fmt::format("{} {:.3g} is asked for, and the {} given makes it {:.2g}", asked.name, asked.level,
+                              argument, level),
+       .expected = fmt::format("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,
+                               asked_size, unit),
+       .found = fmt::format("{:.3g} {}", *size, unit),
+       .help = fmt::format("leave out the {}, and it is solved from the percept; or leave out the percept", argument),
+       .secondary = {{carrier.size_span, fmt::format("gives {} {:.2g}", asked.name, level)}},
+       .facts = {{"asked", NumberWithUnit{asked.level, ""}}, {"given", NumberWithUnit{level, ""}}}});
+}
+
+// ---- what couples what ----------------------------------------------------------------------------------------------
+
+void PerceptSolver::couple() {
+  for (Told& told : told_)
+    for (const Coupling& coupling : told.map->couples) {
+      const auto other =
+          std::ranges::find_if(told_, [&](const Told& each) { return each.percept->name == coupling.percept; });
+      told.couples.push_back(other == told_.end() ? none : static_cast<std::size_t>(other - told_.begin()));
+    }
+  std::vector<int> state(told_.size(), 0);  // 0 not seen, 1 on the way, 2 done
+  for (std::size_t i = 0; i < told_.size(); ++i)
+    if (!order_from(i, state)) return;
+}
+
+bool PerceptSolver::order_from(std::size_t index, std::vector<int>& state) {
+  if (state[index] == 2) return true;
+  const Told& told = told_[index];
+  if (state[index] == 1) {
+    report(
+        Code::circular_couples, told.asked ? told.asked->span : material_.span,
+        fmt::format("the maps of {} and of what it couples need each other ({})", told.percept->name, told.map->source),
+        Advice("choose another map for one of them").see(told.map->span, "couples the other"));
+    return false;
+  }
+  state[index] = 1;
+  if (told.shares != none && !order_from(told.shares, state)) return false;
+  for (const std::size_t other : told.couples)
+    if (other != none && !order_from(other, state)) return false;
+  state[index] = 2;
+  order_.push_back(index);
+  return true;
+}
+
+std::vector<double> PerceptSolver::coupled_sizes(const Told& told) const {
+  std::vector<double> sizes;
+  for (const std::size_t other : told.couples) sizes.push_back(other == none ? 0 : told_[other].size);
+  return sizes;
+}
+
+}  // namespace wale

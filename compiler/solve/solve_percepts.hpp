@@ -1,0 +1,107 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compiler/diagnostics/advice.hpp"
+#include "compiler/solve/choose_map.hpp"
+#include "compiler/solve/copy_terms.hpp"
+#include "compiler/solve/law.hpp"
+#include "compiler/solve/solve.hpp"
+
+namespace wale {
+
+/// Ties the percepts of one material to the carriers in its force, and solves those that are left open.
+///
+/// Carriers are orthogonal, so each open size has one percept and the system is triangular: what a law couples is
+/// solved before it. When the forces would come to more than the device gives, what the author put last is reduced
+/// first.
+class PerceptSolver {
+ public:
+  PerceptSolver(const CheckedMaterial& material, const Declarations& declarations, const DeviceDeclaration& device,
+                Diagnostics& diagnostics)
+      : material_(material), declarations_(declarations), device_(device), diagnostics_(diagnostics) {}
+
+  /// Matches what was asked for, but for what is lost, with carriers and maps; what does not fit is reported. Adds a
+  /// parameter for each percept that is solved. `realised` are those that the device renders by a rule of its own, each
+  /// with the rule's force as written.
+  void plan(const Terms& terms, const std::vector<Carrier>& carriers, const std::array<TermId, 2>& force,
+            const std::map<std::string, std::string>& realised, const std::set<std::string>& lost,
+            std::vector<Parameter>& parameters);
+
+  /// Whether an open quantity is solved, or something has been said of it.
+  bool settled(std::uint32_t open) const { return settled_.contains(open); }
+
+  /// Builds the size of every open quantity that is solved, in setup expressions of `solved`; `copy` brings what the
+  /// author fixed there.
+  std::map<std::uint32_t, TermId> sizes(SolvedMaterial& solved, TermCopier& copy);
+
+  /// Adds a record for every percept that a carrier tells of, asked for or not; the asked ones first, in their order.
+  void describe(SolvedMaterial& solved);
+
+ private:
+  static constexpr std::size_t none = ~std::size_t{0};
+
+  /// A carrier in the force and the percept that it tells of.
+  struct Told {
+    const Percept* percept = nullptr;
+    const AskedPercept* asked = nullptr;  ///< null: not asked for
+    const Map* map = nullptr;
+    std::size_t carrier = 0;
+    bool solved = false;               ///< its size was open; otherwise the author fixed it
+    std::uint32_t parameter = 0;       ///< of a solved one
+    double size = 0;                   ///< at the parameters' defaults, SI; not-a-number where it is not known
+    std::vector<std::size_t> couples;  ///< beside the map's: which of `told_`, or `none`
+    std::size_t shares = none;         ///< which of `told_` before it is told by the same carrier, or `none`
+    std::optional<TermId> term;        ///< in the solved terms, once it is built
+  };
+
+  void find_told_carriers();
+  bool is_summand(const Carrier& carrier) const;
+  void match(const AskedPercept& asked);
+  std::string chosen_by(const std::string& percept) const;  ///< the map that the device's rule names; may be empty
+  const Map* map_for(const Percept& percept, const AskedPercept& asked);
+  void report_choice(const Percept& percept, const AskedPercept& asked, const MapChoice& choice, const std::string& by);
+  void solve_size(Told& told, std::vector<Parameter>& parameters);
+  void tell(Told told);
+  /// The force of a carrier of size 1, or 0 where it does not count or is counted already.
+  static double exertion(const Told& told) { return told.shares == none ? told.percept->exerts : 0; }
+  void check_conflict(const Told& told);
+  void mark_decalibrating(std::vector<Parameter>& parameters) const;
+  std::set<std::uint32_t> parameters_of(TermId id) const;
+  void couple();
+  bool order_from(std::size_t index, std::vector<int>& state);
+  void work_out_sizes();
+  void warn_of_range(const Told& told, const Law& law);
+  void reduce();
+  std::vector<std::size_t> by_priority() const;
+  bool may_exceed() const;
+  double most_size(const Told& told) const;
+  std::vector<double> coupled_sizes(const Told& told) const;
+  Law::Sizes coupled_terms(const Told& told, SolvedMaterial& solved) const;
+  PerceptRecord record(const Told& told) const;
+  std::string unit(const Percept& percept) const { return declarations_.names().unit(percept.carrier_dimension); }
+  void settle(const Carrier& carrier) {
+    if (carrier.open) settled_.insert((*terms_)[carrier.size].index);
+  }
+  void report(Code code, Span span, std::string message, Advice advice) {
+    diagnostics_.report(std::move(advice).about(code, span, std::move(message)));
+  }
+
+  const CheckedMaterial& material_;
+  const Declarations& declarations_;
+  const DeviceDeclaration& device_;
+  Diagnostics& diagnostics_;
+  const Terms* terms_ = nullptr;
+  const std::vector<Carrier>* carriers_ = nullptr;
+  std::array<TermId, 2> force_{};
+  std::map<std::string, std::string> realised_;
+  std::vector<std::size_t> candidates_;  ///< carriers that tell of something
+  std::vector<Told> told_;
+  std::vector<std::size_t> order_;  ///< of `told_`: what is coupled before what couples it
+  std::set<std::uint32_t> settled_;
+};
+
+}  // namespace wale

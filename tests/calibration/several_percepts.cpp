@@ -1,0 +1,343 @@
+// Several percepts in one material, each solved through its own carrier: the sizes against the closed forms of the
+// publications (worked out here a second time), the forces against the textbook's.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/calibration/declared.hpp"
+#include "wale/memory.hpp"
+
+namespace wale {
+namespace {
+
+using calibrating::bank_at;
+using calibrating::Declared;
+using calibrating::percept_index;
+
+/// The carrier's size at a level, by the exponents and reference stimuli that are printed.
+double size_of(const std::string& percept, double level) {
+  static const std::map<std::string, std::pair<double, double>> closed_forms = {
+      {"roughness", {194 * 10.0 / 512, 0.759593}},
+      {"viscosity", {10, 0.44}},
+      {"stickiness", {1, 1}},
+      {"springiness", {200, 1}},
+      {"hardness", {1000, 0.8}},
+      {"vibration", {2, 0.89}},
+      {"heaviness", {0.2, 1.45}},
+      {"bumpiness", {3, 0.76}},
+      {"crispness", {8, 1}}};
+  const auto& [one, exponent] = closed_forms.at(percept);
+  return one * std::pow(level, 1 / exponent);
+}
+
+const std::string five =
+    "material m {\n  perceptual {\n    roughness 0.3\n    viscosity 0.4\n    stickiness 0.5\n    springiness 0.1\n"
+    "    vibration 0.2\n  }\n  physical {\n    active 0.5 W\n    param period = 2 mm in 1 mm .. 5 mm\n"
+    "    force a = lateral(grating(x, period: period))\n    force b = viscous()\n    force c = sticky()\n"
+    "    force d = spring()\n    force e = vibrate()\n  }\n}\n";
+
+TEST(FivePercepts, AreEachTheClosedFormOfTheirLevel) {
+  const Program program = Declared(five).program();
+  const Bank bank(program);
+  for (const auto& [name, level] : std::map<std::string, double>{
+           {"roughness", 0.3}, {"viscosity", 0.4}, {"stickiness", 0.5}, {"springiness", 0.1}, {"vibration", 0.2}}) {
+    const std::size_t i = percept_index(program, name);
+    const double size = size_of(name, level);
+    EXPECT_NEAR(amplitude(bank, i), size, 1e-5 * size) << name;
+    EXPECT_NEAR(predict(bank, i, amplitude(bank, i)).level, level, 1e-5) << name;
+    EXPECT_FALSE(program.description().percepts[i].alone);
+  }
+  // In the order in which the author asks.
+  EXPECT_EQ(program.description().percepts[0].name, "roughness");
+  EXPECT_EQ(program.description().percepts[1].name, "viscosity");
+}
+
+TEST(FivePercepts, StayTrueAtEveryCornerOfTheirSliders) {
+  const Program program = Declared(five).program();
+  for (int corner = 0; corner < 32; ++corner) {
+    const auto level = [&](int i) { return corner >> i & 1 ? 0.35 : 0.15; };
+    const std::map<std::string, double> levels = {{"roughness", level(0)},
+                                                  {"viscosity", level(1)},
+                                                  {"stickiness", level(2)},
+                                                  {"springiness", level(3)},
+                                                  {"vibration", level(4)}};
+    auto values = levels;
+    values["period"] = corner % 2 ? 0.001 : 0.005;
+    const Bank bank = bank_at(program, values);
+    for (const auto& [name, asked] : levels) {
+      const std::size_t i = percept_index(program, name);
+      EXPECT_NEAR(amplitude(bank, i), size_of(name, asked), 2e-5 * size_of(name, asked)) << name << corner;
+      EXPECT_NEAR(predict(bank, i, amplitude(bank, i)).level, asked, 1e-5) << name << corner;
+    }
+  }
+}
+
+Hand moving(double x, double v, double a = 0) {
+  Hand hand;
+  hand.position = {static_cast<float>(x), 0};
+  hand.velocity = {static_cast<float>(v), 0};
+  hand.acceleration = {static_cast<float>(a), 0};
+  return hand;
+}
+
+/// The x force of a percept alone, rendered as the device pleases.
+double force_of(const std::string& percept, double level, const Hand& hand, const std::string& device = "sandpaper") {
+  Declared declared("material m { perceptual { " + percept + " " + std::to_string(level) + " } }\n");
+  Bank bank(declared.program("", device));
+  return tick(bank, hand).x;
+}
+
+TEST(DeviceRules, GiveTheForceOfTheTextbook) {
+  for (const std::string device : {"sandpaper", "falcon"}) {
+    const double b = size_of("viscosity", 0.5), k = size_of("springiness", 0.3), drag = size_of("stickiness", 0.6);
+    EXPECT_NEAR(force_of("viscosity", 0.5, moving(0, 0.2), device), -b * 0.2, 1e-5);
+    EXPECT_NEAR(force_of("springiness", 0.3, moving(0.02, 0.2), device), -k * 0.02, 1e-5);
+    // The same at every speed, against the motion.
+    for (const double v : {0.1, 0.3, 0.9}) EXPECT_NEAR(force_of("stickiness", 0.6, moving(0, v), device), -drag, 1e-5);
+    EXPECT_NEAR(force_of("stickiness", 0.6, moving(0, -0.2), device), drag, 1e-5);
+    EXPECT_NEAR(force_of("heaviness", 0.4, moving(0, 0, 3), device), -3 * size_of("heaviness", 0.4), 1e-5);
+    // A wall right of 20 mm.
+    EXPECT_NEAR(force_of("hardness", 0.4, moving(0.022, 0), device), -0.002 * size_of("hardness", 0.4), 1e-5);
+    EXPECT_EQ(force_of("hardness", 0.4, moving(0.019, 0), device), 0);
+    EXPECT_NEAR(force_of("crispness", 0.5, moving(0.021, 0.3), device), -0.3 * size_of("crispness", 0.5), 1e-5);
+    EXPECT_EQ(force_of("crispness", 0.5, moving(0.021, -0.3), device), 0) << "it lets go freely";
+  }
+}
+
+/// What 99 % of the places on a patch, less its rim, are pushed with at most.
+double pushed_over_the_patch(const std::string& percept, double level, const std::string& device) {
+  Declared declared("material m { perceptual { " + percept + " " + std::to_string(level) + " } }\n");
+  Bank bank(declared.program("", device));
+  const double half = bank.size().width / 2 - bank.size().rim;
+  constexpr int places = 20011;
+  std::vector<double> forces;
+  for (int i = 0; i < places; ++i) forces.push_back(std::abs(tick(bank, moving(half * (2.0 * i / places - 1), 0)).x));
+  std::ranges::sort(forces);
+  return forces[static_cast<std::size_t>(0.99 * places)];
+}
+
+TEST(DeviceRules, TexturesAndBumpsPushAsHardAsTheirLevelSays) {
+  for (const std::string device : {"sandpaper", "falcon"}) {
+    for (const double level : {0.2, 0.6, 0.9}) {
+      const double rough = size_of("roughness", level), bumpy = size_of("bumpiness", level);
+      EXPECT_NEAR(pushed_over_the_patch("roughness", level, device), rough, 0.01 * rough);
+      EXPECT_NEAR(pushed_over_the_patch("bumpiness", level, device), bumpy, 0.01 * bumpy);
+    }
+  }
+}
+
+TEST(DeviceRules, AVibrationShakesAHandAtRest) {
+  Declared declared("material m { perceptual { vibration 0.5 } }\n");
+  const Program program = declared.program();
+  EXPECT_EQ(declared.codes(), "");
+  Bank bank(program);
+  Memory memory(program);
+  memory.enter(bank, moving(0, 0));
+  double squares = 0;
+  for (int i = 0; i < 900; ++i) {  // 120 whole periods
+    const double force = tick(bank, memory, moving(0, 0)).x;
+    squares += force * force;
+  }
+  EXPECT_NEAR(std::sqrt(2 * squares / 900), size_of("vibration", 0.5), 1e-3);
+}
+
+TEST(DeviceRules, AddTheirForcesAndAreNamed) {
+  Declared declared("material m { perceptual { viscosity 0.5; springiness 0.3 } }\n");
+  const Program program = declared.program();
+  Bank bank(program);
+  EXPECT_NEAR(tick(bank, moving(0.02, 0.2)).x, -0.2 * size_of("viscosity", 0.5) - 0.02 * size_of("springiness", 0.3),
+              1e-5);
+  EXPECT_EQ(program.description().percepts[0].realisation, "viscous()");
+  EXPECT_EQ(program.description().percepts[1].realisation, "spring()");
+  EXPECT_EQ(Declared(five).program().description().percepts[0].realisation, "");
+}
+
+TEST(DeviceRules, OneFileBuildsForEachDevice) {
+  Declared declared("material m { perceptual { roughness 0.6 } }\n");
+  const Program here = declared.program("", "sandpaper"), there = declared.program("", "falcon");
+  // 0.6 of the magnitude at 194 pu is 1.934 N wherever it is felt; off the joystick it was measured on, with doubt.
+  EXPECT_NEAR(amplitude(Bank(here), 0), 1.934, 5e-4);
+  EXPECT_NEAR(amplitude(Bank(there), 0), 1.934, 5e-4);
+  EXPECT_EQ(here.description().percepts[0].handle, Evidence::measured);
+  EXPECT_EQ(there.description().percepts[0].handle, Evidence::transferred);
+  EXPECT_EQ(there.description().device.force_newton, 8);
+}
+
+TEST(Antonyms, AreTheSameScaleFromItsOtherEnd) {
+  Declared declared("material soft { perceptual { softness 0.8 } }\nmaterial hard { perceptual { hardness 0.2 } }\n");
+  const Program soft = declared.program("soft"), hard = declared.program("hard");
+  EXPECT_NEAR(amplitude(Bank(soft), 0), size_of("hardness", 0.2), 1e-3);
+  EXPECT_NEAR(amplitude(Bank(soft), 0), amplitude(Bank(hard), 0), 1e-4);
+  EXPECT_TRUE(soft.parameter("hardness"));
+  EXPECT_FALSE(soft.parameter("softness"));
+}
+
+TEST(Choice, OfAMapIsTheAuthors) {
+  Declared declared(
+      "map roughness from amplitude {\n  name test.opinion\n  law magnitude = (amplitude / 1 N)^0.5\n"
+      "  valid amplitude 0.1 N .. 5 N\n  scatter 0.05\n"
+      "  evidence slope measured, anchor measured, handle measured\n  on sandpaper\n  source \"a test\"\n}\n"
+      "material ours { perceptual { roughness 0.5, by test.opinion } }\n"
+      "material theirs { perceptual { roughness 0.5, by minsky1995.figure19 } }\n");
+  EXPECT_NEAR(amplitude(Bank(declared.program("ours")), 0), 194 * 10.0 / 512 * 0.25, 1e-5);
+  EXPECT_NEAR(amplitude(Bank(declared.program("theirs")), 0), size_of("roughness", 0.5), 1e-5);
+}
+
+TEST(FixedCarriers, AreToldWhereTheyStandAsTheyAre) {
+  Declared declared(
+      "material oil { physical { force = viscous(3 N s/m) } }\n"
+      "material rubbing { physical { force = hold(viscous(3 N s/m), 0.5 N) } }\n"
+      "material half { physical { force = 0.5 * viscous(3 N s/m) } }\n"
+      "material snow { physical { force = viscous(3 N s/m * clamp(x / 10 mm, 0, 1)) } }\n");
+  const Program oil = declared.program("oil");
+  const Bank bank(oil);
+  const std::size_t i = percept_index(oil, "viscosity");
+  EXPECT_NEAR(predict(bank, i, amplitude(bank, i)).level, std::pow(0.3, 0.44), 1e-5);
+  EXPECT_EQ(oil.description().percepts[i].unit, "N s/m");
+  for (const std::string name : {"rubbing", "half", "snow"})
+    EXPECT_TRUE(declared.program(name).description().percepts.empty()) << name;
+}
+
+/// roughness, viscosity, springiness in this order: what is left of 10 N goes to the last.
+TEST(Reduction, FollowsTheAuthorsOrderWhereverTheSlidersStand) {
+  Declared declared(
+      "material m { perceptual { roughness 1; viscosity 1; springiness 0.8 } }\n"
+      "material e { perceptual { roughness 1; viscosity 1; essential springiness 0.8 } }\n");
+  const Program program = declared.program("m");
+  EXPECT_EQ(declared.codes(), "W0421");
+  for (const double r : {0.2, 0.7, 1.0})
+    for (const double v : {0.1, 0.6, 1.0})
+      for (const double s : {0.1, 0.5, 1.0}) {
+        const Bank bank = bank_at(program, {{"roughness", r}, {"viscosity", v}, {"springiness", s}});
+        double left = 10;
+        const auto expect = [&](const std::string& name, double level, double reach) {
+          const double size = std::min(size_of(name, level), left / reach);
+          const std::size_t i = percept_index(program, name);
+          EXPECT_NEAR(amplitude(bank, i), size, 1e-4 * size) << name << r << v << s;
+          left -= size * reach;
+        };
+        expect("roughness", r, 1);
+        expect("viscosity", v, 0.25);
+        expect("springiness", s, 0.04);
+        EXPECT_GE(left, -1e-9);
+      }
+  const Program essential = declared.program("e");
+  const Bank bank(essential);
+  EXPECT_NEAR(amplitude(bank, percept_index(essential, "springiness")), 160, 1e-3);
+  EXPECT_NEAR(amplitude(bank, percept_index(essential, "roughness")), 10 - 6.4, 1e-4);
+  EXPECT_NEAR(amplitude(bank, percept_index(essential, "viscosity")), 0, 1e-6);
+}
+
+TEST(Couples, KeepTheLevelTrueWhileTheOtherMoves) {
+  Declared declared(
+      "map stickiness from drag {\n  couples viscosity viscosity\n"
+      "  law magnitude = drag / 1 N * (1 + viscosity / 20 N s/m)\n  valid drag 0.1 N .. 3 N\n  scatter 0.1\n"
+      "  evidence slope estimated, anchor estimated, handle estimated\n  on sandpaper\n  source \"a test\"\n}\n"
+      "material m { perceptual { stickiness 0.5; viscosity 0.5 } }\n"
+      "material alone { perceptual { stickiness 0.5 } }\n"
+      "material fixed { perceptual { stickiness 0.5 }\n  physical { force = sticky() + viscous(5 N s/m) } }\n");
+  const Program program = declared.program("m");
+  const std::size_t sticky = percept_index(program, "stickiness");
+  for (const double v : {0.1, 0.5, 1.0}) {
+    const Bank bank = bank_at(program, {{"viscosity", v}});
+    EXPECT_NEAR(amplitude(bank, sticky), 0.5 / (1 + size_of("viscosity", v) / 20), 1e-5) << v;
+    EXPECT_NEAR(predict(bank, sticky, amplitude(bank, sticky)).level, 0.5, 1e-5) << v;
+  }
+  EXPECT_NEAR(amplitude(Bank(declared.program("alone")), 0), 0.5, 1e-6);
+  EXPECT_NEAR(amplitude(Bank(declared.program("fixed")), 0), 0.5 / 1.25, 1e-6);
+}
+
+/// One just noticeable difference of a force, Tan's 10 % at 75 %: 10.5 % at d' = 1. The map is made to be surer than
+/// that.
+TEST(Conflict, IsBeyondOneJustNoticeableDifference) {
+  const auto agrees = [](double newton) {
+    try {
+      Declared(
+          "percept grit { one lateral amplitude 4 N on sandpaper\n  cue amplitude }\n"
+          "map grit from amplitude {\n  law magnitude = amplitude / 1 N\n  valid amplitude 0.1 N .. 4 N\n"
+          "  scatter 0.001\n  evidence slope measured, anchor measured, handle measured\n  on sandpaper\n"
+          "  source \"a test\"\n}\nmaterial m {\n  perceptual { grit 0.5 }\n"
+          "  physical { force = lateral(grating(x, period: 2 mm), amplitude: " +
+          std::to_string(newton) + " N) }\n}\n")
+          .program();
+      return true;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("error[W0403]"), std::string::npos) << error.what();
+      return false;
+    }
+  };
+  const double share = 0.10 / (std::sqrt(2.0) * 0.6744897501960817);
+  EXPECT_TRUE(agrees(2));
+  EXPECT_TRUE(agrees(2 * (1 + share) - 0.005));
+  EXPECT_FALSE(agrees(2 * (1 + share) + 0.005));
+  EXPECT_TRUE(agrees(2 / (1 + share) + 0.005));
+  EXPECT_FALSE(agrees(2 / (1 + share) - 0.005));
+}
+
+TEST(Overdetermined, TwoPerceptsOfOneCarrierMustAgree) {
+  const std::string grit =
+      "percept grit { one lateral amplitude 194 pu on sandpaper\n  cue amplitude }\n"
+      "map grit from amplitude {\n  law magnitude = (amplitude / 1 N)^0.759593\n  valid amplitude 0.1 N .. 4 N\n"
+      "  scatter 0.01\n  evidence slope measured, anchor measured, handle measured\n  on sandpaper\n"
+      "  source \"a test\"\n}\n";
+  Declared agreeing(grit +
+                    "material m { perceptual { roughness 0.6; grit 0.6 }\n"
+                    "  physical { force = lateral(grating(x, period: 2 mm)) } }\n");
+  const Program program = agreeing.program();
+  const Bank bank = bank_at(program, {{"roughness", 0.4}});
+  EXPECT_NEAR(amplitude(bank, percept_index(program, "grit")), size_of("roughness", 0.4), 1e-5);
+  EXPECT_THROW(Declared(grit + "material m { perceptual { roughness 0.6; grit 0.3 }\n"
+                               "  physical { force = lateral(grating(x, period: 2 mm)) } }\n")
+                   .program(),
+               std::runtime_error);
+}
+
+TEST(Lost, IsNoErrorUnlessItIsEssential) {
+  const std::string poor =
+      "device poor {\n  workspace disc(100 mm)\n  position 2048 counts\n  force 5 N, 1024 counts\n  rate 1 kHz\n"
+      "  speed 1 m/s\n  slew 100 N/s\n  velocity_filter 15, 1 counts\n  patch 80 mm, 80 mm, 4 mm\n"
+      "  realise viscosity = viscous()\n}\n";
+  Declared declared(poor + "material a { perceptual { viscosity 0.5; heaviness 0.5 } }\n");
+  const Program program = declared.program("a", "poor");
+  EXPECT_EQ(declared.codes(), "W0415");
+  EXPECT_EQ(program.description().percepts.size(), 1u);
+  Declared essential(poor + "material b { perceptual { viscosity 0.5; essential heaviness 0.5 } }\n");
+  EXPECT_THROW(essential.program("b", "poor"), std::runtime_error);
+  EXPECT_NO_THROW(
+      Declared(poor + "material b { perceptual { viscosity 0.5; essential heaviness 0.5 } }\n").program("b"));
+}
+
+TEST(Sliders, SayWhatTheyDecalibrate) {
+  Declared declared(
+      "material m {\n  perceptual { roughness 0.5 }\n  physical {\n"
+      "    param wear = 0.5 in 0 .. 1 \"so far\"\n    param period = 2 mm in 1 mm .. 5 mm \"from ridge to ridge\"\n"
+      "    force = lateral(grating(x, period: period)) * (1 - wear * clamp(x / 1 mm, 0, 1))\n  }\n}\n");
+  const Program program = declared.program();
+  const auto& parameters = program.description().parameters;
+  EXPECT_EQ(parameters[*program.parameter("wear")].description, "so far (decalibrates roughness)");
+  EXPECT_EQ(parameters[*program.parameter("period")].description, "from ridge to ridge");
+}
+
+TEST(Records, CarryWhatDescribingNeeds) {
+  const Program program = Declared(five).program();
+  const PerceptRecord& roughness = program.description().percepts[percept_index(program, "roughness")];
+  EXPECT_EQ(roughness.unit, "N");
+  EXPECT_EQ(roughness.extractor, Extractor::lateral_force);
+  EXPECT_FLOAT_EQ(roughness.period_low, 0.0007f);
+  EXPECT_FLOAT_EQ(roughness.period_high, 0.01f);
+  EXPECT_FLOAT_EQ(roughness.one, 194 * 10.0f / 512);
+  EXPECT_EQ(roughness.observers, 15);
+  EXPECT_NEAR(roughness.weber, 0.10 / (std::sqrt(2.0) * 0.6744897501960817), 1e-6);
+  EXPECT_EQ(roughness.weber_evidence, Evidence::transferred);
+  EXPECT_EQ(roughness.map, "roughness from amplitude");
+  const PerceptRecord& springiness = program.description().percepts[percept_index(program, "springiness")];
+  EXPECT_EQ(springiness.unit, "N/m");
+  EXPECT_EQ(springiness.extractor, Extractor::stiffness);
+}
+
+}  // namespace
+}  // namespace wale
