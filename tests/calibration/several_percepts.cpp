@@ -174,6 +174,14 @@ TEST(Antonyms, AreTheSameScaleFromItsOtherEnd) {
   EXPECT_NEAR(amplitude(Bank(soft), 0), amplitude(Bank(hard), 0), 1e-4);
   EXPECT_TRUE(soft.parameter("hardness"));
   EXPECT_FALSE(soft.parameter("softness"));
+
+  // A level's name is a place on the scale, from whichever end it is seen; so is a percept given as an argument.
+  Declared named(
+      "material by_name { perceptual { softness soft } }\nmaterial firm { perceptual { hardness firm } }\n"
+      "material softer = firm(softness: 0.8)\n");
+  EXPECT_NEAR(amplitude(Bank(named.program("by_name")), 0), size_of("hardness", 0.2), 1e-3);
+  EXPECT_NEAR(amplitude(Bank(named.program("firm")), 0), size_of("hardness", 0.5), 1e-3);
+  EXPECT_NEAR(amplitude(Bank(named.program("softer")), 0), size_of("hardness", 0.2), 1e-3);
 }
 
 TEST(Choice, OfAMapIsTheAuthors) {
