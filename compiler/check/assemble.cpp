@@ -133,13 +133,15 @@ class Assembler {
       }
       const Mixture value{{{1, from.tree, argument.value, from.home}}};
       if (set(*result, argument.name->text, value)) continue;
-      const auto percept = std::ranges::find(result->percepts, argument.name->text, &AskedPercept::name);
+      const PerceptName meant = from.home->percept_named(argument.name->text);
+      const auto percept = std::ranges::find(
+          result->percepts, meant.percept ? meant.percept->name : argument.name->text, &AskedPercept::name);
       if (percept != result->percepts.end()) {  // `velvet(roughness: 0.1)`
         const auto level = constant(from, argument.value);
         if (level && !(*level >= 0 && *level <= 1))
           report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", *level),
                  fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", percept->name));
-        if (level) percept->level = *level, percept->span = span;
+        if (level) percept->level = meant.reversed ? 1 - *level : *level, percept->span = span;
         continue;
       }
       const auto known = parameters(*base);
@@ -369,9 +371,10 @@ class Assembler {
     if (node.by) asked.by = node.by->text;
     if (node.level_name) {
       asked.span = node.level_name->span;
-      const auto named = named_level(declarations, node.name.text, *node.level_name);
+      const auto named = named_level(declarations, meant.percept->name, *node.level_name);
       if (!named) return;
-      asked.level = *named;
+      asked.level =
+          meant.reversed ? 1 - *named : *named;  // a name is a place on the scale, from whichever end it is seen
     } else if (node.value) {
       asked.span = declared.tree->span(*node.value);
       const auto known = constant(declared, *node.value);

@@ -127,7 +127,11 @@ Description describe(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
-  for (std::size_t i = 0; i < program.percepts.size(); ++i) description.percepts.push_back(describe_percept(bank, i));
+  for (std::size_t i = 0; i < program.percepts.size(); ++i) {
+    const DescribedPercept percept = describe_percept(bank, i);
+    // A slider may make a viscosity or a spring push along instead of against: nothing that a map knows.
+    if (std::isfinite(percept.level)) description.percepts.push_back(percept);
+  }
   description.force = measure(bank);
   // What a program remembers pushes too, once it has something to remember.
   if (remembers(program))

@@ -260,12 +260,13 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
                     .relief = {},
                     .span = blame(span),
                     .size_span = blame(size.span)};
+    const auto* height = formals.find("height");
     if (const auto fixed = carrier.open ? std::nullopt : constant_value(terms_, size.x); fixed && *fixed < 0) {
+      if (!height) continue;  // what pushes along with the motion, or away, is nothing that a percept tells of
       report(Code::value_out_of_range, span, fmt::format("`{}` is less than nothing", formal.name.text), "",
              "give its size; to push the other way, turn the height around with a minus");
       continue;
     }
-    const auto* height = formals.find("height");
     if (height && !terms_.dependence(height->value.x).on(Dependence::position)) {
       report(Code::flat_height, span, "this height is the same everywhere, and a flat height pushes nothing", "",
              "let it change with `x` or `y`, as in `grating(x, period: 2.5 mm)`");

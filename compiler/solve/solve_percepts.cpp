@@ -90,6 +90,42 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
   if (diagnostics_.error_count() > errors_before) return;
   work_out_sizes();
   reduce();
+  mark_decalibrating(parameters);
+}
+
+/// The author's parameters that a term depends on.
+std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id) const {
+  std::set<std::uint32_t> found;
+  std::set<TermId> seen;
+  std::vector<TermId> waiting{id};
+  while (!waiting.empty()) {
+    const TermId current = waiting.back();
+    waiting.pop_back();
+    if (!seen.insert(current).second) continue;
+    const Term& term = (*terms_)[current];
+    if (term.kind == TermKind::parameter) found.insert(term.index);
+    for (const TermId operand : operands(term)) waiting.push_back(operand);
+  }
+  return found;
+}
+
+/// A parameter that scales the force of a solved carrier moves the percept off its level, and its slider says so.
+void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const {
+  for (const Told& told : told_) {
+    if (!told.solved) continue;
+    const TermId force = (*carriers_)[told.carrier].force_x;
+    for (TermId id = force + 1; id < terms_->size(); ++id) {
+      const Term& term = (*terms_)[id];
+      const bool product = term.operation == Operation::multiply && (term.a == force || term.b == force);
+      const bool quotient = term.operation == Operation::divide && term.a == force;
+      if (term.kind != TermKind::operation || !(product || quotient)) continue;
+      for (const std::uint32_t index : parameters_of(term.a == force ? term.b : term.a)) {
+        std::string& description = parameters[index].description;
+        const std::string mark = fmt::format("(decalibrates {})", told.percept->name);
+        if (!description.ends_with(mark)) description += (description.empty() ? "" : " ") + mark;
+      }
+    }
+  }
 }
 
 void PerceptSolver::match(const AskedPercept& asked) {

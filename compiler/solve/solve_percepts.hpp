@@ -69,6 +69,8 @@ class PerceptSolver {
   /// The force of a carrier of size 1, or 0 where it does not count or is counted already.
   static double exertion(const Told& told) { return told.shares == none ? told.percept->exerts : 0; }
   void check_conflict(const Told& told);
+  void mark_decalibrating(std::vector<Parameter>& parameters) const;
+  std::set<std::uint32_t> parameters_of(TermId id) const;
   void couple();
   bool order_from(std::size_t index, std::vector<int>& state);
   void work_out_sizes();

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/calibration/declared.hpp"
+#include "wale/memory.hpp"
 
 namespace wale {
 namespace {
@@ -106,6 +108,43 @@ TEST(DeviceRules, GiveTheForceOfTheTextbook) {
   }
 }
 
+/// What 99 % of the places on a patch, less its rim, are pushed with at most.
+double pushed_over_the_patch(const std::string& percept, double level, const std::string& device) {
+  Declared declared("material m { perceptual { " + percept + " " + std::to_string(level) + " } }\n");
+  Bank bank(declared.program("", device));
+  const double half = bank.size().width / 2 - bank.size().rim;
+  constexpr int places = 20011;
+  std::vector<double> forces;
+  for (int i = 0; i < places; ++i) forces.push_back(std::abs(tick(bank, moving(half * (2.0 * i / places - 1), 0)).x));
+  std::ranges::sort(forces);
+  return forces[static_cast<std::size_t>(0.99 * places)];
+}
+
+TEST(DeviceRules, TexturesAndBumpsPushAsHardAsTheirLevelSays) {
+  for (const std::string device : {"sandpaper", "falcon"}) {
+    for (const double level : {0.2, 0.6, 0.9}) {
+      const double rough = size_of("roughness", level), bumpy = size_of("bumpiness", level);
+      EXPECT_NEAR(pushed_over_the_patch("roughness", level, device), rough, 0.01 * rough);
+      EXPECT_NEAR(pushed_over_the_patch("bumpiness", level, device), bumpy, 0.01 * bumpy);
+    }
+  }
+}
+
+TEST(DeviceRules, AVibrationShakesAHandAtRest) {
+  Declared declared("material m { perceptual { vibration 0.5 } }\n");
+  const Program program = declared.program();
+  EXPECT_EQ(declared.codes(), "");
+  Bank bank(program);
+  Memory memory(program);
+  memory.enter(bank, moving(0, 0));
+  double squares = 0;
+  for (int i = 0; i < 900; ++i) {  // 120 whole periods
+    const double force = tick(bank, memory, moving(0, 0)).x;
+    squares += force * force;
+  }
+  EXPECT_NEAR(std::sqrt(2 * squares / 900), size_of("vibration", 0.5), 1e-3);
+}
+
 TEST(DeviceRules, AddTheirForcesAndAreNamed) {
   Declared declared("material m { perceptual { viscosity 0.5; springiness 0.3 } }\n");
   const Program program = declared.program();
@@ -135,6 +174,14 @@ TEST(Antonyms, AreTheSameScaleFromItsOtherEnd) {
   EXPECT_NEAR(amplitude(Bank(soft), 0), amplitude(Bank(hard), 0), 1e-4);
   EXPECT_TRUE(soft.parameter("hardness"));
   EXPECT_FALSE(soft.parameter("softness"));
+
+  // A level's name is a place on the scale, from whichever end it is seen; so is a percept given as an argument.
+  Declared named(
+      "material by_name { perceptual { softness soft } }\nmaterial firm { perceptual { hardness firm } }\n"
+      "material softer = firm(softness: 0.8)\n");
+  EXPECT_NEAR(amplitude(Bank(named.program("by_name")), 0), size_of("hardness", 0.2), 1e-3);
+  EXPECT_NEAR(amplitude(Bank(named.program("firm")), 0), size_of("hardness", 0.5), 1e-3);
+  EXPECT_NEAR(amplitude(Bank(named.program("softer")), 0), size_of("hardness", 0.2), 1e-3);
 }
 
 TEST(Choice, OfAMapIsTheAuthors) {
@@ -270,6 +317,17 @@ TEST(Lost, IsNoErrorUnlessItIsEssential) {
   EXPECT_THROW(essential.program("b", "poor"), std::runtime_error);
   EXPECT_NO_THROW(
       Declared(poor + "material b { perceptual { viscosity 0.5; essential heaviness 0.5 } }\n").program("b"));
+}
+
+TEST(Sliders, SayWhatTheyDecalibrate) {
+  Declared declared(
+      "material m {\n  perceptual { roughness 0.5 }\n  physical {\n"
+      "    param wear = 0.5 in 0 .. 1 \"so far\"\n    param period = 2 mm in 1 mm .. 5 mm \"from ridge to ridge\"\n"
+      "    force = lateral(grating(x, period: period)) * (1 - wear * clamp(x / 1 mm, 0, 1))\n  }\n}\n");
+  const Program program = declared.program();
+  const auto& parameters = program.description().parameters;
+  EXPECT_EQ(parameters[*program.parameter("wear")].description, "so far (decalibrates roughness)");
+  EXPECT_EQ(parameters[*program.parameter("period")].description, "from ridge to ridge");
 }
 
 TEST(Records, CarryWhatDescribingNeeds) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "compiler/compile.hpp"
+#include "tests/calibration/declared.hpp"
 
 namespace wale::table6_test {
 namespace {
@@ -69,11 +70,11 @@ std::vector<double> times(std::vector<double> values, double factor) {
 }
 
 /// The law of the map: log10(magnitude) = slope * log10(amplitude / 1 pu) + constant.
-struct Law {
+struct PrintedLaw {
   double slope = 0, constant = 0;
 };
 
-Law published_law() {
+PrintedLaw published_law() {
   const std::string text = content(project_path("calibration/minsky1995.wale"));
   const std::regex law(
       R"(\n\s*law\s+log10\(magnitude\) = ([0-9.]+) \* log10\(amplitude / 1 pu\) ([-+]) ([0-9.]+)\s*\n)");
@@ -159,13 +160,13 @@ TEST(Table6, OnlyPeriodsThatFigure18LabelsAreCertain) {
 }
 
 TEST(Figure19, SlopeAndAmplitudesGiveTheSumOfSquares) {
-  const Law law = published_law();
+  const PrintedLaw law = published_law();
   const Regression regression = regress_on(numbers("program_units"));
   EXPECT_NEAR(law.slope * law.slope * regression.squares, regression_squares, 5e-6);
 }
 
 TEST(Figure19, StandardErrorsAndRatios) {
-  const Law law = published_law();
+  const PrintedLaw law = published_law();
   const Regression regression = regress_on(numbers("program_units"));
   EXPECT_NEAR(std::sqrt(residual_squares / degrees_of_freedom), 0.0519, 5e-5);
   EXPECT_NEAR(regression.slope_error, 0.0270, 5e-5);
@@ -203,7 +204,7 @@ TEST(Figure19, TheUnitIsTheProgramUnitAndNoOther) {
 }
 
 TEST(Figure19, CompiledProgramsCarryThisLaw) {
-  const Law law = published_law();
+  const PrintedLaw law = published_law();
   const Bank bank(with_roughness("0.6"));
   for (const double units : numbers("program_units")) {
     const double magnitude = std::pow(10, law.slope * std::log10(units) + law.constant);
@@ -218,6 +219,18 @@ TEST(Roughness, LevelsComeOutInNewtons) {
   EXPECT_NEAR(force_for(0.3), 0.777, 5e-4);
   for (const std::string level : {"0.3", "0.6", "1"})
     EXPECT_NEAR(amplitude(Bank(with_roughness(level)), 0), force_for(std::stod(level)), 1e-5) << level;
+}
+
+/// Table 6 in, as levels by the printed regression; physical force out.
+TEST(Roughness, EveryStimulusOfTable6ComesOutAsItsForce) {
+  for (const double units : numbers("program_units")) {
+    const double newton = units * 10 / 512;
+    calibrating::Declared declared("material ribs {\n  perceptual { roughness " +
+                                   std::to_string(std::pow(units / 194, 0.759593)) +
+                                   " }\n  physical { force = lateral(grating(x, period: 2.5 mm)) }\n}\n");
+    EXPECT_NEAR(amplitude(Bank(declared.program()), 0), newton, 2e-5) << units << " program units";
+    EXPECT_EQ(declared.codes(), units == 9 ? "W0407" : "") << "the faintest is near threshold";
+  }
 }
 
 /// The exponent is data: besides tests, which may quote the thesis, only the map knows it.

@@ -142,7 +142,7 @@ bool agree(const std::string& percept, double level) {
 
 TEST(GivenAmplitude, AgreesWithinTheScatterOfTheMap) {
   // 0.0519 of log10 either way.
-  for (const double level : {0.2, 0.6, 0.8}) {
+  for (const double level : {0.5, 0.6, 0.8}) {
     const std::string percept = fmt::format("roughness {}", level);
     EXPECT_TRUE(agree(percept, level));
     EXPECT_TRUE(agree(percept, level * std::pow(10, 0.051)));
@@ -150,6 +150,16 @@ TEST(GivenAmplitude, AgreesWithinTheScatterOfTheMap) {
     EXPECT_FALSE(agree(percept, level * std::pow(10, 0.053)));
     EXPECT_FALSE(agree(percept, level * std::pow(10, -0.053)));
   }
+}
+
+TEST(GivenAmplitude, AgreesWithinWhatIsNoticed) {
+  // Near nothing 0.1 N is the least difference of a force that counts, at d' = 1; the map alone is surer than that.
+  const auto level_of = [](double newton) { return std::pow(newton / (194 * 10.0 / 512), 0.759593); };
+  const double newton = 194 * 10.0 / 512 * std::pow(0.2, 1 / 0.759593);
+  EXPECT_TRUE(agree("roughness 0.2", level_of(newton + 0.095)));
+  EXPECT_FALSE(agree("roughness 0.2", level_of(newton + 0.105)));
+  EXPECT_TRUE(agree("roughness 0.2", level_of(newton - 0.095)));
+  EXPECT_FALSE(agree("roughness 0.2", level_of(newton - 0.105)));
 }
 
 TEST(GivenAmplitude, AgreesWithinATolerance) {

@@ -33,8 +33,10 @@ inline Program compiled(std::string text) {
 inline std::unique_ptr<SimulatedJoystick> joystick(std::optional<Motion> motion = std::nullopt) {
   const Library library;
   const auto person = std::get<SimulatedPerson>(library.person());
-  return std::make_unique<SimulatedJoystick>(library.devices().front().profile, person.hand,
-                                             motion.value_or(Motion(person.lateral)));
+  for (const auto& device : library.devices())
+    if (device.profile.name == default_device)
+      return std::make_unique<SimulatedJoystick>(device.profile, person.hand, motion.value_or(Motion(person.lateral)));
+  throw std::runtime_error("no such device");
 }
 
 /// What the record felt like, less its beginning.
@@ -43,6 +45,16 @@ inline Felt measured(const Program& program, const Record& record, double settli
   return measure(record, {.position_step = device.workspace_diameter / device.position_counts,
                           .predicted_amplitude = predicted_amplitude(Bank(program)),
                           .settling = settling});
+}
+
+/// The record of five and a half seconds of rubbing.
+inline Record record_of(const Program& program) {
+  auto stick = joystick();
+  Stage stage(*stick);
+  stage.place(program);
+  const auto result = stage.run({.seconds = 5.5, .virtual_time = true});
+  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
+  return std::get<RunResult>(result).record;
 }
 
 /// Five seconds of rubbing after half a second of settling in; `prepare` may set parameters first.

@@ -19,7 +19,9 @@ struct Rested {
 /// the last is measured.
 Rested rested(const Program& program, glm::dvec2 there) {
   const Library library;
-  const DeviceProfile profile = library.devices().front().profile;
+  DeviceProfile profile;
+  for (const auto& device : library.devices())
+    if (device.profile.name == default_device) profile = device.profile;
   const auto person = std::get<SimulatedPerson>(library.person());
   std::vector<TracePoint> way;
   for (int i = 0; i <= 50; ++i) {
