@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numbers>
 
 namespace wale {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::size_t climbers = 8;    // of the steepest places, from which steeper ones are looked for
 constexpr std::size_t directions = 8;  // of each step
 constexpr int climbs = 14;             // each with half the step of the one before
