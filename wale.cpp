@@ -303,11 +303,12 @@ int describe(const Choice& choice, const std::vector<std::string>& settings, boo
   }
   const auto programs = programs_of(*opened, choice, true);
   if (programs.empty()) return refused;
+  const std::shared_ptr<const CommonModules> common = common_modules();
   std::vector<Description> descriptions;
   for (const auto& program : programs) {
     const auto parameters = chosen_parameters(program, settings);
     if (!parameters) return refused;
-    descriptions.push_back(describe(Bank(program, *parameters, program.default_size())));
+    descriptions.push_back(describe(Bank(program, *parameters, program.default_size()), &common->declarations));
   }
   if (json) {
     fmt::print("{}", descriptions_json(descriptions));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/compare/cues.hpp"
+#include "compiler/extract/cues.hpp"
 
 namespace wale {
 

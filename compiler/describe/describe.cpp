@@ -9,13 +9,12 @@
 #include <span>
 #include <string_view>
 
+#include "compiler/describe/describe_extracted.hpp"
 #include "compiler/measure/rehearsal.hpp"
 
 namespace wale {
 
 namespace {
-
-constexpr double normal_95 = 1.96;  // standard deviations on either side that hold 95 % of a normal distribution
 
 DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   const PatchProgram& program = bank.program().description();
@@ -41,8 +40,8 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
   percept.level = prediction.level;
   percept.magnitude = prediction.magnitude;
-  percept.low = percept.level * std::pow(10, -normal_95 * record.scatter);
-  percept.high = percept.level * std::pow(10, normal_95 * record.scatter);
+  tell_intervals(percept, record.scatter, record.spread, record.one > 0 ? percept.amplitude / record.one : 0,
+                 record.near_threshold);
   if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
   constexpr float rounding = 1e-5f;
   percept.outside_validity =
@@ -123,7 +122,7 @@ std::string mark_word(MarkKind kind) {
   return "unknown";
 }
 
-Description describe(const Bank& bank) {
+Description describe(const Bank& bank, const Declarations* declarations) {
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
@@ -144,6 +143,7 @@ Description describe(const Bank& bank) {
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
   description.grade = grade(bank);
   description.no_percept = why_no_texture(program, description.force);
+  if (declarations) describe_extracted(description, bank, *declarations);
   description.parameters = program.parameters;
   description.states = program.states;
   description.memories = program.grids;

@@ -51,6 +51,29 @@ nlohmann::ordered_json to_json(const Grade& grade) {
   return json;
 }
 
+nlohmann::ordered_json to_json(const DescribedTexture& texture) {
+  nlohmann::ordered_json json = {{"kind", texture.kind}};
+  json["class"] = texture.texture_class;
+  json["size_class"] = texture.size_class;
+  json["confidence"] = texture.confidence;
+  if (texture.confidence_mean) json["confidence_mean"] = figure(*texture.confidence_mean);
+  if (texture.confidence_spread) json["confidence_spread"] = figure(*texture.confidence_spread);
+  if (!texture.source.empty()) json["source"] = texture.source;
+  const TextureForce& force = texture.force;
+  json["amplitude_newton"] = figure(force.amplitude);
+  if (!(force.amplitude > 0)) return json;
+  json["maximum_newton"] = figure(force.maximum);
+  json["rms_newton"] = figure(force.rms);
+  json["mean_newton"] = figure(force.mean);
+  json["period_m"] = figure(force.period);
+  json["orientation_rad"] = figure(force.orientation);
+  json["anisotropy"] = figure(force.anisotropy);
+  json["regularity"] = figure(force.regularity);
+  json["steepness_per_m"] = figure(force.steepness);
+  json["transitions_per_m"] = figure(force.transitions);
+  return json;
+}
+
 nlohmann::ordered_json to_json(const Description& description) {
   nlohmann::ordered_json json;
   json["material"] = description.material;
@@ -70,6 +93,10 @@ nlohmann::ordered_json to_json(const Description& description) {
     entry["magnitude"] = figure(percept.magnitude);
     entry["low"] = figure(percept.low);
     entry["high"] = figure(percept.high);
+    entry["individual_low"] = figure(percept.individual_low);
+    entry["individual_high"] = figure(percept.individual_high);
+    entry["near_threshold"] = percept.near_threshold;
+    entry["read_from_force"] = percept.extracted;
     entry["carrier"] = percept.carrier;
     entry["size"] = figure(percept.amplitude);
     entry["unit"] = percept.unit;
@@ -88,6 +115,7 @@ nlohmann::ordered_json to_json(const Description& description) {
     entry["source"] = percept.source;
   }
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
+  if (description.texture) json["texture"] = to_json(*description.texture);
   json["force"] = {
       {"max_newton", figure(description.force.max_newton)},     {"p99_newton", figure(description.force.p99_newton)},
       {"rms_newton", figure(description.force.rms_newton)},     {"bound_newton", figure(description.bound.newton)},

@@ -2,6 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
@@ -24,16 +26,22 @@ void write_percepts(std::string& text, const Description& description) {
   for (const auto& percept : description.percepts) {
     text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
                         percept.level, percept.low, percept.high, percept.magnitude);
-    text += fmt::format(
-        "  {:<12} {} {:.3f} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
-        percept.asked ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked) : ", fixed by the author");
+    text += fmt::format("  {:<12} {} {:.3f} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
+                        percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
+                        : percept.extracted ? ", read from its force"
+                                            : ", fixed by the author");
+    if (percept.individual_high > percept.high * 1.005)
+      text += fmt::format("  {:<12} 95 % of single people: {:.2f} .. {:.2f}\n", "", percept.individual_low,
+                          percept.individual_high);
+    if (percept.near_threshold) text += fmt::format("  {:<12} near or below threshold\n", "");
     if (percept.saturated)
       text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
     if (!percept.realisation.empty())
       text += fmt::format("  {:<12} nothing was said of its physics: `{}` renders it as {}\n", "",
                           description.device.name, percept.realisation);
     if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
-    if (!percept.alone) text += fmt::format("  {:<12} other forces push too; a run cannot read it back\n", "");
+    if (!percept.alone && !percept.extracted)
+      text += fmt::format("  {:<12} other forces push too; a run cannot read it back\n", "");
     text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
                         evidence_word(percept.anchor), evidence_word(percept.handle));
     text += fmt::format("  {:<12} {} ({}, on {})\n", "", percept.source, percept.map, percept.device);
@@ -58,6 +66,38 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
       text += fmt::format("  {:<12} {:<12} usually {}\n", "", "",
                           range_text(parameter, parameter.soft_low, parameter.soft_high));
   }
+}
+
+void write_texture(std::string& text, const Description& description) {
+  if (!description.texture) return;
+  const DescribedTexture& texture = *description.texture;
+  const TextureForce& force = texture.force;
+  text += "\ntexture\n";
+  if (force.amplitude > 0) {
+    text += fmt::format("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
+                        force.maximum, force.rms, force.mean);
+    if (force.regularity >= 0.5)
+      text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} transitions a millimetre\n", 1e3 * force.period,
+                          100 * force.regularity, 1e-3 * force.transitions);
+    else
+      text += fmt::format("  irregular, about {:.2g} mm; {:.2g} transitions a millimetre\n", 1e3 * force.period,
+                          1e-3 * force.transitions);
+    if (force.anisotropy >= 0.5)
+      text += fmt::format("  changes along {} degrees from x\n",
+                          std::lround(force.orientation * 180 / std::numbers::pi) % 180);
+    if (!texture.texture_class.empty()) text += fmt::format("  people would call it: {}\n", texture.texture_class);
+    if (!texture.size_class.empty() && texture.size_class != "texture")
+      text += fmt::format("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
+                          texture.size_class == "transitional" ? "something between a texture and single features"
+                                                               : texture.size_class);
+  } else {
+    text += fmt::format("  none{}\n", texture.kind.empty() ? "" : fmt::format(": {}", texture.kind));
+  }
+  if (texture.confidence_mean)
+    text += fmt::format("  confidence that it is a texture: {:.0f} % (s.d. {:.0f} %; {})\n",
+                        100 * *texture.confidence_mean, 100 * texture.confidence_spread.value_or(0), texture.source);
+  else if (!texture.confidence.empty())
+    text += fmt::format("  confidence that it is a texture: {} ({})\n", texture.confidence, texture.source);
 }
 
 /// Over every hand, parameter and size of patch that the runtime lets the program see.
@@ -109,6 +149,7 @@ std::string description_text(const Description& description) {
   for (const auto& [key, values] : description.layers.representative)
     if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
   write_percepts(text, description);
+  write_texture(text, description);
   text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
                       description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
   text += bound_lines(description);

@@ -12,7 +12,7 @@ constexpr int scan_lines = 5;          // in each of four directions
 constexpr double step = 0.5e-3;        // m between the places of a scan
 constexpr int steps_free = 8;          // 4 mm without force before a face, which no texture has
 constexpr int steps_deep = 3;          // 1.5 mm over which the force has to grow in proportion
-constexpr double least_force = 0.02;   // N at that depth
+constexpr double least_push = 0.02;    // N at that depth
 constexpr double proportional = 0.15;  // how far it may be from a straight line, of the force
 constexpr double slow = 0.02;          // m/s, at which damping is looked at
 
@@ -64,7 +64,7 @@ std::optional<WallFace> wall_face(const Bank& bank) {
         const double middle = against(i + 1), expected = near + slope * step;
         const bool straight = std::abs(middle - expected) <= proportional * far;
         const double depth = slope > 0 ? near / slope : -1;
-        if (far > least_force && straight && depth >= 0 && depth <= 1.05 * step &&
+        if (far > least_push && straight && depth >= 0 && depth <= 1.05 * step &&
             (!stiffest || slope > stiffest->stiffness)) {
           const glm::dvec2 here = scan.from + static_cast<double>(i) * step * scan.direction;
           stiffest = WallFace{here - depth * scan.direction, scan.direction, slope, 0, 0};

@@ -1,4 +1,4 @@
-#include "compiler/compare/cues.hpp"
+#include "compiler/extract/cues.hpp"
 
 #include <cmath>
 
@@ -44,9 +44,14 @@ const std::array<CueFacts, cue_count>& cue_table() {
   return table;
 }
 
-Cues cues_of(const Bank& bank, const Declarations& declarations) {
+Extraction extract(const Bank& bank, const Declarations& declarations) {
+  return extract(bank, band_of(declarations, "roughness"), band_of(declarations, "bumpiness"));
+}
+
+Cues cues_of(const Bank& bank, const Declarations& declarations) { return cues_of(bank, extract(bank, declarations)); }
+
+Cues cues_of(const Bank& bank, const Extraction& found) {
   const PatchProgram& program = bank.program().description();
-  const Extraction found = extract(bank, band_of(declarations, "roughness"), band_of(declarations, "bumpiness"));
   Cues cues{program.material, program.device.name, {}};
   const TextureForce &texture = found.texture, &bumps = found.bumps;
   cues[CueKind::amplitude] =

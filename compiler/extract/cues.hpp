@@ -47,8 +47,12 @@ struct Cues {
   const std::optional<double>& operator[](CueKind kind) const { return values[static_cast<std::size_t>(kind)]; }
 };
 
-/// Reads a program's cues at a bank's parameters. The bands of periods are those that the percepts roughness and
-/// bumpiness declare.
+/// Reads what a program is made of at a bank's parameters. The bands of periods are those that the percepts roughness
+/// and bumpiness declare.
+Extraction extract(const Bank& bank, const Declarations& declarations);
+
+/// The cues in what was read: all but what an extraction leaves of something that is not there.
+Cues cues_of(const Bank& bank, const Extraction& found);
 Cues cues_of(const Bank& bank, const Declarations& declarations);
 
 }  // namespace wale

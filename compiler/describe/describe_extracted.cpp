@@ -1,0 +1,123 @@
+#include "compiler/describe/describe_extracted.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/extract/cues.hpp"
+#include "compiler/solve/choose_map.hpp"
+#include "compiler/solve/law.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double normal_95 = 1.96;    // standard deviations on either side that hold 95 % of a normal distribution
+constexpr double no_force = 0.01;     // N
+constexpr double of_a_grating = 0.5;  // regularity from which a texture is one, and not a noise
+
+/// The cue that an extractor reads, of a percept with this band of periods.
+std::optional<CueKind> cue_of(const Percept& percept, const Declarations& declarations) {
+  const Percept* roughness = declarations.percepts.find("roughness");
+  switch (percept.extractor) {
+    case Extractor::lateral_force:
+      return roughness && percept.period.low >= roughness->period.high ? CueKind::bump_amplitude : CueKind::amplitude;
+    case Extractor::opposing_force: return CueKind::friction;
+    case Extractor::damping: return CueKind::viscosity;
+    case Extractor::stiffness: return CueKind::stiffness;
+    case Extractor::wall_stiffness: return CueKind::wall_stiffness;
+    case Extractor::inertia: return CueKind::mass;
+    case Extractor::vibration: return CueKind::vibration;
+    default: return std::nullopt;
+  }
+}
+
+DescribedPercept told_by(const Percept& percept, const Map& map, double size, const Description& description,
+                         const Declarations& declarations) {
+  DescribedPercept told;
+  told.name = percept.name;
+  told.carrier = percept.carrier;
+  told.amplitude = size;
+  told.unit = declarations.names().unit(percept.carrier_dimension);
+  told.extracted = true;
+  const Law law(map, percept);
+  told.level = law.level_of(size);
+  told.magnitude = law.magnitude_of(size);
+  tell_intervals(told, map.scatter, map.spread, size / percept.one, percept.near_threshold);
+  constexpr double reading = 0.02;  // what an extraction may be off by
+  told.outside_validity = size < map.valid_low * (1 - reading) || size > map.valid_high * (1 + reading);
+  told.alone = false;
+  told.slope = map.slope, told.anchor = map.anchor;
+  told.handle = map.device == description.device.name ? map.handle : Evidence::transferred;
+  told.worst = std::max({told.slope, told.anchor, told.handle});
+  told.map = map.name.empty() ? fmt::format("{} from {}", map.percept, map.from) : map.name;
+  told.device = map.device;
+  told.source = map.source;
+  return told;
+}
+
+/// The kind of surface as the rules know it: what the subjects of chapter 4 were given, of one thing alone.
+std::string kind_of(const Cues& cues, const Extraction& found, double largest_newton) {
+  if (cues[CueKind::amplitude]) return found.texture.regularity >= of_a_grating ? "grating" : "perlin";
+  const auto things = std::ranges::count_if(cues.values, [](const auto& value) { return value.has_value(); });
+  if (things == 0 && largest_newton < no_force) return "nothing";
+  if (things != 1) return {};
+  if (const auto& stiffness = cues[CueKind::stiffness]) return *stiffness > 0 ? "spring" : "bump";
+  if (const auto& viscosity = cues[CueKind::viscosity]) return *viscosity > 0 ? "viscous" : "slick";
+  return {};
+}
+
+DescribedTexture texture_of(const Cues& cues, const Extraction& found, double largest_newton,
+                            const Declarations& declarations) {
+  DescribedTexture texture{.force = found.texture, .kind = kind_of(cues, found, largest_newton)};
+  if (!cues[CueKind::amplitude]) texture.force = {};
+  const bool has_texture = texture.force.amplitude > 0;
+  std::map<std::string, double> sizes;
+  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", texture.force.period}};
+  for (const Rule* rule : declarations.rules()) {
+    const Rule::Case* holds = rule->first(sizes, texture.kind);
+    if (!holds) continue;
+    if (rule->name == "texture_class" && has_texture) texture.texture_class = holds->label;
+    if (rule->name == "size_class" && has_texture) texture.size_class = holds->label;
+    // The rule's last case is of the stimuli that were gratings and noises: of nothing else it says anything.
+    if (rule->name == "texture_confidence" && (has_texture || !holds->kind.empty())) {
+      texture.confidence = holds->label;
+      texture.confidence_mean = holds->confidence, texture.confidence_spread = holds->spread;
+      texture.source = rule->source;
+    }
+  }
+  return texture;
+}
+
+}  // namespace
+
+void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
+                    double near_threshold) {
+  const auto within = [&](double deviation, double& low, double& high) {
+    low = percept.level * std::pow(10, -normal_95 * deviation);
+    high = percept.level * std::pow(10, normal_95 * deviation);
+  };
+  within(scatter, percept.low, percept.high);
+  // People agree on the reference stimulus, which is level 1 to each of them, and differ the more the further from it.
+  const double apart = size_over_one > 0 ? spread * std::log10(size_over_one) : 0;
+  within(std::hypot(scatter, apart), percept.individual_low, percept.individual_high);
+  percept.near_threshold = percept.level < near_threshold;
+}
+
+void describe_extracted(Description& description, const Bank& bank, const Declarations& declarations) {
+  const Extraction found = extract(bank, declarations);
+  const Cues cues = cues_of(bank, found);
+  description.texture = texture_of(cues, found, description.force.max_newton, declarations);
+  const DeviceDeclaration* device = declarations.devices.find(description.device.name);
+  if (!device) return;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (std::ranges::find(description.percepts, name, &DescribedPercept::name) != description.percepts.end()) return;
+    const auto kind = cue_of(percept, declarations);
+    if (!kind || !cues[*kind] || !(*cues[*kind] > 0) || !percept.has_reference) return;
+    if (const Map* map = choose_map(percept, *device, declarations).map)
+      description.percepts.push_back(told_by(percept, *map, *cues[*kind], description, declarations));
+  });
+  if (description.texture->force.amplitude > 0) description.no_percept.clear();
+}
+
+}  // namespace wale

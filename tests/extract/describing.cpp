@@ -1,0 +1,110 @@
+// What `wale describe` tells of a program whose author only wrote forces, against the thesis.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "tests/standard/standard.hpp"
+
+namespace wale::describing_test {
+namespace {
+
+constexpr double program_unit = 10.0 / 512;  // N: Minsky 1995, 10 N over 512 units
+
+Description described(const std::string& statements) {
+  static const auto common = common_modules();
+  const Program program = standard::material("material m { physical {\n" + statements + "\n} }", "m");
+  return describe(Bank(program), &common->declarations);
+}
+
+/// A grating of this lateral force in program units and this period in mm, written as a force.
+std::string grating(double units, double period) {
+  return "force = vector(" + std::to_string(-units * program_unit) + " N * sin(2 * pi * x / " + std::to_string(period) +
+         " mm), 0 N)";
+}
+
+const DescribedPercept* percept(const Description& description, const std::string& name) {
+  for (const DescribedPercept& each : description.percepts)
+    if (each.name == name) return &each;
+  return nullptr;
+}
+
+TEST(DescribingForces, TheRoughestStimulusOfTable6IsLevelOneHoweverItIsWritten) {
+  const Description description = described(grating(194, 9.5));
+  const DescribedPercept* roughness = percept(description, "roughness");
+  ASSERT_TRUE(roughness);
+  EXPECT_TRUE(roughness->extracted);
+  EXPECT_NEAR(roughness->level, 1, 0.04);
+  // There everybody agrees, since level 1 is this stimulus.
+  EXPECT_NEAR(roughness->individual_high, roughness->high, 0.03);
+  EXPECT_NEAR(std::log10(roughness->high / roughness->level), 1.96 * 0.0519, 1e-3);  // s of figure 19
+  EXPECT_TRUE(description.no_percept.empty());
+}
+
+TEST(DescribingForces, AQuarterOfTheForceIsAThirdAsRough) {
+  const Description description = described(grating(194 / 4.0, 2.5));
+  const DescribedPercept* roughness = percept(description, "roughness");
+  ASSERT_TRUE(roughness);
+  EXPECT_NEAR(roughness->level, std::pow(0.25, 0.759593), 0.02);
+  EXPECT_GT(roughness->individual_high, 1.2 * roughness->high);
+  EXPECT_LT(roughness->individual_low, roughness->low / 1.2);
+}
+
+TEST(DescribingForces, AFaintOneIsNearTheThreshold) {
+  const DescribedPercept* roughness = nullptr;
+  const Description faint = described(grating(7, 2.5));
+  ASSERT_TRUE(roughness = percept(faint, "roughness"));
+  EXPECT_TRUE(roughness->near_threshold);
+  EXPECT_TRUE(roughness->outside_validity);  // nobody felt less than 9 units
+  const Description plain = described(grating(100, 2.5));
+  ASSERT_TRUE(roughness = percept(plain, "roughness"));
+  EXPECT_FALSE(roughness->near_threshold || roughness->outside_validity);
+}
+
+TEST(DescribingForces, ClassesAreThoseInWhichTheSubjectsSorted) {
+  EXPECT_EQ(described(grating(100, 0.9)).texture->texture_class, "flat texture");
+  EXPECT_EQ(described(grating(190, 9)).texture->texture_class, "moguls");
+  EXPECT_EQ(described(grating(30, 5)).texture->texture_class, "rolling hills");
+  EXPECT_EQ(described(grating(100, 1.2)).texture->size_class, "texture");
+  EXPECT_EQ(described(grating(100, 8)).texture->size_class, "separate features");
+  EXPECT_EQ(described(grating(100, 1.2)).texture->confidence, "high");
+}
+
+TEST(DescribingForces, WhatIsNoTextureHasNoRoughnessAndAReason) {
+  struct Case {
+    const char* force;
+    const char* kind;
+    double confidence;  // mean of the ratings, Minsky 1995, section 4.5
+  };
+  for (const Case& each :
+       {Case{"force = -120 N/m * hand", "spring", 0.13}, Case{"force = -7 N s/m * velocity", "viscous", 0.23},
+        Case{"force = vector(0 N, 0 N)", "nothing", 0.19}, Case{"force = 60 N/m * hand", "bump", 0.22},
+        Case{"active 1 W\nforce = 3 N s/m * velocity", "slick", 0.11}}) {
+    const Description description = described(each.force);
+    EXPECT_FALSE(percept(description, "roughness")) << each.force;
+    EXPECT_FALSE(description.no_percept.empty()) << each.force;
+    EXPECT_EQ(description.texture->kind, each.kind);
+    EXPECT_EQ(description.texture->force.amplitude, 0) << each.force;
+    ASSERT_TRUE(description.texture->confidence_mean) << each.force;
+    EXPECT_NEAR(*description.texture->confidence_mean, each.confidence, 1e-9) << each.force;
+  }
+}
+
+TEST(DescribingForces, EveryCarrierTellsItsOwnPercept) {
+  const Description description =
+      described(grating(100, 2.5) + "\nforce thick = -10 N s/m * velocity\nforce back = -50 N/m * hand");
+  ASSERT_TRUE(percept(description, "roughness") && percept(description, "viscosity") &&
+              percept(description, "springiness"));
+  EXPECT_NEAR(percept(description, "roughness")->amplitude, 100 * program_unit, 0.06);
+  EXPECT_NEAR(percept(description, "viscosity")->amplitude, 10, 0.1);
+  EXPECT_NEAR(percept(description, "viscosity")->level, 1, 0.02);  // 10 N s/m is its level 1
+  EXPECT_NEAR(percept(description, "springiness")->amplitude, 50, 0.5);
+  EXPECT_FALSE(percept(description, "stickiness") || percept(description, "heaviness") ||
+               percept(description, "vibration"));
+  EXPECT_EQ(description.texture->kind, "grating");
+}
+
+}  // namespace
+}  // namespace wale::describing_test
