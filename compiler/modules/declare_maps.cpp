@@ -127,7 +127,7 @@ class MapReader {
     if (!evidence) return;
     for (const auto& item : evidence->items) {
       const std::string part = item.words.size() == 2 ? item.words[0].text : "";
-      const auto grade = part.empty() ? std::nullopt : grade_named(item.words[1].text);
+      const std::optional<Evidence> grade = grade_named(part.empty() ? "" : item.words[1].text);
       if (part == "anchor" && item.words[1].text == "none")
         map_.tied = false;
       else if (part == "slope" && grade)
@@ -325,7 +325,7 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
   threshold.observers = whole_number(reader, "observers");
   if (const auto* evidence = reader.required("evidence", "slope published, handle transferred"))
     for (const auto& item : evidence->items) {
-      const auto grade = item.words.size() == 2 ? grade_named(item.words[1].text) : std::nullopt;
+      const std::optional<Evidence> grade = grade_named(item.words.size() == 2 ? item.words[1].text : "");
       if (grade && item.words[0].text == "slope")
         threshold.evidence = *grade;
       else if (grade && item.words[0].text == "handle")
