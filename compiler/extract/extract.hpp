@@ -12,7 +12,9 @@ namespace wale {
 /// own, so that none is taken for another.
 struct Extraction {
   TextureForce texture, bumps;
-  double stiffness = 0;  ///< N/m: of what draws the hand back over the whole patch; a wall is none
+  /// N/m: of what draws the hand back, alike over the whole patch and in its middle. What saturates, or is a wall, has
+  /// no one stiffness, and 0 here.
+  double stiffness = 0;
   OpposingForce opposing;
   double inertia = 0;  ///< kg
   Vibration vibration;

@@ -34,6 +34,15 @@ LinearField linear_part(const ForceField& field) {
   return part;
 }
 
+ForceField middle_of(const ForceField& field) {
+  ForceField middle{field.side / 2, field.centre, field.spacing, {}};
+  const std::size_t first = field.side / 4;
+  for (std::size_t row = first; row < first + middle.side; ++row)
+    for (std::size_t column = first; column < first + middle.side; ++column)
+      middle.forces.push_back(field.forces[row * field.side + column]);
+  return middle;
+}
+
 ForceField without(const ForceField& field, const LinearField& part) {
   ForceField rest = field;
   for (std::size_t row = 0; row < field.side; ++row)

@@ -34,6 +34,9 @@ struct LinearField {
 
 LinearField linear_part(const ForceField& field);
 
+/// The middle of a field, half as wide and high.
+ForceField middle_of(const ForceField& field);
+
 /// The field without its mean and its slope.
 ForceField without(const ForceField& field, const LinearField& part);
 

@@ -182,7 +182,11 @@ TextureForce texture_force(const Bank& bank, const StaticForce& force, const Per
   // Periods of which the closer window holds too few are looked for in the whole patch.
   const bool near =
       3 * band.low < force.close.spacing.x * close_side && band.high <= force.close.spacing.x * close_side;
-  const ForceField source = near ? force.close : halved(force.whole);
+  const ForceField straight = without(force.whole, force.slope);
+  // What is faster than the band would be mistaken for what is slow on fewer places.
+  ForceField smooth = straight;
+  if (!near) smooth.forces = slow_part(straight, {0, band.low / gradual});
+  const ForceField source = near ? force.close : halved(smooth);
   const ForceField field = windowed(without(source, linear_part(source)));
   const Spectrum spectrum = spectrum_of(field);
 
@@ -214,13 +218,13 @@ TextureForce texture_force(const Bank& bank, const StaticForce& force, const Per
     }
 
   // How strong it is, over the whole patch: what is left of the force without its slow part.
-  const ForceField straight = without(force.whole, force.slope);
   const std::vector<Force> slow = slow_part(straight, band);
-  const double in_band = let_through + fast > 0 ? std::sqrt(let_through / (let_through + fast)) : 0;
+  double in_band = 1;
+  if (near) in_band = let_through + fast > 0 ? std::sqrt(let_through / (let_through + fast)) : 0;
   std::vector<float> sizes;
   double sum = 0, squares = 0;
   each_inside(straight, [&](std::size_t i) {
-    const float size = glm::length(straight.forces[i] - slow[i]) * static_cast<float>(in_band);
+    const float size = glm::length(smooth.forces[i] - slow[i]) * static_cast<float>(in_band);
     sizes.push_back(size);
     sum += size, squares += static_cast<double>(size) * size;
     texture.maximum = std::max(texture.maximum, static_cast<double>(size));

@@ -111,6 +111,13 @@ TEST(Extract, ATextureIsTheSameOnASpringAndOnAHill) {
   EXPECT_NEAR(texture.period, 2.5e-3, 0.05e-3);
 }
 
+TEST(Extract, FineRibsAreNoBumpsWhereverTheirSamplesFall) {
+  for (const double period : {0.9, 1.17, 1.27, 1.4, 2.4}) {
+    const Bank ribs = pushing("force = vector(1 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)");
+    EXPECT_LT(texture_of(ribs, bumps).amplitude, 0.05) << period;
+  }
+}
+
 TEST(Extract, ATextureInOneCornerIsFoundThere) {
   const TextureForce texture = texture_of(pushing(
       "patch 160 mm, 160 mm\n"
@@ -158,6 +165,15 @@ TEST(Extract, EverythingTogetherIsWhatEachOfItIs) {
   EXPECT_EQ(found.inertia, 0);
   EXPECT_EQ(found.vibration.amplitude, 0);
   EXPECT_FALSE(found.wall);
+}
+
+TEST(Extract, ASpringThatGivesWayHasNoOneStiffnessAndIsNoHill) {
+  for (const char* statements : {"force = -300 N/m * hand limit 3 N", "force = -300 N/m * hand"}) {
+    const Extraction found = extract(pushing(statements), textures, bumps);
+    EXPECT_EQ(found.stiffness, 0) << statements;
+    EXPECT_EQ(found.bumps.amplitude, 0) << statements;
+    EXPECT_EQ(found.texture.amplitude, 0) << statements;
+  }
 }
 
 TEST(Extract, AWallHasAFaceAndNothingElseHas) {
