@@ -301,8 +301,8 @@ void Parser::record(bool exported) {
   record.exported = exported;
   record.documentation = documentation_here();
   record.keyword = take_word();
-  const auto meant = nearest_spelling(record.keyword.text, record_words);
-  if (!is_record(record.keyword.text) && meant) record.keyword.text = *meant;
+  if (!is_record(record.keyword.text))
+    if (const auto meant = nearest_spelling(record.keyword.text, record_words)) record.keyword.text = *meant;
   record.name = declared_name(record.keyword.text);
   if (record.keyword.text == "map") {
     if (!take(TokenKind::word_from))
