@@ -103,7 +103,12 @@ std::optional<RecordReader::Quantity> RecordReader::constant(ExprId expr) {
   ExpressionChecker checker({sources, declarations, diagnostics}, terms, tables);
   Scope scope;
   const Value value = checker.check(tree, expr, scope);
-  const auto known = value.failed() ? std::nullopt : checker.constant(value);
+  if (value.failed()) return std::nullopt;
+  if (value.type != Value::Type::number) {
+    report(Code::wrong_type, value.span, "a number is due here", "write one with its unit, as in `0.7 mm`");
+    return std::nullopt;
+  }
+  const auto known = checker.constant(value);
   if (!known) return std::nullopt;
   return Quantity{*known, value.dimension};
 }
