@@ -48,7 +48,6 @@ void write_percepts(std::string& text, const Description& description) {
   }
 }
 
-/// The comment above the material, as its author broke the lines.
 std::string range_text(const Parameter& parameter, float low, float high) {
   return fmt::format("{} .. {}{}{}", shown(low, parameter.unit_in_si), shown(high, parameter.unit_in_si),
                      parameter.unit.empty() ? "" : " ", parameter.unit);
