@@ -94,8 +94,8 @@ class Comparer {
   /// early.
   const Threshold* threshold(std::string_view cue, double x, double y) const {
     const auto merit = [&](const Threshold& each) {
-      return std::tuple(each.device != device_, !each.valid.holds(x) || !each.valid.holds(y), each.evidence,
-                        each.weber);
+      const auto compared = [&](double size) { return size == 0 || each.valid.holds(size); };  // none of it is no size
+      return std::tuple(each.device != device_, !compared(x) || !compared(y), each.evidence, each.weber);
     };
     const Threshold* best = nullptr;
     for (const Threshold* each : declarations_.thresholds())

@@ -64,6 +64,15 @@ TEST(Compare, WhatOneHasAndTheOtherHasNotIsComparedByForce) {
   EXPECT_EQ(comparison.verdict, Verdict::apart);
 }
 
+TEST(Compare, NothingAtAllIsNoSizeThatAPublicationHadToCompare) {
+  Cues a{"a", "sandpaper", {}}, b = a;
+  a[CueKind::viscosity] = 6;
+  const Comparison comparison = compare(a, b, declarations());
+  ASSERT_TRUE(comparison.cues.front().threshold);
+  // Jones and Hunter compared 2 to 1024 N s/m; a figure that is only recalled is not taken instead.
+  EXPECT_EQ(comparison.cues.front().threshold->evidence, Evidence::published);
+}
+
 TEST(Compare, ACueWithoutAThresholdIsUnknownAndNeverTheSame) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::amplitude] = b[CueKind::amplitude] = 2;
