@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "compiler/check/ask.hpp"
 #include "compiler/check/override_statements.hpp"
 
 namespace wale {
@@ -46,7 +48,7 @@ class Assembler {
       if (setting.key.text == "like") good = take_over(declared, setting, *result) && good;
       if (setting.key.text == "kind") result->kind = setting, result->kind_tree = declared.tree;
     }
-    for (const auto& percept : node.perceptual) add_percept(declared, percept, result->percepts);
+    for (const auto& percept : node.perceptual) ask(declared, percept, surroundings_, result->percepts);
     override_statements(declared, result->statements);
     statements_ += result->statements.size();
     path_.pop_back();
@@ -133,15 +135,24 @@ class Assembler {
       }
       const Mixture value{{{1, from.tree, argument.value, from.home}}};
       if (set(*result, argument.name->text, value)) continue;
+      if (const Dial dial = dial_named(*result, argument.name->text); dial != Dial::none) {
+        const auto number = plain_constant(from, argument.value, surroundings_);
+        if (number && (dial == Dial::weight ? good_weight(*number, span)
+                                            : good_level(*number, span, "the component's reference stimulus")))
+          turn(*result, argument.name->text, *number);
+        continue;
+      }
       const PerceptName meant = from.home->percept_named(argument.name->text);
       const auto percept = std::ranges::find(
           result->percepts, meant.percept ? meant.percept->name : argument.name->text, &AskedPercept::name);
       if (percept != result->percepts.end()) {  // `velvet(roughness: 0.1)`
-        const auto level = constant(from, argument.value);
-        if (level && !(*level >= 0 && *level <= 1))
-          report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", *level),
-                 fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", percept->name));
-        if (level) percept->level = meant.reversed ? 1 - *level : *level, percept->span = span;
+        const auto level = plain_constant(from, argument.value, surroundings_);
+        if (level) {
+          good_level(*level, span, fmt::format("the reference stimulus of `{}`", percept->name));
+          percept->level = meant.reversed ? 1 - *level : *level;
+          percept->span = span;
+          percept->blended = false;
+        }
         continue;
       }
       const auto known = parameters(*base);
@@ -158,8 +169,10 @@ class Assembler {
     std::vector<std::string> all;
     for (const auto& assembled : material.statements)
       if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what)) all.push_back(param->name.text);
-    for (const auto& component : material.components)
+    for (const auto& component : material.components) {
+      all.push_back(component.weight_name);
       for (auto& name : parameters(*component.material)) all.push_back(std::move(name));
+    }
     return all;
   }
 
@@ -182,6 +195,44 @@ class Assembler {
     return found;
   }
 
+  /// What turns a blend: the weight of a component, or the level of a percept that a component asks for.
+  enum class Dial { none, weight, level };
+
+  static Dial dial_named(const AssembledMaterial& material, const std::string& name) {
+    for (const auto& component : material.components) {
+      if (component.weight_name == name) return Dial::weight;
+      for (const auto& asked : component.material->percepts)
+        if (!asked.blended && component.name + "_" + asked.name == name) return Dial::level;
+      if (const Dial within = dial_named(*component.material, name); within != Dial::none) return within;
+    }
+    return Dial::none;
+  }
+
+  static void turn(AssembledMaterial& material, const std::string& name, double value) {
+    for (auto& component : material.components) {
+      if (component.weight_name == name) component.weight = value;
+      auto copy = std::make_shared<AssembledMaterial>(*component.material);
+      for (auto& asked : copy->percepts)
+        if (!asked.blended && component.name + "_" + asked.name == name) asked.level = value;
+      turn(*copy, name, value);
+      component.material = copy;
+    }
+    blend_levels(material);
+  }
+
+  bool good_weight(double weight, Span span) {
+    if (weight > 0 && std::isfinite(weight)) return true;
+    report(Code::value_out_of_range, span, "a component has a weight above zero", "leave out what is not in the blend");
+    return false;
+  }
+
+  bool good_level(double level, Span span, const std::string& one) {
+    if (level >= 0 && level <= 1) return true;
+    report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", level),
+           fmt::format("0 is none of it, 1 is {}", one));
+    return false;
+  }
+
   // ---- mixtures ---------------------------------------------------------------------------------------------------
 
   /// `between(fine, wide, 0.3)`: one structure, every parameter and every level on the way from one to the other.
@@ -193,7 +244,7 @@ class Assembler {
       return nullptr;
     }
     const auto first = made_from(from, call.arguments[0].value), second = made_from(from, call.arguments[1].value);
-    const auto way = constant(from, call.arguments[2].value);
+    const auto way = plain_constant(from, call.arguments[2].value, surroundings_);
     if (!first || !second || !way) return nullptr;
     if (!(*way >= 0 && *way <= 1)) {
       report(Code::value_out_of_range, from.tree->span(call.arguments[2].value),
@@ -252,32 +303,57 @@ class Assembler {
       for (auto part : own(b.statements[i]).parts) part.weight *= way, mixed.parts.push_back(part);
       a.statements[i].value = std::move(mixed);
     }
-    for (auto& percept : a.percepts)
-      percept.level += way * (std::ranges::find(b.percepts, percept.name, &AskedPercept::name)->level - percept.level);
-    for (std::size_t i = 0; i < a.components.size(); ++i) {
-      auto copy = std::make_shared<AssembledMaterial>(*a.components[i].material);
-      mix(*copy, *b.components[i].material, way);
-      a.components[i].material = copy;
+    for (auto& percept : a.percepts) {
+      const auto& other = *std::ranges::find(b.percepts, percept.name, &AskedPercept::name);
+      percept.level += way * (other.level - percept.level);
+      percept.blended = percept.blended && other.blended;
     }
+    for (std::size_t i = 0; i < a.components.size(); ++i) {
+      auto& component = a.components[i];
+      auto copy = std::make_shared<AssembledMaterial>(*component.material);
+      mix(*copy, *b.components[i].material, way);
+      component.material = copy;
+      component.weight += way * (b.components[i].weight - component.weight);
+    }
+    blend_levels(a);
   }
 
   /// `0.7 corduroy + 0.3 denim`: forces and textures side by side.
   std::shared_ptr<const AssembledMaterial> blend(const Declared<MaterialDecl>& from, ExprId expr) {
     auto result = std::make_shared<AssembledMaterial>();
     if (!add_components(from, expr, result->components)) return nullptr;
-    double whole = 0;
-    for (const auto& component : result->components) whole += component.weight;
+    for (std::size_t i = 0; i < result->components.size(); ++i) {
+      auto& component = result->components[i];
+      std::string name = component.name + "_weight";
+      const auto is_taken = [&](const auto& other) { return other.weight_name == name; };
+      const auto before = std::span(result->components).first(i);
+      for (int count = 2; std::ranges::any_of(before, is_taken); ++count)
+        name = fmt::format("{}_weight_{}", component.name, count);
+      component.weight_name = name;
+    }
     for (const auto& component : result->components)
-      for (const auto& asked : component.material->percepts) {
-        auto found = std::ranges::find(result->percepts, asked.name, &AskedPercept::name);
-        if (found == result->percepts.end()) {
-          result->percepts.push_back(
-              {.name = asked.name, .span = from.tree->span(expr), .by = asked.by, .essential = asked.essential});
-          found = result->percepts.end() - 1;
-        }
-        found->level += component.weight / whole * asked.level;
-      }
+      for (const auto& asked : component.material->percepts)
+        if (std::ranges::find(result->percepts, asked.name, &AskedPercept::name) == result->percepts.end())
+          result->percepts.push_back({.name = asked.name,
+                                      .span = from.tree->span(expr),
+                                      .by = asked.by,
+                                      .essential = asked.essential,
+                                      .blended = true});
+    blend_levels(*result);
     return result;
+  }
+
+  /// The levels that the components' come to, of all percepts that the blend itself does not ask for.
+  static void blend_levels(AssembledMaterial& material) {
+    double whole = 0;
+    for (const auto& component : material.components) whole += component.weight;
+    for (auto& percept : material.percepts) {
+      if (!percept.blended) continue;
+      percept.level = 0;
+      for (const auto& component : material.components)
+        for (const auto& asked : component.material->percepts)
+          if (asked.name == percept.name) percept.level += component.weight / whole * asked.level;
+    }
   }
 
   bool add_components(const Declared<MaterialDecl>& from, ExprId expr,
@@ -307,7 +383,7 @@ class Assembler {
       material = other ? assemble(*other) : nullptr;
     } else if (const auto* product = std::get_if<Binary>(&node);
                product && product->op == BinaryOperator::multiply) {  // 0.3 * denim(weave: 1 mm)
-      const auto factor = constant(from, product->left);
+      const auto factor = plain_constant(from, product->left, surroundings_);
       if (!factor) return false;
       weight = *factor;
       name = name_of(from, product->right);
@@ -319,12 +395,8 @@ class Assembler {
       return no_component(span);
     }
     if (!material) return false;
-    if (!(weight > 0) || !std::isfinite(weight)) {
-      report(Code::value_out_of_range, span, "a component has a weight above zero",
-             "leave out what is not in the blend");
-      return false;
-    }
-    components.push_back({weight, name, material});
+    if (!good_weight(weight, span)) return false;
+    components.push_back({.weight = weight, .name = name, .span = span, .material = material});
     return true;
   }
 
@@ -338,101 +410,6 @@ class Assembler {
     report(Code::wrong_type, span, "this is no material and no mixture of materials",
            "write `corduroy(wale: 1 mm)`, `0.7 corduroy + 0.3 denim` or `between(a, b, 0.5)`");
     return false;
-  }
-
-  std::optional<double> constant(const Declared<MaterialDecl>& from, ExprId expr) {
-    Terms terms;
-    std::vector<HeightTable> tables;
-    ExpressionChecker checker({surroundings_.sources, *from.home, surroundings_.diagnostics}, terms, tables);
-    Scope scope;
-    return checker.constant(*from.tree, expr, scope, Dimension{});
-  }
-
-  // ---- the material's own layers ----------------------------------------------------------------------------------
-
-  void add_percept(const Declared<MaterialDecl>& declared, const PerceptStatement& node,
-                   std::vector<AskedPercept>& percepts) {
-    const auto& declarations = *declared.home;
-    const PerceptName meant = declarations.percept_named(node.name.text);
-    if (!meant.percept) {
-      const auto known = declarations.percept_spellings();
-      return report(
-          Code::unknown_name, node.name.span, fmt::format("nothing declares a percept `{}`", node.name.text),
-          did_you_mean(node.name.span, node.name.text, known,
-                       fmt::format("known: {}", known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")))));
-    }
-    for (const auto& other : declared.node->perceptual) {
-      if (&other == &node) break;
-      if (declarations.percept_named(other.name.text).percept == meant.percept)
-        return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text),
-                      Advice("keep one of them").see(other.name.span, "asked for here first"));
-    }
-    AskedPercept asked{.name = meant.percept->name, .span = node.span, .essential = node.essential};
-    if (node.by) asked.by = node.by->text;
-    if (node.level_name) {
-      asked.span = node.level_name->span;
-      const auto named = named_level(declarations, meant.percept->name, *node.level_name);
-      if (!named) return;
-      asked.level =
-          meant.reversed ? 1 - *named : *named;  // a name is a place on the scale, from whichever end it is seen
-    } else if (node.value) {
-      asked.span = declared.tree->span(*node.value);
-      const auto known = constant(declared, *node.value);
-      if (!known) return;
-      asked.level = *known;
-    } else {
-      return;  // reported by the parser
-    }
-    if (!(asked.level >= 0 && asked.level <= 1))
-      return report(Code::level_out_of_range, asked.span,
-                    fmt::format("a level of {:.4g} is outside 0 .. 1", asked.level),
-                    Advice(asked.level > 1 && asked.level <= 100
-                               ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`",
-                                             node.name.text, asked.level, asked.level / 100)
-                               : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text))
-                        .fact("low", 0)
-                        .fact("high", 1)
-                        .fix(as_percentage(declared, node, asked.level)));
-    if (node.tolerance) {
-      const auto tolerance = constant(declared, *node.tolerance);
-      if (!tolerance) return;
-      if (!(*tolerance >= 0 && *tolerance <= 1))
-        return report(Code::level_out_of_range, declared.tree->span(*node.tolerance),
-                      "a tolerance is a difference of levels, from 0 to 1",
-                      Advice("write, for example, `0.6 ± 0.1`").fact("low", 0).fact("high", 1));
-      asked.tolerance = *tolerance;
-    }
-    if (meant.reversed) asked.level = 1 - asked.level;
-    const auto taken_over = std::ranges::find(percepts, asked.name, &AskedPercept::name);
-    if (taken_over == percepts.end())
-      percepts.push_back(asked);
-    else
-      *taken_over = asked;
-  }
-
-  /// `60` written as a level was meant in percent.
-  static std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const PerceptStatement& node,
-                                        double level) {
-    if (!node.value || !(level > 1 && level <= 100)) return {};
-    const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
-    if (!literal || !literal->suffix.empty()) return {};
-    return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
-  }
-
-  std::optional<double> named_level(const Declarations& declarations, const std::string& percept, const Word& word) {
-    std::vector<std::string> candidates;
-    for (const auto* levels : declarations.levels()) {
-      if (levels->percept != percept) continue;
-      for (const auto& level : levels->levels) {
-        if (level.name == word.text) return level.value;
-        candidates.push_back(level.name);
-      }
-    }
-    report(Code::unknown_name, word.span, fmt::format("no level of {} is called `{}`", percept, word.text),
-           did_you_mean(word.span, word.text, candidates,
-                        fmt::format("there are: {}; or give a number from 0 to 1",
-                                    candidates.empty() ? "none" : fmt::format("{}", fmt::join(candidates, ", ")))));
-    return std::nullopt;
   }
 
   void report(Code code, Span span, std::string message, Advice advice) {

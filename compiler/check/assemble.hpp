@@ -32,8 +32,10 @@ struct AssembledStatement {
 /// the materials that it blends.
 struct AssembledMaterial {
   struct Component {
-    double weight = 1;
+    double weight = 1;  ///< the default of the parameter that it is
     std::string name;
+    std::string weight_name;  ///< of that parameter; no other component beside this one has it
+    Span span;
     std::shared_ptr<const AssembledMaterial> material;
   };
   std::vector<AssembledStatement> statements;

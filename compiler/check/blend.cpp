@@ -6,20 +6,63 @@
 
 namespace wale {
 
+namespace {
+
+/// Weights that come to less than this are nothing, and have no proportions.
+constexpr double least_whole = 1e-6;
+
+}  // namespace
+
 std::optional<Value> Blender::compose(const AssembledMaterial& assembled, StatementChecker& own) {
   Superposition sum;
-  for (const auto& component : assembled.components) superpose(component, sum);
+  std::vector<TermId> weights;
+  for (const auto& component : assembled.components) weights.push_back(add_weight(component));
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    superpose(assembled.components[i], weights[i], share_of(weights[i], weights), sum);
   if (!sum.textures.empty()) add_textures(sum);
   own.check(assembled.statements);
   for (const auto& layer : own.layers()) sum.force = add(sum.force, layer.force);
+  levels_ = std::move(sum.levels);
   return sum.force;
 }
 
-void Blender::superpose(const AssembledMaterial::Component& component, Superposition& sum) {
+/// The weight as a parameter, so that a blend can be turned from one of its components to another.
+TermId Blender::add_weight(const AssembledMaterial::Component& component) {
+  std::string name = component.weight_name;
+  for (int count = 2; std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
+       ++count)
+    name = fmt::format("{}_{}", component.weight_name, count);
+  const auto index = static_cast<std::uint32_t>(material_.parameters.size());
+  const float weight = static_cast<float>(component.weight), most = std::max(1.0f, weight);
+  material_.parameters.push_back({.name = name,
+                                  .unit = "",
+                                  .unit_in_si = 1,
+                                  .value = weight,
+                                  .low = 0,
+                                  .high = most,
+                                  .soft_low = 0,
+                                  .soft_high = most,
+                                  .description = fmt::format("how much of {} there is", component.name)});
+  material_.parameter_spans.push_back(component.span);
+  return material_.terms.parameter(index, component.span);
+}
+
+/// A weight over their sum; nothing where all are nothing.
+TermId Blender::share_of(TermId weight, const std::vector<TermId>& weights) {
+  Terms& terms = material_.terms;
+  TermId whole = weights.front();
+  for (std::size_t i = 1; i < weights.size(); ++i) whole = terms.apply(Operation::add, whole, weights[i], span_);
+  whole = terms.apply(Operation::maximum, whole, terms.literal(least_whole, span_), span_);
+  return terms.apply(Operation::divide, weight, whole, span_);
+}
+
+void Blender::superpose(const AssembledMaterial::Component& component, TermId weight, TermId share,
+                        Superposition& sum) {
   const std::size_t first_carrier = checker_.carriers().size();
   StatementChecker statements(material_, checker_, surroundings_, component.name);
   const std::size_t errors_before = surroundings_.diagnostics.error_count();
   const auto force = compose(*component.material, statements);
+  add_levels(component, share, sum);
   if (!force) {
     if (surroundings_.diagnostics.error_count() == errors_before)
       surroundings_.diagnostics.report(
@@ -44,7 +87,7 @@ void Blender::superpose(const AssembledMaterial::Component& component, Superposi
     const bool is_sum = x.kind == TermKind::operation && x.operation == Operation::add &&
                         y.kind == TermKind::operation && y.operation == Operation::add;
     if (carried || !is_sum) {
-      add_leaf(component.weight, component.name, leaf, first_carrier, sum);
+      add_leaf(weight, component.name, leaf, first_carrier, sum);
       continue;
     }
     for (const auto& [a, b] : {std::pair{x.b, y.b}, std::pair{x.a, y.a}}) {
@@ -55,7 +98,22 @@ void Blender::superpose(const AssembledMaterial::Component& component, Superposi
   }
 }
 
-void Blender::add_leaf(double weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
+/// What a component asks for, or what its own components do, by its share. Follows its `compose`.
+void Blender::add_levels(const AssembledMaterial::Component& component, TermId share, Superposition& sum) {
+  for (const auto& asked : component.material->percepts) {
+    auto& all = sum.levels[asked.name];
+    if (!asked.blended) {
+      all.push_back({component.name, asked.level, share});
+      continue;
+    }
+    for (LevelShare part : levels_[asked.name]) {
+      part.share = material_.terms.apply(Operation::multiply, share, part.share, span_);
+      all.push_back(std::move(part));
+    }
+  }
+}
+
+void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
                        Superposition& sum) {
   auto& carriers = checker_.carriers();
   const auto found =
@@ -76,7 +134,7 @@ void Blender::add_leaf(double weight, const std::string& name, const Value& leaf
   }
   const Value weighed = scaled(leaf, weight);
   if (found != carriers.end()) {
-    found->size = material_.terms.apply(Operation::multiply, found->size, material_.terms.literal(weight));
+    found->size = material_.terms.apply(Operation::multiply, found->size, weight);
     found->force_x = weighed.x;
     found->force_y = weighed.y;
   }
@@ -115,8 +173,8 @@ void Blender::add_textures(Superposition& sum) {
 /// weight.
 std::optional<Value> Blender::blended_height(const std::vector<Texture>& textures) {
   Terms& terms = material_.terms;
-  double whole = 0;
-  for (const auto& texture : textures) whole += texture.weight;
+  std::vector<TermId> weights;
+  for (const auto& texture : textures) weights.push_back(texture.weight);
   std::optional<TermId> height;
   for (const auto& [weight, carrier] : textures) {
     const TermId along_x = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 0, .span = span_});
@@ -127,7 +185,7 @@ std::optional<Value> Blender::blended_height(const std::vector<Texture>& texture
     const TermId steepest = terms.add({.kind = TermKind::peak, .a = slope, .span = span_});
     const TermId share =
         terms.apply(Operation::multiply, terms.apply(Operation::divide, *carrier.relief, steepest, span_),
-                    terms.literal(weight / whole, span_), span_);
+                    share_of(weight, weights), span_);
     height = height ? terms.apply(Operation::add, *height, share, span_) : share;
   }
   if (!height) return std::nullopt;
@@ -137,11 +195,10 @@ std::optional<Value> Blender::blended_height(const std::vector<Texture>& texture
                .span = span_};
 }
 
-Value Blender::scaled(const Value& vector, double weight) {
+Value Blender::scaled(const Value& vector, TermId weight) {
   Value result = vector;
-  const TermId factor = material_.terms.literal(weight, span_);
-  result.x = material_.terms.apply(Operation::multiply, factor, vector.x, span_);
-  result.y = material_.terms.apply(Operation::multiply, factor, vector.y, span_);
+  result.x = material_.terms.apply(Operation::multiply, weight, vector.x, span_);
+  result.y = material_.terms.apply(Operation::multiply, weight, vector.y, span_);
   return result;
 }
 

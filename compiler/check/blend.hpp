@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,32 +16,44 @@ class Blender {
   Blender(CheckedMaterial& material, ExpressionChecker& checker, const Surroundings& surroundings, Span span)
       : material_(material), checker_(checker), surroundings_(surroundings), span_(span) {}
 
-  /// The force of a material with all its components, none when nothing pushes. `own` checks its own statements.
+  /// The levels of which the blended percepts consist, by the percept's name.
+  using Levels = std::map<std::string, std::vector<LevelShare>>;
+
+  /// The force of a material with all its components, none when nothing pushes. `own` checks its own statements. Each
+  /// weight becomes a parameter of the material.
   std::optional<Value> compose(const AssembledMaterial& assembled, StatementChecker& own);
+
+  /// Of what has been composed last.
+  const Levels& levels() const { return levels_; }
 
  private:
   /// An open texture of a component.
   struct Texture {
-    double weight;
+    TermId weight;
     Carrier carrier;
   };
   struct Superposition {
     std::optional<Value> force;
     std::vector<Texture> textures;
+    Levels levels;
   };
 
-  void superpose(const AssembledMaterial::Component& component, Superposition& sum);
-  void add_leaf(double weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
+  void superpose(const AssembledMaterial::Component& component, TermId weight, TermId share, Superposition& sum);
+  void add_levels(const AssembledMaterial::Component& component, TermId share, Superposition& sum);
+  TermId add_weight(const AssembledMaterial::Component& component);
+  TermId share_of(TermId weight, const std::vector<TermId>& weights);
+  void add_leaf(TermId weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
                 Superposition& sum);
   void add_textures(Superposition& sum);
   std::optional<Value> blended_height(const std::vector<Texture>& textures);
-  Value scaled(const Value& vector, double weight);
+  Value scaled(const Value& vector, TermId weight);
   Value add(const std::optional<Value>& left, const Value& right);
 
   CheckedMaterial& material_;
   ExpressionChecker& checker_;
   const Surroundings& surroundings_;
   Span span_;
+  Levels levels_;
 };
 
 }  // namespace wale

@@ -50,6 +50,9 @@ class MaterialChecker {
     Blender blender(material_, checker_, surroundings_, node_.name.span);
     StatementChecker own(material_, checker_, surroundings_, "");
     const auto force = blender.compose(assembled, own);
+    for (auto& percept : material_.percepts)
+      if (const auto shares = blender.levels().find(percept.name); percept.blended && shares != blender.levels().end())
+        percept.shares = shares->second;
     if (force) {
       material_.force = {force->x, force->y};
       material_.force_span = own.layers().empty() ? node_.name.span : own.layers().front().span;

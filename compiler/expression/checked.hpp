@@ -12,6 +12,13 @@
 
 namespace wale {
 
+/// A part of a blend's level: that of one component, by its share in the whole.
+struct LevelShare {
+  std::string component;
+  double level = 0;  ///< what the component asks for
+  TermId share = 0;  ///< plain, in setup; those of one percept come to 1 or, where a component does not ask, less
+};
+
 /// A percept that a material asks for. They stand in the order of the author's text: the first matters most.
 struct AskedPercept {
   std::string name;
@@ -20,6 +27,10 @@ struct AskedPercept {
   Span span;
   std::string by{};        ///< the map that the author chose; empty where none was
   bool essential = false;  ///< a device that cannot render it will not do
+  /// A blend that says no level of its own has the mixture of its components', which follows the weights; `level` is
+  /// the mixture at their defaults.
+  bool blended = false;
+  std::vector<LevelShare> shares{};  ///< of a blended one
 };
 
 /// One number that is remembered from tick to tick; a vector is two of them.

@@ -19,15 +19,38 @@ void PerceptSolver::solve_size(Told& told, std::vector<Parameter>& parameters) {
              fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
              Advice("give the parameter another name").see(asked.span, "asked for here"));
   told.parameter = static_cast<std::uint32_t>(parameters.size());
-  parameters.push_back({.name = asked.name,
+  if (!asked.blended) add_level(asked.name, asked.level, asked.name, parameters);
+  for (const LevelShare& share : asked.shares)
+    add_level(share.component + "_" + asked.name, share.level, fmt::format("{} in {}", asked.name, share.component),
+              parameters);
+}
+
+/// Adds a parameter for a level; a name that is taken gets a number.
+void PerceptSolver::add_level(const std::string& name, double level, const std::string& of,
+                              std::vector<Parameter>& parameters) {
+  std::string free = name;
+  for (int count = 2; std::ranges::find(parameters, free, &Parameter::name) != parameters.end(); ++count)
+    free = fmt::format("{}_{}", name, count);
+  parameters.push_back({.name = free,
                         .unit = "",
                         .unit_in_si = 1,
-                        .value = static_cast<float>(asked.level),
+                        .value = static_cast<float>(level),
                         .low = 0,
                         .high = 1,
                         .soft_low = 0,
                         .soft_high = 1,
-                        .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", asked.name)});
+                        .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", of)});
+}
+
+/// The level of a solved percept: a parameter, or in a blend what those of its components come to.
+TermId PerceptSolver::level_term(const Told& told, Terms& terms, TermCopier& copy) const {
+  if (!told.asked->blended) return terms.parameter(told.parameter);
+  TermId level = terms.literal(0);
+  for (std::uint32_t i = 0; i < told.asked->shares.size(); ++i)
+    level = terms.apply(
+        Operation::add, level,
+        terms.apply(Operation::multiply, copy(told.asked->shares[i].share), terms.parameter(told.parameter + i)));
+  return level;
 }
 
 void PerceptSolver::work_out_sizes() {
@@ -176,7 +199,7 @@ std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, Ter
     }
     terms.attribute(told.asked->span);
     told.term =
-        *Law(*told.map, *told.percept).carrier(terms, terms.parameter(told.parameter), coupled_terms(told, solved));
+        *Law(*told.map, *told.percept).carrier(terms, level_term(told, terms, copy), coupled_terms(told, solved));
   }
   if (may_exceed()) {
     // What is left of the device's force for each, after what the author fixed and what matters more.
@@ -214,7 +237,7 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   record.name = percept.name;
   record.carrier = percept.carrier;
   const Told& setting = told.shares == none ? told : told_[told.shares];
-  if (setting.solved) record.parameter = static_cast<std::uint16_t>(setting.parameter);
+  if (setting.solved && !setting.asked->blended) record.parameter = static_cast<std::uint16_t>(setting.parameter);
   record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
   record.valid_low = static_cast<float>(map.valid_low);
   record.valid_high = static_cast<float>(map.valid_high);

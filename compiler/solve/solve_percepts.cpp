@@ -224,8 +224,8 @@ void PerceptSolver::check_conflict(const Told& told) {
   const Carrier& carrier = (*carriers_)[told.carrier];
   const AskedPercept& asked = *told.asked;
   const Map& map = *told.map;
-  const auto size =
-      told.shares != none ? std::optional(told_[told.shares].size) : constant_value(*terms_, carrier.size);
+  const auto size = told.shares != none ? std::optional(told_[told.shares].size)
+                                        : constant_value(*terms_, carrier.size, &material_.parameters);
   if (!size || !map.couples.empty()) return;
   const Law law(map, *told.percept);
   const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);

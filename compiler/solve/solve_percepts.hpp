@@ -51,7 +51,7 @@ class PerceptSolver {
     const Map* map = nullptr;
     std::size_t carrier = 0;
     bool solved = false;               ///< its size was open; otherwise the author fixed it
-    std::uint32_t parameter = 0;       ///< of a solved one
+    std::uint32_t parameter = 0;       ///< of a solved one: its level; of a blended one the first of its components'
     double size = 0;                   ///< at the parameters' defaults, SI; not-a-number where it is not known
     std::vector<std::size_t> couples;  ///< beside the map's: which of `told_`, or `none`
     std::size_t shares = none;         ///< which of `told_` before it is told by the same carrier, or `none`
@@ -65,6 +65,9 @@ class PerceptSolver {
   const Map* map_for(const Percept& percept, const AskedPercept& asked);
   void report_choice(const Percept& percept, const AskedPercept& asked, const MapChoice& choice, const std::string& by);
   void solve_size(Told& told, std::vector<Parameter>& parameters);
+  static void add_level(const std::string& name, double level, const std::string& of,
+                        std::vector<Parameter>& parameters);
+  TermId level_term(const Told& told, Terms& terms, TermCopier& copy) const;
   void tell(Told told);
   /// The force of a carrier of size 1, or 0 where it does not count or is counted already.
   static double exertion(const Told& told) { return told.shares == none ? told.percept->exerts : 0; }

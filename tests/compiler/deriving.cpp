@@ -144,10 +144,10 @@ material b { physical { param k = 8 N/m in 1 N/m .. 50 N/m
 material mixed = 0.7 a + 0.3 * b(k: 9 N/m)
 )");
   const auto& parameters = made.programs.at("mixed").description().parameters;
-  ASSERT_EQ(parameters.size(), 2u);
-  EXPECT_EQ(parameters[0].name, "k");
-  EXPECT_EQ(parameters[1].name, "b_k");
-  EXPECT_FLOAT_EQ(parameters[1].value, 9);
+  std::vector<std::string> names;
+  for (const auto& parameter : parameters) names.push_back(parameter.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a_weight", "b_weight", "k", "b_k"}));
+  EXPECT_FLOAT_EQ(parameters[3].value, 9);
 }
 
 TEST(Blends, MixOpenTexturesAndSolveTheirAmplitudeAgain) {
@@ -158,13 +158,12 @@ material ringed { perceptual { roughness 0.2 }
 material mixed = 0.75 ribbed + 0.25 ringed
 )");
   const Program& mixed = made.programs.at("mixed");
-  // Percepts mix in magnitude, in which levels are linear.
-  const auto& parameters = mixed.description().parameters;
-  const auto level = std::ranges::find(parameters, "roughness", &Parameter::name);
-  ASSERT_NE(level, parameters.end());
-  EXPECT_FLOAT_EQ(level->value, 0.75f * 0.6f + 0.25f * 0.2f);
+  // Percepts mix in magnitude, in which levels are linear: 0.75 * 0.6 + 0.25 * 0.2 = 0.5.
   // The amplitude is that of the level: (F / 194 pu)^0.759593 = 0.5, F at the 99th percentile over the patch.
-  Bank bank(mixed, std::vector<float>{2.5e-3f, 0, 0.5f}, mixed.default_size());
+  std::vector<float> values = mixed.default_parameters();
+  values[*mixed.parameter("drag")] = 0;
+  Bank bank(mixed, values, mixed.default_size());
+  EXPECT_NEAR(predict(bank, 0, wale::amplitude(bank, 0)).level, 0.5, 1e-5);
   const double amplitude = 194 * 10.0 / 512 * std::pow(0.5, 1 / 0.759593);
   EXPECT_NEAR(wale::amplitude(bank, 0), amplitude, 2e-4 * amplitude);
   EXPECT_NEAR(measure(bank).p99_newton, amplitude, 0.02 * amplitude);
@@ -186,6 +185,97 @@ material mixed = 0.75 ribbed + 0.25 ringed
     EXPECT_NEAR(force.x, scale * sum.x, 0.06) << i;
     EXPECT_NEAR(force.y, scale * sum.y, 0.06) << i;
   }
+}
+
+/// Turned weights and levels give the force and the level of a file that was written with these.
+TEST(Blends, AreTurnedLiveByTheirWeightsAndTheirComponentsLevels) {
+  const std::string parts = std::string(base) + R"(
+material ringed { perceptual { roughness 0.2 }
+ physical { height rings = 1 mm * grating(length(hand), period: 4 mm)
+  force = lateral(rings) + viscous(2 N s/m) } }
+material pulled { physical { force = spring(30 N/m) } }
+)";
+  const Compiled live(parts +
+                      "material mixed = 0.5 ribbed + 0.4 ringed + 0.1 pulled\nmaterial all = mixed + 0.2 ribbed");
+  const Compiled written(parts + R"(
+material soft = ringed { perceptual { roughness 0.3 } }
+material mixed = 0.1 ribbed + 0.25 soft + 0.9 pulled
+material own = 0.1 ribbed + 0.25 soft + 0.9 pulled { perceptual { roughness 0.4 } }
+material all = 0.5 mixed + 0.7 ribbed
+)");
+  const auto turned = [&](const char* name, const std::vector<std::pair<const char*, float>>& dials) {
+    const Program& program = live.programs.at(name);
+    std::vector<float> values = program.default_parameters();
+    for (const auto& [dial, value] : dials) {
+      const auto index = program.parameter(dial);
+      EXPECT_TRUE(index) << dial;
+      if (index) values[*index] = value;
+    }
+    return Bank(program, values, program.default_size());
+  };
+  const auto expect_same = [](Bank one, Bank other) {
+    EXPECT_NEAR(wale::amplitude(one, 0), wale::amplitude(other, 0), 1e-4f * wale::amplitude(other, 0));
+    std::mt19937 random(11);
+    for (int i = 0; i < 300; ++i) {
+      const Hand hand = somewhere(random);
+      const Force a = tick(one, hand), b = tick(other, hand);
+      EXPECT_NEAR(a.x, b.x, 2e-3) << i;
+      EXPECT_NEAR(a.y, b.y, 2e-3) << i;
+    }
+  };
+  const std::vector<std::pair<const char*, float>> dials{
+      {"ribbed_weight", 0.1f}, {"ringed_weight", 0.25f}, {"pulled_weight", 0.9f}, {"ringed_roughness", 0.3f}};
+  Bank mixed = turned("mixed", dials);
+  expect_same(mixed, Bank(written.programs.at("mixed")));
+  EXPECT_NEAR(predict(mixed, 0, wale::amplitude(mixed, 0)).level, (0.1 * 0.6 + 0.25 * 0.3) / (0.1 + 0.25 + 0.9), 1e-4);
+  // A level of the blend's own does not follow the weights.
+  const Program& own = written.programs.at("own");
+  EXPECT_FLOAT_EQ(own.default_parameters()[*own.parameter("roughness")], 0.4f);
+  EXPECT_FALSE(own.parameter("soft_roughness"));
+  std::vector<float> less = own.default_parameters();
+  less[*own.parameter("ribbed_weight")] = 0;
+  Bank less_ribbed(own, less, own.default_size());
+  EXPECT_NEAR(predict(less_ribbed, 0, wale::amplitude(less_ribbed, 0)).level, 0.4, 1e-4);
+  // Blends of blends: of `ribbed` there are two, the blend's own and the component's.
+  expect_same(turned("all", {{"mixed_weight", 0.5f},
+                             {"ribbed_weight", 0.7f},
+                             {"ribbed_weight_2", 0.1f},
+                             {"ringed_weight", 0.25f},
+                             {"pulled_weight", 0.9f},
+                             {"ringed_roughness", 0.3f}}),
+              Bank(written.programs.at("all")));
+  // Nothing of anything is nothing, and not not-a-number.
+  Bank none = turned("mixed", {{"ribbed_weight", 0}, {"ringed_weight", 0}, {"pulled_weight", 0}});
+  std::mt19937 random(12);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(tick(none, somewhere(random)), Force(0));
+}
+
+TEST(Blends, AreSetByInstancesAndLieBetweenBlends) {
+  const std::string parts = std::string(base) + R"(
+material ringed { perceptual { roughness 0.2 }
+ physical { force = lateral(1 mm * grating(length(hand), period: 4 mm)) } }
+material mixed = 0.5 ribbed + 0.5 ringed
+)";
+  const Compiled made(parts + R"(
+material turned = mixed(ribbed_weight: 0.1, ringed_roughness: 0.3)
+material way = between(mixed, turned, 0.25)
+material level = mixed(roughness: 0.7)
+)");
+  const auto value = [&](const char* material, const char* parameter) {
+    const Program& program = made.programs.at(material);
+    const auto index = program.parameter(parameter);
+    return index ? program.default_parameters()[*index] : NAN;
+  };
+  EXPECT_FLOAT_EQ(value("turned", "ribbed_weight"), 0.1f);
+  EXPECT_FLOAT_EQ(value("turned", "ringed_roughness"), 0.3f);
+  EXPECT_FLOAT_EQ(value("way", "ribbed_weight"), 0.4f);
+  EXPECT_FLOAT_EQ(value("way", "ringed_roughness"), 0.225f);
+  EXPECT_FLOAT_EQ(value("level", "roughness"), 0.7f);
+  Bank way(made.programs.at("way"));
+  EXPECT_NEAR(predict(way, 0, wale::amplitude(way, 0)).level, (0.4 * 0.6 + 0.5 * 0.225) / 0.9, 1e-4);
+  EXPECT_THROW(Compiled(parts + "material none = mixed(ribbed_weight: 0)"), std::runtime_error);
+  EXPECT_THROW(Compiled(parts + "material much = mixed(ringed_roughness: 1.2)"), std::runtime_error);
+  EXPECT_THROW(Compiled(parts + "material other = mixed(velvet_weight: 0.2)"), std::runtime_error);
 }
 
 TEST(Blends, OfBlendsAndWithMoreOnTop) {

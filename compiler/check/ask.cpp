@@ -1,0 +1,112 @@
+#include "compiler/check/ask.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace wale {
+
+namespace {
+
+/// `60` written as a level was meant in percent.
+std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const PerceptStatement& node, double level) {
+  if (!node.value || !(level > 1 && level <= 100)) return {};
+  const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
+  if (!literal || !literal->suffix.empty()) return {};
+  return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
+}
+
+std::optional<double> named_level(const Declarations& declarations, const std::string& percept, const Word& word,
+                                  Diagnostics& diagnostics) {
+  std::vector<std::string> candidates;
+  for (const auto* levels : declarations.levels()) {
+    if (levels->percept != percept) continue;
+    for (const auto& level : levels->levels) {
+      if (level.name == word.text) return level.value;
+      candidates.push_back(level.name);
+    }
+  }
+  Advice advice =
+      did_you_mean(word.span, word.text, candidates,
+                   fmt::format("there are: {}; or give a number from 0 to 1",
+                               candidates.empty() ? "none" : fmt::format("{}", fmt::join(candidates, ", "))));
+  diagnostics.report(std::move(advice).about(Code::unknown_name, word.span,
+                                             fmt::format("no level of {} is called `{}`", percept, word.text)));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> plain_constant(const Declared<MaterialDecl>& declared, ExprId expr,
+                                     const Surroundings& surroundings) {
+  Terms terms;
+  std::vector<HeightTable> tables;
+  ExpressionChecker checker({surroundings.sources, *declared.home, surroundings.diagnostics}, terms, tables);
+  Scope scope;
+  return checker.constant(*declared.tree, expr, scope, Dimension{});
+}
+
+void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, const Surroundings& surroundings,
+         std::vector<AskedPercept>& percepts) {
+  const auto report = [&](Code code, Span span, std::string message, Advice advice) {
+    surroundings.diagnostics.report(std::move(advice).about(code, span, std::move(message)));
+  };
+  const auto& declarations = *declared.home;
+  const PerceptName meant = declarations.percept_named(node.name.text);
+  if (!meant.percept) {
+    const auto known = declarations.percept_spellings();
+    return report(
+        Code::unknown_name, node.name.span, fmt::format("nothing declares a percept `{}`", node.name.text),
+        did_you_mean(node.name.span, node.name.text, known,
+                     fmt::format("known: {}", known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")))));
+  }
+  for (const auto& other : declared.node->perceptual) {
+    if (&other == &node) break;
+    if (declarations.percept_named(other.name.text).percept == meant.percept)
+      return report(Code::declared_twice, node.name.span, fmt::format("`{}` is asked for twice", node.name.text),
+                    Advice("keep one of them").see(other.name.span, "asked for here first"));
+  }
+  AskedPercept asked{.name = meant.percept->name, .span = node.span, .essential = node.essential};
+  if (node.by) asked.by = node.by->text;
+  if (node.level_name) {
+    asked.span = node.level_name->span;
+    const auto named = named_level(declarations, meant.percept->name, *node.level_name, surroundings.diagnostics);
+    if (!named) return;
+    asked.level =
+        meant.reversed ? 1 - *named : *named;  // a name is a place on the scale, from whichever end it is seen
+  } else if (node.value) {
+    asked.span = declared.tree->span(*node.value);
+    const auto known = plain_constant(declared, *node.value, surroundings);
+    if (!known) return;
+    asked.level = *known;
+  } else {
+    return;  // reported by the parser
+  }
+  if (!(asked.level >= 0 && asked.level <= 1))
+    return report(Code::level_out_of_range, asked.span, fmt::format("a level of {:.4g} is outside 0 .. 1", asked.level),
+                  Advice(asked.level > 1 && asked.level <= 100
+                             ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`",
+                                           node.name.text, asked.level, asked.level / 100)
+                             : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text))
+                      .fact("low", 0)
+                      .fact("high", 1)
+                      .fix(as_percentage(declared, node, asked.level)));
+  if (node.tolerance) {
+    const auto tolerance = plain_constant(declared, *node.tolerance, surroundings);
+    if (!tolerance) return;
+    if (!(*tolerance >= 0 && *tolerance <= 1))
+      return report(Code::level_out_of_range, declared.tree->span(*node.tolerance),
+                    "a tolerance is a difference of levels, from 0 to 1",
+                    Advice("write, for example, `0.6 ± 0.1`").fact("low", 0).fact("high", 1));
+    asked.tolerance = *tolerance;
+  }
+  if (meant.reversed) asked.level = 1 - asked.level;
+  const auto taken_over = std::ranges::find(percepts, asked.name, &AskedPercept::name);
+  if (taken_over == percepts.end())
+    percepts.push_back(asked);
+  else
+    *taken_over = asked;
+}
+
+}  // namespace wale
