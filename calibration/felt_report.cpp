@@ -77,8 +77,9 @@ std::string felt_text(const FeltReport& report) {
       text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
   }
   if (report.levels.empty()) text += "  percepts     none to read back: nothing in its force is a texture\n";
-  text += fmt::format("  guards       slew {}, device limit {}, not-a-number {} (ticks)\n", report.guards.slew,
-                      report.guards.device_limit, report.guards.not_a_number);
+  text += fmt::format("  guards       slew {}, device limit {}, user limit {}, passivity {}, not-a-number {} (ticks)\n",
+                      report.guards.slew, report.guards.device_limit, report.guards.user_limit, report.guards.passivity,
+                      report.guards.not_a_number);
   if (report.guards.restored > 0)
     text += fmt::format("  memory       {} time{} a state was not a number and began anew\n", report.guards.restored,
                         report.guards.restored == 1 ? "" : "s");
@@ -118,6 +119,8 @@ std::string felt_json(const FeltReport& report) {
   }
   json["guards"] = {{"slew", report.guards.slew},
                     {"device_limit", report.guards.device_limit},
+                    {"user_limit", report.guards.user_limit},
+                    {"passivity", report.guards.passivity},
                     {"not_a_number", report.guards.not_a_number},
                     {"restored", report.guards.restored}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

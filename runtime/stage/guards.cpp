@@ -6,21 +6,40 @@
 
 namespace wale {
 
-Guards::Guards(const DeviceProfile& profile)
-    : peak_(static_cast<float>(profile.force_newton)), max_step_(static_cast<float>(profile.slew / profile.rate)) {
+Guards::Guards(const DeviceProfile& profile, double most)
+    : peak_(static_cast<float>(profile.force_newton)),
+      most_(static_cast<float>(most)),
+      max_step_(static_cast<float>(profile.slew / profile.rate)),
+      observer_(profile) {
   slew();
 }
 
-Force Guards::operator()(Force wanted) noexcept {
+Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexcept {
+  const Force field = slewed(within_limits(wanted));
+  const long acted = observer_.acted();
+  const Force calmed = observer_(field, position, periods);
+  counts_.passivity += observer_.acted() - acted;
+  return glm::clamp(calmed, -peak_, peak_);
+}
+
+Force Guards::within_limits(Force wanted) noexcept {
   if (std::isnan(wanted.x) || std::isnan(wanted.y)) {
     wanted = Force(0);
     ++counts_.not_a_number;
   }
-  const Force within = glm::clamp(wanted, -peak_, peak_);
+  Force within = glm::clamp(wanted, -peak_, peak_);
   if (within != wanted) ++counts_.device_limit;
-  Force force = within;
+  if (const float size = glm::length(within); size > most_) {
+    within *= most_ / size;
+    ++counts_.user_limit;
+  }
+  return within;
+}
+
+Force Guards::slewed(Force wanted) noexcept {
+  Force force = wanted;
   if (slewing_) {
-    const Force step = within - last_;
+    const Force step = wanted - last_;
     const float size = glm::length(step);
     slewing_ = size > max_step_;
     if (slewing_) {

@@ -11,14 +11,14 @@ PlacedPatches::PlacedPatches(PlacedPatch patch) {
   patches.push_back(std::make_shared<PlacedPatch>(std::move(patch)));
 }
 
-Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats)
+Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats, double most_newton)
     : device_(device),
       patches_(patches),
       record_(record),
       position_step_(device.profile().position_step()),
       filters_x_(device.profile()),
       filters_y_(device.profile()),
-      guards_(device.profile()) {
+      guards_(device.profile(), most_newton) {
   record_.seconds_per_tick = 1 / device.profile().rate;
   record_.ticks.resize(beats);
 }
@@ -61,7 +61,8 @@ void Player::serve(const Beat& beat) noexcept {
   }
   if (inside != inside_) guards_.slew();
   inside_ = inside;
-  const Force force = device_.command(guards_(wanted));
+  const Force force = device_.command(guards_(wanted, position, beat.elapsed));
+  guards_.commanded(force);
 
   lateness_.add(beat.lateness);
   missed_ += beat.skipped;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -66,8 +67,10 @@ class AxisFilters {
 /// The real-time half of a stage: what one thread does at each beat. The device is without force once it is gone.
 class Player {
  public:
-  /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. Allocates.
-  Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats);
+  /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. `most_newton` is the largest
+  /// force that the user allows. Allocates.
+  Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
+         double most_newton = HUGE_VAL);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;

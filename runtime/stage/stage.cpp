@@ -278,6 +278,7 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   if (auto lack = lacks(profile)) return *lack;
   const auto ticks = ticks_of(options.seconds, profile.rate);
   if (auto* refusal = std::get_if<Refusal>(&ticks)) return *refusal;
+  if (!(options.most_newton > 0)) return Refusal{"the largest force allowed is more than nothing"};
   {
     const std::lock_guard lock(parts_->mutex);
     if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
@@ -301,7 +302,8 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   RunResult result;
   Exchange<PlacedPatches> patches;
   parts_->publish_change(patches);
-  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)));
+  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)),
+                options.most_newton);
   if (options.virtual_time) {
     parts_->play_in_virtual_time(player, patches, std::get<long>(ticks), options, result);
   } else if (auto refusal = parts_->play_in_real_time(player, patches, std::get<long>(ticks), options, result)) {
