@@ -22,6 +22,18 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
   return glm::clamp(calmed, -peak_, peak_);
 }
 
+Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
+  switch (reason) {
+    case Reason::overrun: ++counts_.overrun; break;
+    case Reason::stale: ++counts_.stale; break;
+    case Reason::lost: ++counts_.lost; break;
+  }
+  last_ = Force(0);
+  slew();
+  observer_(Force(0), position, periods);
+  return Force(0);
+}
+
 Force Guards::within_limits(Force wanted) noexcept {
   if (std::isnan(wanted.x) || std::isnan(wanted.y)) {
     wanted = Force(0);

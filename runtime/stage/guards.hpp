@@ -24,6 +24,10 @@ class Guards {
   /// centre), `periods` after the last; `commanded` then says what the actuator does.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force operator()(Force wanted, glm::dvec2 position, long periods) noexcept;
+  /// No force at once, whatever was wanted; from there it slews back. Counted by its reason.
+  /// Real-time likewise.
+  enum class Reason { overrun, stale, lost };
+  Force cut(Reason reason, glm::dvec2 position, long periods) noexcept;
   void commanded(Force force) noexcept { observer_.commanded(force); }
 
   const GuardCounts& counts() const noexcept { return counts_; }

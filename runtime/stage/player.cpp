@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace wale {
+namespace {
+
+/// s; a force that nobody renewed for longer has nothing to do any more with where the hand is.
+constexpr double longest_hold = 0.02;
+
+}  // namespace
 
 PlacedPatches::PlacedPatches(PlacedPatch patch) {
   const PatchSize size = patch.bank.size();
@@ -43,6 +49,13 @@ Force Player::feel(PlacedPatch& patch, const Hand& hand) noexcept {
   return force;
 }
 
+std::optional<Guards::Reason> Player::reason_to_cut(const Reading& reading, const Beat& beat) const noexcept {
+  if (reading.contact == Contact::lost) return Guards::Reason::lost;
+  if (reading.contact == Contact::stale) return Guards::Reason::stale;
+  if (static_cast<double>(beat.skipped) * record_.seconds_per_tick > longest_hold) return Guards::Reason::overrun;
+  return std::nullopt;
+}
+
 void Player::serve(const Beat& beat) noexcept {
   device_.elapse(beat.elapsed);
   const Reading reading = device_.sample();
@@ -52,7 +65,7 @@ void Player::serve(const Beat& beat) noexcept {
   if (patches_.take()) guards_.slew();
   Force wanted(0);
   const Memory* inside = nullptr;
-  if (const PlacedPatches* all = patches_.held()) {
+  if (const PlacedPatches* all = reading.contact == Contact::good ? patches_.held() : nullptr) {
     if (PlacedPatch* patch = all->at(position)) {
       hand.position = glm::vec2(position - glm::dvec2(patch->position));
       wanted = feel(*patch, hand);
@@ -61,7 +74,9 @@ void Player::serve(const Beat& beat) noexcept {
   }
   if (inside != inside_) guards_.slew();
   inside_ = inside;
-  const Force force = device_.command(guards_(wanted, position, beat.elapsed));
+  const auto cut = reason_to_cut(reading, beat);
+  const Force force =
+      device_.command(cut ? guards_.cut(*cut, position, beat.elapsed) : guards_(wanted, position, beat.elapsed));
   guards_.commanded(force);
 
   lateness_.add(beat.lateness);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/stage/acceleration_filter.hpp"
@@ -92,6 +93,8 @@ class Player {
  private:
   /// The hand as this beat has it, but for its position on the patch.
   Hand hand(const Reading& reading, const Beat& beat) noexcept;
+  /// Why there must be no force now, if there must be none.
+  std::optional<Guards::Reason> reason_to_cut(const Reading& reading, const Beat& beat) const noexcept;
   /// The program's force, with the hand within the patch.
   Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
 

@@ -164,12 +164,14 @@ TEST(Telling, SkippedPeriodsCountTowardsTime) {
   Puppet device([](long) { return Reading{}; });
   Exchange<PlacedPatches> patches;
   Record record;
-  Player player(device, patches, record, 2);
+  Player player(device, patches, record, 3);
   const Program program = feeling(Input::time);
   patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
   player.serve({.period = 0});
   player.serve({.period = 450, .elapsed = 450, .skipped = 449});
-  EXPECT_FLOAT_EQ(record.ticks[1].force.x, 0.5f);
+  EXPECT_EQ(record.ticks[1].force.x, 0) << "after half a second without anybody there is no force at first";
+  player.serve({.period = 451, .elapsed = 1});
+  EXPECT_FLOAT_EQ(record.ticks[2].force.x, 451 / 900.0f);
 }
 
 TEST(Telling, TheButton) {

@@ -49,6 +49,9 @@ struct GuardCounts {
   long user_limit = 0;    ///< beyond what the user allows
   long passivity = 0;     ///< damped, because the sampled loop gained energy
   long slew = 0;          ///< held back after a start, an entry, a leaving or a change of bank
+  long overrun = 0;       ///< no force, after more than 20 ms in which nobody served the loop
+  long stale = 0;         ///< no force, the position being an old one
+  long lost = 0;          ///< no force, the device being gone
   long restored = 0;      ///< times that a state was not a number, so its initial value
 };
 
