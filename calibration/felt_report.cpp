@@ -22,6 +22,7 @@ std::vector<std::pair<std::string, long>> named(const GuardCounts& counts) {
   return {{"slew", counts.slew},
           {"device_limit", counts.device_limit},
           {"user_limit", counts.user_limit},
+          {"energy", counts.energy},
           {"passivity", counts.passivity},
           {"not_a_number", counts.not_a_number},
           {"overrun", counts.overrun},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "runtime/stage/energy_meter.hpp"
 #include "runtime/stage/passivity_observer.hpp"
 #include "schema/device_profile.hpp"
 #include "wale/stage.hpp"
@@ -9,9 +10,10 @@
 namespace wale {
 
 /// What stands between a program's force and the device, whatever the program does. In order: a force that is not a
-/// number becomes zero; its size is held within what the user allows and each axis within the device's peak force;
-/// after `slew` was called the force moves no faster than the profile's slew, until it has caught up with the wanted
-/// one; and the passivity observer takes away what the sampled loop gained. Begins at zero force, slewing.
+/// number becomes zero; what gives more energy than it may is held back; its size is held within what the user allows
+/// and each axis within the device's peak force; after `slew` was called the force moves no faster than the profile's
+/// slew, until it has caught up with the wanted one; and the passivity observer takes away what the sampled loop
+/// gained. Begins at zero force, slewing.
 class Guards {
  public:
   /// A profile without a slew (zero) does not slow anything. `most` is the largest force that the user allows, N.
@@ -19,6 +21,10 @@ class Guards {
 
   /// Something changed that may make the wanted force jump.
   void slew() noexcept { slewing_ = max_step_ > 0; }
+
+  /// The hand is on this program now, and its force may give so much; see `EnergyMeter`.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  void allow(double range, double active) noexcept { meter_.allow(range, active); }
 
   /// The force (N) that may be commanded when `wanted` is, with the handle at `position` (m from the workspace's
   /// centre), `periods` after the last; `commanded` then says what the actuator does.
@@ -41,6 +47,7 @@ class Guards {
   float max_step_;  // N per tick
   bool slewing_ = false;
   Force last_{0};
+  EnergyMeter meter_;
   PassivityObserver observer_;
   GuardCounts counts_;
 };

@@ -179,5 +179,66 @@ TEST(PassivityObserver, WithoutAKnownMassItOnlyMeters) {
   }
 }
 
+/// The work that a field does on a hand over `seconds`, J, by the forces that the guards let through and by what they
+/// were asked for.
+struct Work {
+  double let = 0, asked = 0;
+  long held = 0;
+};
+
+Work work_of(const std::function<glm::dvec2(glm::dvec2 position, glm::dvec2 velocity, double time)>& field,
+             const Motion& path, double range, double active, double seconds) {
+  const DeviceProfile profile = frictionless(true);
+  EnergyMeter meter(profile);
+  meter.allow(range, active);
+  Work work;
+  glm::dvec2 last{0}, last_let{0}, last_asked{0};
+  for (long n = 0; n < std::lround(seconds * profile.rate); ++n) {
+    const TracePoint at = wale::at(path, static_cast<double>(n) / profile.rate);
+    const glm::dvec2 asked = field(at.position, at.velocity, at.time), let(meter(Force(asked), at.position, 1));
+    if (n > 0) {
+      work.asked += 0.5 * glm::dot(asked + last_asked, at.position - last);
+      work.let += 0.5 * glm::dot(let + last_let, at.position - last);
+    }
+    last = at.position, last_let = let, last_asked = asked;
+  }
+  work.held = meter.held();
+  return work;
+}
+
+TEST(EnergyMeter, HoldsBackNothingThatComesFromAPotentialOrOnlyResists) {
+  const auto conservative = [](glm::dvec2 place, glm::dvec2, double) { return -80.0 * place + ribs(1.9)(place); };
+  const auto resisting = [](glm::dvec2 place, glm::dvec2 velocity, double) { return -3.0 * velocity + ribs(1)(place); };
+  // 1/2 80 N/m (70 mm)^2, and for the ribs 1.9 N over half a period.
+  const double range = 0.5 * 80 * 0.07 * 0.07 + 1.9 * 0.00125;
+  for (const Motion& path : {Motion(Lateral{0.05, 1.3, {0.02, 0}}), Motion(Circular{0.03, 2, {0.01, 0.02}})}) {
+    EXPECT_EQ(work_of(conservative, path, range, 0, 60).held, 0);
+    EXPECT_EQ(work_of(resisting, path, range, 0, 60).held, 0);
+  }
+}
+
+TEST(EnergyMeter, ASourceGivesItsRangeAndThenItsWatts) {
+  const auto swirl = [](glm::dvec2 place, glm::dvec2, double) { return 20.0 * glm::dvec2(-place.y, place.x); };
+  const auto pushing = [](glm::dvec2, glm::dvec2 velocity, double) { return 2.0 * velocity; };
+  const auto own_beat = [](glm::dvec2, glm::dvec2, double time) {
+    return glm::dvec2(2 * std::cos(2 * std::numbers::pi * time), 0);  // in step with the hand
+  };
+  const Lateral stroke{0.04, 1};
+  const Circular circle{0.04, 1};
+  struct Case {
+    std::function<glm::dvec2(glm::dvec2, glm::dvec2, double)> field;
+    Motion path;
+  };
+  for (const auto& [field, path] : {Case{swirl, circle}, Case{pushing, stroke}, Case{own_beat, stroke}})
+    for (const double active : {0.0, 0.02}) {
+      const double seconds = 30, range = 0.05;
+      const Work work = work_of(field, path, range, active, seconds);
+      ASSERT_GT(work.asked, 2 * (range + active * seconds));
+      EXPECT_LE(work.let, range + (active + 0.002) * seconds + 1e-6);
+      EXPECT_GE(work.let, 0.9 * (range + active * seconds)) << "what it may give it does give";
+      EXPECT_GT(work.held, 0);
+    }
+}
+
 }  // namespace
 }  // namespace wale::closed_loop_test

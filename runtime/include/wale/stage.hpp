@@ -47,6 +47,7 @@ struct GuardCounts {
   long not_a_number = 0;  ///< the program's force was none, so zero
   long device_limit = 0;  ///< beyond the device's peak force on an axis
   long user_limit = 0;    ///< beyond what the user allows
+  long energy = 0;        ///< held back, because the program gave more energy than it says
   long passivity = 0;     ///< damped, because the sampled loop gained energy
   long slew = 0;          ///< held back after a start, an entry, a leaving or a change of bank
   long overrun = 0;       ///< no force, after more than 20 ms in which nobody served the loop
