@@ -43,7 +43,11 @@ Hand Player::hand(const Reading& reading, const Beat& beat) noexcept {
 
 Force Player::feel(PlacedPatch& patch, const Hand& hand) noexcept {
   const long before = patch.memory->restored();
-  if (inside_ != patch.memory.get()) patch.memory->enter(patch.bank, hand);
+  if (inside_ != patch.memory.get()) {
+    const bool stays = patch.memory->follows(inside_);
+    patch.memory->enter(patch.bank, hand);
+    patch.memory->succeed(stays);
+  }
   guards_.allow(largest_potential_range(patch.bank), patch.bank.program().description().active_watt);
   const Force force = tick(patch.bank, *patch.memory, hand);
   restored_ += patch.memory->restored() - before;

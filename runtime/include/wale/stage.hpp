@@ -89,6 +89,12 @@ class Stage {
   /// ten.
   std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
 
+  /// Puts another program in the place of a patch's: same place, same layer, its own size where the patch had its own.
+  /// Parameters keep their values where they have the same name and unit (held in their new ranges), states where they
+  /// have the same name and the hand stays on the patch, and memories where all have the same names, sizes and bounds.
+  /// Takes effect within one tick of being ready, and slews. Refused when there is no such patch.
+  std::optional<Refusal> replace(std::size_t patch, const Program& program);
+
   /// Sets a parameter of a patch, by its number or that of patch 0, in SI units. Refused when there is no patch or no
   /// such parameter, or when the value is not a number in its range.
   std::optional<Refusal> set(std::string_view parameter, float value);
