@@ -17,6 +17,29 @@ std::string force_text(const ForceSize& size) {
   return fmt::format("P99 {:.3f} N, maximum {:.3f} N, RMS {:.3f} N", size.p99, size.maximum, size.rms);
 }
 
+/// Ticks on which each guard stepped in.
+std::vector<std::pair<std::string, long>> named(const GuardCounts& counts) {
+  return {{"slew", counts.slew},
+          {"device_limit", counts.device_limit},
+          {"user_limit", counts.user_limit},
+          {"energy", counts.energy},
+          {"passivity", counts.passivity},
+          {"not_a_number", counts.not_a_number},
+          {"overrun", counts.overrun},
+          {"stale", counts.stale},
+          {"lost", counts.lost}};
+}
+
+/// "slew 12 ticks, passivity 3": those that did.
+std::string shown(const GuardCounts& counts) {
+  std::string text;
+  for (auto [name, count] : named(counts)) {
+    std::ranges::replace(name, '_', name == "not_a_number" ? '-' : ' ');
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+  }
+  return text.empty() ? "none stepped in" : text + " (ticks)";
+}
+
 nlohmann::ordered_json force_json(const ForceSize& size) {
   return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
 }
@@ -77,8 +100,7 @@ std::string felt_text(const FeltReport& report) {
       text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
   }
   if (report.levels.empty()) text += "  percepts     none to read back: nothing in its force is a texture\n";
-  text += fmt::format("  guards       slew {}, device limit {}, not-a-number {} (ticks)\n", report.guards.slew,
-                      report.guards.device_limit, report.guards.not_a_number);
+  text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
     text += fmt::format("  memory       {} time{} a state was not a number and began anew\n", report.guards.restored,
                         report.guards.restored == 1 ? "" : "s");
@@ -116,10 +138,8 @@ std::string felt_json(const FeltReport& report) {
       entry = {{"refused", std::get<Refusal>(report.levels[i].back).reason}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
-  json["guards"] = {{"slew", report.guards.slew},
-                    {"device_limit", report.guards.device_limit},
-                    {"not_a_number", report.guards.not_a_number},
-                    {"restored", report.guards.restored}};
+  for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;
+  json["guards"]["restored"] = report.guards.restored;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

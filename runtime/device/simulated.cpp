@@ -9,6 +9,7 @@ namespace wale {
 namespace {
 
 constexpr int steps_per_tick = 40;
+constexpr double most_under_way = 1000;  ///< commands: no device is that slow
 constexpr double pi = 3.14159265358979323846;
 
 /// sin(2 pi turns). Our own, because the bits of libm's depend on the processor.
@@ -67,8 +68,35 @@ double after_friction(double velocity, double speed) noexcept {
 
 TracePoint at(const Motion& motion, double time) noexcept { return std::visit(Where{time}, motion); }
 
+SimulatedJoystick::Actuator::Actuator(double delay_seconds, double bandwidth, double step_seconds)
+    : delay(std::clamp(delay_seconds / step_seconds, 0.0, most_under_way * steps_per_tick)) {
+  under_way.resize(static_cast<std::size_t>(delay / steps_per_tick) + 2);
+  const double turn = 2 * pi * bandwidth * step_seconds;
+  if (bandwidth > 0) follow = turn / (1 + turn);
+}
+
+void SimulatedJoystick::Actuator::command(double wanted) noexcept {
+  newest = (newest + 1) % under_way.size();
+  under_way[newest] = wanted;
+  since = 0;
+}
+
+double SimulatedJoystick::Actuator::step() noexcept {
+  // Commands come once a tick: the newest that has had time to arrive is so many before the newest of all.
+  const double before = std::max(0.0, std::ceil((delay - since) / steps_per_tick));
+  const std::size_t back = std::min(static_cast<std::size_t>(before), under_way.size() - 1);
+  since += 1;
+  force += follow * (under_way[(newest + under_way.size() - back) % under_way.size()] - force);
+  return force;
+}
+
 SimulatedJoystick::SimulatedJoystick(DeviceProfile profile, HandModel hand, Motion motion)
-    : profile_(std::move(profile)), hand_(hand), motion_(std::move(motion)), position_(at(motion_, 0).position) {}
+    : profile_(std::move(profile)),
+      hand_(hand),
+      motion_(std::move(motion)),
+      position_(at(motion_, 0).position),
+      actuators_{Actuator(profile_.delay_x, profile_.bandwidth_x, 1 / (profile_.rate * steps_per_tick)),
+                 Actuator(profile_.delay_y, profile_.bandwidth_y, 1 / (profile_.rate * steps_per_tick))} {}
 
 void SimulatedJoystick::elapse(long periods) noexcept {
   for (long period = 0; period < periods; ++period) {
@@ -89,7 +117,8 @@ void SimulatedJoystick::step(const TracePoint& target, double seconds) noexcept 
   const glm::dvec2 before = velocity_;
   const glm::dvec2 hand =
       hand_.stiffness * (target.position - position_) + hand_.damping * (target.velocity - velocity_);
-  velocity_ += (actuator_ + hand - profile_.damping * velocity_) * (seconds / mass);
+  const glm::dvec2 actuator(actuators_[0].step(), actuators_[1].step());
+  velocity_ += (actuator + hand - profile_.damping * velocity_) * (seconds / mass);
   for (int axis = 0; axis < 2; ++axis) {
     velocity_[axis] = after_friction(velocity_[axis], profile_.friction * seconds / mass);
   }
@@ -109,8 +138,10 @@ Reading SimulatedJoystick::sample() noexcept {
 }
 
 Force SimulatedJoystick::command(Force force) noexcept {
-  actuator_ = glm::dvec2(actuated(force.x, profile_), actuated(force.y, profile_));
-  return Force(actuator_);
+  const glm::dvec2 commanded(actuated(force.x, profile_), actuated(force.y, profile_));
+  actuators_[0].command(commanded.x);
+  actuators_[1].command(commanded.y);
+  return Force(commanded);
 }
 
 }  // namespace wale

@@ -1,9 +1,11 @@
 #include "wale/memory.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
+#include "runtime/machine/held_state.hpp"
 #include "runtime/machine/inputs.hpp"
 #include "runtime/machine/states.hpp"
 
@@ -14,6 +16,43 @@ Memory::Memory(const Program& program) : program_(program), cells_(program.decod
     states_.push_back(initial_state(arithmetic::not_a_number, rule));
   }
   initial_states_ = states_;
+}
+
+Memory::Memory(const Program& program, std::shared_ptr<Memory> predecessor) : Memory(program) {
+  predecessor_ = std::move(predecessor);
+  succeeded_ = std::make_unique<std::atomic<bool>>(false);
+  const PatchProgram &here = program.description(), &there = predecessor_->program().description();
+  for (std::size_t i = 0; i < here.states.size(); ++i) {
+    const auto same = std::ranges::find(there.states, here.states[i].name, &State::name);
+    if (same == there.states.end()) continue;
+    kept_states_.emplace_back(static_cast<std::uint16_t>(same - there.states.begin()), static_cast<std::uint16_t>(i));
+  }
+  const auto same_shape = [](const Grid& a, const Grid& b) {
+    return a.name == b.name && a.columns == b.columns && a.rows == b.rows && a.low == b.low && a.high == b.high;
+  };
+  keeps_grids_ = !here.grids.empty() && std::ranges::equal(here.grids, there.grids, same_shape);
+}
+
+void Memory::succeed(bool with_states) noexcept {
+  if (!succeeded_ || succeeded_->load(std::memory_order_relaxed)) return;
+  predecessor_->succeed(with_states);
+  for (const auto& [there, here] : kept_states_) {
+    const StateRule& rule = program_.decoded().state_rules[here];
+    if (with_states) states_[here] = held_within(predecessor_->states_[there], rule.low, rule.high, states_[here]);
+  }
+  if (keeps_grids_) cells_.swap(predecessor_->cells_);
+  succeeded_->store(true, std::memory_order_release);
+}
+
+bool Memory::follows(const Memory* other) const noexcept {
+  for (const Memory* each = this; each->succeeded_ && !each->succeeded_->load(std::memory_order_relaxed);
+       each = each->predecessor_.get())
+    if (each->predecessor_.get() == other) return true;
+  return false;
+}
+
+void Memory::forget_predecessor() {
+  if (succeeded_ && succeeded_->load(std::memory_order_acquire)) predecessor_.reset();
 }
 
 void Memory::enter(Bank& bank, const Hand& hand) noexcept {

@@ -1,32 +1,54 @@
 #pragma once
 
+#include <cmath>
+
+#include "runtime/stage/energy_meter.hpp"
+#include "runtime/stage/passivity_observer.hpp"
 #include "schema/device_profile.hpp"
 #include "wale/stage.hpp"
 
 namespace wale {
 
 /// What stands between a program's force and the device, whatever the program does. In order: a force that is not a
-/// number becomes zero; each axis is held within the device's peak force; and after `slew` was called the force moves
-/// no faster than the profile's slew, until it has caught up with the wanted one. Begins at zero force, slewing.
+/// number becomes zero; what gives more energy than it may is held back; its size is held within what the user allows
+/// and each axis within the device's peak force; after `slew` was called the force moves no faster than the profile's
+/// slew, until it has caught up with the wanted one; and the passivity observer takes away what the sampled loop
+/// gained. Begins at zero force, slewing.
 class Guards {
  public:
-  /// A profile without a slew (zero) does not slow anything.
-  explicit Guards(const DeviceProfile& profile);
+  /// A profile without a slew (zero) does not slow anything. `most` is the largest force that the user allows, N.
+  explicit Guards(const DeviceProfile& profile, double most = HUGE_VAL);
 
   /// Something changed that may make the wanted force jump.
   void slew() noexcept { slewing_ = max_step_ > 0; }
 
-  /// The force that may be commanded when `wanted` is, one tick after the last. N.
+  /// The hand is on this program now, and its force may give so much; see `EnergyMeter`.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-  Force operator()(Force wanted) noexcept;
+  void allow(double range, double active) noexcept { meter_.allow(range, active); }
+
+  /// The force (N) that may be commanded when `wanted` is, with the handle at `position` (m from the workspace's
+  /// centre), `periods` after the last; `commanded` then says what the actuator does.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  Force operator()(Force wanted, glm::dvec2 position, long periods) noexcept;
+  /// No force at once, whatever was wanted; from there it slews back. Counted by its reason.
+  /// Real-time likewise.
+  enum class Reason { overrun, stale, lost };
+  Force cut(Reason reason, glm::dvec2 position, long periods) noexcept;
+  void commanded(Force force) noexcept { observer_.commanded(force); }
 
   const GuardCounts& counts() const noexcept { return counts_; }
 
  private:
+  Force within_limits(Force wanted) noexcept;
+  Force slewed(Force wanted) noexcept;
+
   float peak_;      // N per axis
+  float most_;      // N, of the whole
   float max_step_;  // N per tick
   bool slewing_ = false;
   Force last_{0};
+  EnergyMeter meter_;
+  PassivityObserver observer_;
   GuardCounts counts_;
 };
 

@@ -3,6 +3,12 @@
 #include <utility>
 
 namespace wale {
+namespace {
+
+/// s; a force that nobody renewed for longer has nothing to do any more with where the hand is.
+constexpr double longest_hold = 0.02;
+
+}  // namespace
 
 PlacedPatches::PlacedPatches(PlacedPatch patch) {
   const PatchSize size = patch.bank.size();
@@ -11,14 +17,14 @@ PlacedPatches::PlacedPatches(PlacedPatch patch) {
   patches.push_back(std::make_shared<PlacedPatch>(std::move(patch)));
 }
 
-Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats)
+Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats, double most_newton)
     : device_(device),
       patches_(patches),
       record_(record),
       position_step_(device.profile().position_step()),
       filters_x_(device.profile()),
       filters_y_(device.profile()),
-      guards_(device.profile()) {
+      guards_(device.profile(), most_newton) {
   record_.seconds_per_tick = 1 / device.profile().rate;
   record_.ticks.resize(beats);
 }
@@ -37,10 +43,22 @@ Hand Player::hand(const Reading& reading, const Beat& beat) noexcept {
 
 Force Player::feel(PlacedPatch& patch, const Hand& hand) noexcept {
   const long before = patch.memory->restored();
-  if (inside_ != patch.memory.get()) patch.memory->enter(patch.bank, hand);
+  if (inside_ != patch.memory.get()) {
+    const bool stays = patch.memory->follows(inside_);
+    patch.memory->enter(patch.bank, hand);
+    patch.memory->succeed(stays);
+  }
+  guards_.allow(largest_potential_range(patch.bank), patch.bank.program().description().active_watt);
   const Force force = tick(patch.bank, *patch.memory, hand);
   restored_ += patch.memory->restored() - before;
   return force;
+}
+
+std::optional<Guards::Reason> Player::reason_to_cut(const Reading& reading, const Beat& beat) const noexcept {
+  if (reading.contact == Contact::lost) return Guards::Reason::lost;
+  if (reading.contact == Contact::stale) return Guards::Reason::stale;
+  if (static_cast<double>(beat.skipped) * record_.seconds_per_tick > longest_hold) return Guards::Reason::overrun;
+  return std::nullopt;
 }
 
 void Player::serve(const Beat& beat) noexcept {
@@ -52,7 +70,7 @@ void Player::serve(const Beat& beat) noexcept {
   if (patches_.take()) guards_.slew();
   Force wanted(0);
   const Memory* inside = nullptr;
-  if (const PlacedPatches* all = patches_.held()) {
+  if (const PlacedPatches* all = reading.contact == Contact::good ? patches_.held() : nullptr) {
     if (PlacedPatch* patch = all->at(position)) {
       hand.position = glm::vec2(position - glm::dvec2(patch->position));
       wanted = feel(*patch, hand);
@@ -61,7 +79,10 @@ void Player::serve(const Beat& beat) noexcept {
   }
   if (inside != inside_) guards_.slew();
   inside_ = inside;
-  const Force force = device_.command(guards_(wanted));
+  const auto cut = reason_to_cut(reading, beat);
+  const Force force =
+      device_.command(cut ? guards_.cut(*cut, position, beat.elapsed) : guards_(wanted, position, beat.elapsed));
+  guards_.commanded(force);
 
   lateness_.add(beat.lateness);
   missed_ += beat.skipped;

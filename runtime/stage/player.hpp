@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "runtime/stage/acceleration_filter.hpp"
@@ -66,8 +68,10 @@ class AxisFilters {
 /// The real-time half of a stage: what one thread does at each beat. The device is without force once it is gone.
 class Player {
  public:
-  /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. Allocates.
-  Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats);
+  /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. `most_newton` is the largest
+  /// force that the user allows. Allocates.
+  Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
+         double most_newton = HUGE_VAL);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -89,6 +93,8 @@ class Player {
  private:
   /// The hand as this beat has it, but for its position on the patch.
   Hand hand(const Reading& reading, const Beat& beat) noexcept;
+  /// Why there must be no force now, if there must be none.
+  std::optional<Guards::Reason> reason_to_cut(const Reading& reading, const Beat& beat) const noexcept;
   /// The program's force, with the hand within the patch.
   Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
 

@@ -77,6 +77,22 @@ struct Placement {
         parameters(placed.default_parameters()),
         memory(std::make_shared<Memory>(placed)) {}
 
+  /// Another program in its place.
+  Placement(const Placement& old, const Program& replacing)
+      : program(replacing),
+        position(old.position),
+        size(old.size == old.program.default_size() ? replacing.default_size() : old.size),
+        layer(old.layer),
+        parameters(replacing.default_parameters()),
+        memory(std::make_shared<Memory>(replacing, old.memory)) {
+    const std::vector<Parameter>& known = replacing.description().parameters;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      const auto before = old.program.parameter(known[i].name);
+      if (!before || old.program.description().parameters[*before].si_unit != known[i].si_unit) continue;
+      parameters[i] = std::clamp(old.parameters[*before], known[i].low, known[i].high);
+    }
+  }
+
   Bank bank() const { return Bank(program, parameters, size); }
 };
 
@@ -87,6 +103,7 @@ struct Stage::Parts {
   std::vector<Placement> placements;
   std::vector<std::size_t> changed;  // placements, since they were last published
   bool cleared = false;              // all of them are new since then
+  bool resized = false;              // one of them may have another size since then
   bool finished = false;             // the real-time thread's last tick is done
   bool running = false;
   PlacedPatches published;  // the thread's that publishes
@@ -97,6 +114,14 @@ struct Stage::Parts {
     const std::lock_guard lock(mutex);
     if (patch >= placements.size()) return std::nullopt;
     return placements[patch];
+  }
+
+  /// With the mutex held.
+  std::optional<Refusal> no_such(std::size_t patch) const {
+    if (placements.empty()) return Refusal{"nothing is placed on the stage"};
+    if (patch < placements.size()) return std::nullopt;
+    return Refusal{"patch " + std::to_string(patch) + " is not among the " + std::to_string(placements.size()) +
+                   " on the stage"};
   }
 
   /// With the mutex held.
@@ -116,7 +141,8 @@ struct Stage::Parts {
     for (const std::size_t patch : changed) copies.emplace_back(patch, placements[patch]);
     changed.clear();
     std::vector<float> layers;
-    const bool rearranged = published.patches.size() != placements.size();
+    const bool rearranged = std::exchange(resized, false) || published.patches.size() != placements.size();
+    for (Placement& placement : placements) placement.memory->forget_predecessor();
     if (rearranged)
       for (const Placement& placement : placements) layers.push_back(placement.layer);
     published.patches.resize(placements.size());
@@ -238,15 +264,20 @@ std::size_t Stage::add(const Program& program, glm::vec2 position, PatchSize siz
   return number;
 }
 
+std::optional<Refusal> Stage::replace(std::size_t patch, const Program& program) {
+  const std::lock_guard lock(parts_->mutex);
+  if (auto refusal = parts_->no_such(patch)) return refusal;
+  parts_->placements[patch] = Placement(parts_->placements[patch], program);
+  parts_->resized = true;
+  parts_->note_change(patch);
+  return std::nullopt;
+}
+
 std::optional<Refusal> Stage::set(std::string_view parameter, float value) { return set(0, parameter, value); }
 
 std::optional<Refusal> Stage::set(std::size_t patch, std::string_view parameter, float value) {
   const std::lock_guard lock(parts_->mutex);
-  if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
-  if (patch >= parts_->placements.size()) {
-    return Refusal{"patch " + std::to_string(patch) + " is not among the " + std::to_string(parts_->placements.size()) +
-                   " on the stage"};
-  }
+  if (auto refusal = parts_->no_such(patch)) return refusal;
   Placement& placement = parts_->placements[patch];
   const Program& program = placement.program;
   const std::vector<Parameter>& known = program.description().parameters;
@@ -278,6 +309,7 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   if (auto lack = lacks(profile)) return *lack;
   const auto ticks = ticks_of(options.seconds, profile.rate);
   if (auto* refusal = std::get_if<Refusal>(&ticks)) return *refusal;
+  if (!(options.most_newton > 0)) return Refusal{"the largest force allowed is more than nothing"};
   {
     const std::lock_guard lock(parts_->mutex);
     if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
@@ -301,7 +333,8 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   RunResult result;
   Exchange<PlacedPatches> patches;
   parts_->publish_change(patches);
-  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)));
+  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)),
+                options.most_newton);
   if (options.virtual_time) {
     parts_->play_in_virtual_time(player, patches, std::get<long>(ticks), options, result);
   } else if (auto refusal = parts_->play_in_real_time(player, patches, std::get<long>(ticks), options, result)) {

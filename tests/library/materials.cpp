@@ -9,45 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "compiler/compile.hpp"
-#include "compiler/diagnostics/render.hpp"
+#include "tests/library/shelf.hpp"
 
 namespace wale::materials_test {
 namespace {
 
-/// One file, read and checked from scratch.
-struct Checked {
-  SourceSet sources;
-  Diagnostics diagnostics;
-  std::unique_ptr<Resolver> resolver = file_resolver({});
-  SourceId source = 0;
-  CheckedModule module;
-
-  explicit Checked(const std::string& path) {
-    auto read = read_file(path);
-    source = sources.add(path, std::get<ResolvedFile>(read).bytes);
-    module = check_source(sources, source, *resolver, diagnostics);
-  }
-
-  std::optional<Program> program(const std::string& material) {
-    return compile_material(module, material, default_device, sources, source, *resolver, diagnostics);
-  }
-
-  std::string complaints() const {
-    std::string text;
-    for (const auto& each : diagnostics.all()) text += render_text(each, sources, false);
-    return text;
-  }
-};
-
-std::vector<std::string> library_files() {
-  std::vector<std::string> files;
-  const std::filesystem::path library = std::filesystem::path(WALE_SOURCE_DIR) / "library";
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(library))
-    if (entry.path().extension() == ".wale") files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  return files;
-}
+using shelf::Checked;
+using shelf::library_files;
 
 class LibraryFile : public testing::TestWithParam<std::string> {};
 

@@ -12,18 +12,25 @@ namespace {
 
 constexpr float step = 200.0f / 900;  // N per tick
 
+/// The force that is let through with the handle at rest.
+Force at(Guards& guards, Force wanted) {
+  const Force force = guards(wanted, glm::dvec2(0), 1);
+  guards.commanded(force);
+  return force;
+}
+
 /// Guards that have caught up with `force`.
 Guards at_ease(Force force = Force(0)) {
   Guards guards(sandpaper());
-  for (int tick = 0; tick < 200; ++tick) guards(force);
+  for (int tick = 0; tick < 200; ++tick) at(guards, force);
   return guards;
 }
 
 TEST(Guards, PassAForceInRange) {
   Guards guards = at_ease();
   const GuardCounts before = guards.counts();
-  EXPECT_EQ(guards({3, -4}), Force(3, -4));
-  EXPECT_EQ(guards({-10, 10}), Force(-10, 10));
+  EXPECT_EQ(at(guards, {3, -4}), Force(3, -4));
+  EXPECT_EQ(at(guards, {-10, 10}), Force(-10, 10));
   EXPECT_EQ(guards.counts().not_a_number, before.not_a_number);
   EXPECT_EQ(guards.counts().device_limit, before.device_limit);
   EXPECT_EQ(guards.counts().slew, before.slew);
@@ -32,32 +39,42 @@ TEST(Guards, PassAForceInRange) {
 TEST(Guards, NotANumberIsNoForceAtOnce) {
   Guards guards = at_ease({5, 5});
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(guards({nan, 5}), Force(0));
-  EXPECT_EQ(guards({5, -nan}), Force(0));
+  EXPECT_EQ(at(guards, {nan, 5}), Force(0));
+  EXPECT_EQ(at(guards, {5, -nan}), Force(0));
   EXPECT_EQ(guards.counts().not_a_number, 2);
 }
 
 TEST(Guards, EachAxisStaysWithinTheDevicesPeak) {
   Guards guards = at_ease();
   const float infinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(guards({11, -3}), Force(10, -3));
-  EXPECT_EQ(guards({-infinity, infinity}), Force(-10, 10));
+  EXPECT_EQ(at(guards, {11, -3}), Force(10, -3));
+  EXPECT_EQ(at(guards, {-infinity, infinity}), Force(-10, 10));
   EXPECT_EQ(guards.counts().device_limit, 2);
+}
+
+TEST(Guards, TheWholeForceStaysWithinWhatTheUserAllows) {
+  Guards guards(sandpaper(), 3);
+  for (int tick = 0; tick < 200; ++tick) at(guards, {1.8f, 2.4f});
+  EXPECT_EQ(guards.counts().user_limit, 0);
+  const Force held = at(guards, {6, -8});
+  EXPECT_NEAR(held.x, 1.8f, 1e-6f);
+  EXPECT_NEAR(held.y, -2.4f, 1e-6f);
+  EXPECT_EQ(guards.counts().user_limit, 1);
 }
 
 TEST(Guards, SlewFromTheStartUntilCaughtUp) {
   Guards guards(sandpaper());
-  for (int tick = 1; tick <= 9; ++tick) EXPECT_NEAR(guards({0, 2.1f}).y, tick * step, 1e-5) << tick;
-  EXPECT_EQ(guards({0, 2.1f}), Force(0, 2.1f));
+  for (int tick = 1; tick <= 9; ++tick) EXPECT_NEAR(at(guards, {0, 2.1f}).y, tick * step, 1e-5) << tick;
+  EXPECT_EQ(at(guards, {0, 2.1f}), Force(0, 2.1f));
   EXPECT_EQ(guards.counts().slew, 9);
-  EXPECT_EQ(guards({0, -9}), Force(0, -9)) << "caught up, so a fast force is the program's own affair";
+  EXPECT_EQ(at(guards, {0, -9}), Force(0, -9)) << "caught up, so a fast force is the program's own affair";
   EXPECT_EQ(guards.counts().slew, 9);
 }
 
 TEST(Guards, SlewAgainAfterEachChangeAlsoAcrossAxes) {
   Guards guards = at_ease({3, 0});
   guards.slew();
-  const Force next = guards({0, 4});  // 5 N away
+  const Force next = at(guards, {0, 4});  // 5 N away
   EXPECT_NEAR(next.x, 3 - step * 0.6f, 1e-5);
   EXPECT_NEAR(next.y, step * 0.8f, 1e-5);
 }
@@ -67,7 +84,7 @@ TEST(Guards, ChasingAMovingForceTheyStayOnUntilTheyMeetIt) {
   float last = 0;
   for (int tick = 0; tick < 400; ++tick) {
     const float wanted = 2 * std::sin(static_cast<float>(tick) * 0.02f) + 3;
-    const float force = guards({wanted, 0}).x;
+    const float force = at(guards, {wanted, 0}).x;
     ASSERT_LE(std::abs(force - last), step * 1.0001f);
     if (tick > 60) {
       ASSERT_EQ(force, wanted);
@@ -80,9 +97,9 @@ TEST(Guards, WithoutADeclaredSlewNothingIsSlowed) {
   DeviceProfile profile = sandpaper();
   profile.slew = 0;
   Guards guards(profile);
-  EXPECT_EQ(guards({7, 0}), Force(7, 0));
+  EXPECT_EQ(at(guards, {7, 0}), Force(7, 0));
   guards.slew();
-  EXPECT_EQ(guards({-7, 0}), Force(-7, 0));
+  EXPECT_EQ(at(guards, {-7, 0}), Force(-7, 0));
   EXPECT_EQ(guards.counts().slew, 0);
 }
 

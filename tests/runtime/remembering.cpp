@@ -152,6 +152,79 @@ TEST(Remembering, StatesThatAreNoNumbersAreCounted) {
   }
 }
 
+/// `counting` with another gain, one more state that begins at 7, and another unit for one more parameter.
+Program counting_too(float gain, bool renamed = false) {
+  Assembly a({9, 7, 1}, {{"other", "", 1, 0.25f, 0, 1, 0, 1, ""}, {"gain", "", 1, gain, 0, 0.5f, 0, 0.5f, ""}});
+  const RegisterNumber fresh = a.state("fresh", 0, 100);
+  const RegisterNumber count = a.state(renamed ? "ticks" : "count", 0, 1e6f);
+  a.evolve(fresh, a.constant(1), fresh);
+  a.evolve(count, a.constant(2), a.tick(Operation::add, count, a.constant(2)));
+  a.push(0, a.tick(Operation::multiply, count, a.parameter(1)), a.constant(0));
+  a.push(1, fresh, a.constant(0));
+  return a.load();
+}
+
+TEST(Replacing, KeepsParametersAndStatesOfTheSameNameAndStartsTheOthers) {
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  stage.place(counting());
+  ASSERT_FALSE(stage.set("gain", 0.004f));
+  const auto result = run(stage, 300, [&](const Progress& now) {
+    if (now.ticks_run == 90) {
+      EXPECT_FALSE(stage.replace(0, counting_too(0.1f)));
+    }
+    if (now.ticks_run == 180) {
+      EXPECT_FALSE(stage.replace(0, counting_too(0.1f, true)));
+    }
+  });
+  const auto& ticks = result.record.ticks;
+  EXPECT_NEAR(ticks[89].force.x, 0.004 * 89, 1e-5);
+  EXPECT_NEAR(ticks[90].force.x, 0.004 * 90, 1e-5) << "its count and its gain, in the next tick";
+  EXPECT_EQ(ticks[90].force.y, 7);
+  EXPECT_NEAR(ticks[179].force.x, 0.004 * 179, 1e-5);
+  EXPECT_NEAR(ticks[180].force.x, 0.004 * 1, 1e-5) << "a state of another name is another state";
+}
+
+TEST(Replacing, SeveralTimesBeforeATickTakesTheLastAndLosesNothing) {
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  stage.place(counting());
+  const auto result = run(stage, 200, [&](const Progress& now) {
+    if (now.ticks_run != 90) return;
+    for (const float gain : {0.3f, 0.2f, 0.4f}) EXPECT_FALSE(stage.replace(0, counting_too(gain)));
+  });
+  EXPECT_NEAR(result.record.ticks[90].force.x, 0.001 * 90, 1e-5);
+  EXPECT_TRUE(stage.replace(3, counting()));
+}
+
+TEST(Replacing, WhereTheHandIsNotStatesBeginWhenItComes) {
+  Puppet device([](long period) { return Reading{.counts = {period > 50 && period <= 150 ? beyond : 0, 0}}; });
+  Stage stage(device);
+  stage.place(counting());
+  const auto result = run(stage, 300, [&](const Progress& now) {
+    if (now.ticks_run == 90) {
+      EXPECT_FALSE(stage.replace(0, counting_too(0.1f)));
+    }
+  });
+  EXPECT_NEAR(result.record.ticks[151].force.x, 0.001 * 1, 1e-5);
+}
+
+TEST(Replacing, KeepsWhatWasPressedIntoTheGround) {
+  // The bead presses its track from the middle on; whoever replaces it by a bead on a stiffer spring finds it there.
+  const Program soft = bead(100), stiff = bead(200);
+  Bank bank(soft);
+  auto first = std::make_shared<Memory>(soft);
+  first->enter(bank, {});
+  tick(bank, *first, {});
+  ASSERT_EQ(first->grid(0)[4], 1);
+  auto second = std::make_shared<Memory>(stiff, first);
+  EXPECT_TRUE(second->follows(first.get()));
+  EXPECT_EQ(second->grid(0)[4], 0);
+  second->succeed(false);
+  EXPECT_EQ(second->grid(0)[4], 1);
+  EXPECT_FALSE(second->follows(first.get()));
+}
+
 TEST(Telling, TimeIsTheNumberOfPeriods) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
@@ -164,12 +237,14 @@ TEST(Telling, SkippedPeriodsCountTowardsTime) {
   Puppet device([](long) { return Reading{}; });
   Exchange<PlacedPatches> patches;
   Record record;
-  Player player(device, patches, record, 2);
+  Player player(device, patches, record, 3);
   const Program program = feeling(Input::time);
   patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
   player.serve({.period = 0});
   player.serve({.period = 450, .elapsed = 450, .skipped = 449});
-  EXPECT_FLOAT_EQ(record.ticks[1].force.x, 0.5f);
+  EXPECT_EQ(record.ticks[1].force.x, 0) << "after half a second without anybody there is no force at first";
+  player.serve({.period = 451, .elapsed = 1});
+  EXPECT_FLOAT_EQ(record.ticks[2].force.x, 451 / 900.0f);
 }
 
 TEST(Telling, TheButton) {

@@ -63,6 +63,45 @@ TEST(Simulated, FreeSwingHasTheFrequencyAndDecayOfMassSpringAndDamper) {
   }
 }
 
+/// A command of 2 N on a free mass: nothing until it has arrived, then a parabola.
+TEST(Simulated, ACommandArrivesAfterTheDelayOfItsAxis) {
+  DeviceProfile profile = sandpaper();
+  profile.friction = profile.damping = 0;
+  profile.delay_x = 0.0015;
+  profile.delay_y = 0.004;
+  SimulatedJoystick joystick(profile, no_hand, Rest{});
+  for (int tick = 1; tick <= 60; ++tick) {
+    joystick.command(tick <= 2 ? Force(2, 2) : Force(0));  // for two periods
+    joystick.elapse(1);
+    const auto way = [&](double delay) {
+      const double t = tick / profile.rate - delay, pushed = std::clamp(t, 0.0, 2 / profile.rate);
+      return 2 / 0.3 * (pushed * pushed / 2 + pushed * std::max(0.0, t - pushed));
+    };
+    ASSERT_NEAR(joystick.position().x, way(profile.delay_x), 1e-7 * tick) << tick;
+    ASSERT_NEAR(joystick.position().y, way(profile.delay_y), 1e-7 * tick) << tick;
+  }
+}
+
+/// A sine of the axis' bandwidth comes out smaller by 3 dB.
+TEST(Simulated, AnActuatorIsALowPassOfItsBandwidth) {
+  DeviceProfile profile = sandpaper();
+  profile.friction = profile.damping = 0;
+  profile.bandwidth_x = 30;
+  profile.force_counts = 1 << 26;
+  const double mass = 1;
+  SimulatedJoystick joystick(profile, {.mass = 0.7, .damping = 0, .stiffness = 0}, Rest{});
+  double largest_x = 0, largest_y = 0;
+  glm::dvec2 before = joystick.velocity();
+  for (int tick = 0; tick < 900; ++tick) {
+    joystick.command(Force(static_cast<float>(std::sin(2 * pi * 30 * tick / profile.rate))));
+    joystick.elapse(1);
+    const glm::dvec2 force = mass * (joystick.velocity() - before) * profile.rate;
+    before = joystick.velocity();
+    if (tick > 300) largest_x = std::max(largest_x, force.x), largest_y = std::max(largest_y, force.y);
+  }
+  EXPECT_NEAR(largest_x / largest_y, std::sqrt(0.5), 0.01);
+}
+
 TEST(Simulated, NothingLostNothingGainedWithoutDamping) {
   DeviceProfile profile = sandpaper();
   profile.friction = profile.damping = 0;

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <thread>
 
+#include "runtime/stage/player.hpp"
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/programs.hpp"
 #include "wale/felt.hpp"
@@ -53,12 +55,20 @@ class Notebook : public Device {
  public:
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long periods) noexcept override { elapsed += periods; }
-  Reading sample() noexcept override { return {.counts = counts}; }
-  Force command(Force force) noexcept override { return commanded = force; }
+  Reading sample() noexcept override {
+    ++samples;
+    return {.counts = counts, .contact = contact_at ? contact_at(samples) : Contact::good};
+  }
+  Force command(Force force) noexcept override {
+    commands.push_back(force);
+    return commanded = force;
+  }
 
   DeviceProfile profile_ = sandpaper();
   glm::ivec2 counts{0};
-  long elapsed = 0;
+  long elapsed = 0, samples = 0;
+  std::function<Contact(long sample)> contact_at;
+  std::vector<Force> commands;
   Force commanded{0};
 };
 
@@ -115,6 +125,48 @@ TEST(Corduroy, StaysWithinItsAmplitudeRubbedInCircles) {
   const Felt felt = felt_in(run_virtual(corduroy(amplitude), Circular{0.04, 1}, 5));
   EXPECT_NEAR(felt.force_rubbing.p99, amplitude, 0.01 * amplitude + force_step);
   EXPECT_GT(felt.crossings, 500);
+}
+
+TEST(Stage, NoForceFromTheTickOnThatTheDeviceIsStaleOrGone) {
+  Notebook device;
+  device.counts = {200, 0};
+  device.contact_at = [](long sample) {
+    return sample == 300 ? Contact::stale : sample >= 500 && sample < 600 ? Contact::lost : Contact::good;
+  };
+  Stage stage(device);
+  stage.place(spring(50));  // 0.56 N at 200 counts
+  const RunResult run = good(stage.run({.seconds = 1, .virtual_time = true}));
+  EXPECT_EQ(run.guards.stale, 1);
+  EXPECT_EQ(run.guards.lost, 100);
+  const float full = -50 * 200 * static_cast<float>(sandpaper().position_step()), step = 200.0f / 900;
+  EXPECT_FLOAT_EQ(device.commands.at(298).x, full);
+  EXPECT_EQ(device.commands.at(299), Force(0));
+  EXPECT_NEAR(device.commands.at(300).x, -step, 1e-5f) << "it slews back";
+  EXPECT_FLOAT_EQ(device.commands.at(498).x, full);
+  for (int tick = 499; tick < 599; ++tick) ASSERT_EQ(device.commands.at(tick), Force(0)) << tick;
+  EXPECT_NEAR(device.commands.at(599).x, -step, 1e-5f);
+  EXPECT_FLOAT_EQ(device.commands.at(610).x, full);
+}
+
+TEST(Stage, NoForceAfterTheLoopWasAwayForLong) {
+  Notebook device;
+  device.counts = {200, 0};
+  Exchange<PlacedPatches> patches;
+  patches.publish(PlacedPatches({Bank(spring(50)), {0, 0}, std::make_shared<Memory>(spring(50))}));
+  Record record;
+  Player player(device, patches, record, 100);
+  long period = 0;
+  for (int tick = 0; tick < 50; ++tick, ++period) player.serve({period, 1, 0, 0});
+  const float full = device.commanded.x;
+  ASSERT_LT(full, -0.5f);
+  player.serve({period += 17, 18, 17, 0});  // 19 ms
+  EXPECT_EQ(device.commanded.x, full);
+  player.serve({period += 20, 21, 20, 0});  // 22 ms
+  EXPECT_EQ(device.commanded, Force(0));
+  EXPECT_EQ(player.guards().overrun, 1);
+  player.serve({++period, 1, 0, 0});
+  EXPECT_LT(device.commanded.x, 0);
+  EXPECT_GT(device.commanded.x, full);
 }
 
 TEST(Stage, VirtualTimeIsTheSameBitForBit) {

@@ -8,6 +8,13 @@
 
 namespace wale {
 
+/// Whether a device can be relied on at this moment.
+enum class Contact {
+  good,
+  stale,  ///< it is there, and has told no new position for longer than it should
+  lost    ///< it has been unplugged, or does not answer as it should; it may come back
+};
+
 /// What a device tells once a tick.
 struct Reading {
   glm::ivec2 counts{0};  ///< encoder counts from the workspace's centre; metres are counts * position_step()
@@ -15,6 +22,8 @@ struct Reading {
   /// Not-a-number where the device has no way to know.
   Force interaction{std::numeric_limits<float>::quiet_NaN()};
   bool button = false;  ///< the device's button is pressed
+  /// Anything but `good`: the position is an old one, and no force is commanded.
+  Contact contact = Contact::good;
 };
 
 /// A force-feedback joystick: position in, force out. One thread at a time uses it.

@@ -55,8 +55,8 @@ struct LevelBack {
 };
 
 /// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries. Refused
-/// for less than `least_crossings` crossings, for a percept that a static lateral force does not carry, and for one whose
-/// carrier does not push alone.
+/// for less than `least_crossings` crossings, for a percept that a static lateral force does not carry, and for one
+/// whose carrier does not push alone.
 std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
 
 /// The lateral force that the program aims at, for `MeasureOptions`: of its first percept that has one, else 0.

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "wale/program.hpp"
@@ -17,6 +21,19 @@ class Memory {
  public:
   /// Allocates all that the program will ever remember.
   explicit Memory(const Program& program);
+
+  /// Allocates it for a program that takes the place of another one: what has the same name as in `predecessor`'s
+  /// program (grids: all of them the same names and sizes) goes on from there, once `succeed` is called.
+  Memory(const Program& program, std::shared_ptr<Memory> predecessor);
+
+  /// Takes over from the predecessor, which has taken over from its own, what goes on: the grids and, where the hand
+  /// was on the patch all the time, the states; after `enter`, so that what is new begins as on entering. Only the
+  /// first call does anything. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  void succeed(bool with_states) noexcept;
+  /// Whether `other` is a predecessor, however many came between, that has not been succeeded. Real-time likewise.
+  bool follows(const Memory* other) const noexcept;
+  /// Lets the predecessor go if it has been succeeded. For the side that allocates.
+  void forget_predecessor();
 
   /// The hand has come in: runs the program's `enter` section and sets the states, each held in its range; one whose
   /// initial value is not a number gets the number of its range that is nearest to 0. `bank` is of the same program, or
@@ -44,6 +61,10 @@ class Memory {
   std::vector<float> states_, initial_states_;
   std::vector<float> cells_;
   long restored_ = 0;
+  std::shared_ptr<Memory> predecessor_;
+  std::vector<std::pair<std::uint16_t, std::uint16_t>> kept_states_;  // there and here
+  bool keeps_grids_ = false;
+  std::unique_ptr<std::atomic<bool>> succeeded_;  // a memory moves
 };
 
 /// One execution of the program: its force on the hand, in N, and what it remembers from here on. States read as they

@@ -32,6 +32,8 @@ using Force = glm::vec2;
 /// Full width and height of a placed patch and the rim over which it fades, in m.
 struct PatchSize {
   float width = 0, height = 0, rim = 0;
+
+  friend bool operator==(const PatchSize&, const PatchSize&) = default;
 };
 
 struct DecodedProgram;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <variant>
+#include <vector>
 
 #include "wale/device.hpp"
 #include "wale/trace.hpp"
@@ -41,13 +43,16 @@ using Motion = std::variant<Rest, Lateral, Circular, Trace>;
 TracePoint at(const Motion& motion, double time) noexcept;
 
 /// A joystick of the profile's mass, damping, friction, encoders and actuators in the hand of a simulated person who
-/// holds its handle rigidly. Its time is the number of periods elapsed; everything is the same bit for bit each time.
+/// holds its handle rigidly. A command reaches the actuator after the profile's delay, and the actuator is a
+/// first-order low-pass of its bandwidth, each axis by its own figures. Its time is the number of periods elapsed;
+/// everything is the same bit for bit each time.
 ///
 /// The person starts at rest where the motion starts. Both axes are independent but for the edge of the round
 /// workspace, where the handle stops dead.
 class SimulatedJoystick final : public Device {
  public:
-  /// The profile's rate, workspace, counts and force are positive; `profile.mass + hand.mass` is positive.
+  /// The profile's rate, workspace, counts and force are positive; `profile.mass + hand.mass` is positive. Allocates as
+  /// much as there are commands under way.
   SimulatedJoystick(DeviceProfile profile, HandModel hand, Motion motion);
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
@@ -60,6 +65,21 @@ class SimulatedJoystick final : public Device {
   glm::dvec2 velocity() const { return velocity_; }
 
  private:
+  /// The way of a command along one axis.
+  struct Actuator {
+    std::vector<double> under_way;  ///< N, the last commands; the newest at `newest`
+    std::size_t newest = 0;
+    double delay = 0;   ///< steps of the integration
+    double follow = 1;  ///< share of the way to the command that the actuator goes in one step
+    double since = 0;   ///< steps since the newest command
+    double force = 0;   ///< N
+
+    Actuator(double delay_seconds, double bandwidth, double step_seconds);
+    void command(double wanted) noexcept;
+    /// The force in the next step.
+    double step() noexcept;
+  };
+
   void step(const TracePoint& target, double seconds) noexcept;
 
   DeviceProfile profile_;
@@ -67,7 +87,7 @@ class SimulatedJoystick final : public Device {
   Motion motion_;
   long long periods_ = 0;
   glm::dvec2 position_{0}, velocity_{0};
-  glm::dvec2 actuator_{0};     // N, held until the next command
+  std::array<Actuator, 2> actuators_;
   glm::dvec2 interaction_{0};  // N, mean over the last period
   glm::dvec2 impulse_{0};      // N s, from hand to handle since the period began
 };

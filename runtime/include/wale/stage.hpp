@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -25,8 +26,9 @@ struct Progress {
 };
 
 struct RunOptions {
-  double seconds = 0;         ///< how long; positive, may be fractional
-  bool virtual_time = false;  ///< as fast as possible on the calling thread, the same bit for bit each time
+  double seconds = 0;             ///< how long; positive, may be fractional
+  double most_newton = HUGE_VAL;  ///< the largest force that the user allows; positive
+  bool virtual_time = false;      ///< as fast as possible on the calling thread, the same bit for bit each time
   /// About ten times a second, never on the real-time thread. In virtual time ten times per second of the run, between
   /// two ticks; what it does to the stage holds from the next tick on.
   std::function<void(const Progress&)> progress = {};
@@ -44,7 +46,13 @@ struct Lateness {
 struct GuardCounts {
   long not_a_number = 0;  ///< the program's force was none, so zero
   long device_limit = 0;  ///< beyond the device's peak force on an axis
+  long user_limit = 0;    ///< beyond what the user allows
+  long energy = 0;        ///< held back, because the program gave more energy than it says
+  long passivity = 0;     ///< damped, because the sampled loop gained energy
   long slew = 0;          ///< held back after a start, an entry, a leaving or a change of bank
+  long overrun = 0;       ///< no force, after more than 20 ms in which nobody served the loop
+  long stale = 0;         ///< no force, the position being an old one
+  long lost = 0;          ///< no force, the device being gone
   long restored = 0;      ///< times that a state was not a number, so its initial value
 };
 
@@ -81,6 +89,12 @@ class Stage {
   /// ten.
   std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
 
+  /// Puts another program in the place of a patch's: same place, same layer, its own size where the patch had its own.
+  /// Parameters keep their values where they have the same name and unit (held in their new ranges), states where they
+  /// have the same name and the hand stays on the patch, and memories where all have the same names, sizes and bounds.
+  /// Takes effect within one tick of being ready, and slews. Refused when there is no such patch.
+  std::optional<Refusal> replace(std::size_t patch, const Program& program);
+
   /// Sets a parameter of a patch, by its number or that of patch 0, in SI units. Refused when there is no patch or no
   /// such parameter, or when the value is not a number in its range.
   std::optional<Refusal> set(std::string_view parameter, float value);
@@ -91,8 +105,8 @@ class Stage {
   std::optional<Bank> bank(std::size_t patch = 0) const;
 
   /// Runs for `options.seconds` and leaves the device without force, whatever ends the run. Refused when the time is
-  /// not positive or longer than a record holds (2^24 ticks), when nothing is placed, when the device's profile lacks
-  /// what a loop needs, or while another run is under way.
+  /// not positive or longer than a record holds (2^24 ticks), when the largest force is not positive, when nothing is
+  /// placed, when the device's profile lacks what a loop needs, or while another run is under way.
   std::variant<RunResult, Refusal> run(const RunOptions& options);
 
  private:

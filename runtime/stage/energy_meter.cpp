@@ -1,0 +1,46 @@
+#include "runtime/stage/energy_meter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace wale {
+namespace {
+
+/// W that nobody minds: a hundredth of what a hand that goes round at a leisurely pace takes up itself. It makes the
+/// errors of the sum over ticks fade, whichever way they go.
+constexpr double negligible_watt = 0.002;
+
+}  // namespace
+
+void EnergyMeter::allow(double range, double active) noexcept {
+  range_ = range;
+  active_ = active + negligible_watt;
+}
+
+Force EnergyMeter::operator()(Force force, glm::dvec2 position, long periods) noexcept {
+  const double elapsed = period_ * static_cast<double>(std::max(1L, periods));
+  const glm::dvec2 step = begun_ ? position - position_ : glm::dvec2(0);
+  glm::dvec2 field(force);
+  const double before = given_ + 0.5 * glm::dot(field_, step) - active_ * elapsed, along = 0.5 * glm::dot(field, step);
+  if (before + along > range_ && along > 0) {
+    // Half a step's work of this tick's force is what brings the sum to its limit; less than nothing it never takes.
+    const double allowed = std::max(0.0, range_ - before);
+    field -= step * (2 * (along - std::min(along, allowed)) / glm::dot(step, step));
+    ++held_;
+  }
+  given_ = std::max(0.0, before + 0.5 * glm::dot(field, step));
+  begun_ = true;
+  position_ = position;
+  field_ = field;
+  return Force(field);
+}
+
+double largest_potential_range(const Bank& bank) noexcept {
+  double most = 0;
+  for (const Output& output : bank.program().description().outputs)
+    most = std::max(most, static_cast<double>(std::abs(bank.registers()[output.ceiling])));
+  return most * std::hypot(bank.size().width, bank.size().height);
+}
+
+}  // namespace wale

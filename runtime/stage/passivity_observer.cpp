@@ -1,0 +1,46 @@
+#include "runtime/stage/passivity_observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace wale {
+namespace {
+
+constexpr double least_joule = 20e-6;
+constexpr double share_of_impedance = 0.1;  ///< of m/T
+constexpr double memory_seconds = 0.1;
+constexpr double most_gained = 2;  ///< of what is allowed
+
+}  // namespace
+
+PassivityObserver::PassivityObserver(const DeviceProfile& profile)
+    : period_(1 / profile.rate),
+      count_(profile.position_step()),
+      damping_(profile.damping),
+      largest_damping_(share_of_impedance * profile.mass * profile.rate) {}
+
+Force PassivityObserver::operator()(Force force, glm::dvec2 position, long periods) noexcept {
+  const glm::dvec2 field(force);
+  const double elapsed = period_ * static_cast<double>(std::max(1L, periods));
+  const glm::dvec2 step = begun_ ? position - position_ : glm::dvec2(0);
+  gained_ += glm::dot(held_, step) - 0.5 * glm::dot(field_ + field, step) - damping_ * glm::dot(step, step) / elapsed;
+
+  const double fading = 1 - std::min(1.0, elapsed / memory_seconds);
+  const double length = glm::length(step);
+  recent_force_ = std::max(glm::length(field), recent_force_ * fading);
+  recent_step_ = std::max(length, recent_step_ * fading);
+  const double allowed = least_joule + recent_force_ * (recent_step_ + count_);
+  gained_ = std::clamp(gained_, 0.0, most_gained * allowed);
+
+  begun_ = true;
+  position_ = position;
+  field_ = field;
+  if (!(gained_ > allowed) || length == 0 || largest_damping_ == 0) return force;
+  ++acted_;
+  // Held for one period at this pace, the damping takes up what is beyond the allowance.
+  const double damping = std::min((gained_ - allowed) * elapsed / (length * length), largest_damping_);
+  return Force(field - step * (damping / elapsed));
+}
+
+}  // namespace wale

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "schema/device_profile.hpp"
+#include "wale/program.hpp"
+
+namespace wale {
+
+/// Meters the energy that sampling and holding give to the hand, beyond what the force field itself does, and takes it
+/// away again by damping: what keeps a wall that is too stiff for its device from singing.
+///
+/// A force u that is held while the handle moves by dx does the work u dx; the field f, of which it was sampled, does
+/// the mean of its values before and after. The difference, less what the device's own damping b takes up, is what the
+/// loop gained:
+///
+///   W <- max(0, W + u(n-1) dx - (f(n-1) + f(n)) dx / 2 - b dx^2 / T)
+///
+/// On a texture the first two differ by turns: moving at an even pace over a slope up and one down they come to
+/// nothing, and to at most |f| |dx| on the way. That much, at the force and the pace of the last tenth of a second
+/// (with one encoder count, by which dx may be wrong), is no gain yet. Beyond it the observer damps, by what is gained
+/// and at most 0.1 m/T, m the moving mass at the handle: more would itself be unstable. The form, the 20 uJ and the 0.1
+/// are from simulations (shared reference, closed-loop.md, "Passivity observer"); there 20 uJ alone were allowed, which
+/// fires on a passive corduroy that is moved at more than 0.1 m/s.
+class PassivityObserver {
+ public:
+  /// The profile's rate and encoder are known. A mass or damping that it does not declare is 0; without a mass the
+  /// observer meters and does not act.
+  explicit PassivityObserver(const DeviceProfile& profile);
+
+  /// What to command in place of `field` (N, the force as limits and slew left it), with the handle at `position` (m
+  /// from the workspace's centre), `periods` control periods after the last call; the first call only begins. Then
+  /// `commanded` says what the actuator does.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  Force operator()(Force field, glm::dvec2 position, long periods) noexcept;
+  void commanded(Force force) noexcept { held_ = force; }
+
+  /// J, gained and not yet taken away; at most twice what is allowed, so that it is soon forgotten once it is over.
+  double gained() const noexcept { return gained_; }
+  /// Ticks on which it damped.
+  long acted() const noexcept { return acted_; }
+
+ private:
+  double period_;           // s
+  double count_;            // m
+  double damping_;          // N s/m, the device's own
+  double largest_damping_;  // N s/m, that the observer may add
+  bool begun_ = false;
+  glm::dvec2 position_{0};
+  glm::dvec2 held_{0}, field_{0};  // N, commanded and wanted at the last call
+  double recent_force_ = 0;        // N
+  double recent_step_ = 0;         // m a period
+  double gained_ = 0;
+  long acted_ = 0;
+};
+
+}  // namespace wale

@@ -1,0 +1,53 @@
+// The whole library in the simulated hand: the passivity observer has nothing to do on what is passive there.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "compiler/grade/grade.hpp"
+#include "runtime/machine/parallel.hpp"
+#include "tests/library/shelf.hpp"
+#include "wale/simulated.hpp"
+#include "wale/stage.hpp"
+
+namespace wale::observed_test {
+namespace {
+
+/// What the guards did in four seconds of rubbing to and fro and going round.
+GuardCounts guarded(const Program& program) {
+  const HandModel normal{.mass = 0.55, .damping = 6.5, .stiffness = 135};
+  GuardCounts all;
+  for (const Motion& motion : {Motion(Lateral{0.04, 1}), Motion(Circular{0.03, 0.7})}) {
+    SimulatedJoystick joystick(program.description().device, normal, motion);
+    Stage stage(joystick);
+    stage.place(program);
+    const auto run = stage.run({.seconds = 2, .virtual_time = true});
+    if (const auto* refusal = std::get_if<Refusal>(&run)) throw std::runtime_error(refusal->reason);
+    all.passivity += std::get<RunResult>(run).guards.passivity;
+    all.energy += std::get<RunResult>(run).guards.energy;
+  }
+  return all;
+}
+
+TEST(Observed, NothingIsDoneToWhatIsPassiveInTheHandNorHeldBackOfWhatIsDeclared) {
+  const std::vector<Program> programs = shelf::programs();
+  ASSERT_GT(programs.size(), 300u);
+  std::vector<GuardCounts> counts(programs.size());
+  in_parallel(programs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) counts[i] = guarded(programs[i]);
+  });
+  long calm = 0;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const std::string& name = programs[i].description().material;
+    EXPECT_EQ(counts[i].energy, 0) << name;
+    const Grade graded = grade(Bank(programs[i]));
+    if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
+    ++calm;
+    EXPECT_EQ(counts[i].passivity, 0) << name;
+  }
+  EXPECT_GT(calm, 100);
+}
+
+}  // namespace
+}  // namespace wale::observed_test

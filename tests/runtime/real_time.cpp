@@ -1,0 +1,119 @@
+// What a beat of the real-time thread does not do: allocate, lock, throw. The functions that would be called are the
+// test program's own here, which count and pass on.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <pthread.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+
+#include "runtime/stage/player.hpp"
+#include "tests/runtime/figures.hpp"
+#include "tests/runtime/programs.hpp"
+#include "wale/simulated.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WALE_SANITIZED 1  // a sanitizer has put functions of its own in their place
+#else
+#define WALE_SANITIZED 0
+#endif
+
+namespace {
+thread_local long allocations = 0, locks = 0, throws = 0;
+
+long deeds() { return allocations + locks + throws; }
+}  // namespace
+
+#if WALE_SANITIZED
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  ++allocations;
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
+#else
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void __libc_free(void*);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+void free(void* memory) {
+  if (memory) ++allocations;
+  __libc_free(memory);
+}
+int pthread_mutex_lock(pthread_mutex_t* mutex) {
+  ++locks;
+  static const auto real = reinterpret_cast<int (*)(pthread_mutex_t*)>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
+  return real(mutex);
+}
+[[noreturn]] void __cxa_throw(void* thrown, void* type, void (*destroy)(void*)) {
+  ++throws;
+  static const auto real = reinterpret_cast<void (*)(void*, void*, void (*)(void*))>(dlsym(RTLD_NEXT, "__cxa_throw"));
+  real(thrown, type, destroy);
+  std::abort();
+}
+}
+#endif
+
+namespace wale::real_time_test {
+namespace {
+
+TEST(RealTime, AllocationsLocksAndExceptionsAreNoticed) {
+  const long before = allocations;
+  { const std::vector<int> some(100); }
+  EXPECT_EQ(allocations, before + 2);
+  if (WALE_SANITIZED) GTEST_SKIP() << "a sanitizer stands where locks and exceptions would be counted";
+  std::mutex mutex;
+  const long locked = locks, thrown = throws;
+  { const std::lock_guard lock(mutex); }
+  try {
+    throw std::runtime_error("noticed");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_EQ(locks, locked + 1);
+  EXPECT_EQ(throws, thrown + 1);
+}
+
+TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
+  for (const Program& program : {corduroy(1.934f), bead(500)}) {
+    SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});  // in and out of the patch
+    Exchange<PlacedPatches> patches;
+    Record record;
+    Player player(joystick, patches, record, 2000);
+    auto memory = std::make_shared<Memory>(program);
+    long entered = 0, inside = 0;
+    for (long period = 0; period < 2000; ++period) {
+      if (period % 50 == 0) memory = std::make_shared<Memory>(program);
+      if (period % 7 == 0) patches.publish(PlacedPatches({Bank(program), glm::vec2(0), memory}));
+      const long before = deeds();
+      player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
+      ASSERT_EQ(deeds(), before) << period;
+      entered += record.ticks[period].inside && period > 0 && !record.ticks[period - 1].inside;
+      inside += record.ticks[period].inside;
+    }
+    EXPECT_GT(entered, 0);
+    EXPECT_GT(inside, 500);
+  }
+}
+
+}  // namespace
+}  // namespace wale::real_time_test
