@@ -2,8 +2,8 @@
 
 namespace wale {
 
-Declarations::Declarations(const Declarations& beneath)
-    : shared_names(std::make_shared<DimensionNames>(beneath.names())), common(&beneath) {
+Declarations::Declarations(const Declarations& beneath, std::shared_ptr<SharedNames> names)
+    : shared_names(std::move(names)), common(&beneath) {
   dimensions.stand_on(beneath.dimensions);
   dimension_bounds.stand_on(beneath.dimension_bounds);
   units.stand_on(beneath.units);

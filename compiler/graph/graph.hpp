@@ -126,7 +126,7 @@ class Derivatives {
   static By place(int axis);
 
  private:
-  static constexpr NodeId none = ~NodeId{0};
+  static constexpr NodeId none = ~NodeId{0}, awaited = none - 1;
 
   bool moves(const Node& node) const;
   NodeId of_component(const Node& node);

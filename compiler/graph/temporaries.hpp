@@ -35,7 +35,8 @@ class Temporaries {
     return first;
   }
   void give_back(std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
+    free_[first / word_bits] |= bit(first);
+    for (std::size_t i = first + 1; i < first + count; ++i) free_[i / word_bits] |= bit(i);
   }
   std::size_t most() const { return most_; }
 

@@ -170,6 +170,7 @@ void PerceptSolver::tell(Told told) {
     told.shares = static_cast<std::size_t>(first - told_.begin());
     told.solved = false;
   }
+  told.law.emplace(*told.map, *told.percept);
   told_.push_back(std::move(told));
 }
 
@@ -227,7 +228,7 @@ void PerceptSolver::check_conflict(const Told& told) {
   const auto size =
       told.shares != none ? std::optional(told_[told.shares].size) : constant_value(*terms_, carrier.size);
   if (!size || !map.couples.empty()) return;
-  const Law law(map, *told.percept);
+  const Law& law = *told.law;
   const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);
   if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.scatter) return;
   if (std::abs(level - asked.level) <= asked.tolerance) return;
