@@ -184,6 +184,11 @@ struct Declarations {
 
   /// Maps, thresholds, rules and levels need no names of their own; what every file knows comes first.
   std::vector<const Map*> maps() const;
+  template <typename Visit>
+  void each_map(const Visit& visit) const {
+    if (common) common->each_map(visit);
+    for (const Map& map : own_maps) visit(map);
+  }
   std::vector<const Threshold*> thresholds() const;
   std::vector<const Rule*> rules() const;
   std::vector<const Levels*> levels() const;

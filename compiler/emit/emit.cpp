@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <ranges>
 
 #include "compiler/graph/temporaries.hpp"
 
@@ -114,7 +115,7 @@ class Emitter {
     };
     const auto runs_of = [&](const std::vector<NodeId>& nodes) {
       std::vector<SourcePlaces::Run> runs;
-      for (const NodeId id : nodes) {
+      for (const NodeId id : nodes | std::views::reverse) {
         const SourcePlaces::Run run = run_of(id);
         if (!runs.empty() && runs.back().file == run.file && runs.back().line == run.line)
           ++runs.back().instructions;
@@ -161,7 +162,7 @@ class Emitter {
     for (const NodeId id : parameter_nodes_)
       registers_[id] = static_cast<std::uint32_t>(first_parameter + graph_[id].index);
     std::size_t next = first_setup;
-    for (const NodeId id : setup_nodes_) {
+    for (const NodeId id : setup_nodes_ | std::views::reverse) {
       registers_[id] = static_cast<std::uint32_t>(next);
       next += steps_[id].width;
     }
@@ -211,9 +212,7 @@ class Emitter {
         }
       }
     }
-    // They have been found from the last to the first.
     std::ranges::reverse(constant_nodes_);
-    std::ranges::reverse(setup_nodes_);
   }
 
   /// Fills in the step of an operation; there are no operands in it yet.
@@ -242,15 +241,17 @@ class Emitter {
 
   Instruction instruction(NodeId id) const {
     const Step& step = steps_[id];
+    const std::uint32_t* const registers = registers_.data();
     const auto operand = [&](std::size_t i) {
-      return static_cast<RegisterNumber>(registers_[step.operands[i]] + step.results[i]);
+      return static_cast<RegisterNumber>(registers[step.operands[i]] + step.results[i]);
     };
-    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers_[id]), operand(0),
+    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers[id]), operand(0),
             operand(1), operand(2)};
   }
 
   void emit_setup() {
-    for (const NodeId id : setup_nodes_) {
+    program_.setup.reserve(setup_nodes_.size());
+    for (const NodeId id : setup_nodes_ | std::views::reverse) {
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::operation) {
         program_.setup.push_back(instruction(id));
@@ -270,8 +271,8 @@ class Emitter {
     }
   }
 
-  /// Finds what a section has to work out for its roots; `last_use_` says until when each is needed.
-  void find_order(const std::vector<NodeId>& roots) {
+  /// What a section has to work out for its roots, the last first; `last_use_` says until when each is needed.
+  std::vector<NodeId> backwards_from(const std::vector<NodeId>& roots) {
     const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
     std::size_t pending = 0;  // asked for and not looked at yet
     // Values are asked for from the last to the first, so whoever is first to ask for one is last to use it.
@@ -287,37 +288,42 @@ class Emitter {
       want(id, no_use);
       end = std::max(end, id + 1);
     }
-    backwards_.clear();
-    backwards_.reserve(end);
+    std::vector<NodeId> backwards;
+    if (pending > 0) backwards.reserve(end);
+    const std::uint32_t* const wanted = wanted_.data();
     const Step* const steps = steps_.data();
     for (NodeId id = end; pending > 0;) {
-      if (wanted_[--id] != section) continue;
+      if (wanted[--id] != section) continue;
       --pending;
-      backwards_.push_back(id);
+      backwards.push_back(id);
       const auto& operands = steps[id].operands;
       want(operands[0], id), want(operands[1], id), want(operands[2], id);
     }
+    return backwards;
   }
 
   /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `registers_` the
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
-    find_order(roots);
+    const std::vector<NodeId>& backwards = section_nodes_.emplace_back(backwards_from(roots));
     Temporaries temporaries;
-    std::vector<Instruction> code(backwards_.size());
+    std::vector<Instruction> code(backwards.size());
     Instruction* next = code.data();
-    for (std::size_t i = backwards_.size(); i-- > 0;) {
-      const NodeId id = backwards_[i];
-      const Step& step = steps_[id];
-      registers_[id] = static_cast<std::uint32_t>(first_temporary_ + temporaries.take(step.width));
+    const Step* const steps = steps_.data();
+    const NodeId* const last_use = last_use_.data();
+    std::uint32_t* const registers = registers_.data();
+    const auto first_temporary = static_cast<std::uint32_t>(first_temporary_);
+    for (std::size_t i = backwards.size(); i-- > 0;) {
+      const NodeId id = backwards[i];
+      const Step& step = steps[id];
+      registers[id] = first_temporary + static_cast<std::uint32_t>(temporaries.take(step.width));
       *next++ = instruction(id);
       const auto end_of = [&](NodeId operand) {
-        if (last_use_[operand] == id)  // giving back twice is giving back once
-          temporaries.give_back(registers_[operand] - first_temporary_, steps_[operand].width);
+        if (last_use[operand] == id)  // giving back twice is giving back once
+          temporaries.give_back(registers[operand] - first_temporary, steps[operand].width);
       };
       end_of(step.operands[0]), end_of(step.operands[1]), end_of(step.operands[2]);
     }
-    section_nodes_.emplace_back(backwards_.rbegin(), backwards_.rend());
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
   }
@@ -335,14 +341,13 @@ class Emitter {
   std::vector<std::uint32_t> registers_;  ///< there may be more of them than a program may have: `emit` refuses it then
   /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
   std::vector<std::uint32_t> wanted_;
-  std::vector<NodeId> last_use_;   ///< who is the last in that section to use it
-  std::vector<NodeId> backwards_;  ///< what the section at work needs, the last first
+  std::vector<NodeId> last_use_;  ///< who is the last in that section to use it
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
   RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program that has none
   std::vector<NodeId> constant_nodes_, parameter_nodes_, state_nodes_;  ///< those that are needed
   std::vector<NodeId> setup_nodes_;                                     ///< what setup works out, an instruction each
-  std::vector<std::vector<NodeId>> section_nodes_;  ///< the same of the other sections, made in the format's order
+  std::vector<std::vector<NodeId>> section_nodes_;  ///< of the other sections, the last first; in the format's order
 };
 
 }  // namespace

@@ -57,7 +57,7 @@ void Graph::enlarge_table(std::size_t slots) {
   }
 }
 
-inline NodeId Graph::add(const Node& node) {
+[[gnu::always_inline]] inline NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
   const std::uint32_t hash = hash_of(node);
   Slot* const slots = table_.data();
@@ -68,8 +68,8 @@ inline NodeId Graph::add(const Node& node) {
   const auto added = static_cast<NodeId>(nodes_.size());
   slots[at] = {hash, added};
   ++in_table_;
-  nodes_.push_back(node);
-  if (node.span == Span{}) nodes_.back().span = place_;
+  Node& entered = nodes_.emplace_back(node);
+  if (node.span == Span{}) entered.span = place_;
   return added;
 }
 
@@ -92,7 +92,7 @@ NodeId Graph::state(std::uint32_t index, Span span) {
   return add({.kind = Node::Kind::state, .index = index, .rate = Rate::tick, .span = span});
 }
 
-NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, Span span) {
+NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, const Span& span) {
   const auto number = static_cast<std::size_t>(operation);
   const int count = operation_table[number].operands;
   Rate rate = least_rate[number];

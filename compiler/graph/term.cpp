@@ -68,7 +68,7 @@ constexpr auto own_dependence = [] {
 
 }  // namespace
 
-void Terms::find_dependence(Term& term) const {
+inline void Terms::find_dependence(Term& term) const {
   switch (term.kind) {
     case TermKind::literal: term.dependence = {}; return;
     case TermKind::input: term.dependence = dependence_of_input(term.input()); return;
@@ -103,7 +103,7 @@ void Terms::find_dependence(Term& term) const {
 }
 
 /// Of the last term, which has just been added: what there is to know of it.
-inline TermId Terms::entered(Term& term) {
+[[gnu::always_inline]] inline TermId Terms::entered(Term& term) {
   if (place_ && (term.span == Span{} || term.span.source != place_->source)) term.span = *place_;
   find_dependence(term);
   return static_cast<TermId>(terms_.size() - 1);

@@ -42,7 +42,8 @@ bool ends_value(TokenKind kind) {
 
 bool Parser::is_word(std::size_t index, std::string_view word) const {
   const Token& candidate = token(index);
-  return candidate.kind == TokenKind::name && text_.substr(candidate.begin, candidate.end - candidate.begin) == word;
+  return candidate.kind == TokenKind::name && candidate.end - candidate.begin == word.size() &&
+         text_.substr(candidate.begin, word.size()) == word;
 }
 
 bool Parser::ends_statement(std::size_t index) const {
