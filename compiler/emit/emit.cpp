@@ -175,7 +175,7 @@ class Emitter {
   void find_needed() {
     steps_.assign(graph_.size(), Step{.operands = {nothing_, nothing_, nothing_}});
     registers_.resize(graph_.size() + 1);
-    last_use_.resize(graph_.size() + 1, no_use);
+    last_uses_.resize(graph_.size());
     wanted_.resize(graph_.size() + 1, not_needed);
     const auto need = [&](NodeId id) { wanted_[id] = in_no_section; };
     need(nothing_);
@@ -271,33 +271,35 @@ class Emitter {
     }
   }
 
-  /// What a section has to work out for its roots, the last first; `last_use_` says until when each is needed.
+  /// What a section has to work out for its roots, the last first. Values are asked for from the last to the first, so
+  /// whoever is first to ask for one is last to use it: `last_uses_` says of which operands, a bit each.
   std::vector<NodeId> backwards_from(const std::vector<NodeId>& roots) {
     const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
+    std::uint32_t* const wanted = wanted_.data();
     std::size_t pending = 0;  // asked for and not looked at yet
-    // Values are asked for from the last to the first, so whoever is first to ask for one is last to use it.
-    const auto want = [&, wanted = wanted_.data(), last_use = last_use_.data()](NodeId id, NodeId user) {
-      if (wanted[id] >= section) return;
+    const auto want = [&](NodeId id) -> unsigned {
+      if (wanted[id] >= section) return 0;
       wanted[id] = section;
-      last_use[id] = user;
       ++pending;
+      return 1;
     };
     NodeId end = 0;
     for (const NodeId root : roots) {
       const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
-      want(id, no_use);
+      want(id);
       end = std::max(end, id + 1);
     }
     std::vector<NodeId> backwards;
     if (pending > 0) backwards.reserve(end);
-    const std::uint32_t* const wanted = wanted_.data();
     const Step* const steps = steps_.data();
+    std::uint8_t* const last_uses = last_uses_.data();
     for (NodeId id = end; pending > 0;) {
       if (wanted[--id] != section) continue;
       --pending;
       backwards.push_back(id);
       const auto& operands = steps[id].operands;
-      want(operands[0], id), want(operands[1], id), want(operands[2], id);
+      const unsigned a = want(operands[0]), b = want(operands[1]), c = want(operands[2]);
+      last_uses[id] = static_cast<std::uint8_t>(a | b << 1 | c << 2);
     }
     return backwards;
   }
@@ -310,7 +312,6 @@ class Emitter {
     std::vector<Instruction> code(backwards.size());
     Instruction* next = code.data();
     const Step* const steps = steps_.data();
-    const NodeId* const last_use = last_use_.data();
     std::uint32_t* const registers = registers_.data();
     const auto first_temporary = static_cast<std::uint32_t>(first_temporary_);
     for (std::size_t i = backwards.size(); i-- > 0;) {
@@ -318,11 +319,10 @@ class Emitter {
       const Step& step = steps[id];
       registers[id] = first_temporary + static_cast<std::uint32_t>(temporaries.take(step.width));
       *next++ = instruction(id);
-      const auto end_of = [&](NodeId operand) {
-        if (last_use[operand] == id)  // giving back twice is giving back once
-          temporaries.give_back(registers[operand] - first_temporary, steps[operand].width);
-      };
-      end_of(step.operands[0]), end_of(step.operands[1]), end_of(step.operands[2]);
+      for (unsigned last = last_uses_[id]; last != 0; last &= last - 1) {
+        const NodeId operand = step.operands[static_cast<std::size_t>(std::countr_zero(last))];
+        temporaries.give_back(registers[operand] - first_temporary, steps[operand].width);
+      }
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
@@ -332,7 +332,6 @@ class Emitter {
   const LoweredMaterial& lowered_;
   const SolvedMaterial& material_;
   PatchProgram program_;
-  static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
   static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
 
   /// Stands for the operands that an operation does not have: register 0, which no section sets.
@@ -341,7 +340,7 @@ class Emitter {
   std::vector<std::uint32_t> registers_;  ///< there may be more of them than a program may have: `emit` refuses it then
   /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
   std::vector<std::uint32_t> wanted_;
-  std::vector<NodeId> last_use_;  ///< who is the last in that section to use it
+  std::vector<std::uint8_t> last_uses_;  ///< which operands nobody uses after it in that section, a bit each
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
   RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program that has none

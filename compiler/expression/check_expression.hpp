@@ -103,7 +103,7 @@ class ExpressionChecker {
   };
 
   Value number(const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal, Scope& scope);
-  std::optional<Value> bound(std::string_view name, Span span, Scope& scope);
+  Value bound(Scope::Binding& binding, Span span, Scope& scope);
   Value name(const Word& word, Scope& scope);
   Value unary(const SyntaxTree& tree, ExprId expr, const Unary& unary, Scope& scope);
   Value binary(const SyntaxTree& tree, ExprId expr, const Binary& binary, Scope& scope);

@@ -131,11 +131,9 @@ std::optional<Value> ExpressionChecker::private_name(const Word& word) {
 }
 
 /// The value of a name that the scope declares.
-std::optional<Value> ExpressionChecker::bound(std::string_view name, Span span, Scope& scope) {
-  auto* binding = scope.find(name);
-  if (!binding) return std::nullopt;
-  binding->used = true;
-  Value value = binding->value;
+Value ExpressionChecker::bound(Scope::Binding& binding, Span span, Scope& scope) {
+  binding.used = true;
+  Value value = binding.value;
   // A memory's name alone is what it holds under the hand.
   if (value.type == Value::Type::field && value.field->kind == Field::Kind::memory)
     value = at(*value.field, *input({"hand", span}, scope), span);
@@ -144,7 +142,7 @@ std::optional<Value> ExpressionChecker::bound(std::string_view name, Span span, 
 }
 
 Value ExpressionChecker::name(const Word& word, Scope& scope) {
-  if (const auto value = bound(word.text, word.span, scope)) return *value;
+  if (auto* binding = scope.find(word.text)) return bound(*binding, word.span, scope);
   if (const auto filled_in = input(word, scope)) return *filled_in;
   if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
   if (const auto constant = constant_named(word)) return *constant;

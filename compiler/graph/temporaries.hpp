@@ -16,8 +16,9 @@ class Temporaries {
     std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
     while (free_[word] == 0)
       if (++word == free_.size()) free_.push_back(~std::uint64_t{0});
-    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free_[word]));
-    free_[word] &= free_[word] - 1;
+    std::uint64_t& free = free_[word];
+    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free));
+    free &= free - 1;
     most_ = std::max(most_, first + 1);
     return first;
   }

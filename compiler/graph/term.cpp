@@ -128,7 +128,13 @@ TermId Terms::apply(Operation operation, TermId a, Span span) {
 }
 
 TermId Terms::apply(Operation operation, TermId a, TermId b, Span span) {
-  return add({.kind = TermKind::operation, .operation = operation, .a = a, .b = b, .span = span});
+  Term& term = terms_.emplace_back();
+  term.kind = TermKind::operation;
+  term.operation = operation;
+  term.a = a;
+  term.b = b;
+  term.span = span;
+  return entered(term);
 }
 
 TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span) {
