@@ -114,6 +114,7 @@ NodeId Derivatives::operator()(NodeId of) {
   if (known_[of] != none) return known_[of];
   // What has to be derived, the last first; as long as it waits it is known as `awaited`.
   std::vector<NodeId> needed;
+  needed.reserve(of + 1);
   known_[of] = awaited;
   std::size_t pending = 1;
   for (NodeId id = of + 1; pending > 0;) {
