@@ -42,6 +42,7 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
   SyntaxTree tree = parse(sources, source, diagnostics);
   ModuleSet modules = load_modules(std::move(tree), sources, resolver, diagnostics);
   CheckedModule checked = check(std::move(modules), sources, resolver, diagnostics);
+  if (diagnostics.all().empty()) return checked;
   std::vector<const SyntaxTree*> trees;
   for (const auto& tree : checked.modules.common->trees) trees.push_back(tree.get());
   for (const auto& module : checked.modules.modules) trees.push_back(&module->tree);

@@ -23,6 +23,8 @@ class MaterialChecker {
         errors_before_(surroundings.diagnostics.error_count()) {}
 
   CheckedMaterial check() {
+    constexpr std::size_t terms_of_a_statement = 16;  // or thereabouts
+    material_.terms.reserve(terms_of_a_statement * node_.physical.size());
     material_.name = node_.name.text;
     material_.span = node_.name.span;
     const auto assembled = assemble(declared_, surroundings_);

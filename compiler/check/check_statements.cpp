@@ -308,7 +308,8 @@ std::pair<std::string, double> StatementChecker::written_unit(const ParamStateme
         known = false;
         break;
       }
-      factor *= std::pow(found->factor, part.divides ? -part.exponent : part.exponent);
+      const int exponent = part.divides ? -part.exponent : part.exponent;
+      factor *= exponent == 1 ? found->factor : std::pow(found->factor, exponent);
       text += (text.empty() ? (part.divides ? "1/" : "") : part.divides ? "/" : " ") + part.name.text;
       if (part.exponent != 1) text += fmt::format("^{}", part.exponent);
     }

@@ -2,8 +2,8 @@
 
 namespace wale {
 
-Declarations::Declarations(const Declarations& beneath)
-    : shared_names(std::make_shared<DimensionNames>(beneath.names())), common(&beneath) {
+Declarations::Declarations(const Declarations& beneath, std::shared_ptr<SharedNames> names)
+    : shared_names(std::move(names)), common(&beneath) {
   dimensions.stand_on(beneath.dimensions);
   dimension_bounds.stand_on(beneath.dimension_bounds);
   units.stand_on(beneath.units);
@@ -62,10 +62,9 @@ std::vector<std::string> Declarations::percept_spellings() const {
 }
 
 const Threshold* Declarations::threshold(std::string_view cue, std::string_view device) const {
-  const Threshold* found = nullptr;
-  for (const Threshold* threshold : thresholds())
-    if (threshold->cue == cue && (!found || (found->device != device && threshold->device == device)))
-      found = threshold;
+  const Threshold* found = common ? common->threshold(cue, device) : nullptr;
+  for (const Threshold& threshold : own_thresholds)
+    if (threshold.cue == cue && (!found || (found->device != device && threshold.device == device))) found = &threshold;
   return found;
 }
 

@@ -129,10 +129,32 @@ struct HandDeclaration {
   Span span;
 };
 
+/// What a compilation calls dimensions and units: what every file does, until a file declares some of its own.
+class SharedNames {
+ public:
+  SharedNames() = default;
+  /// `beneath` lives as long.
+  explicit SharedNames(const DimensionNames& beneath) : known_(&beneath) {}
+  SharedNames(const SharedNames&) = delete;
+  SharedNames& operator=(const SharedNames&) = delete;
+
+  const DimensionNames& known() const { return *known_; }
+  /// For who adds to them.
+  DimensionNames& own() {
+    if (known_ != &own_) own_ = *known_;
+    known_ = &own_;
+    return own_;
+  }
+
+ private:
+  DimensionNames own_;
+  const DimensionNames* known_ = &own_;
+};
+
 /// Everything that one file may refer to by name. What every file knows (the embedded files) lies beneath, in `common`.
 struct Declarations {
   /// Of the whole compilation, so that a base dimension has one place in every file.
-  std::shared_ptr<DimensionNames> shared_names = std::make_shared<DimensionNames>();
+  std::shared_ptr<SharedNames> shared_names = std::make_shared<SharedNames>();
   const Declarations* common = nullptr;
   Names<Dimension> dimensions;
   Names<DimensionBounds> dimension_bounds;
@@ -152,15 +174,21 @@ struct Declarations {
   std::vector<Levels> own_levels;
 
   Declarations() = default;
-  /// A file's own names over those that every file knows.
-  explicit Declarations(const Declarations& beneath);
+  /// A file's own names over those that every file knows. `names` are those of the compilation, on the same ground.
+  explicit Declarations(const Declarations& beneath)
+      : Declarations(beneath, std::make_shared<SharedNames>(beneath.names())) {}
+  Declarations(const Declarations& beneath, std::shared_ptr<SharedNames> names);
   Declarations& operator=(const Declarations&) = delete;
 
-  DimensionNames& names() { return *shared_names; }
-  const DimensionNames& names() const { return *shared_names; }
+  const DimensionNames& names() const { return shared_names->known(); }
 
   /// Maps, thresholds, rules and levels need no names of their own; what every file knows comes first.
   std::vector<const Map*> maps() const;
+  template <typename Visit>
+  void each_map(const Visit& visit) const {
+    if (common) common->each_map(visit);
+    for (const Map& map : own_maps) visit(map);
+  }
   std::vector<const Threshold*> thresholds() const;
   std::vector<const Rule*> rules() const;
   std::vector<const Levels*> levels() const;
@@ -185,7 +213,8 @@ struct Module {
   Declarations declarations;
   std::string name;  ///< as diagnostics show it
 
-  Module(SyntaxTree syntax, const Declarations& common) : tree(std::move(syntax)), declarations(common) {}
+  Module(SyntaxTree syntax, const Declarations& common, std::shared_ptr<SharedNames> names)
+      : tree(std::move(syntax)), declarations(common, std::move(names)) {}
 };
 
 /// What every file knows: the embedded files, one list of names for all of them.

@@ -49,6 +49,30 @@ std::vector<std::size_t> writing_order(const std::vector<std::string>& base_unit
   return order;
 }
 
+/// Of one base dimension at most.
+bool is_single(const Dimension& dimension) {
+  return std::ranges::count(dimension.twelfths, 0) >= std::ptrdiff_t{Dimension::capacity} - 1;
+}
+
+/// The base units, at most one of each, by which one dimension is multiplied and divided to come to another.
+struct BaseSteps {
+  std::optional<std::size_t> times, over;
+};
+
+/// Nothing where it takes more, or none.
+std::optional<BaseSteps> steps_between(const Dimension& from, const Dimension& to) {
+  BaseSteps steps;
+  for (std::size_t i = 0; i < Dimension::capacity; ++i) {
+    const int change = to.twelfths[i] - from.twelfths[i];
+    if (change == 0) continue;
+    auto& step = change > 0 ? steps.times : steps.over;
+    if (step || std::abs(change) != Dimension::unit_exponent) return std::nullopt;
+    step = i;
+  }
+  if (!steps.times && !steps.over) return std::nullopt;
+  return steps;
+}
+
 }  // namespace
 
 std::optional<std::string> DimensionNames::name(const Dimension& dimension) const {
@@ -76,29 +100,22 @@ std::string DimensionNames::unit(const Dimension& dimension) const {
     return found->name;
   // N/m, N s/m and their like read better than their base units: one named unit times or over a base unit or two. Units
   // made of several come first, N s/m before kg/s, and nothing is told per kg, m/s^2 least of all.
-  const auto single = [&](const Named& named) {
-    return std::ranges::count(named.dimension.twelfths, 0) >= std::ptrdiff_t{Dimension::capacity} - 1;
+  const auto may_be_told = [&](std::optional<std::size_t> base) { return !base || base_units[*base] != "kg"; };
+  const auto is_base = [](const Dimension& unit, std::size_t i) {
+    return is_single(unit) && unit.twelfths[i] == Dimension::unit_exponent;
   };
-  for (const bool single_too : {false, true}) {
-    for (const auto& named : units)
-      for (std::size_t i = 0; i < base_units.size(); ++i) {
-        Dimension base;
-        base.twelfths[i] = Dimension::unit_exponent;
-        if (named.dimension == base || base_units[i] == "kg" || (single(named) && !single_too)) continue;
-        if (named.dimension / base == dimension) return fmt::format("{}/{}", named.name, base_units[i]);
-        if (named.dimension * base == dimension) return fmt::format("{} {}", named.name, base_units[i]);
+  for (const bool single_too : {false, true})
+    for (const bool both : {false, true})
+      for (const auto& named : units) {
+        if (!single_too && is_single(named.dimension)) continue;
+        const auto steps = steps_between(named.dimension, dimension);
+        if (!steps || (steps->times && steps->over) != both || !may_be_told(steps->times) || !may_be_told(steps->over))
+          continue;
+        if (both) return fmt::format("{} {}/{}", named.name, base_units[*steps->times], base_units[*steps->over]);
+        if (is_base(named.dimension, steps->times ? *steps->times : *steps->over)) continue;  // m^2 is not "m m"
+        if (steps->times) return fmt::format("{} {}", named.name, base_units[*steps->times]);
+        return fmt::format("{}/{}", named.name, base_units[*steps->over]);
       }
-    for (const auto& named : units)
-      for (std::size_t over = 0; over < base_units.size(); ++over)
-        for (std::size_t times = 0; times < base_units.size(); ++times) {
-          Dimension ratio;
-          ratio.twelfths[times] += Dimension::unit_exponent;
-          ratio.twelfths[over] -= Dimension::unit_exponent;
-          if (times != over && base_units[over] != "kg" && base_units[times] != "kg" &&
-              (single_too || !single(named)) && named.dimension * ratio == dimension)
-            return fmt::format("{} {}/{}", named.name, base_units[times], base_units[over]);
-        }
-  }
   std::string above, below;
   for (const std::size_t i : writing_order(base_units)) {
     const int exponent = dimension.twelfths[i];

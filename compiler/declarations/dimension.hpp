@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,7 +17,15 @@ struct Dimension {
   std::array<std::int16_t, capacity> twelfths{};
 
   bool plain() const { return *this == Dimension{}; }
-  friend bool operator==(const Dimension&, const Dimension&) = default;
+  friend bool operator==(const Dimension& a, const Dimension& b) {
+    const Words of_a = a.words(), of_b = b.words();
+    return of_a[0] == of_b[0] && of_a[1] == of_b[1];
+  }
+
+ private:
+  /// All exponents in two words, since they are compared all the time.
+  using Words = std::array<std::uint64_t, 2>;
+  Words words() const { return std::bit_cast<Words>(twelfths); }
 };
 
 Dimension operator*(Dimension a, const Dimension& b);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <ranges>
 
 #include "compiler/graph/temporaries.hpp"
 
@@ -114,7 +115,7 @@ class Emitter {
     };
     const auto runs_of = [&](const std::vector<NodeId>& nodes) {
       std::vector<SourcePlaces::Run> runs;
-      for (const NodeId id : nodes) {
+      for (const NodeId id : nodes | std::views::reverse) {
         const SourcePlaces::Run run = run_of(id);
         if (!runs.empty() && runs.back().file == run.file && runs.back().line == run.line)
           ++runs.back().instructions;
@@ -149,8 +150,8 @@ class Emitter {
       program_.constants.push_back(value);
       return static_cast<std::uint32_t>(first_constant + program_.constants.size() - 1);
     };
-    for (NodeId id = 0; id < graph_.size(); ++id) {
-      if (graph_[id].kind != Node::Kind::constant || !needed(id)) continue;
+    program_.constants.reserve(constant_nodes_.size() + 1);
+    for (const NodeId id : constant_nodes_) {
       registers_[id] = pooled(graph_[id].value);
       if (graph_.is_constant(id, 0.0f)) zero_register_ = at(id);
     }
@@ -158,35 +159,23 @@ class Emitter {
 
     const std::size_t first_parameter = first_constant + program_.constants.size();
     const std::size_t first_setup = first_parameter + program_.parameters.size();
+    for (const NodeId id : parameter_nodes_)
+      registers_[id] = static_cast<std::uint32_t>(first_parameter + graph_[id].index);
     std::size_t next = first_setup;
-    std::vector<NodeId> states;
-    for (NodeId id = 0; id < graph_.size(); ++id) {
-      if (!needed(id)) continue;
-      const Node& node = graph_[id];
-      switch (node.kind) {
-        case Node::Kind::constant:
-        case Node::Kind::component: break;
-        case Node::Kind::input: registers_[id] = node.index; break;
-        case Node::Kind::parameter: registers_[id] = static_cast<std::uint32_t>(first_parameter + node.index); break;
-        case Node::Kind::state: states.push_back(id); break;
-        case Node::Kind::operation:
-        case Node::Kind::peak:
-          if (node.rate != Rate::setup) break;
-          setup_nodes_.push_back(id);
-          registers_[id] = static_cast<std::uint32_t>(next);
-          next += steps_[id].width;
-      }
+    for (const NodeId id : setup_nodes_ | std::views::reverse) {
+      registers_[id] = static_cast<std::uint32_t>(next);
+      next += steps_[id].width;
     }
     program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(next - first_setup, register_limit));
-    for (const NodeId id : states) registers_[id] = static_cast<std::uint32_t>(next + graph_[id].index);
+    for (const NodeId id : state_nodes_) registers_[id] = static_cast<std::uint32_t>(next + graph_[id].index);
     first_temporary_ = next + lowered_.states.size();
   }
 
   /// Says what is needed, and what sections are to know of it.
   void find_needed() {
-    steps_.resize(graph_.size());
+    steps_.assign(graph_.size(), Step{.operands = {nothing_, nothing_, nothing_}});
     registers_.resize(graph_.size() + 1);
-    last_use_.resize(graph_.size() + 1, no_use);
+    last_uses_.resize(graph_.size());
     wanted_.resize(graph_.size() + 1, not_needed);
     const auto need = [&](NodeId id) { wanted_[id] = in_no_section; };
     need(nothing_);
@@ -199,38 +188,48 @@ class Emitter {
     for (const auto& percept : lowered_.percepts) need(percept.amplitude), need(percept.magnitude), need(percept.level);
 
     for (NodeId id = nothing_; id-- > 0;) {
-      if (!needed(id)) continue;
+      if (wanted_[id] == not_needed) continue;
       const Node& node = graph_[id];
-      if (node.kind == Node::Kind::component) {
-        need(node.a);
-      } else if (node.kind == Node::Kind::peak) {
-        need(node.a), need(node.b), need(node.c);
-        steps_[id].width = 1;
-      } else if (node.kind == Node::Kind::operation) {
-        steps_[id] = step_of(node);
-        for (const NodeId operand : steps_[id].operands) need(operand);
-        if (node.rate == Rate::tick) wanted_[id] = 0;
+      switch (node.kind) {
+        case Node::Kind::constant: constant_nodes_.push_back(id); break;
+        case Node::Kind::input: registers_[id] = node.index; break;
+        case Node::Kind::parameter: parameter_nodes_.push_back(id); break;
+        case Node::Kind::state: state_nodes_.push_back(id); break;
+        case Node::Kind::component: need(node.a); break;
+        case Node::Kind::peak:
+          need(node.a), need(node.b), need(node.c);
+          steps_[id].width = 1;
+          setup_nodes_.push_back(id);
+          break;
+        case Node::Kind::operation: {
+          Step& step = steps_[id];
+          look_at(node, step);
+          need(step.operands[0]), need(step.operands[1]), need(step.operands[2]);
+          if (node.rate == Rate::tick)
+            wanted_[id] = 0;
+          else
+            setup_nodes_.push_back(id);
+        }
       }
     }
+    std::ranges::reverse(constant_nodes_);
   }
 
-  bool needed(NodeId id) const { return wanted_[id] != not_needed; }
-
-  Step step_of(const Node& node) const {
+  /// Fills in the step of an operation; there are no operands in it yet.
+  void look_at(const Node& node, Step& step) const {
     const OperationFacts& known = facts(node.operation);
-    Step step{.operands = {nothing_, nothing_, nothing_},
-              .width = static_cast<std::uint8_t>(known.results),
-              .operation = node.operation};
-    const std::array<NodeId, 3> operands{node.a, node.b, node.c};
-    for (int i = 0; i < known.operands; ++i) {
-      step.operands[i] = operands[i];
-      if (const Node& operand = graph_[operands[i]]; operand.kind == Node::Kind::component) {
-        step.operands[i] = operand.a;
-        step.results[i] = static_cast<RegisterNumber>(operand.index);
-      }
-    }
+    step.width = static_cast<std::uint8_t>(known.results);
+    step.operation = node.operation;
+    const auto take = [&](std::size_t i, NodeId id) {
+      const Node& operand = graph_[id];
+      const bool component = operand.kind == Node::Kind::component;
+      step.operands[i] = component ? operand.a : id;
+      step.results[i] = static_cast<RegisterNumber>(component ? operand.index : 0);
+    };
+    if (known.operands > 0) take(0, node.a);
+    if (known.operands > 1) take(1, node.b);
+    if (known.operands > 2) take(2, node.c);
     if (known.fields[2] == 't' || known.fields[2] == 'g') step.results[2] = static_cast<RegisterNumber>(node.index);
-    return step;
   }
 
   /// Where a value is found.
@@ -242,15 +241,17 @@ class Emitter {
 
   Instruction instruction(NodeId id) const {
     const Step& step = steps_[id];
+    const std::uint32_t* const registers = registers_.data();
     const auto operand = [&](std::size_t i) {
-      return static_cast<RegisterNumber>(registers_[step.operands[i]] + step.results[i]);
+      return static_cast<RegisterNumber>(registers[step.operands[i]] + step.results[i]);
     };
-    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers_[id]), operand(0),
+    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers[id]), operand(0),
             operand(1), operand(2)};
   }
 
   void emit_setup() {
-    for (const NodeId id : setup_nodes_) {
+    program_.setup.reserve(setup_nodes_.size());
+    for (const NodeId id : setup_nodes_ | std::views::reverse) {
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::operation) {
         program_.setup.push_back(instruction(id));
@@ -270,50 +271,58 @@ class Emitter {
     }
   }
 
-  /// What a section has to work out for its roots, operands first; `last_use_` says until when each is needed.
-  std::vector<NodeId> order_for(const std::vector<NodeId>& roots) {
+  /// What a section has to work out for its roots, the last first. Values are asked for from the last to the first, so
+  /// whoever is first to ask for one is last to use it: `last_uses_` says of which operands, a bit each.
+  std::vector<NodeId> backwards_from(const std::vector<NodeId>& roots) {
     const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
+    std::uint32_t* const wanted = wanted_.data();
     std::size_t pending = 0;  // asked for and not looked at yet
-    // Values are asked for from the last to the first, so whoever is first to ask for one is last to use it.
-    const auto want = [&](NodeId id, NodeId user) {
-      if (wanted_[id] >= section) return;
-      wanted_[id] = section;
-      last_use_[id] = user;
+    const auto want = [&](NodeId id) -> unsigned {
+      if (wanted[id] >= section) return 0;
+      wanted[id] = section;
       ++pending;
+      return 1;
     };
     NodeId end = 0;
     for (const NodeId root : roots) {
       const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
-      want(id, no_use);
+      want(id);
       end = std::max(end, id + 1);
     }
-    backwards_.clear();
+    std::vector<NodeId> backwards;
+    if (pending > 0) backwards.reserve(end);
+    const Step* const steps = steps_.data();
+    std::uint8_t* const last_uses = last_uses_.data();
     for (NodeId id = end; pending > 0;) {
-      if (wanted_[--id] != section) continue;
+      if (wanted[--id] != section) continue;
       --pending;
-      backwards_.push_back(id);
-      const auto& operands = steps_[id].operands;
-      want(operands[0], id), want(operands[1], id), want(operands[2], id);
+      backwards.push_back(id);
+      const auto& operands = steps[id].operands;
+      const unsigned a = want(operands[0]), b = want(operands[1]), c = want(operands[2]);
+      last_uses[id] = static_cast<std::uint8_t>(a | b << 1 | c << 2);
     }
-    return {backwards_.rbegin(), backwards_.rend()};
+    return backwards;
   }
 
   /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `registers_` the
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
-    const std::vector<NodeId>& order = section_nodes_.emplace_back(order_for(roots));
+    const std::vector<NodeId>& backwards = section_nodes_.emplace_back(backwards_from(roots));
     Temporaries temporaries;
-    std::vector<Instruction> code(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const NodeId id = order[i];
-      registers_[id] = static_cast<std::uint32_t>(first_temporary_ + temporaries.take(steps_[id].width));
-      code[i] = instruction(id);
-      const auto end_of = [&](NodeId operand) {
-        if (last_use_[operand] == id)  // giving back twice is giving back once
-          temporaries.give_back(registers_[operand] - first_temporary_, steps_[operand].width);
-      };
-      const auto& operands = steps_[id].operands;
-      end_of(operands[0]), end_of(operands[1]), end_of(operands[2]);
+    std::vector<Instruction> code(backwards.size());
+    Instruction* next = code.data();
+    const Step* const steps = steps_.data();
+    std::uint32_t* const registers = registers_.data();
+    const auto first_temporary = static_cast<std::uint32_t>(first_temporary_);
+    for (std::size_t i = backwards.size(); i-- > 0;) {
+      const NodeId id = backwards[i];
+      const Step& step = steps[id];
+      registers[id] = first_temporary + static_cast<std::uint32_t>(temporaries.take(step.width));
+      *next++ = instruction(id);
+      for (unsigned last = last_uses_[id]; last != 0; last &= last - 1) {
+        const NodeId operand = step.operands[static_cast<std::size_t>(std::countr_zero(last))];
+        temporaries.give_back(registers[operand] - first_temporary, steps[operand].width);
+      }
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
@@ -323,7 +332,6 @@ class Emitter {
   const LoweredMaterial& lowered_;
   const SolvedMaterial& material_;
   PatchProgram program_;
-  static constexpr NodeId no_use = ~NodeId{0};  ///< of a root, needed to the end, and of what no section works out
   static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
 
   /// Stands for the operands that an operation does not have: register 0, which no section sets.
@@ -332,13 +340,13 @@ class Emitter {
   std::vector<std::uint32_t> registers_;  ///< there may be more of them than a program may have: `emit` refuses it then
   /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
   std::vector<std::uint32_t> wanted_;
-  std::vector<NodeId> last_use_;   ///< who is the last in that section to use it
-  std::vector<NodeId> backwards_;  ///< what the section at work needs, the last first
+  std::vector<std::uint8_t> last_uses_;  ///< which operands nobody uses after it in that section, a bit each
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
-  RegisterNumber zero_register_ = 0;                ///< of the constant 0: the relief of a program that has none
-  std::vector<NodeId> setup_nodes_;                 ///< what setup works out, an instruction each
-  std::vector<std::vector<NodeId>> section_nodes_;  ///< the same of the other sections, made in the format's order
+  RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program that has none
+  std::vector<NodeId> constant_nodes_, parameter_nodes_, state_nodes_;  ///< those that are needed
+  std::vector<NodeId> setup_nodes_;                                     ///< what setup works out, an instruction each
+  std::vector<std::vector<NodeId>> section_nodes_;  ///< of the other sections, the last first; in the format's order
 };
 
 }  // namespace

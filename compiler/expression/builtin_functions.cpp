@@ -31,33 +31,34 @@ Value held(Terms& terms, const Value& value, TermId ceiling, Span span) {
 }
 
 const std::vector<Builtin>& builtins() {
+  using Call = const BuiltinFunctions&;
   static const std::vector<Builtin> table{
-      {"abs", {"value"}, 1},
-      {"floor", {"value"}, 1},
-      {"sqrt", {"value"}, 1},
-      {"sin", {"angle"}, 1},
-      {"cos", {"angle"}, 1},
-      {"atan2", {"y", "x"}, 2},
-      {"exp", {"value"}, 1},
-      {"log", {"value"}, 1},
-      {"log2", {"value"}, 1},
-      {"log10", {"value"}, 1},
-      {"normal", {"value"}, 1},
-      {"lattice", {"a", "b", "c"}, 1},
-      {"min", {"a", "b"}, 2},
-      {"max", {"a", "b"}, 2},
-      {"vector", {"x", "y"}, 2},
-      {"length", {"vector"}, 1},
-      {"dot", {"a", "b"}, 2},
-      {"normalise", {"vector"}, 1},
-      {"within", {"value", "low", "high"}, 3},
-      {"grad", {"height"}, 1, true},
-      {"peak", {"value"}, 1, true},
-      {"hold", {"value", "ceiling"}, 2},
-      {"phase", {"frequency"}, 1, true},
-      {"image", {"file", "scale", "height", "smooth"}, 3, true},
-      {"relief", {"file", "scale", "height", "smooth"}, 3},
-      {"table", {"file", "place", "value"}, 1},
+      {"abs", {"value"}, 1, [](Call of) { return of.absolute(); }},
+      {"floor", {"value"}, 1, [](Call of) { return of.of_plain(Operation::floor); }},
+      {"sqrt", {"value"}, 1, [](Call of) { return of.square_root(); }},
+      {"sin", {"angle"}, 1, [](Call of) { return of.of_plain(Operation::sine); }},
+      {"cos", {"angle"}, 1, [](Call of) { return of.of_plain(Operation::cosine); }},
+      {"atan2", {"y", "x"}, 2, [](Call of) { return of.arctangent(); }},
+      {"exp", {"value"}, 1, [](Call of) { return of.of_plain(Operation::exp2, log2_e); }},
+      {"log", {"value"}, 1, [](Call of) { return of.of_plain(Operation::log2, 1, ln_2); }},
+      {"log2", {"value"}, 1, [](Call of) { return of.of_plain(Operation::log2); }},
+      {"log10", {"value"}, 1, [](Call of) { return of.of_plain(Operation::log2, 1, log10_2); }},
+      {"normal", {"value"}, 1, [](Call of) { return of.of_plain(Operation::normal); }},
+      {"lattice", {"a", "b", "c"}, 1, [](Call of) { return of.lattice(); }},
+      {"min", {"a", "b"}, 2, [](Call of) { return of.extreme(Operation::minimum); }},
+      {"max", {"a", "b"}, 2, [](Call of) { return of.extreme(Operation::maximum); }},
+      {"vector", {"x", "y"}, 2, [](Call of) { return of.vector(); }},
+      {"length", {"vector"}, 1, [](Call of) { return of.length(); }},
+      {"dot", {"a", "b"}, 2, [](Call of) { return of.dot(); }},
+      {"normalise", {"vector"}, 1, [](Call of) { return of.normalise(); }},
+      {"within", {"value", "low", "high"}, 3, [](Call of) { return of.within(); }},
+      {"grad", {"height"}, 1, [](Call of) { return of.gradient(); }, true},
+      {"peak", {"value"}, 1, [](Call of) { return of.peak(); }, true},
+      {"hold", {"value", "ceiling"}, 2, [](Call of) { return of.hold(); }},
+      {"phase", {"frequency"}, 1, [](Call of) { return of.phase(); }, true},
+      {"image", {"file", "scale", "height", "smooth"}, 3, [](Call of) { return of.image(); }, true},
+      {"relief", {"file", "scale", "height", "smooth"}, 3, [](Call of) { return of.relief(); }},
+      {"table", {"file", "place", "value"}, 1, [](Call of) { return of.table(); }},
   };
   return table;
 }
@@ -295,33 +296,10 @@ Value BuiltinFunctions::phase() const {
   return scalar(known->second);
 }
 
-Value BuiltinFunctions::dispatch(std::string_view name) const {
-  if (name == "abs") return absolute();
-  if (name == "sqrt") return square_root();
-  if (name == "floor") return of_plain(Operation::floor);
-  if (name == "sin") return of_plain(Operation::sine);
-  if (name == "cos") return of_plain(Operation::cosine);
-  if (name == "atan2") return arctangent();
-  if (name == "exp") return of_plain(Operation::exp2, log2_e);
-  if (name == "log") return of_plain(Operation::log2, 1, ln_2);
-  if (name == "log2") return of_plain(Operation::log2);
-  if (name == "log10") return of_plain(Operation::log2, 1, log10_2);
-  if (name == "normal") return of_plain(Operation::normal);
-  if (name == "lattice") return lattice();
-  if (name == "min") return extreme(Operation::minimum);
-  if (name == "max") return extreme(Operation::maximum);
-  if (name == "vector") return vector();
-  if (name == "length") return length();
-  if (name == "dot") return dot();
-  if (name == "normalise") return normalise();
-  if (name == "within") return within();
-  if (name == "grad") return gradient();
-  if (name == "peak") return peak();
-  if (name == "hold") return hold();
-  if (name == "phase") return phase();
-  if (name == "table") return table();
+/// A relief asked where the hand is.
+Value BuiltinFunctions::image() const {
   const Value field = relief();
-  if (name == "relief" || field.failed()) return field;
+  if (field.failed()) return field;
   const Value hand{.type = Value::Type::vector,
                    .x = terms().input(Input::x, span),
                    .y = terms().input(Input::y, span),

@@ -8,11 +8,14 @@
 
 namespace wale {
 
-/// A function of the compiler's own: its name, its arguments, how many of them are needed.
+struct BuiltinFunctions;
+
+/// A function of the compiler's own: its name, its arguments, how many of them are needed, and what it makes of them.
 struct Builtin {
   std::string_view name;
   std::vector<std::string_view> formals;
   std::size_t needed;
+  Value (*apply)(const BuiltinFunctions&);
   bool of_places = false;  ///< makes sense on a patch only
 };
 
@@ -28,9 +31,6 @@ struct BuiltinFunctions {
   const std::vector<Actual>& actuals;
   Span span;
 
-  Value dispatch(std::string_view name) const;
-
- private:
   Terms& terms() const { return checker.terms_; }
   const Value& value(std::size_t i) const { return actuals[i].value; }
   Value failed() const { return checker.failed(span); }
@@ -67,6 +67,7 @@ struct BuiltinFunctions {
   Value hold() const;
   Value phase() const;
   Value relief() const;
+  Value image() const;
   Value table() const;
 };
 

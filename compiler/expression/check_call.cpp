@@ -87,18 +87,19 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
 
 Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
-  if (auto* binding = scope.find(call.callee.text); binding && binding->value.type == Value::Type::field) {
+  auto* binding = scope.find(call.callee.text);
+  if (binding && binding->value.type == Value::Type::field) {
     binding->used = true;
     return call_field(tree, expr, call, binding->value, scope);
   }
-  const auto* function = declarations_->functions.find(call.callee.text);
-  if (auto* binding = scope.find(call.callee.text); binding && !function && binding->value.failed()) {
+  const Builtin* builtin = builtin_named(call.callee.text);
+  const auto* function = builtin ? nullptr : declarations_->functions.find(call.callee.text);  // no name is both
+  if (binding && !function && binding->value.failed()) {
     binding->used = true;
     return failed(span);  // reported where it was declared
   }
   if (function) return call_function(tree, expr, call, *function, scope);
   if (call.callee.text == "curve") return curve(tree, expr, call, scope);
-  const Builtin* builtin = builtin_named(call.callee.text);
   if (!builtin) {
     if (declarations_->constants.contains(call.callee.text)) {
       const Value constant = name(call.callee, scope);
@@ -108,7 +109,8 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
     for (const auto& argument : call.arguments) check(tree, argument.value, scope);  // they have errors of their own
     return unknown_function(call, scope);
   }
-  std::vector<Actual> actuals;
+  Arguments arguments(*this);
+  std::vector<Actual>& actuals = arguments.actuals;
   if (!bind_arguments(tree, call, builtin->formals, scope, actuals)) return failed(span);
   for (std::size_t i = 0; i < builtin->needed; ++i)
     if (!actuals[i].given)
@@ -123,7 +125,7 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
     return report(Code::not_constant, span,
                   fmt::format("`{}` is of places on a patch, and a constant is due here", builtin->name), "",
                   "use it in a material's physical block");
-  return BuiltinFunctions{*this, actuals, span}.dispatch(builtin->name);
+  return builtin->apply(BuiltinFunctions{*this, actuals, span});
 }
 
 Value ExpressionChecker::unknown_function(const Call& call, Scope& scope) {
@@ -167,7 +169,8 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   std::vector<std::string_view> formals;
   formals.reserve(parameters.size());
   for (const auto& parameter : parameters) formals.push_back(parameter.name.text);
-  std::vector<Actual> actuals;
+  Arguments arguments(*this);
+  std::vector<Actual>& actuals = arguments.actuals;
   const bool bound = bind_arguments(tree, call, formals, scope, actuals);
   bool good = bound;
   for (std::size_t i = 0; i < formals.size(); ++i) {
@@ -186,7 +189,7 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
     good = false;
   }
   if (!good) return failed(span);
-  return call_with(function, std::move(actuals), scope, span);
+  return expanded(function, actuals, scope, span);
 }
 
 std::optional<Dimension> ExpressionChecker::dimension_of(const FormalParameter& formal,
@@ -197,8 +200,13 @@ std::optional<Dimension> ExpressionChecker::dimension_of(const FormalParameter& 
 
 Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
                                    const Scope& scope, Span span) {
+  actuals.resize(function.node->parameters.size());
+  return expanded(function, actuals, scope, span);
+}
+
+Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals,
+                                  const Scope& scope, Span span) {
   const auto& declaration = *function.node;
-  actuals.resize(declaration.parameters.size());
   Scope inner;
   inner.hand = scope.hand;
   inner.reserve(actuals.size());

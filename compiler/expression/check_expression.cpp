@@ -84,7 +84,8 @@ Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope
                                  return Value{.type = Value::Type::text, .text = literal.text, .span = span};
                                },
                                [&](const NameUse& use) {
-                                 return name({use.name, span}, scope);
+                                 auto* binding = scope.find(use.name);
+                                 return binding ? bound(*binding, span, scope) : name({use.name, span}, scope);
                                },
                                [&](const Unary& node) { return unary(tree, expr, node, scope); },
                                [&](const Binary& node) { return binary(tree, expr, node, scope); },

@@ -87,7 +87,23 @@ class ExpressionChecker {
     friend bool operator==(const Callee&, const Callee&) = default;
   };
 
+  /// Room for the arguments of a call, used again for later ones: nearly everything in an expression is a call.
+  struct Arguments {
+    ExpressionChecker& checker;
+    std::vector<Actual> actuals;
+
+    explicit Arguments(ExpressionChecker& of) : checker(of) {
+      if (checker.rooms_.empty()) return;
+      actuals = std::move(checker.rooms_.back());
+      checker.rooms_.pop_back();
+    }
+    ~Arguments() { checker.rooms_.push_back(std::move(actuals)); }
+    Arguments(const Arguments&) = delete;
+    Arguments& operator=(const Arguments&) = delete;
+  };
+
   Value number(const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal, Scope& scope);
+  Value bound(Scope::Binding& binding, Span span, Scope& scope);
   Value name(const Word& word, Scope& scope);
   Value unary(const SyntaxTree& tree, ExprId expr, const Unary& unary, Scope& scope);
   Value binary(const SyntaxTree& tree, ExprId expr, const Binary& binary, Scope& scope);
@@ -108,6 +124,8 @@ class ExpressionChecker {
   bool has_meaning(std::string_view name, const Scope& scope) const;
   bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string_view>& formals,
                       Scope& scope, std::vector<Actual>& actuals);
+  Value expanded(const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals, const Scope& scope,
+                 Span span);
   void record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span);
 
   Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
@@ -165,6 +183,7 @@ class ExpressionChecker {
   std::optional<Span> outside_;  ///< what terms were attributed to before the outermost call
   std::vector<Callee> callees_;
   std::vector<std::unique_ptr<const Field>> fields_;  ///< that values point to
+  std::vector<std::vector<Actual>> rooms_;            ///< of `Arguments` that are done with
 };
 
 /// What makes a value change while the hand rests, in words.

@@ -130,16 +130,19 @@ std::optional<Value> ExpressionChecker::private_name(const Word& word) {
                     .see(found->second, "declared here, without `export`"));
 }
 
+/// The value of a name that the scope declares.
+Value ExpressionChecker::bound(Scope::Binding& binding, Span span, Scope& scope) {
+  binding.used = true;
+  Value value = binding.value;
+  // A memory's name alone is what it holds under the hand.
+  if (value.type == Value::Type::field && value.field->kind == Field::Kind::memory)
+    value = at(*value.field, *input({"hand", span}, scope), span);
+  value.span = span;
+  return value;
+}
+
 Value ExpressionChecker::name(const Word& word, Scope& scope) {
-  if (auto* binding = scope.find(word.text)) {
-    binding->used = true;
-    Value value = binding->value;
-    // A memory's name alone is what it holds under the hand.
-    if (value.type == Value::Type::field && value.field->kind == Field::Kind::memory)
-      value = at(*value.field, *input({"hand", word.span}, scope), word.span);
-    value.span = word.span;
-    return value;
-  }
+  if (auto* binding = scope.find(word.text)) return bound(*binding, word.span, scope);
   if (const auto filled_in = input(word, scope)) return *filled_in;
   if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
   if (const auto constant = constant_named(word)) return *constant;

@@ -117,8 +117,8 @@ class Scope {
   }
 
  private:
-  /// Up to so many names, a function's arguments for the most part, are faster looked through than looked up.
-  static constexpr std::size_t few = 8;
+  /// Up to so many names, those of a function or of most materials, are faster looked through than looked up.
+  static constexpr std::size_t few = 20;
 
   std::size_t index_of(std::string_view name) const {
     if (bindings_.size() > few) {

@@ -111,17 +111,27 @@ NodeId Derivatives::operator()(NodeId of) {
   Graph& graph = graph_;
   const NodeId zero = graph.constant(0);
   if (known_.size() <= of) known_.resize(of + 1, none);
-  std::vector<char> needed(of + 1, false);  // as bool: bits are slower to look at one by one
-  needed[of] = known_[of] == none;
-  for (NodeId id = of + 1; id-- > 0;) {
-    if (!needed[id]) continue;
+  if (known_[of] != none) return known_[of];
+  // What has to be derived, the last first; as long as it waits it is known as `awaited`.
+  std::vector<NodeId> needed;
+  needed.reserve(of + 1);
+  known_[of] = awaited;
+  std::size_t pending = 1;
+  for (NodeId id = of + 1; pending > 0;) {
+    if (known_[--id] != awaited) continue;
+    --pending;
     known_[id] = zero;  // unless there is more to say, below
     if (graph[id].rate != Rate::tick) continue;
-    for (const NodeId operand : graph.operands(id)) needed[operand] = known_[operand] == none;
+    needed.push_back(id);
+    for (const NodeId operand : graph.operands(id)) {
+      if (known_[operand] != none) continue;
+      known_[operand] = awaited;
+      ++pending;
+    }
   }
 
-  for (NodeId id = 0; id <= of; ++id) {
-    if (!needed[id] || graph[id].rate != Rate::tick) continue;
+  for (auto next = needed.rbegin(); next != needed.rend(); ++next) {
+    const NodeId id = *next;
     const Node node = graph[id];  // a copy: the graph grows below
     graph.attribute(node.span);
     switch (node.kind) {

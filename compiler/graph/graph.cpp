@@ -1,6 +1,7 @@
 #include "compiler/graph/graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "compiler/graph/term.hpp"
@@ -17,7 +18,7 @@ bool same(const Node& a, const Node& b) {
 }
 
 /// Of what `same` compares: each word times an odd number of its own; what is above goes into what is below.
-std::uint32_t hash_of(const Node& node) {
+inline std::uint32_t hash_of(const Node& node) {
   const std::uint64_t what = static_cast<std::uint64_t>(node.kind) << 40 |
                              static_cast<std::uint64_t>(node.operation) << 32 |
                              std::bit_cast<std::uint32_t>(node.value);
@@ -27,6 +28,16 @@ std::uint32_t hash_of(const Node& node) {
       what * 0x9e3779b97f4a7c15u ^ a_and_b * 0xbf58476d1ce4e5b9u ^ c_and_index * 0x94d049bb133111ebu;
   return static_cast<std::uint32_t>(hash ^ hash >> 32);
 }
+
+/// How often the result of an operation is worked out at least, by number: a table is not there while the compiler
+/// folds.
+constexpr auto least_rate = [] {
+  std::array<Rate, operation_table.size()> table{};
+  table[static_cast<std::size_t>(Operation::sample)] = Rate::setup;
+  table[static_cast<std::size_t>(Operation::recall)] = Rate::tick;
+  table[static_cast<std::size_t>(Operation::cell)] = Rate::tick;
+  return table;
+}();
 
 }  // namespace
 
@@ -46,17 +57,20 @@ void Graph::enlarge_table(std::size_t slots) {
   }
 }
 
-NodeId Graph::add(const Node& node) {
+[[gnu::always_inline]] inline NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
   const std::uint32_t hash = hash_of(node);
-  std::size_t at = hash & (table_.size() - 1);
-  for (; table_[at].node != none; at = (at + 1) & (table_.size() - 1))
-    if (table_[at].hash == hash && same(nodes_[table_[at].node], node)) return table_[at].node;
-  table_[at] = {hash, static_cast<NodeId>(nodes_.size())};
+  Slot* const slots = table_.data();
+  const std::size_t last = table_.size() - 1;
+  std::size_t at = hash & last;
+  for (; slots[at].node != none; at = (at + 1) & last)
+    if (slots[at].hash == hash && same(nodes_[slots[at].node], node)) return slots[at].node;
+  const auto added = static_cast<NodeId>(nodes_.size());
+  slots[at] = {hash, added};
   ++in_table_;
-  nodes_.push_back(node);
-  if (node.span == Span{}) nodes_.back().span = place_;
-  return table_[at].node;
+  Node& entered = nodes_.emplace_back(node);
+  if (node.span == Span{}) entered.span = place_;
+  return added;
 }
 
 NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }
@@ -78,29 +92,37 @@ NodeId Graph::state(std::uint32_t index, Span span) {
   return add({.kind = Node::Kind::state, .index = index, .rate = Rate::tick, .span = span});
 }
 
-NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, Span span) {
-  const NodeId operands[] = {a, b, c};
-  const int count = facts(operation).operands;
-  const bool recalls = operation == Operation::recall || operation == Operation::cell;
-  bool constants = operation != Operation::sample && !recalls;
-  // A table is not there while the compiler folds.
-  Rate rate = recalls ? Rate::tick : operation == Operation::sample ? Rate::setup : Rate::constant;
-  for (int i = 0; i < count; ++i) {
-    constants = constants && nodes_[operands[i]].kind == Node::Kind::constant;
-    rate = std::max(rate, nodes_[operands[i]].rate);
-  }
-  const auto value = [&](int i) { return i < count ? nodes_[operands[i]].value : 0.0f; };
-  if (constants) return constant(result_of(operation, value(0), value(1), value(2)));
+NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, const Span& span) {
+  const auto number = static_cast<std::size_t>(operation);
+  const int count = operation_table[number].operands;
+  Rate rate = least_rate[number];
+  if (count > 0) rate = std::max(rate, nodes_[a].rate);
+  if (count > 1) rate = std::max(rate, nodes_[b].rate);
+  if (count > 2) rate = std::max(rate, nodes_[c].rate);
+  if (rate == Rate::constant)  // of what is worked out once, only constants are nodes
+    return constant(result_of(operation, count > 0 ? nodes_[a].value : 0, count > 1 ? nodes_[b].value : 0,
+                              count > 2 ? nodes_[c].value : 0));
 
   // Only what is exact for every float is simplified: the value must not depend on what the compiler knew.
-  if (operation == Operation::multiply && is_constant(b, 1)) return a;
-  if (operation == Operation::multiply && is_constant(a, 1)) return b;
-  if (operation == Operation::divide && is_constant(b, 1)) return a;
-  if (operation == Operation::subtract && is_constant(b, 0)) return a;
-  if (operation == Operation::negate && nodes_[a].kind == Node::Kind::operation &&
-      nodes_[a].operation == Operation::negate)
-    return nodes_[a].a;
-  if (operation == Operation::select && nodes_[a].kind == Node::Kind::constant) return nodes_[a].value != 0 ? b : c;
+  switch (operation) {
+    case Operation::multiply:
+      if (is_constant(b, 1)) return a;
+      if (is_constant(a, 1)) return b;
+      break;
+    case Operation::divide:
+      if (is_constant(b, 1)) return a;
+      break;
+    case Operation::subtract:
+      if (is_constant(b, 0)) return a;
+      break;
+    case Operation::negate:
+      if (nodes_[a].kind == Node::Kind::operation && nodes_[a].operation == Operation::negate) return nodes_[a].a;
+      break;
+    case Operation::select:
+      if (nodes_[a].kind == Node::Kind::constant) return nodes_[a].value != 0 ? b : c;
+      break;
+    default: break;
+  }
   return add({.kind = Node::Kind::operation,
               .operation = operation,
               .a = a,

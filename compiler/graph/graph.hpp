@@ -64,7 +64,8 @@ class Graph {
   NodeId input(Input input, Span span = {});
   NodeId parameter(std::uint32_t index, Span span = {});
   NodeId state(std::uint32_t index, Span span = {});
-  NodeId apply(Operation operation, NodeId a, NodeId b = 0, NodeId c = 0, std::uint32_t table = 0, Span span = {});
+  NodeId apply(Operation operation, NodeId a, NodeId b = 0, NodeId c = 0, std::uint32_t table = 0,
+               const Span& span = {});
   NodeId component(NodeId sample, std::uint32_t index, Span span = {});
   NodeId peak(NodeId value, NodeId half_width, NodeId half_height, Span span = {});
   /// The `limit` that ends an output: never folded or shared, and always worked out in the tick.
@@ -126,7 +127,7 @@ class Derivatives {
   static By place(int axis);
 
  private:
-  static constexpr NodeId none = ~NodeId{0};
+  static constexpr NodeId none = ~NodeId{0}, awaited = none - 1;
 
   bool moves(const Node& node) const;
   NodeId of_component(const Node& node);

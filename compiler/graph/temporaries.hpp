@@ -16,8 +16,9 @@ class Temporaries {
     std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
     while (free_[word] == 0)
       if (++word == free_.size()) free_.push_back(~std::uint64_t{0});
-    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free_[word]));
-    free_[word] &= free_[word] - 1;
+    std::uint64_t& free = free_[word];
+    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free));
+    free &= free - 1;
     most_ = std::max(most_, first + 1);
     return first;
   }
@@ -35,7 +36,8 @@ class Temporaries {
     return first;
   }
   void give_back(std::size_t first, std::size_t count) {
-    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
+    free_[first / word_bits] |= bit(first);
+    for (std::size_t i = first + 1; i < first + count; ++i) free_[i / word_bits] |= bit(i);
   }
   std::size_t most() const { return most_; }
 

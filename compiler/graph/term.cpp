@@ -1,52 +1,115 @@
 #include "compiler/graph/term.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "runtime/machine/arithmetic.hpp"
+
 namespace wale {
 
-Dependence Terms::dependence_of(const Term& term) const {
+double result_in_double(Operation operation, double a, double b, double c) {
+  switch (operation) {
+    case Operation::add: return a + b;
+    case Operation::subtract: return a - b;
+    case Operation::multiply: return a * b;
+    case Operation::divide: return a / b;
+    case Operation::negate: return -a;
+    case Operation::absolute: return std::abs(a);
+    case Operation::minimum: return b < a ? b : a;
+    case Operation::maximum: return a < b ? b : a;
+    case Operation::floor: return std::floor(a);
+    case Operation::square_root: return std::sqrt(a);
+    case Operation::less: return a < b ? 1 : 0;
+    case Operation::select: return a != 0 ? b : c;
+    case Operation::sine: return std::sin(a);
+    case Operation::cosine: return std::cos(a);
+    case Operation::exp2: return std::exp2(a);
+    case Operation::log2: return std::log2(a);
+    case Operation::normal: return 0.5 * std::erfc(-a * M_SQRT1_2);
+    case Operation::limit: return std::isnan(a) || !(b >= 0) ? 0 : std::min(std::max(a, -b), b);
+    case Operation::arctangent: return std::atan2(a, b);
+    case Operation::hash: return hash_of(static_cast<float>(a), static_cast<float>(b), static_cast<float>(c));
+    case Operation::sample:
+    case Operation::peak:
+    case Operation::recall:
+    case Operation::cell: break;
+  }
+  return std::nan("");
+}
+
+namespace {
+
+Dependence dependence_of_input(Input input) {
+  switch (input) {
+    case Input::x:
+    case Input::y: return Dependence::position;
+    case Input::velocity_x:
+    case Input::velocity_y:
+    case Input::raw_velocity_x:
+    case Input::raw_velocity_y: return Dependence::velocity;
+    case Input::patch_half_width:
+    case Input::patch_half_height:
+    case Input::patch_rim:
+    case Input::probe:
+    case Input::seconds_per_tick: return Dependence::parameter;
+    default: return Dependence::moment;
+  }
+}
+
+/// What the result of an operation changes with besides what its operands do, by number.
+constexpr auto own_dependence = [] {
+  std::array<std::uint8_t, operation_table.size()> table{};
+  table[static_cast<std::size_t>(Operation::sample)] = Dependence::table;
+  table[static_cast<std::size_t>(Operation::recall)] = Dependence::table | Dependence::state;
+  table[static_cast<std::size_t>(Operation::cell)] = Dependence::table | Dependence::state;
+  return table;
+}();
+
+}  // namespace
+
+inline void Terms::find_dependence(Term& term) const {
   switch (term.kind) {
-    case TermKind::literal: return {};
-    case TermKind::input:
-      switch (term.input()) {
-        case Input::x:
-        case Input::y: return Dependence::position;
-        case Input::velocity_x:
-        case Input::velocity_y:
-        case Input::raw_velocity_x:
-        case Input::raw_velocity_y: return Dependence::velocity;
-        case Input::patch_half_width:
-        case Input::patch_half_height:
-        case Input::patch_rim:
-        case Input::probe:
-        case Input::seconds_per_tick: return Dependence::parameter;
-        default: return Dependence::moment;
-      }
-    case TermKind::state: return Dependence::state;
+    case TermKind::literal: term.dependence = {}; return;
+    case TermKind::input: term.dependence = dependence_of_input(term.input()); return;
+    case TermKind::state: term.dependence = Dependence::state; return;
     case TermKind::cells:
     case TermKind::parameter:
     case TermKind::magnitude:
-    case TermKind::carrier: return Dependence::parameter;
-    case TermKind::open: return Dependence::open | Dependence::parameter;
+    case TermKind::carrier: term.dependence = Dependence::parameter; return;
+    case TermKind::open: term.dependence = Dependence::open | Dependence::parameter; return;
     case TermKind::operation: {
-      Dependence all;
-      for (const TermId operand : operands(term)) all |= dependence(operand);
-      if (term.operation == Operation::recall || term.operation == Operation::cell) all |= Dependence::state;
-      return all;
+      const auto number = static_cast<std::size_t>(term.operation);
+      const int count = operation_table[number].operands;
+      Dependence all = own_dependence[number];
+      if (count > 0) all |= dependence(term.a);
+      if (count > 1) all |= dependence(term.b);
+      if (count > 2) all |= dependence(term.c);
+      term.dependence = all;
+      // What the operation does not take is 0, which is some term too.
+      if (all.known())
+        term.value = result_in_double(term.operation, terms_[term.a].value, terms_[term.b].value, terms_[term.c].value);
+      return;
     }
     case TermKind::component:
-    case TermKind::gradient: return dependence(term.a);
+    case TermKind::gradient:
+      term.dependence = dependence(term.a);
+      term.dependence |= Dependence::table;
+      return;
     case TermKind::peak:
       // The patch's extents are setup inputs: the peak may change with them even if nothing else does.
-      return Dependence::parameter | (dependence(term.a).on(Dependence::open) ? Dependence::open : 0);
+      term.dependence = Dependence::parameter | (dependence(term.a).on(Dependence::open) ? Dependence::open : 0);
   }
-  return {};
 }
 
-TermId Terms::add(const Term& term) {
-  Term& added = terms_.emplace_back(term);
-  if (place_ && (term.span == Span{} || term.span.source != place_->source)) added.span = *place_;
-  added.dependence = dependence_of(added);
+/// Of the last term, which has just been added: what there is to know of it.
+[[gnu::always_inline]] inline TermId Terms::entered(Term& term) {
+  if (place_ && (term.span == Span{} || term.span.source != place_->source)) term.span = *place_;
+  find_dependence(term);
   return static_cast<TermId>(terms_.size() - 1);
 }
+
+TermId Terms::add(const Term& term) { return entered(terms_.emplace_back(term)); }
 
 TermId Terms::literal(double value, Span span) {
   return add({.kind = TermKind::literal, .value = value, .span = span});
@@ -65,7 +128,13 @@ TermId Terms::apply(Operation operation, TermId a, Span span) {
 }
 
 TermId Terms::apply(Operation operation, TermId a, TermId b, Span span) {
-  return add({.kind = TermKind::operation, .operation = operation, .a = a, .b = b, .span = span});
+  Term& term = terms_.emplace_back();
+  term.kind = TermKind::operation;
+  term.operation = operation;
+  term.a = a;
+  term.b = b;
+  term.span = span;
+  return entered(term);
 }
 
 TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span) {

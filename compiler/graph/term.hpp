@@ -40,6 +40,7 @@ class Dependence {
     open = 8,
     moment = 16,  ///< time, acceleration, the button, the hand's place on the workspace
     state = 32,   ///< states and memories
+    table = 64,   ///< nothing by itself, but only the machine knows what is looked up
   };
 
   Dependence() = default;
@@ -51,7 +52,9 @@ class Dependence {
   Dependence without(Cause cause) const { return causes_ & ~cause; }
   void operator|=(Dependence other) { causes_ |= other.causes_; }
 
-  bool constant() const { return causes_ == 0; }
+  bool constant() const { return (causes_ & ~table) == 0; }
+  /// Worked out of nothing but literals by operations whose results the compiler knows.
+  bool known() const { return causes_ == 0; }
   bool in_tick() const { return on(position) || changing(); }
   /// Not the same at the same place: no height, and nothing to take a peak of.
   bool changing() const { return on(velocity | moment | state); }
@@ -65,11 +68,12 @@ struct Term {
   Operation operation = Operation::add;
   Dependence dependence;  ///< what `Terms::add` finds
   TermId a = 0, b = 0, c = 0;
-  double value = 0;
+  double value = 0;  ///< of a literal; of an operation that is `known` what it comes to, which `Terms::add` finds
   std::uint32_t index = 0;
   Span span;
 
   Input input() const { return static_cast<Input>(index); }
+  bool known() const { return dependence.known(); }
 };
 
 /// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
@@ -96,11 +100,15 @@ class Terms {
   std::optional<Span> attributed() const { return place_; }
 
  private:
-  Dependence dependence_of(const Term& term) const;
+  void find_dependence(Term& term) const;
+  TermId entered(Term& term);
 
   std::vector<Term> terms_;
   std::optional<Span> place_;
 };
+
+/// What an operation makes of numbers, in double precision; not-a-number where it takes something else.
+double result_in_double(Operation operation, double a, double b, double c);
 
 /// The terms that a term is worked out from: a, b, c as far as it has them.
 struct TermOperands {

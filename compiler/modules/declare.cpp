@@ -19,8 +19,8 @@ class Declarer {
   void operator()(const Import&) {}
 
   void operator()(const DimensionDecl& node) {
-    auto& names = declarations_.names();
     if (twice(declarations_.dimensions, node.name, "dimension")) return;
+    auto& names = declarations_.shared_names->own();
     Dimension dimension;
     if (node.definition) {
       const auto known = dimension_of(*node.definition);
@@ -49,7 +49,7 @@ class Declarer {
       for (std::size_t i = 0; i < declarations_.names().base_units.size(); ++i) {
         Dimension base;
         base.twelfths[i] = Dimension::unit_exponent;
-        if (unit.dimension == base) declarations_.names().base_units[i] = node.name.text;
+        if (unit.dimension == base) declarations_.shared_names->own().base_units[i] = node.name.text;
       }
     } else {
       Terms terms;
@@ -66,7 +66,7 @@ class Declarer {
     }
     enter(declarations_.units, node, unit);
     if (unit.factor == 1 && !unit.dimension.plain())
-      declarations_.names().units.push_back({node.name.text, unit.dimension});
+      declarations_.shared_names->own().units.push_back({node.name.text, unit.dimension});
   }
 
   void operator()(const Constant& node) {

@@ -23,7 +23,8 @@ SourceId embedded_source(std::size_t index) { return first_embedded_source + sta
 
 /// Whether a file of this name, "…/schema/units.wale", is meant to stand in the place of an embedded one.
 bool stands_for(const std::string& name, const EmbeddedFile& file) {
-  return name == file.name || name.ends_with("/" + std::string(file.name));
+  if (!name.ends_with(file.name)) return false;
+  return name.size() == file.name.size() || name[name.size() - file.name.size() - 1] == '/';
 }
 
 std::shared_ptr<const CommonModules> load_common(std::optional<SyntaxTree> replacement, const std::string& replaced,
@@ -49,9 +50,8 @@ class ModuleLoader {
   std::shared_ptr<const Module> add(SyntaxTree tree) {
     const std::string name = sources_[tree.source].name;
     path_.push_back(name);
-    auto module = std::make_shared<Module>(std::move(tree), modules_.common->declarations);
+    auto module = std::make_shared<Module>(std::move(tree), modules_.common->declarations, names_);
     module->name = name;
-    module->declarations.shared_names = names_;
     for (const auto& declaration : module->tree.declarations)
       if (const auto* import = std::get_if<Import>(&declaration))
         if (const auto imported = follow(*import, name)) {
@@ -133,7 +133,7 @@ class ModuleLoader {
   Resolver& resolver_;
   Diagnostics& diagnostics_;
   ModuleSet& modules_;
-  std::shared_ptr<DimensionNames> names_ = std::make_shared<DimensionNames>(modules_.common->declarations.names());
+  std::shared_ptr<SharedNames> names_ = std::make_shared<SharedNames>(modules_.common->declarations.names());
   std::vector<std::string> path_;  ///< files whose imports are being followed
   std::map<std::string, std::shared_ptr<const Module>> loaded_;
 };

@@ -129,23 +129,24 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
 }
 
 void Lexer::next() {
-  const char c = text_[at_];
+  const char c = text_[at_], after = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
   if (c == ' ') {
-    at_ = std::min(text_.find_first_not_of(' ', at_), text_.size());
+    while (++at_ < text_.size() && text_[at_] == ' ') {
+    }
   } else if (c == '\n') {
     starts_line_ = true;
     ++at_;
   } else if (begins_name(c)) {
     name();
-  } else if (is_digit(c) || (c == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))) {
+  } else if (is_digit(c) || (c == '.' && is_digit(after))) {
     number();
-  } else if (starts("//")) {
+  } else if (c == '/' && after == '/') {
     line_comment();
-  } else if (starts("/*")) {
+  } else if (c == '/' && after == '*') {
     block_comment();
   } else if (c == '"') {
     text(1);
-  } else {
+  } else if (may_be_lookalike() || !symbol()) {
     const Character character = decode(text_, at_);
     if (is_blank(character.code)) {
       at_ += character.bytes;

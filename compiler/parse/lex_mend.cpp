@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -58,11 +59,20 @@ void Lexer::hexadecimal() {
   add(TokenKind::number, begin, add_number(value));
 }
 
+/// By first byte: whether a lookalike may begin with it, as with any that is not ASCII.
+constexpr auto begins_lookalike = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t byte = 0x80; byte < table.size(); ++byte) table[byte] = true;
+  for (const Lookalike& each : lookalikes) table[static_cast<unsigned char>(each.text.front())] = true;
+  return table;
+}();
+
 /// Lookalikes are not ASCII, or else doubled, or `!=`; the rest need not be held against all of them.
 bool Lexer::may_be_lookalike() const {
-  const char c = text_[at_], next = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
-  const bool ascii = static_cast<unsigned char>(c) < 0x80;
-  return !ascii || next == c || (c == '!' && next == '=');
+  const auto c = static_cast<unsigned char>(text_[at_]);
+  if (!begins_lookalike[c]) return false;
+  const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
+  return c >= 0x80 || next == text_[at_] || (c == '!' && next == '=');
 }
 
 bool Lexer::quote() {

@@ -58,8 +58,11 @@ class Lexer {
   std::vector<Fix> unknown_fixes(std::size_t begin, bool visible) const;
 
   bool starts(std::string_view spelling) const {
-    // Tables of spellings are tried one by one: most differ in their first byte.
-    return text_[at_] == spelling.front() && text_.substr(at_).starts_with(spelling);
+    // Tables of short spellings are tried one by one: most differ in their first byte.
+    if (text_.size() - at_ < spelling.size()) return false;
+    for (std::size_t i = 0; i < spelling.size(); ++i)
+      if (text_[at_ + i] != spelling[i]) return false;
+    return true;
   }
   Span span(std::size_t begin, std::size_t end) const {
     return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};

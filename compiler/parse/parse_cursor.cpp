@@ -42,7 +42,8 @@ bool ends_value(TokenKind kind) {
 
 bool Parser::is_word(std::size_t index, std::string_view word) const {
   const Token& candidate = token(index);
-  return candidate.kind == TokenKind::name && text_.substr(candidate.begin, candidate.end - candidate.begin) == word;
+  return candidate.kind == TokenKind::name && candidate.end - candidate.begin == word.size() &&
+         text_.substr(candidate.begin, word.size()) == word;
 }
 
 bool Parser::ends_statement(std::size_t index) const {
@@ -77,15 +78,19 @@ bool Parser::begins_statement(std::size_t index) const {
 /// Whether a statement begins a declaration even inside a block that nobody closed.
 bool Parser::begins_declaration(std::size_t index) const {
   if (kind(index) != TokenKind::name || kind(index + 1) != TokenKind::name) return false;
-  const TokenKind third = kind(index + 2);
   if (is_word(index, "export")) return token(index + 1).starts_line == false;
-  if (is_word(index, "material")) return third == TokenKind::left_brace || third == TokenKind::equals;
-  if (is_word(index, "function")) return third == TokenKind::left_parenthesis;
-  if (is_word(index, "map")) return third == TokenKind::word_from || third == TokenKind::left_brace;
-  for (const std::string_view word : {"percept", "threshold", "rule", "class", "device", "levels", "hand"}) {
-    if (is_word(index, word)) return third == TokenKind::left_brace;
+  // What stands behind the two names is looked at first: it leaves few words to ask for.
+  const auto is_one_of = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view word) { return is_word(index, word); });
+  };
+  switch (kind(index + 2)) {
+    case TokenKind::equals: return is_word(index, "material");
+    case TokenKind::left_parenthesis: return is_word(index, "function");
+    case TokenKind::word_from: return is_word(index, "map");
+    case TokenKind::left_brace:
+      return is_one_of({"material", "map", "percept", "threshold", "rule", "class", "device", "levels", "hand"});
+    default: return false;
   }
-  return false;
 }
 
 Word Parser::take_word() {

@@ -8,10 +8,10 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
                      const std::string& by) {
   MapChoice choice;
   std::vector<const Map*> tied;
-  for (const Map* map : declarations.maps()) {
-    if (map->percept != percept.name || (!by.empty() && map->name != by)) continue;
-    (map->tied && map->of_carrier ? tied : choice.untied).push_back(map);
-  }
+  declarations.each_map([&](const Map& map) {
+    if (map.percept != percept.name || (!by.empty() && map.name != by)) return;
+    (map.tied && map.of_carrier ? tied : choice.untied).push_back(&map);
+  });
   if (!tied.empty()) choice.untied.clear();
   const auto choose = [&](const std::vector<const Map*>& candidates) {
     if (candidates.size() == 1) choice.map = candidates.front();

@@ -5,7 +5,6 @@
 
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/copy_terms.hpp"
-#include "compiler/solve/isolate.hpp"
 
 namespace wale {
 
@@ -15,7 +14,8 @@ namespace {
 bool same_term(const Terms& terms, TermId a, TermId b) {
   if (a == b) return true;
   const Term &x = terms[a], &y = terms[b];
-  if (x.kind != y.kind || x.operation != y.operation || x.value != y.value || x.index != y.index) return false;
+  if (x.kind != y.kind || x.operation != y.operation || x.index != y.index) return false;
+  if (x.kind == TermKind::literal && x.value != y.value) return false;
   const TermOperands of_x = operands(x), of_y = operands(y);
   if (of_x.size() != of_y.size() || of_x.size() == 0) return of_x.size() == of_y.size();
   for (std::size_t i = 0; i < of_x.size(); ++i)
@@ -160,14 +160,26 @@ std::array<TermId, 2> copied(const Map& map, Terms& terms, TermId magnitude, Ter
   return {left, copier(map.right)};
 }
 
+/// The term of a map's law that stands for its magnitude or its own carrier.
+TermId quantity(const Map& map, TermKind kind) {
+  for (TermId id = 0; id < map.terms.size(); ++id)
+    if (map.terms[id].kind == kind && map.terms[id].index == 0) return id;
+  return 0;  // of a table, which has no terms
+}
+
+bool is_quantity(const Term& term) { return term.kind == TermKind::magnitude || term.kind == TermKind::carrier; }
+
 }  // namespace
 
-Law::Law(const Map& map, const Percept& percept) : map_(map), percept_(percept) {
+Law::Law(const Map& map, const Percept& percept)
+    : map_(map),
+      percept_(percept),
+      of_magnitude_(map.terms, std::max(map.left, map.right), quantity(map, TermKind::magnitude)),
+      of_carrier_(map.terms, std::max(map.left, map.right), quantity(map, TermKind::carrier)) {
   if (!map_.table.empty()) return;
-  Terms terms;
-  const TermId unknown = terms.add({.kind = TermKind::carrier});
-  const auto [left, right] = copied(map_, terms, terms.literal(1), unknown, {});
-  if (isolate(terms, left, right, unknown)) return;
+  magnitude_stands_alone_ = stands_alone(of_magnitude_);
+  carrier_stands_alone_ = stands_alone(of_carrier_);
+  if (carrier_stands_alone_) return;
   // Which root of a quadratic gives back what was put in, where there are two.
   const Way way = map_.branch == Branch::rising    ? Way::rising
                   : map_.branch == Branch::falling ? Way::falling
@@ -179,6 +191,55 @@ Law::Law(const Map& map, const Percept& percept) : map_(map), percept_(percept) 
     const double slope = exponent_at(middle);
     if (!std::isnan(slope) && (slope > 0) == (way == Way::rising)) return;
   }
+}
+
+bool Law::stands_alone(const Occurrences& counts) const {
+  const auto always = [](auto...) { return true; };
+  return isolated(map_.terms, map_.left, map_.right, counts, always, always).has_value();
+}
+
+std::optional<TermId> Law::solved_for(const Occurrences& counts, Terms& terms, TermId given,
+                                      const Sizes& couples) const {
+  const TermId last = std::max(map_.left, map_.right);
+  std::vector<TermId> copies(last + 1);
+  for (TermId id = 0; id <= last; ++id) {
+    Term term = map_.terms[id];
+    if (counts[id] > 0) continue;
+    if (is_quantity(term)) {
+      copies[id] = term.index == 0 ? given : term.index <= couples.size() ? couples[term.index - 1] : terms.literal(0);
+      continue;
+    }
+    const auto count = operands(term).size();
+    if (count > 0) term.a = copies[term.a];
+    if (count > 1) term.b = copies[term.b];
+    if (count > 2) term.c = copies[term.c];
+    copies[id] = terms.add(term);
+  }
+  return isolated(
+      map_.terms, map_.left, map_.right, counts, [&](TermId id) { return copies[id]; },
+      [&](Operation operation, TermId a, TermId b) {
+        return facts(operation).operands == 1 ? terms.apply(operation, a) : terms.apply(operation, a, b);
+      });
+}
+
+double Law::solved_for(const Occurrences& counts, double given, const std::vector<double>& couples) const {
+  const TermId last = std::max(map_.left, map_.right);
+  std::vector<double> worth(last + 1);
+  for (TermId id = 0; id <= last; ++id) {
+    const Term& term = map_.terms[id];
+    if (term.known())
+      worth[id] = term.value;
+    else if (is_quantity(term))
+      worth[id] = term.index == 0 ? given : term.index <= couples.size() ? couples[term.index - 1] : 0;
+    else if (counts[id] == 0)
+      worth[id] = term.kind == TermKind::operation
+                      ? result_in_double(term.operation, worth[term.a], worth[term.b], worth[term.c])
+                      : std::nan("");
+  }
+  return isolated(
+             map_.terms, map_.left, map_.right, counts, [&](TermId id) { return worth[id]; },
+             [](Operation operation, double a, double b) { return result_in_double(operation, a, b, 0); })
+      .value_or(std::nan(""));
 }
 
 Law::Way Law::way_within_range() const {
@@ -230,37 +291,51 @@ std::optional<TermId> Law::solved_quadratic(Terms& terms, TermId left, TermId ri
 
 std::optional<TermId> Law::magnitude(Terms& terms, TermId carrier, const Sizes& couples) const {
   if (!map_.table.empty()) return looked_up(terms, carrier, false);
-  const TermId unknown = terms.add({.kind = TermKind::magnitude});
-  const auto [left, right] = copied(map_, terms, unknown, carrier, couples);
-  return isolate(terms, left, right, unknown);
+  if (!magnitude_stands_alone_) return std::nullopt;
+  return solved_for(of_magnitude_, terms, carrier, couples);
 }
 
 std::optional<TermId> Law::level(Terms& terms, TermId carrier, const Sizes& couples) const {
-  const auto asked = magnitude(terms, carrier, couples), one = magnitude(terms, terms.literal(percept_.one));
-  if (!asked || !one) return std::nullopt;
-  return terms.apply(Operation::divide, *asked, *one);
+  const auto asked = magnitude(terms, carrier, couples);
+  return asked ? level_of_magnitude(terms, *asked) : std::nullopt;
+}
+
+std::optional<TermId> Law::level_of_magnitude(Terms& terms, TermId asked) const {
+  const auto one = magnitude(terms, terms.literal(percept_.one));
+  if (!one) return std::nullopt;
+  return terms.apply(Operation::divide, asked, *one);
 }
 
 std::optional<TermId> Law::carrier(Terms& terms, TermId level, const Sizes& couples) const {
   const auto one = magnitude(terms, terms.literal(percept_.one));
   if (!one) return std::nullopt;
-  const TermId unknown = map_.table.empty() ? terms.add({.kind = TermKind::carrier}) : 0;
   const TermId magnitude = terms.apply(Operation::multiply, level, *one);
   if (!map_.table.empty()) return looked_up(terms, magnitude, true);
+  if (carrier_stands_alone_) return solved_for(of_carrier_, terms, magnitude, couples);
+  const TermId unknown = terms.add({.kind = TermKind::carrier});
   const auto [left, right] = copied(map_, terms, magnitude, unknown, couples);
-  if (const auto solved = isolate(terms, left, right, unknown)) return solved;
   return solved_quadratic(terms, left, right, unknown);
 }
 
+bool Law::has_inverse() const {
+  if (magnitude_stands_alone_ && carrier_stands_alone_) return true;
+  Terms terms;
+  return carrier(terms, terms.literal(0.5)).has_value();
+}
+
 double Law::level_of(double carrier, const std::vector<double>& couples) const {
+  if (magnitude_stands_alone_) return magnitude_of(carrier, couples) / magnitude_of(percept_.one);
   return number_of([&](Terms& terms) { return level(terms, terms.literal(carrier), literals(terms, couples)); });
 }
 
 double Law::magnitude_of(double carrier, const std::vector<double>& couples) const {
+  if (magnitude_stands_alone_) return solved_for(of_magnitude_, carrier, couples);
   return number_of([&](Terms& terms) { return magnitude(terms, terms.literal(carrier), literals(terms, couples)); });
 }
 
 double Law::carrier_of(double level, const std::vector<double>& couples) const {
+  if (magnitude_stands_alone_ && carrier_stands_alone_)
+    return solved_for(of_carrier_, level * magnitude_of(percept_.one), couples);
   return number_of([&](Terms& terms) { return this->carrier(terms, terms.literal(level), literals(terms, couples)); });
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compiler/declarations/percepts.hpp"
+#include "compiler/solve/isolate.hpp"
 
 namespace wale {
 
@@ -22,8 +23,12 @@ class Law {
   std::optional<TermId> magnitude(Terms& terms, TermId carrier, const Sizes& couples = {}) const;
   /// The magnitude over that of the reference stimulus.
   std::optional<TermId> level(Terms& terms, TermId carrier, const Sizes& couples = {}) const;
+  std::optional<TermId> level_of_magnitude(Terms& terms, TermId magnitude) const;
   /// Nothing where the law cannot be solved for its carrier. Beyond a quadratic's vertex: the carrier at the vertex.
   std::optional<TermId> carrier(Terms& terms, TermId level, const Sizes& couples = {}) const;
+
+  /// Whether it can be solved for its carrier.
+  bool has_inverse() const;
 
   /// The same as numbers; not-a-number where there is none.
   double level_of(double carrier, const std::vector<double>& couples = {}) const;
@@ -39,6 +44,12 @@ class Law {
   /// How many sides of a vertex the carriers lie on that were measured.
   enum class Way { rising, falling, both };
 
+  /// The law solved for the quantity that `counts` is of, which stands in it once: of the `given` one, magnitude or
+  /// carrier, as terms and as a number.
+  std::optional<TermId> solved_for(const Occurrences& counts, Terms& terms, TermId given, const Sizes& couples) const;
+  double solved_for(const Occurrences& counts, double given, const std::vector<double>& couples) const;
+  bool stands_alone(const Occurrences& counts) const;
+
   Way way_within_range() const;
   /// The magnitude of a carrier by the table, or the carrier of a magnitude.
   std::optional<TermId> looked_up(Terms& terms, TermId value, bool inverse) const;
@@ -46,6 +57,8 @@ class Law {
 
   const Map& map_;
   const Percept& percept_;
+  Occurrences of_magnitude_, of_carrier_;  ///< in the map's terms
+  bool magnitude_stands_alone_ = false, carrier_stands_alone_ = false;
   bool upper_root_ = true;  ///< of a quadratic: the one with the square root added
 };
 

@@ -64,11 +64,10 @@ void PerceptSolver::work_out_sizes() {
               : constant_value(*terms_, (*carriers_)[told.carrier].size, &material_.parameters).value_or(std::nan(""));
       continue;
     }
-    const Law law(*told.map, *told.percept);
+    const Law& law = *told.law;
     const std::vector<double> couples = coupled_sizes(told);
     told.size = law.carrier_of(told.asked->level, couples);
-    Terms terms;
-    if (!law.carrier(terms, terms.literal(0.5))) {
+    if (!law.has_inverse()) {
       report(Code::unsolvable_law, told.map->span,
              fmt::format("the law of {} from {} cannot be solved for `{}`", told.map->percept, told.map->from,
                          told.map->from),
@@ -81,12 +80,13 @@ void PerceptSolver::work_out_sizes() {
                                 law.level_of(told.map->valid_high, couples)))
                  .see(told.map->span, "the map"));
     } else {
-      warn_of_range(told, law);
+      warn_of_range(told);
     }
   }
 }
 
-void PerceptSolver::warn_of_range(const Told& told, const Law& law) {
+void PerceptSolver::warn_of_range(const Told& told) {
+  const Law& law = *told.law;
   const AskedPercept& asked = *told.asked;
   const Percept& percept = *told.percept;
   const Map& map = *told.map;
@@ -125,10 +125,7 @@ std::vector<std::size_t> PerceptSolver::by_priority() const {
   return all;
 }
 
-double PerceptSolver::most_size(const Told& told) const {
-  const Law law(*told.map, *told.percept);
-  return std::max(told.size, law.carrier_of(1));
-}
+double PerceptSolver::most_size(const Told& told) const { return std::max(told.size, told.law->carrier_of(1)); }
 
 /// Whether the forces of all that is told could come to more than the device gives, wherever the sliders stand.
 bool PerceptSolver::may_exceed() const {
@@ -159,8 +156,7 @@ void PerceptSolver::reduce() {
     if (told.percept->exerts == 0) continue;
     const double left = std::max(0.0, (limit - used) / told.percept->exerts);
     if (told.size > left && told.percept->exerts * told.size <= limit) {
-      const Law law(*told.map, *told.percept);
-      const double level = law.level_of(left, coupled_sizes(told));
+      const double level = told.law->level_of(left, coupled_sizes(told));
       report(Code::reduced_percept, told.asked->span,
              fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would come to {:.3g} N, and `{}` gives "
                          "{:.3g} N",
@@ -198,8 +194,7 @@ std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, Ter
       continue;
     }
     terms.attribute(told.asked->span);
-    told.term =
-        *Law(*told.map, *told.percept).carrier(terms, level_term(told, terms, copy), coupled_terms(told, solved));
+    told.term = *told.law->carrier(terms, level_term(told, terms, copy), coupled_terms(told, solved));
   }
   if (may_exceed()) {
     // What is left of the device's force for each, after what the author fixed and what matters more.
@@ -271,13 +266,14 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
 
 void PerceptSolver::describe(SolvedMaterial& solved) {
   for (Told& told : told_) {
-    const Law law(*told.map, *told.percept);
+    const Law& law = *told.law;
     SolvedPercept each;
     each.amplitude = *told.term;
     solved.terms.attribute(told.map->span);
     const TermId probe = solved.terms.input(Input::probe);
     const Law::Sizes couples = coupled_terms(told, solved);
-    const auto magnitude = law.magnitude(solved.terms, probe, couples), level = law.level(solved.terms, probe, couples);
+    const auto magnitude = law.magnitude(solved.terms, probe, couples);
+    const auto level = magnitude ? law.level_of_magnitude(solved.terms, *magnitude) : std::nullopt;
     if (!magnitude || !level) {
       report(Code::unsolvable_law, told.map->span,
              fmt::format("the law of {} cannot be solved for its magnitude", told.percept->name),

@@ -68,21 +68,20 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
   for (const auto& asked : material_.percepts)
     if (!lost.contains(asked.name)) match(asked);
   // What nobody asked for is told all the same, where it is alone of its kind and a map is there.
-  for (const auto& name : declarations_.percepts.spellings()) {
-    const Percept& percept = *declarations_.percepts.find(name);
-    if (std::ranges::any_of(told_, [&](const Told& told) { return told.percept == &percept; })) continue;
+  declarations_.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (!percept.has_reference) return;
+    if (std::ranges::any_of(told_, [&](const Told& told) { return told.percept == &percept; })) return;
     std::vector<std::size_t> mine;
     for (const std::size_t i : candidates_)
       if (carriers[i].name == percept.carrier) mine.push_back(i);
-    if (!percept.has_reference) continue;
     const auto open = std::ranges::find_if(mine, [&](std::size_t i) { return carriers[i].open; });
-    if (mine.size() != 1 && open == mine.end()) continue;
+    if (mine.size() != 1 && open == mine.end()) return;
     const std::size_t index = open == mine.end() ? mine[0] : *open;
-    if (carriers[index].open && std::ranges::find(told_, index, &Told::carrier) == told_.end()) continue;
-    if (std::ranges::any_of(material_.percepts, [&](const auto& asked) { return asked.name == name; })) continue;
+    if (carriers[index].open && std::ranges::find(told_, index, &Told::carrier) == told_.end()) return;
+    if (std::ranges::any_of(material_.percepts, [&](const auto& asked) { return asked.name == name; })) return;
     if (const Map* map = choose_map(percept, device_, declarations_, chosen_by(percept.name)).map)
       tell({.percept = &percept, .map = map, .carrier = index});
-  }
+  });
   couple();
   if (diagnostics_.error_count() > errors_before) return;
   for (Told& told : told_)
@@ -170,6 +169,7 @@ void PerceptSolver::tell(Told told) {
     told.shares = static_cast<std::size_t>(first - told_.begin());
     told.solved = false;
   }
+  told.law.emplace(*told.map, *told.percept);
   told_.push_back(std::move(told));
 }
 
@@ -227,7 +227,7 @@ void PerceptSolver::check_conflict(const Told& told) {
   const auto size = told.shares != none ? std::optional(told_[told.shares].size)
                                         : constant_value(*terms_, carrier.size, &material_.parameters);
   if (!size || !map.couples.empty()) return;
-  const Law law(map, *told.percept);
+  const Law& law = *told.law;
   const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);
   if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.scatter) return;
   if (std::abs(level - asked.level) <= asked.tolerance) return;

@@ -50,6 +50,7 @@ class PerceptSolver {
     const AskedPercept* asked = nullptr;  ///< null: not asked for
     const Map* map = nullptr;
     std::size_t carrier = 0;
+    std::optional<Law> law;            ///< of the map, once it is told of
     bool solved = false;               ///< its size was open; otherwise the author fixed it
     std::uint32_t parameter = 0;       ///< of a solved one: its level; of a blended one the first of its components'
     double size = 0;                   ///< at the parameters' defaults, SI; not-a-number where it is not known
@@ -77,7 +78,7 @@ class PerceptSolver {
   void couple();
   bool order_from(std::size_t index, std::vector<int>& state);
   void work_out_sizes();
-  void warn_of_range(const Told& told, const Law& law);
+  void warn_of_range(const Told& told);
   void reduce();
   std::vector<std::size_t> by_priority() const;
   bool may_exceed() const;

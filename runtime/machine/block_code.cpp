@@ -255,21 +255,32 @@ BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
 
 BlockCode decode_block(const PatchProgram& program, std::span<const std::reference_wrapper<const Spline>> splines,
                        std::span<const GridShape> grids, std::span<const Instruction> code, Vectors vectors) {
-  const Kernels& kernels = kernels_of(vectors);
   BlockCode decoded(code.size());
+  if (code.empty()) return decoded;
+  const Kernels& kernels = kernels_of(vectors);
+  // Instructions name registers again and again: where each is found is found once.
+  std::vector<BlockOperand> places(program.register_count());
+  for (std::size_t number = 0; number < places.size(); ++number)
+    places[number] = block_operand(program.first_state(), static_cast<RegisterNumber>(number));
   BlockInstruction* next = decoded.data();
-  const RegisterNumber first_state = program.first_state();
   for (const Instruction& instruction : code) {
     const OperationFacts& known = operation_table[instruction.operation];
     BlockInstruction& block = *next++;
-    if (known.operands > 0) block.a = block_operand(first_state, instruction.a);
-    if (known.operands > 1) block.b = block_operand(first_state, instruction.b);
-    if (known.operands > 2) block.c = block_operand(first_state, instruction.c);
-    if (known.fields[2] == 't') block.lookup.spline = &splines[instruction.c].get();
-    if (known.fields[2] == 'g') block.lookup.grid = &grids[instruction.c];
-    const unsigned variant = (block.a.uniform ? 1u : 0u) | (block.b.uniform ? 2u : 0u) | (block.c.uniform ? 4u : 0u);
+    unsigned variant = 0b111;
+    const auto place = [&](BlockOperand& operand, RegisterNumber number, unsigned bit) {
+      operand = places[number];
+      if (!operand.uniform) variant &= ~bit;
+    };
+    if (known.operands > 0) place(block.a, instruction.a, 1);
+    if (known.operands > 1) place(block.b, instruction.b, 2);
+    if (known.operands > 2)
+      place(block.c, instruction.c, 4);
+    else if (known.fields[2] == 't')
+      block.lookup.spline = &splines[instruction.c].get();
+    else if (known.fields[2] == 'g')
+      block.lookup.grid = &grids[instruction.c];
     block.kernel = kernels[instruction.operation][variant];
-    block.destination = block_operand(first_state, instruction.destination).index;
+    block.destination = places[instruction.destination].index;
   }
   return decoded;
 }

@@ -12,8 +12,9 @@ namespace wale {
 namespace {
 
 /// `value` in low .. high, which not-a-number never is.
-void require_within(double value, double low, double high, std::string_view what) {
-  if (!(value >= low && value <= high)) refuse(what, " is ", value, " and must be in ", low, " .. ", high);
+template <typename... What>
+void require_within(double value, double low, double high, const What&... what) {
+  if (!(value >= low && value <= high)) refuse(what..., " is ", value, " and must be in ", low, " .. ", high);
 }
 
 void verify_registers(const PatchProgram& program) {
@@ -70,8 +71,8 @@ void verify_grids(const PatchProgram& program) {
     const Grid& grid = program.grids[i];
     if (grid.name.empty()) refuse("grid ", i, " has no name");
     if (!names.insert(grid.name).second) refuse("grid ", i, " is the second of the name ", grid.name);
-    require_within(grid.columns, 1, grid_side_limit, "grid " + grid.name + "'s number of columns");
-    require_within(grid.rows, 1, grid_side_limit, "grid " + grid.name + "'s number of rows");
+    require_within(grid.columns, 1, grid_side_limit, "grid ", grid.name, "'s number of columns");
+    require_within(grid.rows, 1, grid_side_limit, "grid ", grid.name, "'s number of rows");
     cells += std::size_t{grid.columns} * grid.rows;
     if (!std::isfinite(grid.low) || !std::isfinite(grid.high) ||
         !(grid.low <= grid.initial && grid.initial <= grid.high)) {
@@ -98,8 +99,8 @@ void verify_tables(const PatchProgram& program) {
   for (std::size_t i = 0; i < program.tables.size(); ++i) {
     const HeightTable& table = program.tables[i];
     const std::string name = "table " + std::to_string(i);
-    require_within(table.width, table_side_least, table_side_most, name + "'s width");
-    require_within(table.height, table_side_least, table_side_most, name + "'s height");
+    require_within(table.width, table_side_least, table_side_most, name, "'s width");
+    require_within(table.height, table_side_least, table_side_most, name, "'s height");
     if (table.heights.size() != std::size_t{table.width} * table.height) {
       refuse(name, " has ", table.heights.size(), " heights for ", table.width, " x ", table.height);
     }
@@ -110,7 +111,7 @@ void verify_lattices(const PatchProgram& program) {
   for (std::size_t i = 0; i < program.peaks.size(); ++i) {
     const Peak& peak = program.peaks[i];
     const std::string name = "peak " + std::to_string(i);
-    require_within(peak.points, 1, peak_points_limit, name + "'s number of points");
+    require_within(peak.points, 1, peak_points_limit, name, "'s number of points");
     if (!(peak.percentile > 0 && peak.percentile <= 1)) {
       refuse(name, "'s percentile is ", peak.percentile, " and must be above 0 and at most 1");
     }
@@ -171,15 +172,15 @@ void verify_percepts(const PatchProgram& program) {
     if (!std::isfinite(percept.valid_high) || !(percept.valid_low >= 0 && percept.valid_low <= percept.valid_high)) {
       refuse(name, "'s map is valid in ", percept.valid_low, " .. ", percept.valid_high);
     }
-    require_within(percept.scatter, 0, 100, name + "'s scatter");
+    require_within(percept.scatter, 0, 100, name, "'s scatter");
     if (!(percept.period_low >= 0 && percept.period_low <= percept.period_high)) {
       refuse(name, " is read at periods of ", percept.period_low, " .. ", percept.period_high, " m");
     }
-    require_within(percept.one, 0, 1e9, name + "'s level 1");
-    require_within(percept.near_threshold, 0, 1, name + "'s near threshold");
-    require_within(percept.spread, 0, 100, name + "'s spread");
-    require_within(percept.weber, 0, 100, name + "'s Weber fraction");
-    require_within(percept.floor, 0, 1e9, name + "'s least difference");
+    require_within(percept.one, 0, 1e9, name, "'s level 1");
+    require_within(percept.near_threshold, 0, 1, name, "'s near threshold");
+    require_within(percept.spread, 0, 100, name, "'s spread");
+    require_within(percept.weber, 0, 100, name, "'s Weber fraction");
+    require_within(percept.floor, 0, 1e9, name, "'s least difference");
     if (!graded(percept.slope) || !graded(percept.anchor) || !graded(percept.handle) ||
         !graded(percept.weber_evidence)) {
       refuse(name, " grades its evidence in a way that this Wale does not know");

@@ -61,6 +61,20 @@ material worn_cord {
 }
 )";
 
+/// What a device has to realise by itself, with a map to solve for each percept.
+inline const std::string material_of_five_percepts = R"(wale 1
+
+material wet_felt {
+  perceptual {
+    roughness 0.3
+    stickiness 0.5
+    hardness 0.3
+    springiness 0.2
+    viscosity 0.3
+  }
+}
+)";
+
 /// No imports and no images.
 class NoFiles final : public Resolver {
  public:
