@@ -75,13 +75,13 @@ void write_texture(std::string& text, const Description& description) {
   if (force.amplitude > 0) {
     text += fmt::format("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
                         force.maximum, force.rms, force.mean);
-    if (force.regularity >= 0.5)
+    if (force.regular())
       text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} transitions a millimetre\n", 1e3 * force.period,
                           100 * force.regularity, 1e-3 * force.transitions);
     else
       text += fmt::format("  irregular, about {:.2g} mm; {:.2g} transitions a millimetre\n", 1e3 * force.period,
                           1e-3 * force.transitions);
-    if (force.anisotropy >= 0.5)
+    if (force.oriented())
       text += fmt::format("  changes along {} degrees from x\n",
                           std::lround(force.orientation * 180 / std::numbers::pi) % 180);
     if (!texture.texture_class.empty()) text += fmt::format("  people would call it: {}\n", texture.texture_class);
