@@ -54,6 +54,12 @@ DescribedPercept told_by(const Percept& percept, const Map& map, double size, co
   return told;
 }
 
+/// A size to two significant digits: a stimulus at the very bound of a class falls where its author put it.
+double as_well_as_read(double size) {
+  const double digit = std::pow(10, std::floor(std::log10(size)) - 1);
+  return std::round(size / digit) * digit;
+}
+
 /// The kind of surface as the rules know it: what the subjects of chapter 4 were given, of one thing alone.
 std::string kind_of(const Cues& cues, const Extraction& found, double largest_newton) {
   if (cues[CueKind::amplitude]) return found.texture.regular() ? "grating" : "perlin";
@@ -71,7 +77,7 @@ DescribedTexture texture_of(const Cues& cues, const Extraction& found, double la
   if (!cues[CueKind::amplitude]) texture.force = {};
   const bool has_texture = texture.force.amplitude > 0;
   std::map<std::string, double> sizes;
-  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", texture.force.period}};
+  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
   for (const Rule* rule : declarations.rules()) {
     const Rule::Case* holds = rule->first(sizes, texture.kind);
     if (!holds) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace wale {
 namespace {
@@ -94,21 +95,21 @@ std::vector<WaveComponent> BandSpectrum::components(std::size_t most, double lea
   for (std::size_t row = 0; row < side_; ++row)
     std::copy_n(power_.begin() + static_cast<std::ptrdiff_t>(row * side_), half,
                 left.begin() + static_cast<std::ptrdiff_t>(row * half));
+  const auto rows = static_cast<std::ptrdiff_t>(side_), columns = static_cast<std::ptrdiff_t>(half);
+  const auto at = [&](std::ptrdiff_t column, std::ptrdiff_t row) -> float& {
+    if (column < 0) column = -column, row = -row;
+    return left[static_cast<std::size_t>((row + rows) % rows * columns + std::min(column, columns - 1))];
+  };
   while (found.size() < most) {
-    const auto top = static_cast<std::size_t>(std::ranges::max_element(left) - left.begin());
-    if (left[top] <= 0) break;
-    const auto column = static_cast<std::ptrdiff_t>(top % half), row = static_cast<std::ptrdiff_t>(top / half);
+    const auto top = std::ranges::max_element(left) - left.begin();
+    const std::ptrdiff_t column = top % columns, row = top / columns;
+    if (at(column, row) <= 0) break;
     double sum = 0;
     for (std::ptrdiff_t down = -reach_of_peak; down <= reach_of_peak; ++down)
       for (std::ptrdiff_t right = -reach_of_peak; right <= reach_of_peak; ++right) {
-        const auto side = static_cast<std::ptrdiff_t>(side_);
-        const std::ptrdiff_t v = (row + down + side) % side, u = column + right;
-        sum += power_[static_cast<std::size_t>(v * side + (u + side) % side)];
-        const auto clear = [&](std::ptrdiff_t at_row, std::ptrdiff_t at_column) {
-          if (at_column >= 0 && at_column < static_cast<std::ptrdiff_t>(half))
-            left[static_cast<std::size_t>(at_row * static_cast<std::ptrdiff_t>(half) + at_column)] = 0;
-        };
-        clear(v, u), clear((side - v) % side, -u);
+        sum += std::exchange(at(column + right, row + down), 0.0f);
+        // The lines of no periods across hold both images.
+        if (column + right == 0) at(0, -row - down) = 0;
       }
     WaveComponent component;
     component.share = std::min(1.0, 2 * sum / whole_);

@@ -27,6 +27,7 @@ constexpr std::size_t most_waves = 4;  // that are told ...
 constexpr double least_share = 0.1;    // ... each with that much of the power
 constexpr double a_multiple = 0.05;    // how near to a whole multiple of another's wave counts as one
 constexpr double negligible = 0.1;     // of the least that counts: what is slow then need not be taken away
+constexpr double coarser = 3;          // than the band: where a coarse texture is looked at for its regularity
 constexpr double no_direction = 0.05;  // anisotropy of which the direction is chance
 
 /// Where between the lines and columns of a field nothing of a transform's ends is seen.
@@ -70,6 +71,15 @@ ForceField busiest_half(const StaticForce& force) {
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(whole.side - side)));
   };
   return part_of(whole, first(corner.x), first(corner.y), side);
+}
+
+/// Every other line and column of a field.
+ForceField thinned(const ForceField& field) {
+  ForceField thin{field.side / 2, field.centre - 0.5 * field.spacing, 2.0 * field.spacing, {}};
+  for (std::size_t row = 0; row < field.side; row += 2)
+    for (std::size_t column = 0; column < field.side; column += 2)
+      thin.forces.push_back(field.forces[row * field.side + column]);
+  return thin;
 }
 
 ForceField less(const ForceField& field, const ForceField& slow) {
@@ -130,16 +140,23 @@ void tell_waves(TextureForce& texture, const BandSpectrum& spectrum, const std::
   }
 }
 
-/// How far it comes back, and after which period.
+/// How far it comes back, and after which period. Few waves come back by chance, so a window should hold many: where
+/// the closer one does not, half of the patch is looked at or the whole. What is too fine for their samples is among
+/// these as regular as it is anywhere.
 void tell_regularity(TextureForce& texture, const StaticForce& force, const PeriodBand& band,
                      const BandSpectrum& spectrum, glm::dvec2 strongest) {
   std::optional<BandSpectrum> wider;
-  const double waves = spectrum.extent().x * glm::length(strongest);
-  if (waves < fewest_waves && spectrum.extent().x < 0.4 * force.whole.extent().x)
-    wider.emplace(busiest_half(force), band);
+  const double waves = glm::length(strongest), all = force.whole.extent().x;
+  if (waves * spectrum.extent().x < fewest_waves && spectrum.extent().x < 0.5 * all) {
+    // Of a coarse noise only the finest part is in the band, and any narrow band of waves comes back for a while.
+    if (waves * 0.5 * all < fewest_waves)
+      wider.emplace(thinned(force.whole), PeriodBand{band.low, coarser * band.high});
+    else
+      wider.emplace(busiest_half(force), band);
+  }
   const Repetition found = repetition(wider && wider->whole_power() > 0 ? *wider : spectrum, strongest);
   texture.regularity = found.regularity;
-  texture.period = found.waves / glm::length(strongest);
+  texture.period = found.waves / waves;
 }
 
 /// How suddenly the force changes, as against its size.

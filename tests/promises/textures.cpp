@@ -60,8 +60,9 @@ const std::vector<Surface> surfaces = {
      false},
     {"photograph",
      "param worn = 0.5 in 0.1 .. 1\nparam ribs = 0.05 mm in 0 mm .. 0.2 mm\n"
-     "force = lateral(worn * image(\"spiked.pgm\", scale: 0.5 mm/px, height: 1 mm) + ribs * grating(x, period: 4.1 "
-     "mm))"},
+     "height face = worn * image(\"spiked.pgm\", scale: 0.5 mm/px, height: 1 mm)\n"
+     "force = lateral(face + ribs * grating(x, period: 4.1 mm))",
+     false},
 };
 
 /// The author's own settings: the defaults, and every corner of their ranges.
