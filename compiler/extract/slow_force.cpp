@@ -56,7 +56,7 @@ SlowForce::SlowForce(const ForceField& field) : side_(field.side), centre_(field
 }
 
 template <typename Visit>
-void SlowForce::each_beyond(double from, double to, const Visit& visit) const {
+void SlowForce::each_within(const PeriodBand& band, const Visit& visit) const {
   const std::size_t coarse = side_ / every;
   std::vector<double> means(coarse);
   for (std::size_t i = 0; i < coarse; ++i)
@@ -64,20 +64,20 @@ void SlowForce::each_beyond(double from, double to, const Visit& visit) const {
   const glm::dvec2 extent = spacing_ * static_cast<double>(side_);
   for (std::size_t row = 0; row < coarse; ++row)
     for (std::size_t column = 0; column < coarse; ++column) {
-      const double waves = glm::length(glm::dvec2(periods_over(coarse, column), periods_over(coarse, row)) / extent);
-      if (waves * from >= 1) continue;
-      const double share = waves > 0 ? 1 - fade(1 / waves, from, to) : 1;
+      const glm::dvec2 waves = glm::dvec2(periods_over(coarse, column), periods_over(coarse, row)) / extent;
+      const double share = share_let_through(band, glm::dot(waves, waves));
       if (share > 0) visit(column, row, share / (means[column] * means[row]));
     }
 }
 
-ForceField SlowForce::beyond(double from, double to) const {
-  const std::size_t coarse = side_ / every, side = side_ / 2;
-  ForceField slow{side, centre_ - 0.5 * spacing_, 2.0 * spacing_, {}};
+ForceField SlowForce::on_lines_of(std::size_t side, const PeriodBand& band) const {
+  const std::size_t coarse = side_ / every, apart = side_ / side;
+  ForceField slow{
+      side, centre_ - 0.5 * static_cast<double>(apart - 1) * spacing_, static_cast<double>(apart) * spacing_, {}};
   Spectrum wide(side * side);
   const auto scale = static_cast<double>(side * side) / static_cast<double>(coarse * coarse);
   const auto widened = [&](std::size_t index) { return index <= coarse / 2 ? index : index + side - coarse; };
-  each_beyond(from, to, [&](std::size_t column, std::size_t row, double share) {
+  each_within(band, [&](std::size_t column, std::size_t row, double share) {
     wide[widened(row) * side + widened(column)] = spectrum_[row * coarse + column] * static_cast<float>(scale * share);
   });
   slow.forces.reserve(side * side);
@@ -85,10 +85,10 @@ ForceField SlowForce::beyond(double from, double to) const {
   return slow;
 }
 
-double SlowForce::ceiling_beyond(double from, double to) const {
+double SlowForce::ceiling_within(const PeriodBand& band) const {
   const auto count = static_cast<double>(side_ / every * (side_ / every));
   double squares = 0;  // the mean square, by Parseval's theorem
-  each_beyond(from, to, [&](std::size_t column, std::size_t row, double share) {
+  each_within(band, [&](std::size_t column, std::size_t row, double share) {
     squares += std::norm(spectrum_[row * (side_ / every) + column]) * share * share / (count * count);
   });
   // Markov's inequality: a hundredth of two thirds of the places holds no more than all of the square.

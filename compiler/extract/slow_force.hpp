@@ -2,6 +2,7 @@
 
 #include "compiler/extract/force_field.hpp"
 #include "compiler/extract/fourier.hpp"
+#include "compiler/extract/period_band.hpp"
 
 namespace wale {
 
@@ -11,17 +12,20 @@ class SlowForce {
   /// Of a field whose side is a multiple of four; it is taken to go on from its other end.
   explicit SlowForce(const ForceField& field);
 
-  /// Components with longer periods than `to`, none of those with shorter ones than `from` (m, eight samples or more),
-  /// and gradually more in between; on every other line and column of the field, from the first.
-  ForceField beyond(double from, double to) const;
+  /// What has periods within a band of at least eight samples, up to any length where that is the band's; on every
+  /// other line and column of the field, from the first.
+  ForceField within(const PeriodBand& band) const { return on_lines_of(side_ / 2, band); }
+  /// The same on every fourth.
+  ForceField coarsely_within(const PeriodBand& band) const { return on_lines_of(side_ / 4, band); }
 
   /// N: no more than that is the 99th percentile of its size, wherever one looks at two thirds of it or more.
-  double ceiling_beyond(double from, double to) const;
+  double ceiling_within(const PeriodBand& band) const;
 
  private:
   /// Calls `visit(column, row, share)` for all coefficients of which a share of the amplitude counts.
   template <typename Visit>
-  void each_beyond(double from, double to, const Visit& visit) const;
+  void each_within(const PeriodBand& band, const Visit& visit) const;
+  ForceField on_lines_of(std::size_t side, const PeriodBand& band) const;
 
   std::size_t side_;
   glm::dvec2 centre_, spacing_;  // m, of the field's samples

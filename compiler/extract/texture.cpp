@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -22,11 +23,11 @@ constexpr double edge = 0.1;              // of a window on each side: what a tr
 constexpr double least_amplitude = 1e-4;  // N: a tenth of the finest step that any device has
 constexpr std::size_t change_places = 1024;
 constexpr double difference = 2e-5;    // m: the distance over which the force's change is taken
-constexpr double fewest_waves = 16;    // over a window, from which noise is told from what comes back
+constexpr double fewest_waves = 14;    // over a window, from which noise is told from what comes back
 constexpr std::size_t most_waves = 4;  // that are told ...
 constexpr double least_share = 0.1;    // ... each with that much of the power
 constexpr double a_multiple = 0.05;    // how near to a whole multiple of another's wave counts as one
-constexpr double negligible = 0.1;     // of the least that counts: what is slow then need not be taken away
+constexpr double negligible = 0.3;     // of the least that counts: what is slow then need not be taken away
 constexpr double coarser = 3;          // than the band: where a coarse texture is looked at for its regularity
 constexpr double no_direction = 0.05;  // anisotropy of which the direction is chance
 
@@ -219,22 +220,18 @@ TextureForce texture_force(const Bank& bank, const StaticForce& force, const Per
   if (force.bent < least) return {};
   TextureForce texture;
   std::optional<BandSpectrum> spectrum;
-  const bool slow_counts =
-      force.slow.ceiling_beyond(band.high, band.high * gradual) > negligible * std::min(least, force.bent);
-  const auto slow = [&] { return force.slow.beyond(band.high, band.high * gradual); };
   if (seen_closely(force, band)) {
     spectrum.emplace(force.close, band);
     const double share = spectrum->share_of_amplitude();
-    if (slow_counts)
-      tell_size(texture, less(force.whole, refined(slow())), share);
+    const PeriodBand slower{band.high * gradual, std::numeric_limits<double>::infinity()};
+    if (force.slow.ceiling_within(slower) > negligible * std::min(least, force.bent))
+      tell_size(texture, less(force.whole, refined(force.slow.within(slower))), share);
     else
       tell_size(texture, force.whole, share);
   } else {
-    // What is faster than the band would be mistaken for what is slow on fewer places.
-    if (force.slow.ceiling_beyond(band.low / gradual, band.low) < least) return {};
-    const ForceField smooth = force.slow.beyond(band.low / gradual, band.low);
-    tell_size(texture, slow_counts ? less(smooth, slow()) : smooth, 1);
-    if (texture.amplitude >= least) spectrum.emplace(smooth, band);
+    if (force.slow.ceiling_within(band) < least) return {};
+    tell_size(texture, force.slow.within(band), 1);
+    if (texture.amplitude >= least) spectrum.emplace(force.slow.coarsely_within(band), band);
   }
   if (texture.amplitude < least) return {};
   const auto components = spectrum->components(most_waves, least_share);
