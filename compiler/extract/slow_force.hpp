@@ -9,6 +9,7 @@ namespace wale {
 /// What of a field is slow: has periods of many of its samples. Worked out on every fourth line and column.
 class SlowForce {
  public:
+  SlowForce() = default;
   /// Of a field whose side is a multiple of four; it is taken to go on from its other end.
   explicit SlowForce(const ForceField& field);
 
@@ -27,9 +28,9 @@ class SlowForce {
   void each_within(const PeriodBand& band, const Visit& visit) const;
   ForceField on_lines_of(std::size_t side, const PeriodBand& band) const;
 
-  std::size_t side_;
-  glm::dvec2 centre_, spacing_;  // m, of the field's samples
-  Spectrum spectrum_;            // of every fourth line and column
+  std::size_t side_ = 0;
+  glm::dvec2 centre_{0}, spacing_{0};  // m, of the field's samples
+  Spectrum spectrum_;                  // of every fourth line and column
 };
 
 /// The same on twice as many lines and columns, between those that there are by cubics; it goes on from its other end.

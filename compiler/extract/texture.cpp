@@ -15,10 +15,14 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t whole_side = 256;  // 0.6 mm apart on a patch of 160 mm: enough for the size of the force
-constexpr std::size_t close_side = 128;  // 0.3 mm apart, so that periods of 0.6 mm and more are told
-constexpr double close_window = 0.0384;  // m
-constexpr std::size_t block = whole_side / 8;
+constexpr std::size_t usual_side = 192;   // 0.8 mm apart on a patch of 160 mm: enough for the size of the force ...
+constexpr std::size_t finer_side = 256;   // ... unless its periods are about those 0.8 mm, which would seem slow
+constexpr std::size_t close_side = 128;   // 0.3 mm apart, so that periods of 0.6 mm and more are told
+constexpr double close_window = 0.0384;   // m
+constexpr std::size_t blocks = 8;         // on a side, among which the busiest is looked for
+constexpr double deceptive = 0.01;        // of a texture's power, from which what seems slow counts
+constexpr std::size_t every_line = 8;     // on which that is looked for
+constexpr double seems_slow = 8e-3;       // m: a period that is longer than any texture's, or nearly
 constexpr double edge = 0.1;              // of a window on each side: what a transform rings at its ends
 constexpr double least_amplitude = 1e-4;  // N: a tenth of the finest step that any device has
 constexpr std::size_t change_places = 1024;
@@ -45,6 +49,7 @@ float squared(Force force) { return force.x * force.x + force.y * force.y; }
 glm::dvec2 busiest_place(const ForceField& whole) {
   double most = -1;
   glm::dvec2 found{0};
+  const std::size_t block = whole.side / blocks;
   for (std::size_t top = 0; top < whole.side; top += block)
     for (std::size_t left = 0; left < whole.side; left += block) {
       float change = 0;
@@ -183,36 +188,70 @@ glm::dvec2 inside_of(const Bank& bank) {
   return glm::max(size - 2.0 * bank.size().rim, 0.25 * size);
 }
 
-ForceField sampled_whole(const Bank& bank) {
-  if (depends_on_place(bank.program().description()))
-    return sample_force_field(bank, {0, 0}, inside_of(bank), whole_side);
-  ForceField field{whole_side, {0, 0}, inside_of(bank) / static_cast<double>(whole_side), {}};
+ForceField sampled_whole(const Bank& bank, std::size_t side) {
+  if (depends_on_place(bank.program().description())) return sample_force_field(bank, {0, 0}, inside_of(bank), side);
+  ForceField field{side, {0, 0}, inside_of(bank) / static_cast<double>(side), {}};
   const Hand hand;
   std::array<Force, 1> force{};
   tick_all(bank, {&hand, 1}, force);
-  field.forces.assign(whole_side * whole_side, force[0]);
+  field.forces.assign(side * side, force[0]);
   return field;
+}
+
+/// Whether a good part of a texture has periods so near to the spacing (m) of another field that they seem slow there:
+/// such as go along its lines or its columns.
+bool deceives(const ForceField& close, glm::dvec2 spacing) {
+  const std::vector<float> window = hann_window(close.side);
+  const auto count = static_cast<double>(close.side);
+  double deceiving = 0, all = 0;
+  for (const int axis : {0, 1}) {
+    const double extent = close.extent()[axis], waves = extent / spacing[axis], more = extent / seems_slow;
+    for (std::size_t line = every_line / 2; line < close.side; line += every_line) {
+      std::vector<glm::dvec2> values(close.side);
+      for (std::size_t i = 0; i < close.side; ++i) {
+        const Force force = close.forces[axis == 0 ? line * close.side + i : i * close.side + line];
+        values[i] = static_cast<double>(window[i]) * glm::dvec2(force);
+        all += glm::dot(values[i], values[i]) * count / 2;
+      }
+      for (double periods = std::ceil(waves - more); periods <= std::min(waves + more, count / 2); ++periods) {
+        // A recurrence spares the sines.
+        const double angle = 2 * std::numbers::pi * periods / count;
+        const glm::dvec2 turn{std::cos(angle), std::sin(angle)};
+        glm::dvec2 at{1, 0}, cosines{0}, sines{0};
+        for (const glm::dvec2& value : values) {
+          cosines += at.x * value, sines += at.y * value;
+          at = {at.x * turn.x - at.y * turn.y, at.x * turn.y + at.y * turn.x};
+        }
+        deceiving += glm::dot(cosines, cosines) + glm::dot(sines, sines);
+      }
+    }
+  }
+  return deceiving > deceptive * all;
 }
 
 }  // namespace
 
-StaticForce::StaticForce(const Bank& bank) : StaticForce(bank, sampled_whole(bank)) {}
-
-StaticForce::StaticForce(const Bank& bank, ForceField sampled) : StaticForce(bank, sampled, linear_part(sampled)) {}
-
-StaticForce::StaticForce(const Bank& bank, const ForceField& sampled, const LinearField& linear)
-    : whole(without(sampled, linear)), slope(linear), slow(whole) {
-  std::vector<float> sizes;
-  for (std::size_t i = 0; i < sampled.forces.size(); i += 7) sizes.push_back(std::sqrt(squared(sampled.forces[i])));
-  largest = quantile(std::move(sizes), 0.99);
-  float most = 0;
-  for (const Force& each : whole.forces) most = std::max(most, squared(each));
-  bent = std::sqrt(most);
+StaticForce::StaticForce(const Bank& bank) {
+  sample(bank, usual_side);
   if (bent < least_amplitude) return;
   const glm::dvec2 window = glm::min(glm::dvec2(close_window), whole.extent());
   const glm::dvec2 room = 0.5 * (whole.extent() - window);
   busiest = busiest_place(whole);
   close = sample_force_field(bank, glm::clamp(busiest, -room, room), window, close_side);
+  if (deceives(close, whole.spacing)) sample(bank, finer_side);
+  slow = SlowForce(whole);
+}
+
+void StaticForce::sample(const Bank& bank, std::size_t side) {
+  whole = sampled_whole(bank, side);
+  slope = linear_part(whole);
+  std::vector<float> sizes;
+  for (std::size_t i = 0; i < whole.forces.size(); i += 7) sizes.push_back(std::sqrt(squared(whole.forces[i])));
+  largest = quantile(std::move(sizes), 0.99);
+  whole = without(std::move(whole), slope);
+  float most = 0;
+  for (const Force& each : whole.forces) most = std::max(most, squared(each));
+  bent = std::sqrt(most);
 }
 
 TextureForce texture_force(const Bank& bank, const StaticForce& force, const PeriodBand& band, double least) {

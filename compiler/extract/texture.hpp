@@ -51,8 +51,7 @@ struct StaticForce {
   explicit StaticForce(const Bank& bank);
 
  private:
-  StaticForce(const Bank& bank, ForceField sampled);
-  StaticForce(const Bank& bank, const ForceField& sampled, const LinearField& slope);
+  void sample(const Bank& bank, std::size_t side);
 };
 
 /// Reads the texture whose periods lie within the band. What is slower, springs and hills, and what is faster counts
