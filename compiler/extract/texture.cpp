@@ -15,8 +15,11 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t usual_side = 192;   // 0.8 mm apart on a patch of 160 mm: enough for the size of the force ...
-constexpr std::size_t finer_side = 256;   // ... unless its periods are about those 0.8 mm, which would seem slow
+constexpr std::size_t first_side = 64;  // to find where a texture is busiest
+/// Of the whole patch, 0.8 mm apart or less on one of 160 mm: enough for the size of the force, unless it has periods
+/// that would seem slow on the one and do not on the next. Sides of which transforms are quick.
+constexpr std::array<std::size_t, 3> whole_sides = {192, 216, 256};
+constexpr double crooked = 0.987;         // of the patch: so that round periods fall on ever other places
 constexpr std::size_t close_side = 128;   // 0.3 mm apart, so that periods of 0.6 mm and more are told
 constexpr double close_window = 0.0384;   // m
 constexpr std::size_t blocks = 8;         // on a side, among which the busiest is looked for
@@ -188,16 +191,6 @@ glm::dvec2 inside_of(const Bank& bank) {
   return glm::max(size - 2.0 * bank.size().rim, 0.25 * size);
 }
 
-ForceField sampled_whole(const Bank& bank, std::size_t side) {
-  if (depends_on_place(bank.program().description())) return sample_force_field(bank, {0, 0}, inside_of(bank), side);
-  ForceField field{side, {0, 0}, inside_of(bank) / static_cast<double>(side), {}};
-  const Hand hand;
-  std::array<Force, 1> force{};
-  tick_all(bank, {&hand, 1}, force);
-  field.forces.assign(side * side, force[0]);
-  return field;
-}
-
 /// Whether a good part of a texture has periods so near to the spacing (m) of another field that they seem slow there:
 /// such as go along its lines or its columns.
 bool deceives(const ForceField& close, glm::dvec2 spacing) {
@@ -232,18 +225,26 @@ bool deceives(const ForceField& close, glm::dvec2 spacing) {
 }  // namespace
 
 StaticForce::StaticForce(const Bank& bank) {
-  sample(bank, usual_side);
-  if (bent < least_amplitude) return;
-  const glm::dvec2 window = glm::min(glm::dvec2(close_window), whole.extent());
-  const glm::dvec2 room = 0.5 * (whole.extent() - window);
-  busiest = busiest_place(whole);
-  close = sample_force_field(bank, glm::clamp(busiest, -room, room), window, close_side);
-  if (deceives(close, whole.spacing)) sample(bank, finer_side);
-  slow = SlowForce(whole);
-}
-
-void StaticForce::sample(const Bank& bank, std::size_t side) {
-  whole = sampled_whole(bank, side);
+  const glm::dvec2 inside = crooked * inside_of(bank);
+  if (!depends_on_place(bank.program().description())) {
+    const ForceField anywhere = sample_force_field(bank, {0, 0}, inside, 1);
+    slope.mean = anywhere.forces.front();
+    largest = glm::length(slope.mean);
+    whole = {whole_sides.front(), {0, 0}, inside / static_cast<double>(whole_sides.front()), {}};
+    whole.forces.resize(whole.side * whole.side);
+    return;
+  }
+  const glm::dvec2 window = glm::min(glm::dvec2(close_window), inside), room = 0.5 * (inside - window);
+  const ForceField first = sample_force_field(bank, {0, 0}, inside, first_side);
+  busiest = glm::clamp(busiest_place(without(first, linear_part(first))), -room, room);
+  close = sample_force_field(bank, busiest, window, close_side);
+  std::size_t side = whole_sides.back();
+  for (const std::size_t each : whole_sides)
+    if (!deceives(close, inside / static_cast<double>(each))) {
+      side = each;
+      break;
+    }
+  whole = sample_force_field(bank, {0, 0}, inside, side);
   slope = linear_part(whole);
   std::vector<float> sizes;
   for (std::size_t i = 0; i < whole.forces.size(); i += 7) sizes.push_back(std::sqrt(squared(whole.forces[i])));
@@ -252,6 +253,7 @@ void StaticForce::sample(const Bank& bank, std::size_t side) {
   float most = 0;
   for (const Force& each : whole.forces) most = std::max(most, squared(each));
   bent = std::sqrt(most);
+  if (bent >= least_amplitude) slow = SlowForce(whole);
 }
 
 TextureForce texture_force(const Bank& bank, const StaticForce& force, const PeriodBand& band, double least) {

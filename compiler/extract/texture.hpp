@@ -45,13 +45,10 @@ struct StaticForce {
   double largest = 0;     ///< N: about the 99th percentile of the whole force
   double bent = 0;        ///< N: the largest that is left of it without mean and slope
   glm::dvec2 busiest{0};  ///< where it varies most, m from the patch's centre
-  ForceField close;       ///< about there; empty where nothing is left
+  ForceField close;       ///< about there; empty where the force is the same everywhere
   SlowForce slow;         ///< of `whole`
 
   explicit StaticForce(const Bank& bank);
-
- private:
-  void sample(const Bank& bank, std::size_t side);
 };
 
 /// Reads the texture whose periods lie within the band. What is slower, springs and hills, and what is faster counts
