@@ -34,7 +34,8 @@ constexpr double fewest_waves = 14;    // over a window, from which noise is tol
 constexpr std::size_t most_waves = 4;  // that are told ...
 constexpr double least_share = 0.1;    // ... each with that much of the power
 constexpr double a_multiple = 0.05;    // how near to a whole multiple of another's wave counts as one
-constexpr double negligible = 0.3;     // of the least that counts: what is slow then need not be taken away
+constexpr double least_plane = 0.05;   // of the whole force
+constexpr double periodic = 0.9;       // regularity from which all may come back
 constexpr double coarser = 3;          // than the band: where a coarse texture is looked at for its regularity
 constexpr double no_direction = 0.05;  // anisotropy of which the direction is chance
 
@@ -153,9 +154,9 @@ void tell_waves(TextureForce& texture, const BandSpectrum& spectrum, const std::
 /// the closer one does not, half of the patch is looked at or the whole. What is too fine for their samples is among
 /// these as regular as it is anywhere.
 void tell_regularity(TextureForce& texture, const StaticForce& force, const PeriodBand& band,
-                     const BandSpectrum& spectrum, glm::dvec2 strongest) {
+                     const BandSpectrum& spectrum, const std::vector<WaveComponent>& components) {
   std::optional<BandSpectrum> wider;
-  const double waves = glm::length(strongest), all = force.whole.extent().x;
+  const double waves = glm::length(components.front().waves), all = force.whole.extent().x;
   if (waves * spectrum.extent().x < fewest_waves && spectrum.extent().x < 0.5 * all) {
     // Of a coarse noise only the finest part is in the band, and any narrow band of waves comes back for a while.
     if (waves * 0.5 * all < fewest_waves)
@@ -163,9 +164,8 @@ void tell_regularity(TextureForce& texture, const StaticForce& force, const Peri
     else
       wider.emplace(busiest_half(force), band);
   }
-  const Repetition found = repetition(wider && wider->whole_power() > 0 ? *wider : spectrum, strongest);
-  texture.regularity = found.regularity;
-  texture.period = found.waves / waves;
+  texture.regularity = regularity(wider && wider->whole_power() > 0 ? *wider : spectrum, components.front().waves);
+  texture.period = texture.regularity >= periodic ? repetition(spectrum, components) : 1 / waves;
 }
 
 /// How suddenly the force changes, as against its size.
@@ -249,7 +249,10 @@ StaticForce::StaticForce(const Bank& bank) {
   std::vector<float> sizes;
   for (std::size_t i = 0; i < whole.forces.size(); i += 7) sizes.push_back(std::sqrt(squared(whole.forces[i])));
   largest = quantile(std::move(sizes), 0.99);
-  whole = without(std::move(whole), slope);
+  // What is left of waves that do not fit the patch is not worth a plane.
+  const glm::dvec2 half = 0.5 * whole.extent();
+  const double plane = glm::length(slope.mean) + glm::length(slope.by_x) * half.x + glm::length(slope.by_y) * half.y;
+  if (plane > least_plane * largest) whole = without(std::move(whole), slope);
   float most = 0;
   for (const Force& each : whole.forces) most = std::max(most, squared(each));
   bent = std::sqrt(most);
@@ -265,7 +268,7 @@ TextureForce texture_force(const Bank& bank, const StaticForce& force, const Per
     spectrum.emplace(force.close, band);
     const double share = spectrum->share_of_amplitude();
     const PeriodBand slower{band.high * gradual, std::numeric_limits<double>::infinity()};
-    if (force.slow.ceiling_within(slower) > negligible * std::min(least, force.bent))
+    if (force.slow.ceiling_within(slower) > least)
       tell_size(texture, less(force.whole, refined(force.slow.within(slower))), share);
     else
       tell_size(texture, force.whole, share);
@@ -278,7 +281,7 @@ TextureForce texture_force(const Bank& bank, const StaticForce& force, const Per
   const auto components = spectrum->components(most_waves, least_share);
   if (components.empty()) return {};
   tell_waves(texture, *spectrum, components);
-  tell_regularity(texture, force, band, *spectrum, components.front().waves);
+  tell_regularity(texture, force, band, *spectrum, components);
   tell_steepness(texture, bank, seen_closely(force, band) ? force.close : force.whole);
   return texture;
 }

@@ -21,8 +21,8 @@ struct TextureForce {
   double rms = 0;          ///< N
   double mean = 0;         ///< N: of its size
   double transitions = 0;  ///< 1/m: how often it changes its sign along the strongest component
-  /// m: of the strongest component, or after how many of its waves all comes back where that is a harmonic; 0 without a
-  /// texture
+  /// m: of the strongest component, or the distance after which all comes back where that is a harmonic of it or
+  /// crosses another; 0 without a texture
   double period = 0;
   double orientation = 0;  ///< rad from the x axis, in [0, pi): the direction in which it changes
   double anisotropy = 0;   ///< 0 the same in every direction .. 1 in one alone
@@ -40,7 +40,7 @@ struct TextureForce {
 
 /// Static forces at two scales: over the whole patch, and where its texture is strongest.
 struct StaticForce {
-  ForceField whole;  ///< without its mean and slope
+  ForceField whole;  ///< without its mean and slope, if they are worth it
   LinearField slope;
   double largest = 0;     ///< N: about the 99th percentile of the whole force
   double bent = 0;        ///< N: the largest that is left of it without mean and slope
