@@ -6,15 +6,14 @@
 #include <cmath>
 
 #include "compiler/extract/cues.hpp"
+#include "compiler/extract/tolerances.hpp"
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/law.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double normal_95 = 1.96;    // standard deviations on either side that hold 95 % of a normal distribution
-constexpr double no_force = 0.01;     // N
-constexpr double of_a_grating = 0.5;  // regularity from which a texture is one, and not a noise
+constexpr double normal_95 = 1.96;  // standard deviations on either side that hold 95 % of a normal distribution
 
 /// The cue that an extractor reads, of a percept with this band of periods.
 std::optional<CueKind> cue_of(const Percept& percept, const Declarations& declarations) {
@@ -44,7 +43,6 @@ DescribedPercept told_by(const Percept& percept, const Map& map, double size, co
   told.level = law.level_of(size);
   told.magnitude = law.magnitude_of(size);
   tell_intervals(told, map.scatter, map.spread, size / percept.one, percept.near_threshold);
-  constexpr double reading = 0.02;  // what an extraction may be off by
   told.outside_validity = size < map.valid_low * (1 - reading) || size > map.valid_high * (1 + reading);
   told.alone = false;
   told.slope = map.slope, told.anchor = map.anchor;
@@ -56,11 +54,17 @@ DescribedPercept told_by(const Percept& percept, const Map& map, double size, co
   return told;
 }
 
+/// A size to two significant digits: a stimulus at the very bound of a class falls where its author put it.
+double as_well_as_read(double size) {
+  const double digit = std::pow(10, std::floor(std::log10(size)) - 1);
+  return std::round(size / digit) * digit;
+}
+
 /// The kind of surface as the rules know it: what the subjects of chapter 4 were given, of one thing alone.
 std::string kind_of(const Cues& cues, const Extraction& found, double largest_newton) {
-  if (cues[CueKind::amplitude]) return found.texture.regularity >= of_a_grating ? "grating" : "perlin";
+  if (cues[CueKind::amplitude]) return found.texture.regular() ? "grating" : "perlin";
   const auto things = std::ranges::count_if(cues.values, [](const auto& value) { return value.has_value(); });
-  if (things == 0 && largest_newton < no_force) return "nothing";
+  if (things == 0 && largest_newton < least_force) return "nothing";
   if (things != 1) return {};
   if (const auto& stiffness = cues[CueKind::stiffness]) return *stiffness > 0 ? "spring" : "bump";
   if (const auto& viscosity = cues[CueKind::viscosity]) return *viscosity > 0 ? "viscous" : "slick";
@@ -73,7 +77,7 @@ DescribedTexture texture_of(const Cues& cues, const Extraction& found, double la
   if (!cues[CueKind::amplitude]) texture.force = {};
   const bool has_texture = texture.force.amplitude > 0;
   std::map<std::string, double> sizes;
-  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", texture.force.period}};
+  if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
   for (const Rule* rule : declarations.rules()) {
     const Rule::Case* holds = rule->first(sizes, texture.kind);
     if (!holds) continue;

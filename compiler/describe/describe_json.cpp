@@ -69,6 +69,11 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   json["orientation_rad"] = figure(force.orientation);
   json["anisotropy"] = figure(force.anisotropy);
   json["regularity"] = figure(force.regularity);
+  auto& waves = json["waves"] = nlohmann::ordered_json::array();
+  for (const TextureWave& wave : force.waves)
+    waves.push_back({{"period_m", figure(wave.period)},
+                     {"orientation_rad", figure(wave.orientation)},
+                     {"share", figure(wave.share)}});
   json["steepness_per_m"] = figure(force.steepness);
   json["transitions_per_m"] = figure(force.transitions);
   return json;

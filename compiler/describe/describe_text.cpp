@@ -67,6 +67,9 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
   }
 }
 
+/// Of a direction in [0, pi), whole and less than 180.
+long degrees(double radians) { return std::lround(radians * 180 / std::numbers::pi) % 180; }
+
 void write_texture(std::string& text, const Description& description) {
   if (!description.texture) return;
   const DescribedTexture& texture = *description.texture;
@@ -75,15 +78,19 @@ void write_texture(std::string& text, const Description& description) {
   if (force.amplitude > 0) {
     text += fmt::format("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
                         force.maximum, force.rms, force.mean);
-    if (force.regularity >= 0.5)
+    if (force.regular())
       text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} transitions a millimetre\n", 1e3 * force.period,
                           100 * force.regularity, 1e-3 * force.transitions);
     else
       text += fmt::format("  irregular, about {:.2g} mm; {:.2g} transitions a millimetre\n", 1e3 * force.period,
                           1e-3 * force.transitions);
-    if (force.anisotropy >= 0.5)
-      text += fmt::format("  changes along {} degrees from x\n",
-                          std::lround(force.orientation * 180 / std::numbers::pi) % 180);
+    text += fmt::format(
+        "  anisotropy {:.1f}{}\n", force.anisotropy,
+        force.oriented() ? fmt::format(", changes along {} degrees from x", degrees(force.orientation)) : "");
+    if (force.waves.size() > 1)
+      for (const TextureWave& wave : force.waves)
+        text += fmt::format("  {:.0f} % of it with a period of {:.2g} mm along {} degrees\n", 100 * wave.share,
+                            1e3 * wave.period, degrees(wave.orientation));
     if (!texture.texture_class.empty()) text += fmt::format("  people would call it: {}\n", texture.texture_class);
     if (!texture.size_class.empty() && texture.size_class != "texture")
       text += fmt::format("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,

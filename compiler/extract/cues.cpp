@@ -1,18 +1,12 @@
 #include "compiler/extract/cues.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "compiler/extract/tolerances.hpp"
 
 namespace wale {
 namespace {
-
-// What an extraction leaves of something that is not there. Far below what a hand can tell.
-constexpr double least_stiffness = 2;     // N/m
-constexpr double least_damping = 0.05;    // N s/m
-constexpr double least_force = 0.01;      // N
-constexpr double least_mass = 1e-3;       // kg
-constexpr double least_of_texture = 0.1;  // of the texture's force: what ends of the patch make of it as bumps
-constexpr double of_one_direction = 0.5;  // anisotropy from which a texture has an orientation
-constexpr double regular = 0.5;           // from which a period can be told
 
 std::optional<double> unless_little(double value, double least) {
   return std::abs(value) < least ? std::nullopt : std::optional(value);
@@ -58,12 +52,12 @@ Cues cues_of(const Bank& bank, const Extraction& found) {
       unless_little(texture.amplitude, std::max(least_force, least_of_texture * bumps.amplitude));
   if (cues[CueKind::amplitude]) {
     cues[CueKind::regularity] = texture.regularity;
-    if (texture.regularity >= regular) cues[CueKind::period] = texture.period;
-    if (texture.anisotropy >= of_one_direction) cues[CueKind::orientation] = texture.orientation;
+    if (texture.regular()) cues[CueKind::period] = texture.period;
+    if (texture.oriented()) cues[CueKind::orientation] = texture.orientation;
   }
   const double mostly = std::max(least_force, least_of_texture * texture.amplitude);
   if (!found.wall) cues[CueKind::bump_amplitude] = unless_little(bumps.amplitude, mostly);
-  if (cues[CueKind::bump_amplitude] && bumps.regularity >= regular) cues[CueKind::bump_period] = bumps.period;
+  if (cues[CueKind::bump_amplitude] && bumps.regular()) cues[CueKind::bump_period] = bumps.period;
   cues[CueKind::stiffness] = unless_little(found.stiffness, least_stiffness);
   if (found.wall) cues[CueKind::wall_stiffness] = found.wall->stiffness;
   cues[CueKind::viscosity] = unless_little(found.opposing.damping, least_damping);

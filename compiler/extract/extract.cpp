@@ -1,33 +1,37 @@
 #include "compiler/extract/extract.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
+
+#include "compiler/extract/dependence.hpp"
+#include "compiler/extract/tolerances.hpp"
 
 namespace wale {
 namespace {
 
-constexpr double alike = 0.15;           // of a stiffness, here and there
-constexpr double least_of_field = 0.03;  // of the whole force: a texture that counts
-constexpr double longest_bump = 0.4;     // of the patch
+constexpr double alike = 0.15;        // of a stiffness, here and there
+constexpr double longest_bump = 0.4;  // of the patch
+
+/// What draws the hand back, where it is the same in the middle as on the whole patch.
+double even_stiffness(const StaticForce& force) {
+  const std::size_t side = force.whole.side;
+  const double everywhere = force.slope.stiffness();
+  const double more = linear_part(part_of(force.whole, side / 4, side / 4, side / 2)).stiffness();
+  return std::abs(more) <= alike * std::abs(everywhere) ? everywhere : 0;
+}
 
 }  // namespace
 
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps) {
   const StaticForce force(bank);
   Extraction found;
-  found.texture = texture_force(bank, force, textures);
-  found.bumps = texture_force(bank, force, bumps);
-  found.wall = wall_face(bank);
-  const double everywhere = force.slope.stiffness(), within = linear_part(middle_of(force.whole)).stiffness();
-  if (!found.wall && std::abs(within - everywhere) <= alike * std::abs(everywhere)) found.stiffness = everywhere;
-  // Where a strong field bends, its transform rings.
-  std::vector<float> sizes;
-  for (const Force& each : force.whole.forces) sizes.push_back(std::hypot(each.x, each.y));
-  if (found.texture.amplitude < least_of_field * quantile(std::move(sizes), 0.99)) found.texture = {};
+  found.texture = texture_force(bank, force, textures, least_of_field * force.largest);
+  found.bumps = texture_force(bank, force, bumps, std::max(least_force, least_of_texture * found.texture.amplitude));
+  // A face bends the force, unless it remembers and gave way to the hands that were set down behind it.
+  if (force.bent >= least_force || remembers_anything(bank.program().description())) found.wall = wall_face(bank);
+  if (!found.wall) found.stiffness = even_stiffness(force);
   // A hill that the patch does not hold twice is not told from a spring that gives way.
-  const double extent = force.whole.spacing.x * static_cast<double>(force.whole.side);
-  if (found.bumps.period > longest_bump * extent) found.bumps = {};
+  if (found.bumps.period > longest_bump * force.whole.extent().x) found.bumps = {};
   found.opposing = opposing_force(bank);
   found.inertia = inertia(bank);
   found.vibration = vibration(bank);

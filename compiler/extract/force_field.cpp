@@ -2,55 +2,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace wale {
+namespace {
+
+constexpr std::size_t hands_at_once = 8192;  // they stay in the cache
+
+}  // namespace
 
 ForceField sample_force_field(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, std::size_t side) {
-  ForceField field{side, centre, size / static_cast<double>(side), {}};
-  std::vector<Hand> hands(side * side);
-  for (std::size_t row = 0; row < side; ++row)
-    for (std::size_t column = 0; column < side; ++column) {
-      Hand& hand = hands[row * side + column];
-      hand.position = hand.workspace = glm::vec2(field.place(column, row));
-    }
-  field.forces.resize(hands.size());
-  tick_all(bank, hands, field.forces);
+  ForceField field{side, centre, size / static_cast<double>(side), std::vector<Force>(side * side)};
+  const std::size_t lines = std::clamp<std::size_t>(hands_at_once / side, 1, side);
+  std::vector<Hand> hands(lines * side);
+  for (std::size_t first = 0; first < side; first += lines) {
+    const std::size_t count = std::min(lines, side - first);
+    for (std::size_t row = 0; row < count; ++row)
+      for (std::size_t column = 0; column < side; ++column) {
+        Hand& hand = hands[row * side + column];
+        hand.position = hand.workspace = glm::vec2(field.place(column, first + row));
+      }
+    tick_all(bank, std::span(hands).first(count * side), std::span(field.forces).subspan(first * side, count * side));
+  }
   return field;
 }
 
 LinearField linear_part(const ForceField& field) {
   LinearField part;
-  const double count = static_cast<double>(field.side * field.side);
-  for (const Force& force : field.forces) part.mean += glm::dvec2(force) / count;
-  glm::dvec2 squares{0};
-  for (std::size_t row = 0; row < field.side; ++row)
+  const auto count = static_cast<double>(field.side * field.side);
+  const double middle = 0.5 * (static_cast<double>(field.side) - 1);
+  double squares = 0;  // of the columns' distances from the middle, as of the rows'
+  for (std::size_t row = 0; row < field.side; ++row) {
+    glm::dvec2 sum{0};
     for (std::size_t column = 0; column < field.side; ++column) {
-      const glm::dvec2 from = field.place(column, row) - field.centre;
-      const glm::dvec2 force = glm::dvec2(field.forces[row * field.side + column]) - part.mean;
-      part.by_x += from.x * force, part.by_y += from.y * force;
-      squares += from * from;
+      const glm::dvec2 force(field.forces[row * field.side + column]);
+      sum += force;
+      part.by_x += (static_cast<double>(column) - middle) * force;
     }
-  part.by_x /= squares.x, part.by_y /= squares.y;
+    part.mean += sum;
+    part.by_y += (static_cast<double>(row) - middle) * sum;
+    squares += (static_cast<double>(row) - middle) * (static_cast<double>(row) - middle);
+  }
+  part.mean /= count;
+  part.by_x /= squares * static_cast<double>(field.side) * field.spacing.x;
+  part.by_y /= squares * static_cast<double>(field.side) * field.spacing.y;
   return part;
 }
 
-ForceField middle_of(const ForceField& field) {
-  ForceField middle{field.side / 2, field.centre, field.spacing, {}};
-  const std::size_t first = field.side / 4;
-  for (std::size_t row = first; row < first + middle.side; ++row)
-    for (std::size_t column = first; column < first + middle.side; ++column)
-      middle.forces.push_back(field.forces[row * field.side + column]);
-  return middle;
+ForceField part_of(const ForceField& field, std::size_t first_column, std::size_t first_row, std::size_t side) {
+  const double off = 0.5 * (static_cast<double>(side) - 1);
+  const glm::dvec2 centre = field.place(first_column, first_row) + off * field.spacing;
+  ForceField part{side, centre, field.spacing, {}};
+  part.forces.reserve(side * side);
+  for (std::size_t row = first_row; row < first_row + side; ++row) {
+    const auto line = field.forces.begin() + static_cast<std::ptrdiff_t>(row * field.side + first_column);
+    part.forces.insert(part.forces.end(), line, line + static_cast<std::ptrdiff_t>(side));
+  }
+  return part;
 }
 
-ForceField without(const ForceField& field, const LinearField& part) {
-  ForceField rest = field;
-  for (std::size_t row = 0; row < field.side; ++row)
-    for (std::size_t column = 0; column < field.side; ++column) {
-      const glm::dvec2 from = field.place(column, row) - field.centre;
-      rest.forces[row * field.side + column] -= glm::vec2(part.mean + from.x * part.by_x + from.y * part.by_y);
-    }
-  return rest;
+ForceField without(ForceField field, const LinearField& part) {
+  const double middle = 0.5 * (static_cast<double>(field.side) - 1);
+  const glm::vec2 step(field.spacing.x * part.by_x);
+  for (std::size_t row = 0; row < field.side; ++row) {
+    const double down = (static_cast<double>(row) - middle) * field.spacing.y;
+    const glm::vec2 at(part.mean + down * part.by_y);
+    for (std::size_t column = 0; column < field.side; ++column)
+      field.forces[row * field.side + column] -= at + (static_cast<float>(column) - static_cast<float>(middle)) * step;
+  }
+  return field;
+}
+
+std::vector<std::complex<float>> as_complex(const std::vector<Force>& forces) {
+  std::vector<std::complex<float>> values;
+  values.reserve(forces.size());
+  for (const Force& force : forces) values.emplace_back(force.x, force.y);
+  return values;
 }
 
 double quantile(std::vector<float> values, double share) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ForceField {
     const double middle = 0.5 * (static_cast<double>(side) - 1);
     return centre + spacing * glm::dvec2(static_cast<double>(column) - middle, static_cast<double>(row) - middle);
   }
+  glm::dvec2 extent() const { return spacing * static_cast<double>(side); }
 };
 
 /// Runs the program over a window of `size` (m) about `centre`. Deterministic.
@@ -34,11 +36,14 @@ struct LinearField {
 
 LinearField linear_part(const ForceField& field);
 
-/// The middle of a field, half as wide and high.
-ForceField middle_of(const ForceField& field);
+/// `side` lines and columns of a field, from these on.
+ForceField part_of(const ForceField& field, std::size_t first_column, std::size_t first_row, std::size_t side);
 
 /// The field without its mean and its slope.
-ForceField without(const ForceField& field, const LinearField& part);
+ForceField without(ForceField field, const LinearField& part);
+
+/// As x + i y.
+std::vector<std::complex<float>> as_complex(const std::vector<Force>& forces);
 
 /// The value below which the share of them lies, 0 .. 1. Reorders its copy; 0 of none.
 double quantile(std::vector<float> values, double share);

@@ -3,90 +3,193 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "compiler/extract/dependence.hpp"
+#include "compiler/extract/force_field.hpp"
+#include "compiler/extract/fourier.hpp"
 #include "compiler/measure/hands.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::array<double, 3> speeds = {0.04, 0.08, 0.16};  // m/s, those of a hand that explores
-constexpr double stretch = 0.04;                              // m, gone over there and back
-constexpr double least_stretch = 0.5;                         // of the patch's extent, where that is smaller
+constexpr std::array<double, 3> speeds = {0.05, 0.1, 0.2};  // m/s, those of a hand that explores
+constexpr double stretch = 0.024;                           // m, gone over there and back
+constexpr double least_stretch = 0.5;                       // of the patch's extent, where that is smaller
 constexpr double looked_at = 0.5;  // of the stretch, in its middle: what remembers has taken up its load there
 constexpr int lines = 4;           // parallel strokes
+constexpr int places = 64;         // of a stroke, where nothing remembers
 constexpr double push = 1;         // m/s^2
-constexpr int still_places = 8;
+constexpr std::size_t still_places = 8;
 constexpr double still_seconds = 1;
 constexpr double nothing = 1e-5;  // N
 
-/// A stroke goes over its stretch there, back and there again. The first way settles what remembers; the middles of
-/// the other two are looked at, which see the same places, so that what depends on place cancels.
+/// A stroke goes over half of its stretch, back over the whole and there again. The first half settles what remembers;
+/// the middles of the other two are looked at, which see the same places, so that what depends on place cancels.
 struct Stroke {
   glm::dvec2 direction{0}, middle{0};
   double speed = 0;
-  long pass = 0;  // ticks
+  long pass = 0;  // ticks, an even number
 
-  /// m along the direction at a tick, from the middle, and whether it goes there.
+  long ticks() const { return pass / 2 + 2 * pass; }
+
+  /// A hand `along` it (m from the middle), on its way there or back.
+  Hand hand(double along, bool forth) const {
+    Hand hand;
+    hand.position = hand.workspace = glm::vec2(middle + along * direction);
+    hand.velocity = hand.raw_velocity = glm::vec2((forth ? 1 : -1) * speed * direction);
+    return hand;
+  }
+
+  /// m from the middle at a tick, and whether it goes there.
   std::pair<double, bool> at(long tick, double rate) const {
     const double half = 0.5 * static_cast<double>(pass) * speed / rate;
-    const double gone = (static_cast<double>(tick % pass) + 0.5) * speed / rate;
-    const bool forth = tick / pass % 2 == 0;
+    const long since = tick + pass / 2;  // as if it had begun at the stretch's end
+    const double gone = (static_cast<double>(since % pass) + 0.5) * speed / rate;
+    const bool forth = since / pass % 2 == 0;
     return {forth ? gone - half : half - gone, forth};
   }
 };
+
+/// The patch less its rim: half of it, m.
+glm::dvec2 half_of(const Bank& bank) {
+  const PatchSize patch = bank.size();
+  return 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+}
+
+/// m to either side of a stroke's middle.
+double reach_of(const Bank& bank) {
+  const glm::dvec2 half = half_of(bank);
+  return std::min(stretch / 2, least_stretch * std::min(half.x, half.y));
+}
+
+std::vector<Stroke> strokes_over(const Bank& bank) {
+  const double rate = bank.program().description().device.rate;
+  std::vector<Stroke> strokes;
+  for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1)})
+    for (int line = 0; line < lines; ++line)
+      for (const double speed : speeds) {
+        const glm::dvec2 aside =
+            half_of(bank) * ((line + 0.5) / (0.5 * lines) - 1) * glm::dvec2(direction.y, direction.x);
+        strokes.push_back({direction, aside, speed, 2 * std::max(2L, std::lround(reach_of(bank) / speed * rate))});
+      }
+  return strokes;
+}
+
+/// The mean force against each stroke, N, of a program whose ticks do not know of one another.
+std::vector<double> opposed_anywhere(const Bank& bank, const std::vector<Stroke>& strokes) {
+  std::vector<Hand> hands;
+  hands.reserve(strokes.size() * 2 * places);
+  for (const Stroke& stroke : strokes)
+    for (const bool forth : {true, false})
+      for (int i = 0; i < places; ++i)
+        hands.push_back(stroke.hand(looked_at * reach_of(bank) * (2 * (i + 0.5) / places - 1), forth));
+  std::vector<Force> forces(hands.size());
+  tick_all(bank, hands, forces);
+  std::vector<double> means(strokes.size());
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const std::size_t stroke = i / (2 * places);
+    means[stroke] -=
+        glm::dot(glm::dvec2(forces[i]), glm::dvec2(hands[i].velocity)) / strokes[stroke].speed / (2 * places);
+  }
+  return means;
+}
+
+/// The same of any program, tick by tick.
+std::vector<double> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes) {
+  const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
+  const long longest = std::ranges::max(strokes, {}, &Stroke::ticks).ticks();
+  std::vector<double> sums(strokes.size());
+  std::vector<long> counts(strokes.size());
+  const auto move = [&](std::size_t first, long tick, std::span<const Force> forces, std::span<Hand> hands) {
+    for (std::size_t i = 0; i < hands.size(); ++i) {
+      const Stroke& stroke = strokes[first + i];
+      const bool counts_now = tick > stroke.pass / 2 && tick <= stroke.ticks();
+      if (counts_now && std::abs(stroke.at(tick - 1, rate).first) <= middle) {
+        sums[first + i] -= glm::dot(glm::dvec2(forces[i]), glm::dvec2(hands[i].velocity)) / stroke.speed;
+        ++counts[first + i];
+      }
+      const auto [along, forth] = stroke.at(tick, rate);
+      hands[i] = stroke.hand(along, forth);
+      hands[i].time = static_cast<double>(tick) / rate;
+    }
+  };
+  run_batch(bank, strokes.size(), longest, move);
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= static_cast<double>(std::max(1L, counts[i]));
+  return sums;
+}
+
+/// The forces on hands that hold still at a few places, tick by tick for as long as they are looked at; empty where
+/// they cannot change.
+std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
+  const PatchProgram& program = bank.program().description();
+  const bool timed = reads(program, {Input::time});
+  std::vector<std::vector<Force>> felt;
+  if (!timed && program.states.empty()) return felt;
+  const double rate = program.device.rate;
+  const auto ticks = static_cast<std::size_t>(std::lround(still_seconds * rate));
+  std::vector<Hand> hands(still_places);
+  for (std::size_t i = 0; i < still_places; ++i) {
+    // On a spiral, so that no two are at the same distance or angle.
+    const auto number = static_cast<double>(i);
+    const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
+    hands[i].position = hands[i].workspace =
+        glm::vec2(half_of(bank) * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  felt.assign(still_places, std::vector<Force>(ticks));
+  if (program.states.empty()) {
+    for (std::size_t i = 0; i < still_places; ++i) {
+      std::vector<Hand> moments(ticks, hands[i]);
+      for (std::size_t tick = 0; tick < ticks; ++tick) moments[tick].time = static_cast<double>(tick) / rate;
+      tick_all(bank, moments, felt[i]);
+    }
+    return felt;
+  }
+  Batch batch(bank, still_places);
+  batch.enter(hands);
+  std::vector<Force> forces(still_places);
+  const std::size_t all = program.states.size() * still_places;
+  std::vector<float> before(all), now(all);
+  for (std::size_t tick = 0; tick < ticks; ++tick) {
+    for (Hand& hand : hands) hand.time = static_cast<double>(tick) / rate;
+    batch.tick(hands, forces);
+    for (std::size_t i = 0; i < still_places; ++i) felt[i][tick] = forces[i];
+    for (std::size_t i = 0; i < all; ++i) now[i] = batch.state(i / still_places, i % still_places);
+    // What stands still and has no clock does so for good.
+    if (!timed && tick > 0 && now == before) {
+      for (auto& each : felt) each.assign(ticks, each[tick]);
+      break;
+    }
+    before.swap(now);
+  }
+  return felt;
+}
 
 }  // namespace
 
 OpposingForce opposing_force(const Bank& bank) {
   OpposingForce found;
   const PatchProgram& program = bank.program().description();
-  if (!depends_on_the_moment(program) && program.states.empty() && program.grids.empty()) return found;
-  const PatchSize patch = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
-  const double reach = std::min(stretch / 2, least_stretch * std::min(half.x, half.y));
-  const double rate = program.device.rate;
-  std::vector<Stroke> strokes;
-  long longest = 0;
-  for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(0, 1)})
-    for (int line = 0; line < lines; ++line)
-      for (const double speed : speeds) {
-        const glm::dvec2 aside = half * ((line + 0.5) / (0.5 * lines) - 1) * glm::dvec2(direction.y, direction.x);
-        strokes.push_back({direction, aside, speed, std::max(4L, std::lround(2 * reach / speed * rate))});
-        longest = std::max(longest, strokes.back().pass);
-      }
-  std::vector<double> sums(strokes.size());
-  std::vector<long> counts(strokes.size());
-  const auto move = [&](std::size_t first, long tick, std::span<const Force> forces, std::span<Hand> hands) {
-    for (std::size_t i = 0; i < hands.size(); ++i) {
-      const Stroke& stroke = strokes[first + i];
-      const bool counts_now = tick > stroke.pass && tick <= 3 * stroke.pass;
-      if (counts_now && std::abs(stroke.at(tick - 1, rate).first) <= looked_at * reach) {
-        sums[first + i] -= glm::dot(glm::dvec2(forces[i]), glm::dvec2(hands[i].velocity)) / stroke.speed;
-        ++counts[first + i];
-      }
-      const auto [along, forth] = stroke.at(tick, rate);
-      hands[i].position = hands[i].workspace = glm::vec2(stroke.middle + along * stroke.direction);
-      hands[i].velocity = hands[i].raw_velocity = glm::vec2((forth ? 1 : -1) * stroke.speed * stroke.direction);
-      hands[i].time = static_cast<double>(tick) / rate;
-    }
-  };
-  run_batch(bank, strokes.size(), 3 * longest, move);
+  if (!depends_on_the_moment(program) && !remembers_anything(program)) return found;
+  const std::vector<Stroke> strokes = strokes_over(bank);
+  const bool alone = !remembers_anything(program) && !reads(program, {Input::time});
+  const std::vector<double> opposed = alone ? opposed_anywhere(bank, strokes) : opposed_on_the_way(bank, strokes);
   // Least squares of force against speed.
   double n = 0, v = 0, f = 0, vv = 0, vf = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    const double force = sums[i] / static_cast<double>(counts[i]), speed = strokes[i].speed;
+    const double force = opposed[i], speed = strokes[i].speed;
     n += 1, v += speed, f += force, vv += speed * speed, vf += speed * force;
   }
   found.damping = (n * vf - v * f) / (n * vv - v * v);
   found.friction = (f - found.damping * v) / n;
   double squares = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
-    const double off = sums[i] / static_cast<double>(counts[i]) - found.friction - found.damping * strokes[i].speed;
+    const double off = opposed[i] - found.friction - found.damping * strokes[i].speed;
     squares += off * off;
   }
   found.scatter = std::sqrt(squares / n);
@@ -94,9 +197,10 @@ OpposingForce opposing_force(const Bank& bank) {
 }
 
 double inertia(const Bank& bank) {
-  if (!depends_on_the_moment(bank.program().description())) return 0;
-  const PatchSize patch = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  if (!reads(bank.program().description(),
+             {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}))
+    return 0;
+  const glm::dvec2 half = half_of(bank);
   std::vector<Hand> hands;
   constexpr int side = 8;
   for (int row = 0; row < side; ++row)
@@ -116,49 +220,24 @@ double inertia(const Bank& bank) {
 
 Vibration vibration(const Bank& bank) {
   Vibration found;
-  const PatchProgram& program = bank.program().description();
-  if (!depends_on_the_moment(program) && program.states.empty()) return found;
-  const PatchSize patch = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
-  const double rate = program.device.rate;
-  const long ticks = std::lround(still_seconds * rate);
-  std::vector<std::vector<Force>> felt(still_places, std::vector<Force>(static_cast<std::size_t>(ticks)));
-  run_batch(bank, still_places, ticks,
-            [&](std::size_t first, long tick, std::span<const Force> forces, std::span<Hand> hands) {
-              for (std::size_t i = 0; i < hands.size(); ++i) {
-                const auto number = static_cast<double>(first + i);
-                if (tick > 0) felt[first + i][static_cast<std::size_t>(tick - 1)] = forces[i];
-                // On a spiral, so that no two are at the same distance or angle.
-                const double radius = 0.8 * number / still_places,
-                             angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
-                hands[i].position = hands[i].workspace =
-                    glm::vec2(half * radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-                hands[i].time = static_cast<double>(tick) / rate;
-              }
-            });
-  const std::vector<Force>* busiest = nullptr;
-  glm::dvec2 rest{0};
-  for (const auto& forces : felt) {
+  std::vector<std::complex<float>> busiest;
+  for (const std::vector<Force>& forces : felt_at_rest(bank)) {
+    const auto ticks = static_cast<double>(forces.size());
     glm::dvec2 mean{0};
-    for (const Force& force : forces) mean += glm::dvec2(force) / static_cast<double>(ticks);
+    for (const Force& force : forces) mean += glm::dvec2(force) / ticks;
     double squares = 0;
     for (const Force& force : forces) squares += glm::dot(glm::dvec2(force) - mean, glm::dvec2(force) - mean);
-    const double amplitude = std::sqrt(2 * squares / static_cast<double>(ticks));
-    if (amplitude > std::max(found.amplitude, nothing)) found.amplitude = amplitude, busiest = &forces, rest = mean;
+    const double amplitude = std::sqrt(2 * squares / ticks);
+    if (amplitude <= std::max(found.amplitude, nothing)) continue;
+    found.amplitude = amplitude;
+    busiest = as_complex(forces);
+    for (auto& value : busiest) value -= std::complex<float>(static_cast<float>(mean.x), static_cast<float>(mean.y));
   }
-  if (busiest == nullptr) return found;
+  // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image.
+  const Spectrum spectrum = busiest.empty() ? Spectrum{} : fourier_of_line(busiest);
   double strongest = 0;
-  for (long cycles = 1; cycles < ticks / 2; ++cycles) {
-    // Both components turn by one angle a tick; a recurrence spares their sines.
-    const double angle = 2 * std::numbers::pi * static_cast<double>(cycles) / static_cast<double>(ticks);
-    const glm::dvec2 turn{std::cos(angle), std::sin(angle)};
-    glm::dvec2 at{1, 0}, cosines{0}, sines{0};
-    for (const Force& force : *busiest) {
-      const glm::dvec2 moved = glm::dvec2(force) - rest;
-      cosines += at.x * moved, sines += at.y * moved;
-      at = {at.x * turn.x - at.y * turn.y, at.x * turn.y + at.y * turn.x};
-    }
-    const double power = glm::dot(cosines, cosines) + glm::dot(sines, sines);
+  for (std::size_t cycles = 1; cycles < spectrum.size() / 2; ++cycles) {
+    const double power = std::norm(spectrum[cycles]) + std::norm(spectrum[spectrum.size() - cycles]);
     if (power > strongest) strongest = power, found.frequency = static_cast<double>(cycles) / still_seconds;
   }
   return found;

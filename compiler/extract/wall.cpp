@@ -1,9 +1,13 @@
 #include "compiler/extract/wall.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
+
+#include "compiler/extract/dependence.hpp"
+#include "wale/batch.hpp"
 
 namespace wale {
 namespace {
@@ -16,43 +20,90 @@ constexpr double least_push = 0.02;    // N at that depth
 constexpr double proportional = 0.15;  // how far it may be from a straight line, of the force
 constexpr double slow = 0.02;          // m/s, at which damping is looked at
 
+/// A line that hands at rest are put on one after the other, or one hand goes along step by step where that matters.
 struct Scan {
   glm::dvec2 from{0}, direction{0};
   std::size_t first = 0, count = 0;  // of the hands
+
+  Hand hand(double steps, glm::dvec2 velocity = {0, 0}) const {
+    Hand hand;
+    hand.position = hand.workspace = glm::vec2(from + steps * step * direction);
+    hand.velocity = hand.raw_velocity = glm::vec2(velocity);
+    return hand;
+  }
 };
 
-Force force_at(const Bank& bank, glm::dvec2 place, glm::dvec2 velocity) {
-  Hand hand;
-  hand.position = hand.workspace = glm::vec2(place);
-  hand.velocity = hand.raw_velocity = glm::vec2(velocity);
-  std::array<Force, 1> force{};
-  tick_all(bank, {&hand, 1}, force);
-  return force[0];
+std::vector<Scan> scans_of(PatchSize patch) {
+  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
+  std::vector<Scan> scans;
+  std::size_t first = 0;
+  for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
+    for (int line = 0; line < scan_lines; ++line) {
+      const glm::dvec2 across{std::abs(direction.y), std::abs(direction.x)};
+      const double length = 2 * glm::dot(half, glm::abs(direction));
+      scans.push_back({-half * direction + half * across * ((line + 0.5) / (0.5 * scan_lines) - 1), direction, first,
+                       static_cast<std::size_t>(length / step)});
+      first += scans.back().count;
+    }
+  return scans;
+}
+
+/// The forces along all lines, one after the other. What remembers is felt by hands that came the whole way, as slowly
+/// as can be: a wall may give way to who is set down behind its face.
+std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans) {
+  std::vector<Force> forces(scans.back().first + scans.back().count);
+  if (!remembers_anything(bank.program().description())) {
+    std::vector<Hand> hands;
+    hands.reserve(forces.size());
+    for (const Scan& scan : scans)
+      for (std::size_t i = 0; i < scan.count; ++i) hands.push_back(scan.hand(static_cast<double>(i)));
+    tick_all(bank, hands, forces);
+    return forces;
+  }
+  Batch batch(bank, scans.size());
+  std::vector<Hand> hands(scans.size());
+  std::vector<Force> felt(scans.size());
+  const std::size_t longest = std::ranges::max(scans, {}, &Scan::count).count;
+  for (std::size_t i = 0; i < longest; ++i) {
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+      hands[k] = scans[k].hand(static_cast<double>(std::min(i, scans[k].count - 1)));
+      hands[k].time = static_cast<double>(i) / bank.program().description().device.rate;
+    }
+    if (i == 0) batch.enter(hands);
+    batch.tick(hands, felt);
+    for (std::size_t k = 0; k < scans.size(); ++k)
+      if (i < scans[k].count) forces[scans[k].first + i] = felt[k];
+  }
+  return forces;
+}
+
+/// The forces on hands that came along a line, so many steps from its beginning, and then have each of these
+/// velocities.
+std::array<Force, 3> forces_at(const Bank& bank, const Scan& scan, double steps,
+                               const std::array<glm::dvec2, 3>& velocities) {
+  std::array<Force, 3> forces{};
+  std::array<Hand, 3> hands{};
+  Batch batch(bank, hands.size());
+  hands.fill(scan.hand(0));
+  batch.enter(hands);
+  if (remembers_anything(bank.program().description()))
+    for (double gone = 0; gone < steps; ++gone) {
+      hands.fill(scan.hand(gone));
+      batch.tick(hands, forces);
+    }
+  for (std::size_t i = 0; i < hands.size(); ++i) hands[i] = scan.hand(steps, velocities[i]);
+  batch.tick(hands, forces);
+  return forces;
 }
 
 }  // namespace
 
 std::optional<WallFace> wall_face(const Bank& bank) {
-  const PatchSize patch = bank.size();
-  const glm::dvec2 half = 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
-  std::vector<Scan> scans;
-  std::vector<Hand> hands;
-  for (const glm::dvec2 direction : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
-    for (int line = 0; line < scan_lines; ++line) {
-      const glm::dvec2 across{std::abs(direction.y), std::abs(direction.x)};
-      const double length = 2 * glm::dot(half, glm::abs(direction));
-      Scan scan{-half * direction + half * across * ((line + 0.5) / (0.5 * scan_lines) - 1), direction, hands.size(),
-                static_cast<std::size_t>(length / step)};
-      for (std::size_t i = 0; i < scan.count; ++i) {
-        Hand& hand = hands.emplace_back();
-        hand.position = hand.workspace = glm::vec2(scan.from + static_cast<double>(i) * step * direction);
-      }
-      scans.push_back(scan);
-    }
-  std::vector<Force> forces(hands.size());
-  tick_all(bank, hands, forces);
-
+  const std::vector<Scan> scans = scans_of(bank.size());
+  const std::vector<Force> forces = forces_along(bank, scans);
   std::optional<WallFace> stiffest;
+  const Scan* met = nullptr;
+  double depth_met = 0;  // steps from its beginning
   for (const Scan& scan : scans) {
     const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(forces[scan.first + i]), scan.direction); };
     std::size_t free = 0;
@@ -66,21 +117,20 @@ std::optional<WallFace> wall_face(const Bank& bank) {
         const double depth = slope > 0 ? near / slope : -1;
         if (far > least_push && straight && depth >= 0 && depth <= 1.05 * step &&
             (!stiffest || slope > stiffest->stiffness)) {
-          const glm::dvec2 here = scan.from + static_cast<double>(i) * step * scan.direction;
-          stiffest = WallFace{here - depth * scan.direction, scan.direction, slope, 0, 0};
+          const double steps = static_cast<double>(i) - depth / step;
+          stiffest = WallFace{scan.from + steps * step * scan.direction, scan.direction, slope, 0, 0};
+          met = &scan, depth_met = steps + 2;
         }
       }
       free = touched ? 0 : free + 1;
     }
   }
   if (!stiffest) return stiffest;
-  const glm::dvec2 inside = stiffest->place + 2 * step * stiffest->inward, in = slow * stiffest->inward;
-  const auto against = [&](glm::dvec2 velocity) {
-    return -glm::dot(glm::dvec2(force_at(bank, inside, velocity)), stiffest->inward);
-  };
-  const double still = against({0, 0});
-  stiffest->damping = (against(in) - still) / slow;
-  stiffest->release = (still - against(-in)) / slow;
+  const glm::dvec2 in = slow * stiffest->inward;
+  const auto felt = forces_at(bank, *met, depth_met, {glm::dvec2(0), in, -in});
+  const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(felt[i]), stiffest->inward); };
+  stiffest->damping = (against(1) - against(0)) / slow;
+  stiffest->release = (against(0) - against(2)) / slow;
   return stiffest;
 }
 

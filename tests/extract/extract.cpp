@@ -93,6 +93,63 @@ TEST(Extract, NoiseDoesNotComeBackAfterAPeriod) {
   EXPECT_GT(noise.period, 2e-3);  // noise on a lattice of 2 mm has no finer component of any strength
 }
 
+TEST(Extract, WhatIsStrictlyPeriodicComesBackWhateverItsHarmonics) {
+  // The derivative of a Gaussian bar, again and again: of its five waves of any strength the second is the strongest.
+  const std::string declared =
+      "function bar(along: length, spacing: length) = 1 N * (along - spacing * round(along / spacing)) / 0.45 mm *\n"
+      "  exp(0.5 - 0.5 * ((along - spacing * round(along / spacing)) / 0.45 mm)^2)";
+  const TextureForce ribs = texture_of(pushing("force = vector(bar(x, 5 mm), 0 N)", declared));
+  EXPECT_GT(ribs.regularity, 0.95);
+  EXPECT_NEAR(ribs.period, 5e-3, 0.1e-3);
+  EXPECT_NEAR(ribs.anisotropy, 1, 0.05);
+  // A square mesh of them, as it lies and turned.
+  const TextureForce mesh = texture_of(pushing("force = vector(bar(x, 5 mm), bar(y, 5 mm))", declared));
+  EXPECT_GT(mesh.regularity, 0.95);
+  EXPECT_NEAR(mesh.period, 5e-3, 0.1e-3);
+  EXPECT_LT(mesh.anisotropy, 0.1);
+  const TextureForce turned =
+      texture_of(pushing("let u = (x + 2 * y) / sqrt(5)\nlet v = (y - 2 * x) / sqrt(5)\n"
+                         "force = bar(u, 3 mm) * vector(1, 2) / sqrt(5) + bar(v, 3 mm) * vector(-2, 1) / sqrt(5)",
+                         declared));
+  EXPECT_GT(turned.regularity, 0.95);
+  EXPECT_NEAR(turned.period, 3e-3, 0.1e-3);
+}
+
+TEST(Extract, TheShippedMeshesAreRegular) {
+  for (const char* name : {"wire_mesh", "perforated_sheet"}) {
+    const TextureForce texture = texture_of(Bank(standard::made("std.mesh", name)));
+    EXPECT_GT(texture.regularity, 0.9) << name;
+    EXPECT_LT(texture.anisotropy, 0.1) << name;
+  }
+  // 6 mm from hole to hole and 5 mm from wire to wire by default; the rows of holes are nearer to one another.
+  EXPECT_NEAR(texture_of(Bank(standard::made("std.mesh", "perforated_sheet"))).period, 6e-3, 0.15e-3);
+  EXPECT_NEAR(texture_of(Bank(standard::made("std.mesh", "wire_mesh"))).period, 5e-3, 0.15e-3);
+}
+
+TEST(Extract, WavesThatDoNotFitOneAnotherAreNoNoise) {
+  // Periods of which no multiples agree come nearly back, the nearer the further on.
+  const TextureForce texture = texture_of(
+      pushing("force = vector(1 N * sin(2 * pi * x / 2.5 mm) + 1 N * sin(2 * pi * x / (2.5 mm * sqrt(2))), 0 N)"));
+  EXPECT_GT(texture.regularity, 0.8);
+  ASSERT_EQ(texture.waves.size(), 2u);
+  const double one = texture.waves[0].period, other = texture.waves[1].period;
+  EXPECT_NEAR(std::min(one, other), 2.5e-3, 0.05e-3);
+  EXPECT_NEAR(std::max(one, other), 2.5e-3 * std::sqrt(2.0), 0.07e-3);
+  EXPECT_NEAR(texture.waves[0].share, 0.5, 0.05);
+  EXPECT_NEAR(texture.waves[1].share, 0.5, 0.05);
+  EXPECT_EQ(texture.period, one);
+}
+
+TEST(Extract, NoiseOfAnyGrainIsIrregular) {
+  for (const double grain : {0.8, 1.5, 2.5, 4.0, 6.0})
+    for (const char* noise : {"noise2(x / g, y / g)", "noise2(x / g, y / (3 * g))", "gradient_noise(x / g, y / g)"}) {
+      const TextureForce texture = texture_of(pushing("let g = " + std::to_string(grain) + " mm\nheight h = 1 mm * " +
+                                                      noise + "\nforce = lateral(h, amplitude: 1 N)"));
+      EXPECT_LT(texture.regularity, 0.5) << noise << ' ' << grain;
+      EXPECT_FALSE(texture.regular());
+    }
+}
+
 TEST(Extract, ASpringAndAHillAreNoTexture) {
   const Bank spring = pushing("force = -120 N/m * hand\n patch 160 mm, 160 mm");
   EXPECT_EQ(texture_of(spring).amplitude, 0);
@@ -112,7 +169,7 @@ TEST(Extract, ATextureIsTheSameOnASpringAndOnAHill) {
 }
 
 TEST(Extract, FineRibsAreNoBumpsWhereverTheirSamplesFall) {
-  for (const double period : {0.9, 1.17, 1.27, 1.4, 2.4}) {
+  for (const double period : {0.75, 0.78, 0.8, 0.9, 1.17, 1.27, 1.4, 2.4}) {
     const Bank ribs = pushing("force = vector(1 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)");
     EXPECT_LT(texture_of(ribs, bumps).amplitude, 0.05) << period;
   }
@@ -189,6 +246,33 @@ TEST(Extract, AWallHasAFaceAndNothingElseHas) {
   EXPECT_FALSE(wall_face(pushing("force = -120 N/m * hand")));
   EXPECT_FALSE(wall_face(pushing("force = vector(2 N * sin(2 * pi * x / 2.5 mm), 0 N)")));
   EXPECT_FALSE(wall_face(pushing("force = vector(0 N, 0 N)")));
+}
+
+TEST(Extract, AWallThatGaveWayIsFoundByAHandThatCameTheWholeWay) {
+  // std.wall: stiffness 900 N/m, damping 4 N s/m on the way in, 20 mm right of the middle; it remembers.
+  const Bank wall(standard::made("std.wall", "wall"));
+  EXPECT_EQ(StaticForce(wall).bent, 0);  // who is set down behind its face feels nothing
+  const auto face = wall_face(wall);
+  ASSERT_TRUE(face.has_value());
+  EXPECT_NEAR(face->stiffness, 900, 5);
+  EXPECT_NEAR(face->place.x, 20e-3, 0.05e-3);
+  EXPECT_NEAR(face->inward.x, 1, 1e-9);
+  EXPECT_NEAR(face->damping, 4, 0.05);
+  EXPECT_NEAR(face->release, 0, 0.05);
+  const auto up = wall_face(Bank(standard::made("std.wall", "wall", "stiffness: 300 N/m, angle: 90 deg")));
+  ASSERT_TRUE(up.has_value());
+  EXPECT_NEAR(up->stiffness, 300, 2);
+  EXPECT_NEAR(up->inward.y, 1, 1e-9);
+  const auto room = wall_face(Bank(standard::made("std.wall", "room", "stiffness: 500 N/m")));
+  ASSERT_TRUE(room.has_value());
+  EXPECT_NEAR(room->stiffness, 500, 5);
+  const auto post = wall_face(Bank(standard::made("std.wall", "post", "stiffness: 700 N/m")));
+  ASSERT_TRUE(post.has_value());
+  EXPECT_NEAR(post->stiffness, 700, 20);  // hit off its middle, its face recedes
+  EXPECT_NEAR(extract(wall, textures, bumps).wall->stiffness, 900, 5);
+  // Frictions remember as well, and are none.
+  for (const char* name : {"coulomb_friction", "karnopp_friction", "dahl_friction"})
+    EXPECT_FALSE(wall_face(Bank(standard::made("std.friction", name)))) << name;
 }
 
 }  // namespace

@@ -1,0 +1,144 @@
+#include "compiler/extract/regularity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+namespace wale {
+namespace {
+
+constexpr double reach = 0.3;         // of the field's side: so far apart windows still see much in common
+constexpr double forgotten = 0.5;     // less agreement than this has been, or it has not begun to change
+constexpr int waves_a_period = 8;     // to one period
+constexpr double as_strong = 0.5;     // of the strongest wave's power: another that counts beside it
+constexpr double least_angle = 0.2;   // rad between them
+constexpr double whole_again = 0.95;  // agreement after a period ...
+constexpr double not_yet = 0.9;       // ... and less than this before
+constexpr double least_power = 1e-4;  // of the strongest coefficient's, that counts where many are summed
+
+/// What a window and itself moved by some samples have in common, as a share, with what comes in from behind.
+class CommonShare {
+ public:
+  explicit CommonShare(std::size_t side) : shared_(side) {
+    const std::vector<float> window = hann_window(side);
+    for (std::size_t far = 0; far < side; ++far)
+      for (std::size_t i = 0; i < side; ++i) shared_[far] += window[i] * window[(i + far) % side];
+  }
+  double at(std::size_t distance) const { return shared_[distance] / shared_[0]; }
+  double between(double distance) const {
+    const double low = std::floor(std::abs(distance)), part = std::abs(distance) - low;
+    const auto far = static_cast<std::size_t>(low);
+    return (1 - part) * at(far) + part * at(far + 1);
+  }
+
+ private:
+  std::vector<double> shared_;
+};
+
+/// How well a texture agrees with itself at distances that are whole samples, 1 at none. Waves that are too fine for
+/// the samples count as what they are.
+class Agreement {
+ public:
+  explicit Agreement(const BandSpectrum& spectrum) : side_(spectrum.side()), common_(side_) {
+    const std::vector<float>& power = spectrum.power();
+    sums_ = inverse_fourier(side_, Spectrum(power.begin(), power.end()));
+  }
+
+  double at(std::ptrdiff_t right, std::ptrdiff_t down) const {
+    const auto side = static_cast<std::ptrdiff_t>(side_);
+    const auto column = static_cast<std::size_t>((right + side) % side);
+    const auto row = static_cast<std::size_t>((down + side) % side);
+    return sums_[row * side_ + column].real() / sums_.front().real() / (common_.at(column) * common_.at(row));
+  }
+
+  /// Between samples, nearly.
+  double between(glm::dvec2 distance) const {
+    const glm::dvec2 low = glm::floor(distance), part = distance - low;
+    const auto right = static_cast<std::ptrdiff_t>(low.x), down = static_cast<std::ptrdiff_t>(low.y);
+    return ((1 - part.x) * at(right, down) + part.x * at(right + 1, down)) * (1 - part.y) +
+           ((1 - part.x) * at(right, down + 1) + part.x * at(right + 1, down + 1)) * part.y;
+  }
+
+ private:
+  std::size_t side_;
+  CommonShare common_;
+  Spectrum sums_;
+};
+
+/// The same at any distance (m), summed over the waves themselves.
+double agreement_after(const BandSpectrum& spectrum, const CommonShare& common, glm::dvec2 distance) {
+  const std::vector<float>& power = spectrum.power();
+  const float least = static_cast<float>(least_power) * *std::ranges::max_element(power);
+  double sum = 0, all = 0;
+  for (std::size_t row = 0; row < spectrum.side(); ++row)
+    for (std::size_t column = 0; column < spectrum.side(); ++column) {
+      const double here = power[row * spectrum.side() + column];
+      if (here < least) continue;
+      all += here;
+      sum += here * std::cos(2 * std::numbers::pi * glm::dot(spectrum.waves(column, row), distance));
+    }
+  const glm::dvec2 samples = distance / spectrum.extent() * static_cast<double>(spectrum.side());
+  return sum / all / (common.between(samples.x) * common.between(samples.y));
+}
+
+/// How far one goes along a direction (of length 1) until a texture begins to agree with where one came from again, m;
+/// nothing where it never changes.
+std::optional<double> first_change(const Agreement& agreement, glm::dvec2 along, glm::dvec2 spacing, double farthest) {
+  const glm::dvec2 step = 0.5 * spacing.x * along / spacing;  // in samples
+  double changed = 0.5 * spacing.x, last = 1;
+  for (int i = 1; 0.5 * i < farthest; ++i) {
+    const double here = agreement.between(static_cast<double>(i) * step);
+    if (here > last) break;
+    last = here, changed = 0.5 * i * spacing.x;
+  }
+  return last > forgotten ? std::nullopt : std::optional(changed);
+}
+
+/// The shorter of the two steps that lead from crest to crest of one wave along those of the other, m.
+std::optional<glm::dvec2> step_between(glm::dvec2 one, glm::dvec2 other) {
+  const double area = one.x * other.y - one.y * other.x;
+  if (std::abs(area) < least_angle * glm::length(one) * glm::length(other)) return std::nullopt;
+  const glm::dvec2 along_other = glm::dvec2(other.y, -other.x) / area, along_one = glm::dvec2(-one.y, one.x) / area;
+  return glm::length(along_other) < glm::length(along_one) ? along_other : along_one;
+}
+
+}  // namespace
+
+double regularity(const BandSpectrum& spectrum, glm::dvec2 strongest) {
+  const glm::dvec2 along = glm::normalize(strongest);
+  const glm::dvec2 spacing = spectrum.extent() / static_cast<double>(spectrum.side());
+  const double farthest = reach * static_cast<double>(spectrum.side());  // samples
+  const Agreement agreement(spectrum);
+  const auto changed = first_change(agreement, along, spacing, farthest);
+  if (!changed) return 0;
+  double found = 0;
+  const auto most = static_cast<std::ptrdiff_t>(farthest);
+  for (std::ptrdiff_t down = 0; down <= most; ++down)
+    for (std::ptrdiff_t right = -most; right <= most; ++right) {
+      const glm::dvec2 distance = spacing * glm::dvec2(static_cast<double>(right), static_cast<double>(down));
+      // Along its crests anything stays as it is.
+      if (std::abs(glm::dot(distance, along)) > *changed) found = std::max(found, agreement.at(right, down));
+    }
+  return std::min(found, 1.0);
+}
+
+double repetition(const BandSpectrum& spectrum, const std::vector<WaveComponent>& components) {
+  const glm::dvec2 strongest = components.front().waves;
+  const double wave = 1 / glm::length(strongest), farthest = reach * spectrum.extent().x;
+  const CommonShare common(spectrum.side());
+  const auto again = [&](glm::dvec2 distance) { return agreement_after(spectrum, common, distance); };
+  for (const WaveComponent& other : components) {
+    if (other.share < as_strong * components.front().share) continue;
+    const auto step = step_between(strongest, other.waves);
+    if (step && glm::length(*step) < farthest && again(*step) >= whole_again) return glm::length(*step);
+  }
+  for (int waves = 1; waves <= waves_a_period && waves * wave <= farthest; ++waves) {
+    const double here = again(waves * wave * wave * strongest);
+    if (here >= whole_again || (waves == 1 && here >= not_yet)) return waves * wave;
+  }
+  return wave;
+}
+
+}  // namespace wale

@@ -1,0 +1,81 @@
+// How long it takes to read a program's force and to say what it feels like. Bars: describing 10 ms; reading 1 000
+// materials for a comparison 10 s on two cores.
+
+#include <benchmark/benchmark.h>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_extracted.hpp"
+#include "compiler/extract/cues.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "tests/benchmarks/materials.hpp"
+
+namespace wale::benchmarks::describing_test {
+namespace {
+
+Program made(const std::string& statements) {
+  return compiled("wale 1\nmaterial m { physical {\n" + statements + "\n} }\n");
+}
+
+/// A material of the library, with what it imports and its pictures.
+Program shipped(const std::string& file) {
+  const std::string path = std::string(WALE_SOURCE_DIR) + "/library/" + file;
+  std::ifstream stream(path, std::ios::binary);
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver({WALE_SOURCE_DIR "/library"});
+  const SourceId source = sources.add(path, std::string(std::istreambuf_iterator<char>(stream), {}));
+  auto program = compile(sources, source, "", default_device, *resolver, diagnostics);
+  if (!program) throw std::runtime_error(render_text(diagnostics.all().front(), sources, false));
+  return *program;
+}
+
+const Declarations& declarations() { return common_modules()->declarations; }
+
+Program corduroy() { return shipped("fabric/corduroy.wale"); }
+Program perlin() { return made("force = lateral(1 mm * noise2(x / 2 mm, y / 2 mm), amplitude: 1 N)"); }
+Program spring() { return made("force = -120 N/m * hand"); }
+Program oil() { return shipped("fluid/oil.wale"); }
+Program grille() { return shipped("metal/grille.wale"); }
+Program photograph() { return shipped("stone/slate.wale"); }
+Program friction() {
+  return made(
+      "state anchor : position = hand in -115 mm .. 115 mm\nlet stretch = hold(hand - anchor, 2 mm)\n"
+      "next anchor = hand - stretch\nforce = -500 N/m * stretch");
+}
+
+/// The carriers of everything that is felt.
+void Extract(benchmark::State& state, Program (*make)()) {
+  const Bank bank(make());
+  for (auto _ : state) benchmark::DoNotOptimize(extract(bank, declarations()));
+}
+/// And what follows from them.
+void DescribeExtracted(benchmark::State& state, Program (*make)()) {
+  const Bank bank(make());
+  const Description plain = describe(bank);
+  for (auto _ : state) {
+    Description description = plain;
+    describe_extracted(description, bank, declarations());
+    benchmark::DoNotOptimize(description);
+  }
+}
+/// All that `wale describe` tells.
+void Describe(benchmark::State& state, Program (*make)()) {
+  const Bank bank(make());
+  for (auto _ : state) benchmark::DoNotOptimize(describe(bank, &declarations()));
+}
+
+#define EACH_MATERIAL(what)                                                       \
+  BENCHMARK_CAPTURE(what, corduroy, corduroy)->Unit(benchmark::kMillisecond);     \
+  BENCHMARK_CAPTURE(what, grille, grille)->Unit(benchmark::kMillisecond);         \
+  BENCHMARK_CAPTURE(what, perlin, perlin)->Unit(benchmark::kMillisecond);         \
+  BENCHMARK_CAPTURE(what, photograph, photograph)->Unit(benchmark::kMillisecond); \
+  BENCHMARK_CAPTURE(what, spring, spring)->Unit(benchmark::kMillisecond);         \
+  BENCHMARK_CAPTURE(what, oil, oil)->Unit(benchmark::kMillisecond);               \
+  BENCHMARK_CAPTURE(what, stateful_friction, friction)->Unit(benchmark::kMillisecond)
+
+EACH_MATERIAL(Extract);
+EACH_MATERIAL(DescribeExtracted);
+EACH_MATERIAL(Describe);
+
+}  // namespace
+}  // namespace wale::benchmarks::describing_test
