@@ -255,10 +255,12 @@ int main(int argc, char** argv) {
   offer_library(*verb, choice);
   verb->add_flag("--json", json, "diagnostics as a JSON array");
   verb->add_flag("--fix", fix, "first writes the mends that are beyond doubt into these files");
+  verb->footer("for example: wale check --fix my.wale");
   verb->callback([&] { status = command::check(files, choice.folders, json, fix); });
 
   verb = app.add_subcommand("explain", "tells what a diagnostic's code means, with an example and its mend");
   verb->add_option("CODE", code, "as in W0301 (default: lists all codes)");
+  verb->footer("for example: wale explain W0301");
   verb->callback([&] { status = command::explain(code); });
 
   verb = app.add_subcommand("format", "writes Wale files in the language's one style");
@@ -266,6 +268,7 @@ int main(int argc, char** argv) {
   verb->add_option("FILE", files, "Wale files; - for standard input to standard output")->required();
   verb->add_flag("--check", check_only,
                  "changes nothing; lists the files that would change and fails if there are any");
+  verb->footer("for example: wale format library/fabric/*.wale");
   verb->callback([&] { status = command::format(files, check_only); });
 
   verb = app.add_subcommand("build", "compiles a material to a patch program, or shows what a stage makes of it");
@@ -285,6 +288,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(stages))
       ->type_name("STAGE")
       ->excludes("--all");
+  verb->footer("for example: wale build library/fabric/corduroy.wale -o corduroy.wpp");
   verb->callback([&] {
     if (out.empty() && stage.empty()) throw CLI::RequiredError("--output");
     status = !stage.empty() ? command::show_stage(choice, stage, out.empty() ? "-" : out)
@@ -300,6 +304,7 @@ int main(int argc, char** argv) {
                  "what the file offers to those that import it (default where it has no material)")
       ->excludes("--material");
   verb->add_flag("--json", json, "an object for one material, an array for several");
+  verb->footer("for example: wale describe library/fabric/corduroy.wale --set wale=4mm");
   verb->callback([&] { status = command::describe(choice, settings, exports, json); });
 
   verb = app.add_subcommand("compare", "tells by what people would tell materials apart, and how plainly");
@@ -359,16 +364,19 @@ int main(int argc, char** argv) {
                      "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick");
   verb->add_option("-o,--output", out, "where to write (default: standard output)");
   verb->add_flag("--json", json, "a JSON array instead of CSV");
+  verb->footer("for example: wale sample library/fabric/corduroy.wale --at \"10 mm, 5 mm\"");
   verb->callback([&] { status = sample(choice, settings, at, trace, out.empty() ? "-" : out, json); });
 
   verb = app.add_subcommand("preview", "draws the picture a designer would pin to the wall");
   offer(*verb, choice);
   with_settings(verb, settings);
   verb->add_option("-o,--output", out, "the picture to write (.png)")->required();
+  verb->footer("for example: wale preview library/fabric/corduroy.wale -o corduroy.png");
   verb->callback([&] { status = command::preview(choice, settings, out); });
 
   verb = app.add_subcommand("devices", "lists the joysticks that materials can be felt on and built for");
   verb->add_flag("--json", json, "as a JSON array");
+  verb->footer("for example: wale devices --json");
   verb->callback([&] { status = devices(json); });
 
   // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.
