@@ -7,158 +7,50 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <optional>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "calibration/asking_person.hpp"
 #include "calibration/felt_report.hpp"
-#include "compiler/build_all.hpp"
 #include "compiler/build_stage.hpp"
-#include "compiler/check_files.hpp"
-#include "compiler/compare/compare.hpp"
-#include "compiler/compile.hpp"
-#include "compiler/describe/describe.hpp"
-#include "compiler/describe/describe_module.hpp"
-#include "compiler/diagnostics/apply_fixes.hpp"
-#include "compiler/diagnostics/explain.hpp"
-#include "compiler/diagnostics/render.hpp"
-#include "compiler/format/format.hpp"
-#include "compiler/image/image_library.hpp"
+#include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
-#include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "compiler/open_file.hpp"
-#include "compiler/preview/preview.hpp"
 #include "compiler/quantity.hpp"
-#include "compiler/text/replace_file.hpp"
 #include "compiler/text/spelling.hpp"
 #include "library/device_report.hpp"
-#include "wale/felt.hpp"
 #include "wale/library.hpp"
-#include "wale/stage.hpp"
 
 namespace {
 
 using namespace wale;
-
-/// What was asked cannot be done: already said why.
-constexpr int refused = 1;
-/// The words of the command make no sense.
-constexpr int misused = 2;
+using command::Choice, command::misused, command::refuse, command::refused;
 
 std::atomic<bool> interrupted{false};
 
-int refuse(const std::string& reason) {
-  fmt::print(stderr, "wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
-  return refused;
+void offer_library(CLI::App& verb, Choice& choice) {
+  verb.add_option("--library", choice.folders, "a folder to look for imports in, after the file's own; may be repeated")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
 }
 
-/// Carets in colour where a person reads them.
-bool colour(FILE* stream) { return isatty(fileno(stream)) && !std::getenv("NO_COLOR"); }
-
-void print_diagnostics(FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
-  for (const auto& diagnostic : diagnostics.all())
-    fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
+void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device") {
+  verb.add_option(option, choice.device, "the device to build for (default: sandpaper; see `wale devices`)");
 }
 
-/// Writes a whole file or says why not; "-" is standard output.
-std::optional<std::string> write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-") {
-    std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-    return std::cout ? std::nullopt : std::optional<std::string>("cannot write to standard output");
-  }
-  std::ofstream file(path, std::ios::binary);
-  if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!file) return fmt::format("cannot write `{}`: {}", path, std::strerror(errno));
-  return std::nullopt;
-}
-
-/// A material named on the command line: a Wale file to compile, or a patch program to load.
-struct Choice {
-  std::string file, material, device = default_device;
-  std::vector<std::string> folders;
-
-  void offer(CLI::App& verb, const char* device_option = "--device") {
-    verb.add_option("FILE", file, "a Wale file, or a patch program (.wpp)")->required();
-    verb.add_option("--material", material, "which material of the file (default: its first)");
-    verb.add_option(device_option, device, "the device to build for (default: sandpaper; see `wale devices`)");
-    offer_library(verb);
-  }
-  void offer_library(CLI::App& verb) {
-    verb.add_option("--library", folders, "a folder to look for imports in, after the file's own; may be repeated")
-        ->type_name("DIR")
-        ->expected(1)
-        ->take_all();
-  }
-  FileRequest request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
-};
-
-/// Opens a file; nothing when it cannot be read or its text is wrong, which has been said.
-std::optional<OpenedFile> open(const Choice& choice) {
-  OpenedFile opened = open_file(choice.request());
-  if (!opened.refusal.empty()) return refuse(opened.refusal), std::nullopt;
-  if (!opened.diagnostics.has_errors()) return opened;
-  print_diagnostics(stderr, opened.diagnostics, opened.sources);
-  return std::nullopt;
-}
-
-/// The programs of an opened file: one, or all of its materials; what is wrong has been printed when there is none.
-std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all) {
-  if (opened.program) return {*opened.program};
-  std::vector<std::string> names{choice.material};
-  if (all && choice.material.empty() && opened.module->materials.size() > 1) names = materials_of(opened);
-  std::vector<Program> programs;
-  for (const auto& name : names) {
-    if (opened.diagnostics.has_errors()) break;
-    if (auto program = compile_opened(opened, choice.request(), name, opened.diagnostics)) programs.push_back(*program);
-  }
-  print_diagnostics(stderr, opened.diagnostics, opened.sources);
-  if (opened.diagnostics.has_errors()) programs.clear();
-  return programs;
-}
-
-std::vector<Program> load_programs(const Choice& choice, bool all) {
-  auto opened = open(choice);
-  return opened ? programs_of(*opened, choice, all) : std::vector<Program>{};
-}
-
-/// The program's parameters with the `--set` options applied, or nothing, when what is wrong has been printed.
-std::optional<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {
-  auto values = program.default_parameters();
-  QuantityReader reader;
-  for (const auto& setting : settings) {
-    const auto equals = setting.find('=');
-    const std::string name = setting.substr(0, equals);
-    const auto index = program.parameter(name);
-    if (equals == std::string::npos || !index) {
-      std::string known;
-      for (const auto& parameter : program.description().parameters)
-        known += (known.empty() ? "" : ", ") + parameter.name;
-      refuse(equals == std::string::npos
-                 ? fmt::format("--set takes NAME=VALUE, not `{}`", setting)
-                 : fmt::format("`{}` has no parameter `{}`; it has: {}", program.description().material, name,
-                               known.empty() ? "none" : known));
-      return std::nullopt;
-    }
-    const auto value =
-        reader.parameter("--set " + name, program.description().parameters[*index], setting.substr(equals + 1));
-    if (!value) {
-      print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return std::nullopt;
-    }
-    values[*index] = *value;
-  }
-  print_diagnostics(stderr, reader.diagnostics(), reader.sources());  // warnings
-  return values;
+/// The options that name one material.
+void offer(CLI::App& verb, Choice& choice, const char* device_option = "--device") {
+  verb.add_option("FILE", choice.file, "a Wale file, or a patch program (.wpp)")->required();
+  verb.add_option("--material", choice.material, "which material of the file (default: its first)");
+  offer_device(verb, choice, device_option);
+  offer_library(verb, choice);
 }
 
 std::optional<Trace> load_trace(const std::string& path) {
@@ -175,186 +67,11 @@ std::optional<Trace> load_trace(const std::string& path) {
   return std::get<Trace>(std::move(trace));
 }
 
-/// Mends files before they are checked, and says what was done on standard error, which leaves the output to the check.
-bool mend(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
-  bool written = true;
-  for (const auto& file : mend_files(files, roots)) {
-    for (const auto& mend : file.mends)
-      fmt::print(stderr, "mended {}:{}:{}: {}\n", file.file, mend.place.line, mend.place.column, mend.title);
-    if (file.problem) refuse(fmt::format("cannot write `{}`: {}", file.file, *file.problem));
-    written = written && !file.problem;
-  }
-  return written;
-}
-
-int check(const std::vector<std::string>& files, const std::vector<std::string>& folders, bool json, bool fix) {
-  const auto roots = library_folders(folders, std::getenv("WALE_LIBRARY"));
-  const bool mended = !fix || mend(files, roots);
-  const auto [sources, diagnostics] = check_files(files, roots);
-  if (json) {
-    fmt::print("{}\n", render_json(diagnostics, sources));
-  } else {
-    print_diagnostics(stdout, diagnostics, sources);
-    const std::size_t warnings = diagnostics.all().size() - diagnostics.error_count();
-    const std::size_t mendable = safe_fixes(diagnostics.all()).size();
-    const auto count = [](std::size_t n, const char* what) {
-      return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
-    fmt::print("{}: {}{}, {}{}\n", count(files.size(), "file"), count(diagnostics.error_count(), "error"),
-               diagnostics.is_full() ? " and more that are not listed" : "", count(warnings, "warning"),
-               mendable > 0 && !fix ? fmt::format("; `wale check --fix` mends {}", mendable) : "");
-  }
-  return diagnostics.has_errors() || !mended ? refused : 0;
-}
-
-int explain(const std::string& name) {
-  if (name.empty()) {
-    fmt::print("{}", codes_text());
-    return 0;
-  }
-  const auto code = code_named(name);
-  if (!code) return refuse(unknown_code_text(name));
-  fmt::print("{}", explanation_text(*code));
-  return 0;
-}
-
-/// "-" reads standard input and writes standard output. With `check_only` nothing is written but the names of the files
-/// that formatting would change.
-int format(const std::vector<std::string>& files, bool check_only) {
-  int status = 0;
-  for (const auto& file : files) {
-    const bool standard = file == "-";
-    auto read = read_file(standard ? "/dev/stdin" : file);
-    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
-      status = refuse(fmt::format("`{}` cannot be read: {}", file, problem->reason));
-      continue;
-    }
-    SourceSet sources;
-    Diagnostics diagnostics;
-    const SourceId source = sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
-    const auto formatted = format(sources, source, diagnostics);
-    print_diagnostics(stderr, diagnostics, sources);
-    const bool changes = formatted && *formatted != sources[source].text;
-    if (!formatted || (check_only && changes)) status = refused;
-    if (check_only && changes) fmt::print("{}\n", file);
-    if (!formatted || check_only) continue;
-    std::optional<std::string> problem;
-    if (standard) problem = write_file("-", *formatted);
-    if (!standard && changes) problem = replace_file(file, *formatted);
-    if (problem) status = refuse(standard ? *problem : fmt::format("cannot write `{}`: {}", file, *problem));
-  }
-  return status;
-}
-
-int build(const Choice& choice, const std::string& out) {
-  const auto programs = load_programs(choice, false);
-  if (programs.empty()) return refused;
-  const auto bytes = write_patch_program(programs.front().description());
-  if (const auto problem = write_file(out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
-    return refuse(*problem);
-  return 0;
-}
-
-/// What a material is after one of the compiler's stages.
-int show_stage(const Choice& choice, const std::string& name, const std::string& out) {
-  const auto known = std::ranges::find(stage_names, name, &StageName::name);
-  auto opened = open(choice);
-  if (!opened) return refused;
-  std::string refusal;
-  const auto text = build_stage(*opened, choice.request(), choice.material, known->stage, opened->diagnostics, refusal);
-  print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  if (!refusal.empty()) return refuse(refusal);
-  if (!text) return refused;
-  if (const auto problem = write_file(out, *text)) return refuse(*problem);
-  return 0;
-}
-
-/// Every material of a file to a program of its own; says of each what became of it.
-int build_collection(const Choice& choice, const std::string& folder) {
-  const auto opened = open(choice);
-  if (!opened) return refused;
-  if (opened->program) return refuse("--all builds the materials of a Wale file, and this is a program already");
-  print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  const BuiltCollection collection = build_all(*opened, choice.request(), folder);
-  if (!collection.refusal.empty()) return refuse(collection.refusal);
-  for (const auto& built : collection.materials) {
-    print_diagnostics(stderr, built.diagnostics, opened->sources);
-    if (!built.problem.empty()) refuse(built.problem);
-    if (built.path.empty())
-      refuse(fmt::format("`{}` is not built", built.material));
-    else
-      fmt::print("{}  {} bytes\n", built.path, built.bytes);
-  }
-  const std::size_t all = collection.materials.size(), built = collection.built();
-  fmt::print("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");
-  return built == all ? 0 : refused;
-}
-
-int describe(const Choice& choice, const std::vector<std::string>& settings, bool exports, bool json) {
-  auto opened = open(choice);
-  if (!opened) return refused;
-  if (opened->module && choice.material.empty() && (exports || opened->module->materials.empty())) {
-    const ModuleDescription module = describe_module(*opened->module, opened->sources);
-    if (exports || !module.empty()) {
-      print_diagnostics(stderr, opened->diagnostics, opened->sources);
-      fmt::print("{}", json ? module_json(module) : module_text(module));
-      return 0;
-    }
-  }
-  const auto programs = programs_of(*opened, choice, true);
-  if (programs.empty()) return refused;
-  const std::shared_ptr<const CommonModules> common = common_modules();
-  std::vector<Description> descriptions;
-  for (const auto& program : programs) {
-    const auto parameters = chosen_parameters(program, settings);
-    if (!parameters) return refused;
-    descriptions.push_back(describe(Bank(program, *parameters, program.default_size()), &common->declarations));
-  }
-  if (json) {
-    fmt::print("{}", descriptions_json(descriptions));
-    return 0;
-  }
-  for (std::size_t i = 0; i < descriptions.size(); ++i)
-    fmt::print("{}{}", i == 0 ? "" : "\n", description_text(descriptions[i]));
-  return 0;
-}
-
-/// Each file is one to compare with its materials, or FILE:MATERIAL.
-int compare(Choice choice, const std::vector<std::string>& files, bool json) {
-  const std::shared_ptr<const CommonModules> common = common_modules();
-  std::vector<Cues> materials;
-  for (const std::string& named : files) {
-    choice.file = named, choice.material.clear();
-    if (const auto colon = named.rfind(':'); colon != std::string::npos && !std::filesystem::exists(named))
-      choice.file = named.substr(0, colon), choice.material = named.substr(colon + 1);
-    auto opened = open(choice);
-    if (!opened) return refused;
-    // Among many files are some that only lend functions to others.
-    if (opened->module && opened->module->materials.empty() && files.size() > 2) {
-      fmt::print(stderr, "wale: `{}` has no material and is left out\n", choice.file);
-      continue;
-    }
-    const auto programs = programs_of(*opened, choice, true);
-    if (programs.empty()) return refused;
-    for (const Program& program : programs) {
-      if (!materials.empty() && program.description().device.name != materials.front().device)
-        return refuse(fmt::format("`{}` is built for `{}` and `{}` for `{}`: what is felt is compared on one device",
-                                  materials.front().material, materials.front().device, program.description().material,
-                                  program.description().device.name));
-      materials.push_back(cues_of(Bank(program), common->declarations));
-    }
-  }
-  if (materials.size() < 2) return refuse("there is only one material; name another to compare it with");
-  const ComparisonMatrix matrix = compare_all(std::move(materials), common->declarations);
-  fmt::print("{}", json ? comparison_json(matrix) : comparison_text(matrix));
-  return 0;
-}
-
 int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at,
            const std::string& trace_file, const std::string& out, bool json) {
-  const auto programs = load_programs(choice, false);
+  const auto programs = command::load_programs(choice, false);
   if (programs.empty()) return refused;
-  const auto parameters = chosen_parameters(programs.front(), settings);
+  const auto parameters = command::chosen_parameters(programs.front(), settings);
   if (!parameters) return refused;
   std::vector<SampledHand> hands;
   if (!trace_file.empty()) {
@@ -366,31 +83,14 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
     QuantityReader reader;
     const auto hand = reader.hand("--at", at);
     if (!hand) {
-      print_diagnostics(stderr, reader.diagnostics(), reader.sources());
+      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
       return refused;
     }
     hands.push_back({0, *hand});
   }
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
   const std::string text = json ? samples_json(sample(bank, hands)) : samples_csv(sample(bank, hands));
-  if (const auto problem = write_file(out, text)) return refuse(*problem);
-  return 0;
-}
-
-int preview(const Choice& choice, const std::vector<std::string>& settings, const std::string& out) {
-  const auto programs = load_programs(choice, false);
-  if (programs.empty()) return refused;
-  const auto parameters = chosen_parameters(programs.front(), settings);
-  if (!parameters) return refused;
-  const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  try {
-    const Drawing drawing = draw_preview(bank, preview_text(bank));
-    if (!drawing.has_text)
-      fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
-    if (const auto problem = save_drawing(drawing, out)) return refuse(problem->reason);
-  } catch (const NoImageLibrary& missing) {
-    return refuse(missing.what());
-  }
+  if (const auto problem = command::write_file(out, text)) return refuse(*problem);
   return 0;
 }
 
@@ -398,20 +98,20 @@ struct FeelOptions {
   Choice choice;
   std::vector<std::string> settings;
   std::string device = "simulated", hand = "lateral", record;
-  double seconds = 5;
+  std::optional<double> seconds;
   bool virtual_time = false, json = false;
+  std::string against;
+  bool blind = false;
+  int trials = BlindOptions{}.trials;
+  std::optional<std::uint64_t> seed;
 };
 
-int feel(const FeelOptions& options) {
-  if (options.device != "simulated")
-    return refuse(
-        fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
-  const auto programs = load_programs(options.choice, false);
-  if (programs.empty()) return refused;
-  const Program& program = programs.front();
-  const auto parameters = chosen_parameters(program, options.settings);
-  if (!parameters) return refused;
-
+/// A joystick in a hand that moves as asked; nothing when what is wrong has been printed.
+std::optional<SimulatedJoystick> joystick_for(const FeelOptions& options, const DeviceProfile& profile) {
+  if (options.device != "simulated") {
+    refuse(fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
+    return std::nullopt;
+  }
   const auto person = std::get<SimulatedPerson>(Library().person());
   Motion motion = person.lateral;
   if (options.hand == "circular")
@@ -420,20 +120,47 @@ int feel(const FeelOptions& options) {
     motion = Rest{};
   else if (options.hand != "lateral") {
     auto trace = load_trace(options.hand);
-    if (!trace) return refused;
+    if (!trace) return std::nullopt;
     motion = *std::move(trace);
   }
-  SimulatedJoystick joystick(program.description().device, person.hand, std::move(motion));
-  Stage stage(joystick);
-  stage.place(program);
-  for (std::size_t i = 0; i < parameters->size(); ++i)
-    if (const auto refusal = stage.set(program.description().parameters[i].name, (*parameters)[i]))
+  return std::optional<SimulatedJoystick>(std::in_place, profile, person.hand, std::move(motion));
+}
+
+/// Ctrl-C ends a run, and a question too, since reading is not taken up again.
+void stop_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+/// A material to feel, with its parameters as set.
+std::optional<BlindMaterial> material_to_feel(const Choice& choice, const std::vector<std::string>& settings) {
+  const auto programs = command::load_programs(choice, false);
+  if (programs.empty()) return std::nullopt;
+  auto parameters = command::chosen_parameters(programs.front(), settings);
+  if (!parameters) return std::nullopt;
+  return BlindMaterial{programs.front(), *std::move(parameters)};
+}
+
+int feel(const FeelOptions& options) {
+  const auto material = material_to_feel(options.choice, options.settings);
+  if (!material) return refused;
+  const PatchProgram& program = material->program.description();
+  auto joystick = joystick_for(options, program.device);
+  if (!joystick) return refused;
+  Stage stage(*joystick);
+  stage.place(material->program);
+  for (std::size_t i = 0; i < material->parameters.size(); ++i)
+    if (const auto refusal = stage.set(program.parameters[i].name, material->parameters[i]))
       return refuse(refusal->reason);
 
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
-  RunOptions run{
-      .seconds = options.seconds, .virtual_time = options.virtual_time, .progress = {}, .stop = &interrupted};
+  stop_on_signals();
+  constexpr double usual_seconds = 5;
+  RunOptions run{.seconds = options.seconds.value_or(usual_seconds),
+                 .virtual_time = options.virtual_time,
+                 .progress = {},
+                 .stop = &interrupted};
   const bool live = isatty(fileno(stderr));
   if (live) run.progress = [](const Progress& now) { fmt::print(stderr, "\r{}", progress_line(now)); };
   const auto result = stage.run(run);
@@ -444,11 +171,47 @@ int feel(const FeelOptions& options) {
   if (!options.record.empty()) {
     std::ostringstream csv;
     write_csv(csv, done.record);
-    if (const auto problem = write_file(options.record, csv.str())) return refuse(*problem);
+    if (const auto problem = command::write_file(options.record, csv.str())) return refuse(*problem);
   }
   const FeltReport report =
-      felt_report(*stage.bank(), done, joystick.profile(), {options.device, options.hand, options.virtual_time});
+      felt_report(*stage.bank(), done, joystick->profile(), {options.device, options.hand, options.virtual_time});
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
+  return 0;
+}
+
+/// Which of two was A?
+int feel_blind(const FeelOptions& options) {
+  Choice against = options.choice;
+  const NamedMaterial named = named_material(options.against);
+  against.file = named.file, against.material = named.material;
+  const auto a = material_to_feel(options.choice, options.settings), b = material_to_feel(against, {});
+  if (!a || !b) return refused;
+  const DeviceProfile& device = a->program.description().device;
+  if (b->program.description().device.name != device.name)
+    return refuse(fmt::format("A is built for `{}` and B for `{}`: both are felt on one device", device.name,
+                              b->program.description().device.name));
+  auto joystick = joystick_for(options, device);
+  if (!joystick) return refused;
+
+  const std::shared_ptr<const CommonModules> common = common_modules();
+  const auto cues = [&](const BlindMaterial& material) {
+    return cues_of(Bank(material.program, material.parameters, material.program.default_size()), common->declarations);
+  };
+  BlindReport report{.a = a->program.description().material,
+                     .b = b->program.description().material,
+                     .device = device.name,
+                     .seed = options.seed ? *options.seed : std::random_device{}(),
+                     .asked = options.trials,
+                     .session = {},
+                     .predicted = Comparer(common->declarations, device.name).compare(cues(*a), cues(*b))};
+  stop_on_signals();
+  BlindOptions blind{
+      .trials = options.trials, .seed = report.seed, .virtual_time = options.virtual_time, .stop = &interrupted};
+  blind.seconds = options.seconds.value_or(blind.seconds);
+  AskingPerson person(std::cin, std::cerr, report.a, report.b, options.trials, isatty(fileno(stdin)));
+  report.session = feel_blind(*joystick, *a, *b, blind, person);
+  if (report.session.trials.empty()) return refuse(fmt::format("no trial was answered: {}", report.session.ended));
+  fmt::print("{}", options.json ? blind_json(report) : blind_text(report));
   return 0;
 }
 
@@ -461,7 +224,7 @@ constexpr const char* about =
     R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
 
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
-  curators     compare and trust:        wale compare A.wale B.wale;  wale describe --json FILE;  wale preview FILE -o OUT.png
+  curators     compare and trust:        wale compare A.wale B.wale;  wale levels roughness;  wale describe --json FILE;  wale preview FILE -o OUT.png
   programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
 
@@ -489,24 +252,27 @@ int main(int argc, char** argv) {
 
   auto* verb = app.add_subcommand("check", "says what is wrong with Wale files, and where, and how to mend it");
   verb->add_option("FILE", files, "Wale files")->required();
-  choice.offer_library(*verb);
+  offer_library(*verb, choice);
   verb->add_flag("--json", json, "diagnostics as a JSON array");
   verb->add_flag("--fix", fix, "first writes the mends that are beyond doubt into these files");
-  verb->callback([&] { status = check(files, choice.folders, json, fix); });
+  verb->footer("for example: wale check --fix my.wale");
+  verb->callback([&] { status = command::check(files, choice.folders, json, fix); });
 
   verb = app.add_subcommand("explain", "tells what a diagnostic's code means, with an example and its mend");
   verb->add_option("CODE", code, "as in W0301 (default: lists all codes)");
-  verb->callback([&] { status = explain(code); });
+  verb->footer("for example: wale explain W0301");
+  verb->callback([&] { status = command::explain(code); });
 
   verb = app.add_subcommand("format", "writes Wale files in the language's one style");
   bool check_only = false;
   verb->add_option("FILE", files, "Wale files; - for standard input to standard output")->required();
   verb->add_flag("--check", check_only,
                  "changes nothing; lists the files that would change and fails if there are any");
-  verb->callback([&] { status = format(files, check_only); });
+  verb->footer("for example: wale format library/fabric/*.wale");
+  verb->callback([&] { status = command::format(files, check_only); });
 
   verb = app.add_subcommand("build", "compiles a material to a patch program, or shows what a stage makes of it");
-  choice.offer(*verb);
+  offer(*verb, choice);
   bool all = false, exports = false;
   std::string stage;
   std::vector<std::string> stages;
@@ -522,45 +288,75 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(stages))
       ->type_name("STAGE")
       ->excludes("--all");
+  verb->footer("for example: wale build library/fabric/corduroy.wale -o corduroy.wpp");
   verb->callback([&] {
     if (out.empty() && stage.empty()) throw CLI::RequiredError("--output");
-    status = !stage.empty() ? show_stage(choice, stage, out.empty() ? "-" : out)
-             : all          ? build_collection(choice, out)
-                            : build(choice, out);
+    status = !stage.empty() ? command::show_stage(choice, stage, out.empty() ? "-" : out)
+             : all          ? command::build_collection(choice, out)
+                            : command::build(choice, out);
   });
 
   verb =
       app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
-  choice.offer(*verb);
+  offer(*verb, choice);
   with_settings(verb, settings);
   verb->add_flag("--exports", exports,
                  "what the file offers to those that import it (default where it has no material)")
       ->excludes("--material");
   verb->add_flag("--json", json, "an object for one material, an array for several");
-  verb->callback([&] { status = describe(choice, settings, exports, json); });
+  verb->footer("for example: wale describe library/fabric/corduroy.wale --set wale=4mm");
+  verb->callback([&] { status = command::describe(choice, settings, exports, json); });
 
   verb = app.add_subcommand("compare", "tells by what people would tell materials apart, and how plainly");
   verb->add_option("FILE", files, "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")
       ->required();
-  verb->add_option("--device", choice.device, "the device to build for (default: sandpaper; see `wale devices`)");
-  choice.offer_library(*verb);
-  verb->add_flag("--json", json, "an object with every material's cues and every pair");
-  verb->callback([&] { status = compare(choice, files, json); });
+  offer_device(*verb, choice);
+  offer_library(*verb, choice);
+  bool with_table = false;
+  verb->add_flag("--matrix", with_table, "how far each is from every other, also of more materials than fit a screen");
+  verb->add_flag("--json", json,
+                 "an object with every material's cues, all distances, and the nearest pairs cue by cue");
+  verb->footer("for example: wale compare library/fabric/velvet.wale library/fabric/denim.wale");
+  verb->callback([&] { status = command::compare(choice, files, with_table, json); });
+
+  verb = app.add_subcommand("levels", "proposes levels of a percept that people can tell apart on a device");
+  std::string percept;
+  std::optional<std::size_t> steps;
+  double apart = 1;
+  verb->add_option("PERCEPT", percept, "a percept or its antonym, as in roughness or smoothness")->required();
+  offer_device(*verb, choice);
+  verb->add_option("--steps", steps, "how many (default: as many as can be told apart)")->type_name("N");
+  verb->add_option("--jnd", apart, "the least distance between two, in just noticeable differences (default: 1)")
+      ->type_name("JND");
+  verb->add_flag("--json", json, "as a JSON object");
+  verb->footer("for example: wale levels roughness --device falcon --steps 5");
+  verb->callback([&] { status = command::levels(percept, choice.device, steps, apart, json); });
 
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
-  feeling.choice.offer(*verb, "--built-for");
+  offer(*verb, feeling.choice, "--built-for");
   with_settings(verb, feeling.settings);
   verb->add_option("--device", feeling.device, "the joystick (default: simulated; see `wale devices`)");
   verb->add_option("--hand", feeling.hand,
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
-  verb->add_option("--seconds", feeling.seconds, "how long (default: 5)");
+  verb->add_option("--seconds", feeling.seconds, "how long (default: 5; with --blind 3 for each of the two)");
   verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
-  verb->add_option("--record", feeling.record, "writes every tick to a CSV file");
+  auto* record = verb->add_option("--record", feeling.record, "writes every tick to a CSV file");
+  auto* against = verb->add_option("--against", feeling.against, "another to tell it from: a file, or FILE:MATERIAL");
+  auto* blind = verb->add_flag("--blind", feeling.blind,
+                               "feels FILE (A) and the other (B) in random order and asks which of two was A")
+                    ->needs(against)
+                    ->excludes(record);
+  against->needs(blind);
+  verb->add_option("--trials", feeling.trials, "how often it asks (default: 12)")
+      ->needs(blind)
+      ->check(CLI::Range(1, 1000));
+  verb->add_option("--seed", feeling.seed, "of the random order (default: another each time)")->needs(blind);
   verb->add_flag("--json", feeling.json, "the report as a JSON object");
-  verb->callback([&] { status = feel(feeling); });
+  verb->footer("for example: wale feel library/fabric/velvet.wale --against library/fabric/denim.wale --blind");
+  verb->callback([&] { status = feeling.blind ? feel_blind(feeling) : feel(feeling); });
 
   verb = app.add_subcommand("sample", "the program's force at given hands, open loop; outside the patch it is zero");
-  choice.offer(*verb);
+  offer(*verb, choice);
   with_settings(verb, settings);
   auto* places = verb->add_option_group("hands", "where the hand is")->require_option(1);
   places->add_option("--at", at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
@@ -568,16 +364,19 @@ int main(int argc, char** argv) {
                      "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick");
   verb->add_option("-o,--output", out, "where to write (default: standard output)");
   verb->add_flag("--json", json, "a JSON array instead of CSV");
+  verb->footer("for example: wale sample library/fabric/corduroy.wale --at \"10 mm, 5 mm\"");
   verb->callback([&] { status = sample(choice, settings, at, trace, out.empty() ? "-" : out, json); });
 
   verb = app.add_subcommand("preview", "draws the picture a designer would pin to the wall");
-  choice.offer(*verb);
+  offer(*verb, choice);
   with_settings(verb, settings);
   verb->add_option("-o,--output", out, "the picture to write (.png)")->required();
-  verb->callback([&] { status = preview(choice, settings, out); });
+  verb->footer("for example: wale preview library/fabric/corduroy.wale -o corduroy.png");
+  verb->callback([&] { status = command::preview(choice, settings, out); });
 
   verb = app.add_subcommand("devices", "lists the joysticks that materials can be felt on and built for");
   verb->add_flag("--json", json, "as a JSON array");
+  verb->footer("for example: wale devices --json");
   verb->callback([&] { status = devices(json); });
 
   // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.

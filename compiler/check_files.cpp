@@ -9,6 +9,7 @@
 
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/solve/level_scale.hpp"
 #include "compiler/text/replace_file.hpp"
 
 namespace wale {
@@ -26,6 +27,7 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
   const auto resolver = file_resolver(roots);
   const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
   if (diagnostics.has_errors()) return diagnostics;
+  check_levels(module.declarations(), source, default_device, diagnostics);
   for (const auto& material : module.materials) {
     Diagnostics of_material;
     compile_material(module, material.name, default_device, sources, source, *resolver, of_material);

@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "compiler/solve/level_scale.hpp"
 #include "schema/patch_program_format.hpp"
 
 namespace wale {
+
+NamedMaterial named_material(const std::string& name) {
+  const auto colon = name.rfind(':');
+  if (colon == std::string::npos || std::filesystem::exists(name)) return {name, {}};
+  return {name.substr(0, colon), name.substr(colon + 1)};
+}
 
 OpenedFile open_file(const FileRequest& request) {
   OpenedFile opened;
@@ -30,6 +38,8 @@ OpenedFile open_file(const FileRequest& request) {
   const auto resolver = file_resolver(request.roots);
   opened.source = opened.sources.add(request.file, std::move(bytes));
   opened.module = check_source(opened.sources, opened.source, *resolver, opened.diagnostics);
+  if (!opened.diagnostics.has_errors())
+    check_levels(opened.module->declarations(), opened.source, request.device, opened.diagnostics);
   return opened;
 }
 

@@ -18,6 +18,13 @@ struct FileRequest {
   std::vector<std::string> roots;  ///< folders in which imports are looked for at last
 };
 
+/// FILE, or FILE:MATERIAL where there is no file of that whole name.
+struct NamedMaterial {
+  std::string file;
+  std::string material;  ///< empty where none is named
+};
+NamedMaterial named_material(const std::string& name);
+
 /// What such a file holds.
 struct OpenedFile {
   SourceSet sources;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <tuple>
@@ -35,85 +34,10 @@ bool exerts_force(CueKind kind) {
   }
 }
 
-class Comparer {
- public:
-  Comparer(const Declarations& declarations, std::string device)
-      : declarations_(declarations), device_(std::move(device)) {
-    for (const Threshold* threshold : declarations_.thresholds())
-      if (std::string_view(threshold->cue) == "amplitude") least_force_ = std::max(least_force_, threshold->floor);
-  }
-
-  Comparison run(const Cues& a, const Cues& b) const {
-    Comparison comparison;
-    for (const CueFacts& facts : cue_table()) {
-      if (!a[facts.kind] && !b[facts.kind]) continue;
-      comparison.cues.push_back(difference(facts, a[facts.kind], b[facts.kind]));
-    }
-    bool unknown = false;
-    for (const CueDifference& cue : comparison.cues) {
-      if (cue.noticeable && *cue.noticeable >= 1) comparison.verdict = Verdict::apart;
-      unknown |= !cue.noticeable;
-    }
-    if (comparison.verdict != Verdict::apart && unknown) comparison.verdict = Verdict::unknown;
-    return comparison;
-  }
-
- private:
-  CueDifference difference(const CueFacts& facts, std::optional<double> a, std::optional<double> b) const {
-    CueDifference found{facts.kind, a, b, {}, nullptr, Evidence::estimated};
-    // A period or an orientation that only one of them has is told by what else it has.
-    if (!exerts_force(facts.kind) && (!a || !b)) {
-      found.noticeable = 0;
-      return found;
-    }
-    double x = a.value_or(0), y = b.value_or(0);
-    if (facts.kind == CueKind::orientation) {
-      const double turned = std::remainder(x - y, std::numbers::pi);
-      if (std::abs(turned) < same * std::numbers::pi) found.noticeable = 0;
-      return found;
-    }
-    if (std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y))) {
-      found.noticeable = 0;
-      return found;
-    }
-    found.threshold = threshold(facts.threshold, std::abs(x), std::abs(y));
-    if (!found.threshold) return found;
-    const bool own = found.threshold->device == device_;
-    found.evidence = std::max(
-        {found.threshold->evidence, found.threshold->handle, own ? Evidence::measured : Evidence::transferred});
-    // What pushes on and what holds back are no matter of ratio.
-    const double by_ratio =
-        x * y > 0 ? found.threshold->distance(std::abs(x), std::abs(y)) : std::numeric_limits<double>::infinity();
-    const double distance = std::min(by_ratio, force_difference(facts.kind, std::abs(x - y)));
-    if (std::isfinite(distance)) found.noticeable = distance;
-    return found;
-  }
-
-  /// The publication that tells of two sizes: one that compared such sizes before one that did not, the better known
-  /// before what is only recalled, and then the one that tells the least apart, so that nothing is called alike too
-  /// early.
-  const Threshold* threshold(std::string_view cue, double x, double y) const {
-    const auto merit = [&](const Threshold& each) {
-      const auto compared = [&](double size) { return size == 0 || each.valid.holds(size); };  // none of it is no size
-      return std::tuple(each.device != device_, !compared(x) || !compared(y), each.evidence, each.weber);
-    };
-    const Threshold* best = nullptr;
-    for (const Threshold* each : declarations_.thresholds())
-      if (each->cue == cue && (!best || merit(*each) < merit(*best))) best = each;
-    return best;
-  }
-
-  /// The difference of the forces over the least that is noticed, infinite where that is not known.
-  double force_difference(CueKind kind, double difference) const {
-    if (!exerts_force(kind) || !(least_force_ > 0)) return std::numeric_limits<double>::infinity();
-    const Percept* percept = declarations_.percepts.find(percept_of(kind));
-    return difference * (percept ? percept->exerts : 1) / least_force_;
-  }
-
-  const Declarations& declarations_;
-  std::string device_;
-  double least_force_ = 0;  ///< N, at d' = 1
-};
+Verdict verdict_of(const std::optional<double>& plainest, bool unknown) {
+  if (plainest && *plainest >= 1) return Verdict::apart;
+  return unknown ? Verdict::unknown : Verdict::alike;
+}
 
 }  // namespace
 
@@ -124,31 +48,111 @@ const CueDifference* Comparison::plainest() const {
   return found;
 }
 
-Comparison compare(const Cues& a, const Cues& b, const Declarations& declarations) {
-  return Comparer(declarations, a.device).run(a, b);
-}
-
-ComparisonMatrix compare_all(std::vector<Cues> materials, const Declarations& declarations) {
-  ComparisonMatrix matrix{std::move(materials), {}};
-  if (matrix.materials.empty()) return matrix;
-  const Comparer comparer(declarations, matrix.materials.front().device);
-  for (std::size_t a = 0; a < matrix.materials.size(); ++a)
-    for (std::size_t b = a + 1; b < matrix.materials.size(); ++b)
-      matrix.pairs.push_back({a, b, comparer.run(matrix.materials[a], matrix.materials[b])});
-  return matrix;
-}
-
-const ComparedPair* ComparisonMatrix::nearest() const {
-  const auto apart = [](const ComparedPair& pair) {
-    const CueDifference* plainest = pair.comparison.plainest();
-    return plainest ? *plainest->noticeable : 0.0;
-  };
-  const ComparedPair* found = nullptr;
-  for (const ComparedPair& pair : pairs) {
-    // Two of which too little is known are near to nobody.
-    if (pair.comparison.verdict == Verdict::unknown) continue;
-    if (!found || apart(pair) < apart(*found)) found = &pair;
+Comparer::Comparer(const Declarations& declarations, const std::string& device) {
+  for (const CueFacts& facts : cue_table()) {
+    const Percept* percept = declarations.percepts.find(percept_of(facts.kind));
+    const double exerts = !exerts_force(facts.kind) ? 0 : percept ? percept->exerts : 1;
+    people_.emplace_back(declarations, facts.threshold, device, exerts);
   }
+}
+
+/// In just noticeable differences, or nothing where no publication tells.
+std::optional<double> Comparer::noticeable(const CueFacts& facts, std::optional<double> a,
+                                           std::optional<double> b) const {
+  // A period or an orientation that only one of them has is told by what else it has.
+  if (!exerts_force(facts.kind) && (!a || !b)) return 0;
+  const double x = a.value_or(0), y = b.value_or(0);
+  if (facts.kind == CueKind::orientation) {
+    const double turned = std::remainder(x - y, std::numbers::pi);
+    return std::abs(turned) < same * std::numbers::pi ? std::optional(0.0) : std::nullopt;
+  }
+  if (std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y))) return 0;
+  return people_[static_cast<std::size_t>(facts.kind)].distance(x, y);
+}
+
+template <typename Visit>
+void Comparer::each_cue(const Cues& a, const Cues& b, Visit visit) const {
+  for (const CueFacts& facts : cue_table())
+    if (a[facts.kind] || b[facts.kind]) visit(facts, noticeable(facts, a[facts.kind], b[facts.kind]));
+}
+
+Comparison Comparer::compare(const Cues& a, const Cues& b) const {
+  Comparison comparison;
+  bool unknown = false;
+  each_cue(a, b, [&](const CueFacts& facts, std::optional<double> noticeable) {
+    CueDifference found{facts.kind, a[facts.kind], b[facts.kind], noticeable, nullptr, Evidence::estimated};
+    const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
+    // What does not differ needs no publication to say so.
+    if (noticeable != 0.0) found.threshold = people.threshold(found.a.value_or(0), found.b.value_or(0));
+    if (found.threshold) found.evidence = people.evidence(*found.threshold);
+    unknown |= !noticeable;
+    comparison.cues.push_back(found);
+  });
+  const CueDifference* plainest = comparison.plainest();
+  comparison.verdict = verdict_of(plainest ? plainest->noticeable : std::nullopt, unknown);
+  return comparison;
+}
+
+Distance Comparer::distance(const Cues& a, const Cues& b) const {
+  double plainest = 0;
+  bool unknown = false;
+  each_cue(a, b, [&](const CueFacts&, std::optional<double> noticeable) {
+    unknown |= !noticeable;
+    plainest = std::max(plainest, noticeable.value_or(0));
+  });
+  return {static_cast<float>(plainest), verdict_of(plainest, unknown)};
+}
+
+void Comparer::add_recalled(const Cues& a, const Cues& b, std::set<const Threshold*>& thresholds) const {
+  for (const CueFacts& facts : cue_table()) {
+    const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
+    if (!people.may_be_recalled() || (!a[facts.kind] && !b[facts.kind])) continue;
+    const std::optional<double> apart = noticeable(facts, a[facts.kind], b[facts.kind]);
+    if (!apart || *apart == 0) continue;
+    const Threshold* threshold = people.threshold(a[facts.kind].value_or(0), b[facts.kind].value_or(0));
+    if (threshold->recalled()) thresholds.insert(threshold);
+  }
+}
+
+ComparisonMatrix::ComparisonMatrix(std::vector<Cues> materials, const Declarations& declarations)
+    : materials_(std::move(materials)), comparer_(declarations, materials_.empty() ? "" : materials_.front().device) {
+  const std::size_t count = materials_.size();
+  if (count > 1) distances_.reserve(count * (count - 1) / 2);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = a + 1; b < count; ++b) distances_.push_back(comparer_.distance(materials_[a], materials_[b]));
+}
+
+std::set<const Threshold*> ComparisonMatrix::recalled() const {
+  std::set<const Threshold*> thresholds;
+  for (std::size_t a = 0; a < materials_.size(); ++a)
+    for (std::size_t b = a + 1; b < materials_.size(); ++b)
+      comparer_.add_recalled(materials_[a], materials_[b], thresholds);
+  return thresholds;
+}
+
+std::size_t ComparisonMatrix::count(Verdict verdict) const {
+  return static_cast<std::size_t>(std::ranges::count(distances_, verdict, &Distance::verdict));
+}
+
+Distance ComparisonMatrix::distance(std::size_t a, std::size_t b) const {
+  return a == b ? Distance{} : distances_[index(std::min(a, b), std::max(a, b))];
+}
+
+std::vector<ComparedPair> ComparisonMatrix::nearest(std::size_t most) const {
+  const auto nearer = [](const ComparedPair& a, const ComparedPair& b) {
+    return std::tuple(a.distance.noticeable, a.a, a.b) < std::tuple(b.distance.noticeable, b.a, b.b);
+  };
+  std::vector<ComparedPair> found;  // a heap, the farthest of the nearest on top
+  for (std::size_t a = 0; a < materials_.size(); ++a)
+    for (std::size_t b = a + 1; b < materials_.size(); ++b) {
+      const ComparedPair pair{a, b, distances_[index(a, b)]};
+      if (pair.distance.verdict == Verdict::unknown) continue;
+      if (found.size() == most && (most == 0 || !nearer(pair, found.front()))) continue;
+      if (found.size() == most) std::ranges::pop_heap(found, nearer), found.pop_back();
+      found.push_back(pair);
+      std::ranges::push_heap(found, nearer);
+    }
+  std::ranges::sort_heap(found, nearer);
   return found;
 }
 

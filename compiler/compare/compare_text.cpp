@@ -48,17 +48,16 @@ std::string verdict_text(const Comparison& comparison) {
 }
 
 /// How far apart two are, in a cell of a table.
-std::string cell_text(const Comparison& comparison) {
-  if (comparison.verdict == Verdict::unknown) return "?";
-  const CueDifference* plainest = comparison.plainest();
-  return plainest ? noticeable_text(plainest->noticeable) : "0.0";
+std::string cell_text(const Distance& distance) {
+  return distance.verdict == Verdict::unknown ? "?" : noticeable_text(distance.noticeable);
 }
 
-void write_cues(std::string& text, const ComparisonMatrix& matrix, const ComparedPair& pair) {
-  const std::string &a = matrix.materials[pair.a].material, &b = matrix.materials[pair.b].material;
+void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t first, std::size_t second) {
+  const std::string &a = matrix.materials()[first].material, &b = matrix.materials()[second].material;
+  const Comparison comparison = matrix.compare(first, second);
   const std::size_t width = std::max({a.size(), b.size(), std::size_t{14}});
   text += fmt::format("  {:<20} {:<{}}  {:<{}}  noticeable differences\n", "", a, width, b, width);
-  for (const CueDifference& cue : pair.comparison.cues) {
+  for (const CueDifference& cue : comparison.cues) {
     text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, cue_text(cue.kind, cue.a), width,
                         cue_text(cue.kind, cue.b), width, noticeable_text(cue.noticeable));
     if (cue.threshold)
@@ -66,22 +65,21 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, const Compare
                           cue.threshold->source);
     text += '\n';
   }
-  text += fmt::format("  {}\n", verdict_text(pair.comparison));
+  text += fmt::format("  {}\n", verdict_text(comparison));
 }
 
 void write_table(std::string& text, const ComparisonMatrix& matrix) {
   std::size_t width = 8;
-  for (const Cues& cues : matrix.materials) width = std::max(width, cues.material.size());
-  const std::size_t count = matrix.materials.size();
+  for (const Cues& cues : matrix.materials()) width = std::max(width, cues.material.size());
+  const std::size_t count = matrix.materials().size();
   text += fmt::format("  {:<{}}", "", width + 4);
   for (std::size_t i = 0; i < count; ++i) text += fmt::format(" {:>5}", i + 1);
   text += '\n';
-  std::size_t next = 0;
   for (std::size_t row = 0; row < count; ++row) {
-    text += fmt::format("  {:>3} {:<{}}", row + 1, matrix.materials[row].material, width);
-    for (std::size_t column = 0; column <= row; ++column) text += fmt::format(" {:>5}", column == row ? "-" : "");
+    text += fmt::format("  {:>3} {:<{}}", row + 1, matrix.materials()[row].material, width);
+    for (std::size_t column = 0; column <= row; ++column) text += column == row ? "     -" : "      ";
     for (std::size_t column = row + 1; column < count; ++column)
-      text += fmt::format(" {:>5}", cell_text(matrix.pairs[next++].comparison));
+      text += fmt::format(" {:>5}", cell_text(matrix.distance(row, column)));
     text += '\n';
   }
   text +=
@@ -90,78 +88,102 @@ void write_table(std::string& text, const ComparisonMatrix& matrix) {
 
 /// Of many: those that are not told apart, since a table of all pairs is for machines to read.
 void write_alike(std::string& text, const ComparisonMatrix& matrix) {
-  std::size_t alike = 0, unknown = 0;
-  std::string pairs;
-  for (const ComparedPair& pair : matrix.pairs) {
-    unknown += pair.comparison.verdict == Verdict::unknown;
-    if (pair.comparison.verdict != Verdict::alike) continue;
-    if (++alike <= most_listed)
-      pairs += fmt::format("  {} and {}\n", matrix.materials[pair.a].material, matrix.materials[pair.b].material);
-  }
-  text += fmt::format("{} of {} pairs are hardly told apart{}\n{}", alike, matrix.pairs.size(), alike > 0 ? ":" : "",
-                      pairs);
-  if (alike > most_listed) text += fmt::format("  and {} more; --json has all\n", alike - most_listed);
+  const std::size_t alike = matrix.count(Verdict::alike), unknown = matrix.count(Verdict::unknown);
+  text += fmt::format("{} of {} pairs are hardly told apart{}\n", alike, matrix.pair_count(), alike > 0 ? ":" : "");
+  for (const ComparedPair& pair : matrix.nearest(most_listed))
+    if (pair.distance.verdict == Verdict::alike)
+      text += fmt::format("  {:>4}  {} and {}\n", cell_text(pair.distance), matrix.materials()[pair.a].material,
+                          matrix.materials()[pair.b].material);
+  if (alike > most_listed) text += fmt::format("  and {} more; --json has all distances\n", alike - most_listed);
   if (unknown > 0) text += fmt::format("of {} it is unknown: they differ in what no threshold is known for\n", unknown);
+}
+
+/// Cue by cue, for machines.
+nlohmann::ordered_json pair_json(const ComparisonMatrix& matrix, std::size_t a, std::size_t b) {
+  using Json = nlohmann::ordered_json;
+  const auto value = [](const std::optional<double>& each) { return each ? Json(*each) : Json(nullptr); };
+  const Comparison comparison = matrix.compare(a, b);
+  Json json = {{"a", matrix.materials()[a].material},
+               {"b", matrix.materials()[b].material},
+               {"verdict", comparison.verdict == Verdict::apart   ? "apart"
+                           : comparison.verdict == Verdict::alike ? "alike"
+                                                                  : "unknown"}};
+  const CueDifference* plainest = comparison.plainest();
+  json["noticeable"] = plainest ? value(plainest->noticeable) : Json(0);
+  Json& cues = json["cues"] = Json::object();
+  for (const CueDifference& cue : comparison.cues) {
+    Json& each = cues[facts_of(cue.kind).name] = {
+        {"a", value(cue.a)}, {"b", value(cue.b)}, {"noticeable", value(cue.noticeable)}};
+    if (!cue.threshold) continue;
+    each["weber"] = cue.threshold->weber;
+    each["evidence"] = evidence_word(cue.evidence);
+    each["source"] = cue.threshold->source;
+  }
+  return json;
+}
+
+/// A row for each material but the last: how far it is from each behind it, null where that is not known. Written by
+/// hand: half a million numbers are too many for a tree of JSON.
+std::string matrix_json(const ComparisonMatrix& matrix) {
+  std::string text = "[";
+  const std::size_t count = matrix.materials().size();
+  for (std::size_t a = 0; a + 1 < count; ++a) {
+    text += a == 0 ? "\n    [" : ",\n    [";
+    for (std::size_t b = a + 1; b < count; ++b) {
+      const Distance distance = matrix.distance(a, b);
+      if (b > a + 1) text += ", ";
+      if (distance.verdict == Verdict::unknown)
+        text += "null";
+      else
+        fmt::format_to(std::back_inserter(text), "{:.4g}", distance.noticeable);
+    }
+    text += ']';
+  }
+  return text + (count > 1 ? "\n  ]" : "]");
 }
 
 }  // namespace
 
-std::string comparison_text(const ComparisonMatrix& matrix) {
+std::string comparison_text(const ComparisonMatrix& matrix, bool with_table) {
   std::string text;
-  if (matrix.materials.size() < 2) return text;
-  if (matrix.materials.size() == 2) {
-    text += fmt::format("{} and {}, on {}\n", matrix.materials[0].material, matrix.materials[1].material,
-                        matrix.materials[0].device);
-    write_cues(text, matrix, matrix.pairs.front());
+  const std::vector<Cues>& materials = matrix.materials();
+  if (materials.size() < 2) return text;
+  if (materials.size() == 2) {
+    text += fmt::format("{} and {}, on {}\n", materials[0].material, materials[1].material, materials[0].device);
+    write_cues(text, matrix, 0, 1);
     return text + shapes_are_not;
   }
-  text += fmt::format("{} materials, on {}\n", matrix.materials.size(), matrix.materials.front().device);
-  if (matrix.materials.size() <= most_in_table)
-    write_table(text, matrix);
-  else
-    write_alike(text, matrix);
-  if (const ComparedPair* nearest = matrix.nearest()) {
-    text += fmt::format("\nnearest: {} and {}\n", matrix.materials[nearest->a].material,
-                        matrix.materials[nearest->b].material);
-    write_cues(text, matrix, *nearest);
+  text += fmt::format("{} materials, on {}\n", materials.size(), materials.front().device);
+  if (with_table || materials.size() <= most_in_table) write_table(text, matrix);
+  if (materials.size() > most_in_table) write_alike(text, matrix);
+  for (const ComparedPair& nearest : matrix.nearest(1)) {
+    text += fmt::format("\nnearest: {} and {}\n", materials[nearest.a].material, materials[nearest.b].material);
+    write_cues(text, matrix, nearest.a, nearest.b);
   }
   return text + shapes_are_not;
 }
 
 std::string comparison_json(const ComparisonMatrix& matrix) {
   using Json = nlohmann::ordered_json;
-  const auto value = [](const std::optional<double>& each) { return each ? Json(*each) : Json(nullptr); };
-  Json json = {{"device", matrix.materials.empty() ? "" : matrix.materials.front().device}};
-  Json& materials = json["materials"] = Json::array();
-  for (const Cues& cues : matrix.materials) {
+  const std::vector<Cues>& all = matrix.materials();
+  Json materials = Json::array(), pairs = Json::array();
+  for (const Cues& cues : all) {
     Json& material = materials.emplace_back(Json{{"name", cues.material}});
     for (const CueFacts& facts : cue_table())
       if (cues[facts.kind]) material["cues"][facts.name] = {{"value", *cues[facts.kind]}, {"unit", facts.unit}};
   }
-  Json& pairs = json["pairs"] = Json::array();
-  for (const ComparedPair& pair : matrix.pairs) {
-    const Verdict verdict = pair.comparison.verdict;
-    Json& told = pairs.emplace_back(Json{{"a", matrix.materials[pair.a].material},
-                                         {"b", matrix.materials[pair.b].material},
-                                         {"verdict", verdict == Verdict::apart   ? "apart"
-                                                     : verdict == Verdict::alike ? "alike"
-                                                                                 : "unknown"}});
-    const CueDifference* plainest = pair.comparison.plainest();
-    told["noticeable"] = plainest ? value(plainest->noticeable) : Json(0);
-    Json& cues = told["cues"] = Json::object();
-    for (const CueDifference& cue : pair.comparison.cues) {
-      Json& each = cues[facts_of(cue.kind).name] = {
-          {"a", value(cue.a)}, {"b", value(cue.b)}, {"noticeable", value(cue.noticeable)}};
-      if (!cue.threshold) continue;
-      each["weber"] = cue.threshold->weber;
-      each["evidence"] = evidence_word(cue.evidence);
-      each["source"] = cue.threshold->source;
-    }
+  const std::vector<ComparedPair> nearest = matrix.nearest(most_listed);
+  if (all.size() <= most_in_table) {
+    for (std::size_t a = 0; a < all.size(); ++a)
+      for (std::size_t b = a + 1; b < all.size(); ++b) pairs.push_back(pair_json(matrix, a, b));
+  } else {
+    for (const ComparedPair& pair : nearest) pairs.push_back(pair_json(matrix, pair.a, pair.b));
   }
-  const ComparedPair* nearest = matrix.nearest();
-  json["nearest"] =
-      nearest ? Json{matrix.materials[nearest->a].material, matrix.materials[nearest->b].material} : Json(nullptr);
-  return json.dump(2) + '\n';
+  const Json near = nearest.empty() ? Json(nullptr) : Json{all[nearest[0].a].material, all[nearest[0].b].material};
+  return fmt::format(
+      "{{\n  \"device\": {},\n  \"materials\": {},\n  \"pairs\": {},\n  \"nearest\": {},\n  \"matrix\": {}\n}}\n",
+      Json(all.empty() ? "" : all.front().device).dump(), materials.dump(), pairs.dump(), near.dump(),
+      matrix_json(matrix));
 }
 
 }  // namespace wale

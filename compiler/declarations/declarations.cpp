@@ -61,11 +61,4 @@ std::vector<std::string> Declarations::percept_spellings() const {
   return all;
 }
 
-const Threshold* Declarations::threshold(std::string_view cue, std::string_view device) const {
-  const Threshold* found = common ? common->threshold(cue, device) : nullptr;
-  for (const Threshold& threshold : own_thresholds)
-    if (threshold.cue == cue && (!found || (found->device != device && threshold.device == device))) found = &threshold;
-  return found;
-}
-
 }  // namespace wale

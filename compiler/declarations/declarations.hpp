@@ -197,8 +197,6 @@ struct Declarations {
   PerceptName percept_named(std::string_view name) const;
   /// All names of percepts, antonyms included.
   std::vector<std::string> percept_spellings() const;
-  /// The threshold of a cue on a device: the one measured there, or else the first declared; null where there is none.
-  const Threshold* threshold(std::string_view cue, std::string_view device) const;
 
   /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
   Dimension dimension(std::string_view name) const {

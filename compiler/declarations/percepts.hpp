@@ -97,6 +97,11 @@ struct Map {
   std::vector<std::string> validity;  ///< the conditions as written, "period 0.7 mm .. 10 mm"
   Span span;
   bool exported = false;
+
+  /// Whether somebody remembered a figure of it and nobody has looked it up.
+  bool recalled() const {
+    return slope == Evidence::recalled || anchor == Evidence::recalled || handle == Evidence::recalled;
+  }
 };
 
 /// How a threshold was found: what its criterion, a share of correct answers, says of d'.
@@ -126,8 +131,10 @@ struct Threshold {
   Span span;
   bool exported = false;
 
+  /// Whether somebody remembered it and nobody has looked it up.
+  bool recalled() const { return evidence == Evidence::recalled || handle == Evidence::recalled; }
   /// How far apart two sizes are, in just noticeable differences at d' = 1: ln(ratio) / ln(1 + w), but the difference
-  /// over the floor where that is less. Sizes are SI and not below 0.
+  /// over the floor where that is less. Sizes are SI and not below 0. `Discrimination` says which publication counts.
   double distance(double a, double b) const;
 };
 

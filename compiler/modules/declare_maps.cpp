@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "compiler/modules/declare_records.hpp"
 
@@ -21,9 +23,41 @@ std::optional<Evidence> grade_named(std::string_view word) {
   return std::nullopt;
 }
 
+/// "`measured`, `published`, …": what a grade may be.
+std::string grade_words() {
+  std::vector<std::string> words;
+  for (const auto& [name, evidence] : evidence_words) words.push_back(fmt::format("`{}`", name));
+  const std::string last = words.back();
+  words.pop_back();
+  return fmt::format("{} or {}", fmt::join(words, ", "), last);
+}
+
 /// `on sandpaper`: where something was measured; empty where the setting says nothing.
 std::string measured_on(const Setting& on) {
   return on.on ? on.on->text : on.items.empty() ? "" : words_of(on.items[0]);
+}
+
+/// `evidence slope published, handle transferred`: the grade of each part goes where the list says. What is no grade is
+/// offered to `otherwise`, and reported where that knows nothing of it.
+void read_grades(RecordReader& reader, const Setting& evidence,
+                 const std::vector<std::pair<const char*, Evidence*>>& parts,
+                 const std::function<bool(const SettingItem&)>& otherwise = {}) {
+  std::vector<std::string> names;
+  for (const auto& part : parts) names.push_back(fmt::format("`{}`", part.first));
+  for (const auto& item : evidence.items) {
+    const std::optional<Evidence> grade = grade_named(item.words.size() == 2 ? item.words[1].text : "");
+    const auto part = std::ranges::find_if(
+        parts, [&](const auto& each) { return !item.words.empty() && item.words[0].text == each.first; });
+    if (grade && part != parts.end())
+      *part->second = *grade;
+    else if (!otherwise || !otherwise(item))
+      reader.report(
+          Code::wrong_type, item.span,
+          fmt::format("the evidence of a {} is graded apart for {}", reader.record.keyword.text,
+                      fmt::join(names, ", ")),
+          fmt::format("write one of these, then {}{}", grade_words(),
+                      otherwise ? "; `anchor none` where the law is not tied to the reference stimulus" : ""));
+  }
 }
 
 /// A setting's whole number, such as that of the observers; 0 where it is not there.
@@ -125,22 +159,12 @@ class MapReader {
   void read_evidence() {
     const auto* evidence = reader_.required("evidence", "slope measured, anchor measured, handle measured");
     if (!evidence) return;
-    for (const auto& item : evidence->items) {
-      const std::string part = item.words.size() == 2 ? item.words[0].text : "";
-      const std::optional<Evidence> grade = grade_named(part.empty() ? "" : item.words[1].text);
-      if (part == "anchor" && item.words[1].text == "none")
-        map_.tied = false;
-      else if (part == "slope" && grade)
-        map_.slope = *grade;
-      else if (part == "anchor" && grade)
-        map_.anchor = *grade;
-      else if (part == "handle" && grade)
-        map_.handle = *grade;
-      else
-        reader_.report(Code::wrong_type, item.span, "evidence is graded apart for slope, anchor and handle",
-                       "write `slope`, `anchor` or `handle`, then `measured`, `published`, `estimated`, `recalled` or "
-                       "`transferred`; `anchor none` where the law is not tied to the reference stimulus");
-    }
+    read_grades(reader_, *evidence, {{"slope", &map_.slope}, {"anchor", &map_.anchor}, {"handle", &map_.handle}},
+                [&](const SettingItem& item) {
+                  if (words_of(item) != "anchor none") return false;
+                  map_.tied = false;
+                  return true;
+                });
     if (map_.tied && !map_.of_carrier)
       reader_.report(
           Code::wrong_type, evidence->span,
@@ -324,16 +348,7 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
                            reader.value(*item.range_end, threshold.dimension).value_or(0)};
   threshold.observers = whole_number(reader, "observers");
   if (const auto* evidence = reader.required("evidence", "slope published, handle transferred"))
-    for (const auto& item : evidence->items) {
-      const std::optional<Evidence> grade = grade_named(item.words.size() == 2 ? item.words[1].text : "");
-      if (grade && item.words[0].text == "slope")
-        threshold.evidence = *grade;
-      else if (grade && item.words[0].text == "handle")
-        threshold.handle = *grade;
-      else
-        reader.report(Code::wrong_type, item.span, "the evidence of a threshold is graded for slope and handle",
-                      "write `slope published, handle transferred`");
-    }
+    read_grades(reader, *evidence, {{"slope", &threshold.evidence}, {"handle", &threshold.handle}});
   if (const auto* on = reader.required("on", "sandpaper")) threshold.device = measured_on(*on);
   threshold.source = reader.text("source");
   if (!reader.setting("source"))
@@ -371,8 +386,7 @@ void declare_rule(RecordReader& reader, Declarations& declarations) {
     if (grade)
       rule.evidence = *grade;
     else
-      reader.report(Code::wrong_type, evidence->span, "this is no grade of evidence",
-                    "write `measured`, `published`, `estimated`, `recalled` or `transferred`");
+      reader.report(Code::wrong_type, evidence->span, "this is no grade of evidence", "write " + grade_words());
   }
   if (const auto* on = reader.required("on", "sandpaper")) rule.device = measured_on(*on);
   rule.source = reader.text("source");

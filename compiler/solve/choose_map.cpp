@@ -5,7 +5,9 @@
 namespace wale {
 
 MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, const Declarations& declarations,
-                     const std::string& by) {
+                     const std::string& named) {
+  const auto rule = device.realise.find(percept.name);
+  const std::string& by = named.empty() && rule != device.realise.end() ? rule->second.by : named;
   MapChoice choice;
   std::vector<const Map*> tied;
   declarations.each_map([&](const Map& map) {

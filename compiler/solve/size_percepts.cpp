@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compiler/declarations/discrimination.hpp"
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 
@@ -110,7 +111,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
                : fmt::format("{} {:.3g} lies outside what was measured ({})", asked.name, asked.level, map.source),
            fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
                        law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
-  if (map.slope == Evidence::recalled || map.anchor == Evidence::recalled || map.handle == Evidence::recalled)
+  if (map.recalled())
     report(Code::unverified_basis, asked.span,
            fmt::format("{} rests on a figure that was recalled and not looked up ({})", asked.name, map.source),
            Advice("take it as a guess until somebody has seen the source").see(map.span, "the map"));
@@ -253,11 +254,11 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   record.near_threshold = static_cast<float>(percept.near_threshold);
   record.spread = static_cast<float>(map.spread);
   record.observers = static_cast<std::uint16_t>(std::clamp(map.observers, 0, 65535));
-  if (const Threshold* threshold = declarations_.threshold(percept.cue, device_.profile.name)) {
+  const Discrimination people(declarations_, percept.cue, device_.profile.name, percept.exerts);
+  if (const Threshold* threshold = people.threshold(told.size, told.size)) {
     record.weber = static_cast<float>(threshold->weber);
-    record.floor = static_cast<float>(threshold->floor);
-    const bool own = threshold->device == device_.profile.name;
-    record.weber_evidence = std::max(threshold->evidence, own ? threshold->handle : Evidence::transferred);
+    record.floor = static_cast<float>(people.floor(*threshold));
+    record.weber_evidence = people.evidence(*threshold);
     record.weber_source = threshold->source;
   }
   if (const auto rule = realised_.find(percept.name); rule != realised_.end()) record.realisation = rule->second;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compiler/declarations/discrimination.hpp"
 #include "compiler/expression/check_expression.hpp"
 
 namespace wale {
@@ -231,8 +232,13 @@ void PerceptSolver::check_conflict(const Told& told) {
   const double level = law.level_of(*size), asked_size = law.carrier_of(asked.level);
   if (std::abs(std::log10(level) - std::log10(asked.level)) <= map.scatter) return;
   if (std::abs(level - asked.level) <= asked.tolerance) return;
-  const Threshold* threshold = declarations_.threshold(told.percept->cue, device_.profile.name);
-  if (threshold && threshold->distance(*size, asked_size) <= 1) return;
+  const Discrimination people(declarations_, told.percept->cue, device_.profile.name, told.percept->exerts);
+  if (const Threshold* threshold = people.threshold(*size, asked_size); threshold && threshold->recalled())
+    report(Code::unverified_basis, asked.span,
+           fmt::format("how little of {} is noticed rests on a figure that was recalled and not looked up ({})",
+                       asked.name, threshold->source),
+           Advice("take it as a guess until somebody has seen the source").see(threshold->span, "the threshold"));
+  if (const auto apart = people.distance(*size, asked_size); apart && *apart <= 1) return;
   const std::string unit = declarations_.names().unit(carrier.dimension);
   const std::string argument = told.percept->argument();
   diagnostics_.report(

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/command_line/running.hpp"
 
 namespace wale::command_line::comparing_test {
@@ -41,6 +44,129 @@ TEST(Compare, ManyAreAListOfThoseThatAreHardlyToldApart) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "30 materials")) << run.out;
   EXPECT_TRUE(contains(run.out, "pairs are hardly told apart")) << run.out;
+}
+
+TEST(Compare, TheJsonOfManyHasAllDistancesAndTheNearestPairs) {
+  const Outcome run = wale({"compare", "--json", library + "sandpaper/chapter5.wale"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  const std::size_t count = json["materials"].size();
+  ASSERT_EQ(count, 30u);
+  ASSERT_EQ(json["matrix"].size(), count - 1);
+  double least = HUGE_VAL;
+  for (std::size_t a = 0; a + 1 < count; ++a) {
+    ASSERT_EQ(json["matrix"][a].size(), count - 1 - a);
+    for (const auto& distance : json["matrix"][a])
+      if (!distance.is_null()) least = std::min(least, distance.get<double>());
+  }
+  EXPECT_EQ(json["pairs"].size(), 20u);
+  EXPECT_NEAR(json["pairs"][0]["noticeable"].get<double>(), least, 1e-3);
+  EXPECT_EQ(json["nearest"][0], json["pairs"][0]["a"]);
+}
+
+TEST(Compare, FilesComeInTheirOrderWhateverThreadReadsThem) {
+  const std::vector<std::string> names = {"velvet", "corduroy", "denim", "canvas", "jersey"};
+  std::vector<std::string> words = {"compare", "--json"};
+  for (const auto& name : names) words.push_back(library + "fabric/" + name + ".wale:" + name);
+  const Outcome first = wale(words), second = wale(words);
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(first.out, second.out);
+  const auto json = first.json();
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(json["materials"][i]["name"], names[i]);
+}
+
+TEST(Compare, WhatIsWrongIsSaidOfEachFileInTheirOrder) {
+  const Folder folder;
+  const std::string one = folder.write("one.wale", "wale 1\nmaterial m { physical { force = 1 m } }\n");
+  const std::string two = folder.write("two.wale", "wale 1\nmaterial m { physical { force = nothing } }\n");
+  const Outcome run = wale({"compare", one, corduroy, two, corduroy + ":velvet"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.out, "");
+  const auto first = run.err.find("one.wale:2"), second = run.err.find("two.wale:2"), third = run.err.find("W0602");
+  EXPECT_LT(first, second) << run.err;
+  EXPECT_LT(second, third) << run.err;
+  EXPECT_NE(third, std::string::npos) << run.err;
+}
+
+TEST(Compare, WhatIsOnlyRecalledWarns) {
+  const Folder folder;
+  const auto heavy = [&](const std::string& name, const std::string& mass) {
+    return folder.write(name + ".wale", "wale 1\nmaterial " + name + " { physical { force = heavy(" + mass + ") } }\n");
+  };
+  const Outcome run = wale({"compare", heavy("light", "0.05 kg"), heavy("lead", "0.15 kg")});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(contains(run.err, "warning[W0420]")) << run.err;
+  EXPECT_TRUE(contains(run.err, "Beauregard and Srinivasan 1997, recalled")) << run.err;
+}
+
+TEST(Levels, AreProposedAsALineThatCanBePasted) {
+  const Outcome run = wale({"levels", "roughness", "--steps", "5", "--json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  ASSERT_EQ(json["levels"].size(), 5u);
+  const Folder folder;
+  std::string text = "wale 1\n\n" + json["wale"].get<std::string>() + "\n";
+  for (const int i : {2, 3})
+    text += "material m" + std::to_string(i) + " {\n  perceptual { roughness level_" + std::to_string(i) +
+            " }\n  physical { force = lateral(grating(x, period: 2.5 mm)) }\n}\n";
+  const std::string file = folder.write("levels.wale", text);
+  const Outcome checked = wale({"check", file});
+  EXPECT_EQ(checked.status, 0);
+  EXPECT_TRUE(contains(checked.out, "0 errors, 0 warnings")) << checked.out;
+  // Materials of two neighbours compare as the proposal says: read from their forces, and not from their levels.
+  const auto compared = wale({"compare", "--json", file}).json();
+  EXPECT_NEAR(compared["pairs"][0]["cues"]["amplitude"]["noticeable"].get<double>(),
+              json["levels"][2]["apart"].get<double>(), 0.2);
+}
+
+TEST(Levels, WhatCannotBeProposedIsExplained) {
+  EXPECT_EQ(wale({"levels", "vibration"}).status, 1);
+  EXPECT_TRUE(contains(wale({"levels", "vibration"}).err, "unknown: no published threshold"));
+  EXPECT_TRUE(contains(wale({"levels", "rougness"}).err, "did you mean `roughness`?"));
+  const Outcome many = wale({"levels", "smoothness", "--steps", "500"});
+  EXPECT_EQ(many.status, 1);
+  EXPECT_TRUE(contains(many.err, "would do")) << many.err;
+  EXPECT_EQ(wale({"levels"}).status, 2);
+  EXPECT_TRUE(contains(wale({"levels", "smoothness", "--steps", "3"}).out, "3 levels of smoothness"));
+}
+
+TEST(Blind, PlaysAsksAndScores) {
+  const std::vector<std::string> words = {"feel",    corduroy,    "--against", library + "fabric/denim.wale",
+                                          "--blind", "--trials",  "3",         "--seed",
+                                          "5",       "--seconds", "0.2",       "--virtual-time",
+                                          "--json"};
+  const Outcome run = wale(words, "1\nneither\n2\n1\n");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  ASSERT_EQ(json["trials"].size(), 3u);
+  int right = 0;
+  const int answers[] = {1, 2, 1};
+  for (int i = 0; i < 3; ++i) {
+    const auto& trial = json["trials"][i];
+    EXPECT_EQ(trial["answer"], answers[i]);
+    EXPECT_EQ(trial["right"].get<bool>(), (answers[i] == 1) == trial["a_first"].get<bool>());
+    right += trial["right"].get<bool>();
+  }
+  EXPECT_EQ(json["right"], right);
+  // What compare says of the two.
+  const auto compared = wale({"compare", "--json", corduroy, library + "fabric/denim.wale:denim"}).json();
+  EXPECT_NEAR(json["predicted"]["d_prime"].get<double>(), compared["pairs"][0]["noticeable"].get<double>(), 1e-9);
+  EXPECT_FALSE(json.contains("ended"));
+  EXPECT_EQ(wale(words, "1\nneither\n2\n1\n").out, run.out) << "the seed is the order";
+}
+
+TEST(Blind, EndsWithTheAnswers) {
+  std::vector<std::string> words = {"feel",    corduroy,    "--against", library + "fabric/denim.wale",
+                                    "--blind", "--seconds", "0.2",       "--virtual-time"};
+  const Outcome some = wale(words, "1\nq\n1\n");
+  EXPECT_EQ(some.status, 0) << some.err;
+  EXPECT_TRUE(contains(some.out, "1 of 12 trials were answered")) << some.out;
+  const Outcome none = wale(words);
+  EXPECT_EQ(none.status, 1);
+  EXPECT_EQ(none.out, "");
+  EXPECT_TRUE(contains(none.err, "no trial was answered")) << none.err;
+  EXPECT_EQ(wale({"feel", corduroy, "--blind"}).status, 2);
+  EXPECT_EQ(wale({"feel", corduroy, "--against", corduroy}).status, 2);
 }
 
 TEST(Describe, TheTextureAndItsClassAreInTheJson) {

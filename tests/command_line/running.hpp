@@ -67,12 +67,13 @@ inline std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Runs `wale` with these words; nothing is typed, and colours are off.
-inline Outcome wale(const std::vector<std::string>& words) {
+/// Runs `wale` with these words and what is typed; colours are off.
+inline Outcome wale(const std::vector<std::string>& words, const std::string& typed = {}) {
   const Folder folder;
   std::string command = quoted(WALE_BINARY);
   for (const auto& word : words) command += " " + quoted(word);
-  command += " </dev/null >" + quoted(folder / "out") + " 2>" + quoted(folder / "err");
+  command += " <" + (typed.empty() ? "/dev/null" : quoted(folder.write("typed", typed))) + " >" +
+             quoted(folder / "out") + " 2>" + quoted(folder / "err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, bytes_of(folder / "out"), bytes_of(folder / "err")};
 }

@@ -27,6 +27,8 @@ Cues cues(const std::string& statements) {
 constexpr double three_of_four = 0.67448975;  // standard deviations, any table of the normal distribution
 const double d_prime = std::sqrt(2.0) * three_of_four;
 
+Comparison compare(const Cues& a, const Cues& b) { return Comparer(declarations(), a.device).compare(a, b); }
+
 const CueDifference* cue(const Comparison& comparison, CueKind kind) {
   for (const CueDifference& each : comparison.cues)
     if (each.kind == kind) return &each;
@@ -36,7 +38,7 @@ const CueDifference* cue(const Comparison& comparison, CueKind kind) {
 TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4;
-  const Comparison comparison = compare(a, b, declarations());
+  const Comparison comparison = compare(a, b);
   const CueDifference* amplitude = cue(comparison, CueKind::amplitude);
   ASSERT_TRUE(amplitude && amplitude->noticeable && amplitude->threshold);
   // Pang, Tan and Durlach 1991: 0.07 for forces of 2.5 to 10 N.
@@ -49,7 +51,7 @@ TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
 TEST(Compare, SmallForcesAreNotToldApartByTheirRatio) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::amplitude] = 0.02, b[CueKind::amplitude] = 0.05;
-  const Comparison comparison = compare(a, b, declarations());
+  const Comparison comparison = compare(a, b);
   // 0.03 N of the 0.1 N that Tan 1992 is given as a floor, at three of four.
   EXPECT_NEAR(*comparison.cues.front().noticeable, 0.03 / (0.1 / d_prime), 0.03 / (0.1 / d_prime) * 0.5);
   EXPECT_EQ(comparison.verdict, Verdict::alike);
@@ -58,7 +60,7 @@ TEST(Compare, SmallForcesAreNotToldApartByTheirRatio) {
 TEST(Compare, WhatOneHasAndTheOtherHasNotIsComparedByForce) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::stiffness] = 100;
-  const Comparison comparison = compare(a, b, declarations());
+  const Comparison comparison = compare(a, b);
   ASSERT_TRUE(comparison.cues.front().noticeable);
   EXPECT_GT(*comparison.cues.front().noticeable, 20);  // 4 N at 40 mm against nothing
   EXPECT_EQ(comparison.verdict, Verdict::apart);
@@ -67,7 +69,7 @@ TEST(Compare, WhatOneHasAndTheOtherHasNotIsComparedByForce) {
 TEST(Compare, NothingAtAllIsNoSizeThatAPublicationHadToCompare) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::viscosity] = 6;
-  const Comparison comparison = compare(a, b, declarations());
+  const Comparison comparison = compare(a, b);
   ASSERT_TRUE(comparison.cues.front().threshold);
   // Jones and Hunter compared 2 to 1024 N s/m; a figure that is only recalled is not taken instead.
   EXPECT_EQ(comparison.cues.front().threshold->evidence, Evidence::published);
@@ -77,22 +79,22 @@ TEST(Compare, ACueWithoutAThresholdIsUnknownAndNeverTheSame) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::amplitude] = b[CueKind::amplitude] = 2;
   a[CueKind::regularity] = 0.9, b[CueKind::regularity] = 0.2;
-  Comparison comparison = compare(a, b, declarations());
+  Comparison comparison = compare(a, b);
   EXPECT_EQ(comparison.verdict, Verdict::unknown);
   EXPECT_FALSE(cue(comparison, CueKind::regularity)->noticeable);
   b[CueKind::regularity] = 0.9;
-  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::alike);
+  EXPECT_EQ(compare(a, b).verdict, Verdict::alike);
   // Where something else tells them apart it does not matter.
   b[CueKind::regularity] = 0.2, b[CueKind::amplitude] = 4;
-  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::apart);
+  EXPECT_EQ(compare(a, b).verdict, Verdict::apart);
 }
 
 TEST(Compare, OrientationsAreTheSameAfterHalfATurn) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::orientation] = 0.0, b[CueKind::orientation] = 3.14159265358979;
-  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::alike);
+  EXPECT_EQ(compare(a, b).verdict, Verdict::alike);
   b[CueKind::orientation] = 1.0;
-  EXPECT_EQ(compare(a, b, declarations()).verdict, Verdict::unknown);
+  EXPECT_EQ(compare(a, b).verdict, Verdict::unknown);
 }
 
 TEST(Compare, CuesAreWhatTheMaterialIsMadeOf) {
@@ -115,11 +117,39 @@ TEST(Compare, TheNearestPairIsTheOneThatIsToldApartTheLeast) {
     materials.push_back({std::to_string(amplitude), "sandpaper", {}});
     materials.back()[CueKind::amplitude] = amplitude;
   }
-  const ComparisonMatrix matrix = compare_all(materials, declarations());
-  ASSERT_EQ(matrix.pairs.size(), 6u);
-  ASSERT_TRUE(matrix.nearest());
-  EXPECT_EQ(matrix.nearest()->a, 1u);
-  EXPECT_EQ(matrix.nearest()->b, 2u);
+  const ComparisonMatrix matrix(materials, declarations());
+  EXPECT_EQ(matrix.pair_count(), 6u);
+  const std::vector<ComparedPair> nearest = matrix.nearest(2);
+  ASSERT_EQ(nearest.size(), 2u);
+  EXPECT_EQ(nearest[0].a, 1u);
+  EXPECT_EQ(nearest[0].b, 2u);
+  // 3.1 N and 6 N are a smaller ratio than 1 N and 3 N.
+  EXPECT_EQ(nearest[1].a, 2u);
+  EXPECT_EQ(nearest[1].b, 3u);
+  EXPECT_TRUE(matrix.nearest(0).empty());
+  EXPECT_EQ(matrix.nearest(99).size(), 6u);
+}
+
+TEST(Compare, AMatrixHoldsWhatItsPairsCompareTo) {
+  std::vector<Cues> materials;
+  for (int i = 0; i < 23; ++i) {
+    materials.push_back({std::to_string(i), "sandpaper", {}});
+    materials.back()[CueKind::amplitude] = 0.2 + (i * 7 % 23) * 0.3;
+    if (i % 3 == 0) materials.back()[CueKind::regularity] = 0.1 * (i % 5);
+    if (i % 4 == 0) materials.back()[CueKind::viscosity] = 1.0 + i;
+  }
+  const ComparisonMatrix matrix(materials, declarations());
+  std::size_t pairs = 0, alike = 0;
+  for (std::size_t a = 0; a < materials.size(); ++a)
+    for (std::size_t b = a + 1; b < materials.size(); ++b) {
+      const Comparison whole = compare(materials[a], materials[b]);
+      EXPECT_EQ(matrix.distance(b, a).verdict, whole.verdict);
+      EXPECT_FLOAT_EQ(matrix.distance(a, b).noticeable, static_cast<float>(*whole.plainest()->noticeable));
+      alike += whole.verdict == Verdict::alike;
+      ++pairs;
+    }
+  EXPECT_EQ(matrix.pair_count(), pairs);
+  EXPECT_EQ(matrix.count(Verdict::alike), alike);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/explain.hpp"
 #include "compiler/diagnostics/render.hpp"
+#include "compiler/solve/level_scale.hpp"
 
 namespace wale::explanations_test {
 namespace {
@@ -81,6 +82,7 @@ Outcome outcome_of(const std::string& text, bool needs_material) {
   std::vector<std::string> names;
   for (const auto& material : module.materials) names.push_back(material.name);
   if (names.empty() && needs_material) names.emplace_back();
+  if (!diagnostics.has_errors()) check_levels(module.declarations(), source, default_device, diagnostics);
   std::vector<Diagnostic> all = diagnostics.all();
   for (const auto& name : names) {
     if (diagnostics.has_errors()) break;

@@ -27,6 +27,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/diagnostics/render.hpp"
+#include "compiler/solve/level_scale.hpp"
 
 namespace wale::golden_diagnostics_test {
 namespace {
@@ -135,6 +136,7 @@ std::vector<Diagnostic> checked(SourceSet& sources, SourceId source) {
   const auto resolver = file_resolver({});
   Diagnostics diagnostics;
   const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+  if (!diagnostics.has_errors()) check_levels(module.declarations(), source, default_device, diagnostics);
   std::vector<Diagnostic> all = diagnostics.all();
   if (!diagnostics.has_errors())
     for (const auto& material : module.materials) {

@@ -15,6 +15,7 @@
 
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/render.hpp"
+#include "compiler/solve/level_scale.hpp"
 
 namespace wale::reference_test {
 namespace {
@@ -113,6 +114,7 @@ TEST(Reference, ItsExamplesCompile) {
     const SourceId source = sources.add("example.wale", block.text);
     const CheckedModule module = check_source(sources, source, resolver, diagnostics);
     EXPECT_FALSE(module.materials.empty()) << "line " << block.line;
+    check_levels(module.declarations(), source, default_device, diagnostics);
     for (const auto& material : module.materials) {
       compile_material(module, material.name, default_device, sources, source, resolver, diagnostics);
       ++compiled;

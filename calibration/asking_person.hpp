@@ -1,0 +1,31 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "calibration/blind_comparison.hpp"
+
+namespace wale {
+
+/// Asks in lines of text: answers are 1 or 2, `q` ends it, and so does the end of the input. Anything else is asked
+/// again.
+class AskingPerson final : public BlindPerson {
+ public:
+  /// `typed`: a person types the answers and ends each line on the screen; otherwise `out` gets the line's end.
+  AskingPerson(std::istream& in, std::ostream& out, std::string a, std::string b, int trials, bool typed)
+      : in_(in), out_(out), a_(std::move(a)), b_(std::move(b)), trials_(trials), typed_(typed) {}
+
+  void introduce(bool is_a) override;
+  void begin(int trial, int interval) override;
+  std::optional<int> answer(int trial) override;
+  void learn(int trial, bool right) override;
+
+ private:
+  std::istream& in_;
+  std::ostream& out_;
+  std::string a_, b_;
+  int trials_;
+  bool typed_;
+};
+
+}  // namespace wale

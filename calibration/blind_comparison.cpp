@@ -1,0 +1,89 @@
+#include "calibration/blind_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace wale {
+namespace {
+
+constexpr double two_sided_95 = 0.975;
+
+/// One material for some seconds; why not all of them, if so.
+class Interval {
+ public:
+  Interval(Device& device, const BlindOptions& options) : stage_(device), options_(options) {}
+
+  std::string feel(const BlindMaterial& material) {
+    stage_.place(material.program);
+    const auto& parameters = material.program.description().parameters;
+    for (std::size_t i = 0; i < material.parameters.size(); ++i)
+      if (const auto refusal = stage_.set(parameters[i].name, material.parameters[i])) return refusal->reason;
+    const auto result = stage_.run(
+        {.seconds = options_.seconds, .virtual_time = options_.virtual_time, .progress = {}, .stop = options_.stop});
+    if (const auto* refusal = std::get_if<Refusal>(&result)) return refusal->reason;
+    if (options_.stop && *options_.stop) return "interrupted";
+    const auto& run = std::get<RunResult>(result);
+    const double felt = static_cast<double>(run.ticks_run + run.ticks_missed) * run.record.seconds_per_tick;
+    constexpr double enough = 0.5;  // of an interval: the last period may be cut, a device that is gone is not
+    if (felt < enough * options_.seconds) return fmt::format("the device stopped after {:.1f} s", felt);
+    return {};
+  }
+
+ private:
+  Stage stage_;
+  const BlindOptions& options_;
+};
+
+}  // namespace
+
+BlindSession feel_blind(Device& device, const BlindMaterial& a, const BlindMaterial& b, const BlindOptions& options,
+                        BlindPerson& person) {
+  BlindSession session;
+  Interval interval(device, options);
+  for (const bool is_a : {true, false}) {
+    person.introduce(is_a);
+    if (session.ended = interval.feel(is_a ? a : b); !session.ended.empty()) return session;
+  }
+  std::mt19937_64 random(options.seed);
+  for (int trial = 1; trial <= options.trials; ++trial) {
+    const bool a_first = random() >> 63 != 0;
+    for (const int which : {1, 2}) {
+      person.begin(trial, which);
+      if (session.ended = interval.feel((which == 1) == a_first ? a : b); !session.ended.empty()) return session;
+    }
+    const std::optional<int> answer = person.answer(trial);
+    if (!answer) {
+      session.ended = "no further answer";
+      return session;
+    }
+    session.trials.push_back({a_first, *answer});
+    person.learn(trial, session.trials.back().right());
+  }
+  return session;
+}
+
+double proportion_right(double sensitivity) { return 0.5 * std::erfc(-0.5 * sensitivity); }
+
+BlindScore blind_score(int right, int trials) {
+  BlindScore score{.right = right, .trials = trials};
+  const double n = trials, p = right / n, z = normal_quantile(two_sided_95);
+  score.proportion = p;
+  // E. B. Wilson 1927, Probable inference, J. Am. Stat. Assoc. 22:209.
+  const double centre = (p + z * z / (2 * n)) / (1 + z * z / n);
+  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  score.low = right == 0 ? 0 : centre - half;
+  score.high = right == trials ? 1 : centre + half;
+  score.sensitivity = sensitivity(Task::forced_choice, std::clamp(p, 0.5 / n, 1 - 0.5 / n));
+  if (score.low > 0) score.sensitivity_low = sensitivity(Task::forced_choice, score.low);
+  if (score.high < 1) score.sensitivity_high = sensitivity(Task::forced_choice, score.high);
+  double likely = 0;
+  for (int k = right; k <= trials; ++k)
+    likely += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1) - n * std::log(2.0));
+  score.by_chance = std::min(likely, 1.0);
+  return score;
+}
+
+}  // namespace wale

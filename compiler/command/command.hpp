@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/open_file.hpp"
+
+/// What a person's command does: the verbs of the command line, which read files, print, and give an exit status. They
+/// are called by `wale.cpp`, which knows the words; nothing else calls them.
+namespace wale::command {
+
+inline constexpr int done = 0;
+/// What was asked cannot be done: already said why.
+inline constexpr int refused = 1;
+/// The words of the command make no sense.
+inline constexpr int misused = 2;
+
+/// Says why on standard error; `refused`.
+int refuse(const std::string& reason);
+
+/// With carets in colour where a person reads them.
+void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);
+
+/// Writes a whole file or says why not; "-" is standard output.
+std::optional<std::string> write_file(const std::string& path, std::string_view bytes);
+
+/// A material named on the command line: a Wale file to compile, or a patch program to load.
+struct Choice {
+  std::string file, material, device = default_device;
+  std::vector<std::string> folders;  ///< in which imports are looked for
+
+  FileRequest request() const;
+};
+
+/// Opens a file; nothing when it cannot be read or its text is wrong, which has been said.
+std::optional<OpenedFile> open(const Choice& choice);
+
+/// The programs of an opened file: one, or all of its materials; what is wrong has been printed when there is none.
+std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all);
+std::vector<Program> load_programs(const Choice& choice, bool all);
+
+/// The program's parameters with `--set NAME=VALUE` applied, or nothing, when what is wrong has been printed.
+std::optional<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings);
+
+}  // namespace wale::command

@@ -1,0 +1,84 @@
+#include "compiler/compare/compare_files.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "runtime/machine/parallel.hpp"
+
+namespace wale {
+namespace {
+
+/// Calls `work` for each of 0 .. count - 1 once, on as many threads as there are cores. Each takes what is next, since
+/// one material may take a hundred times as long as another.
+void for_each_in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  in_parallel(count, [&](std::size_t, std::size_t) {
+    for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) work(i);
+  });
+}
+
+/// One material of a file on its way through the compiler.
+struct MaterialReading {
+  std::size_t file = 0;
+  std::string name;
+  Diagnostics diagnostics;
+  std::optional<Cues> cues;
+};
+
+std::vector<std::string> materials_to_read(const ComparedFile& file) {
+  const bool readable = file.opened.module && !file.opened.diagnostics.has_errors();
+  if (!readable) return {};
+  return file.name.material.empty() ? materials_of(file.opened) : std::vector{file.name.material};
+}
+
+}  // namespace
+
+std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const FileRequest& request,
+                                    const Declarations& declarations) {
+  std::vector<ComparedFile> files(names.size());
+  const auto request_for = [&](const ComparedFile& file) {
+    return FileRequest{file.name.file, request.device, request.roots};
+  };
+  for_each_in_parallel(names.size(), [&](std::size_t i) {
+    ComparedFile& file = files[i];
+    file.name = named_material(names[i]);
+    file.opened = open_file(request_for(file));
+    if (file.opened.program) file.cues.push_back(cues_of(Bank(*file.opened.program), declarations));
+  });
+  std::vector<MaterialReading> readings;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::string& name : materials_to_read(files[i])) readings.push_back({i, std::move(name), {}, {}});
+  for_each_in_parallel(readings.size(), [&](std::size_t i) {
+    MaterialReading& reading = readings[i];
+    const ComparedFile& file = files[reading.file];
+    const auto program = compile_opened(file.opened, request_for(file), reading.name, reading.diagnostics);
+    if (program) reading.cues = cues_of(Bank(*program), declarations);
+  });
+  for (MaterialReading& reading : readings) {
+    ComparedFile& file = files[reading.file];
+    for (const Diagnostic& each : reading.diagnostics.all()) file.opened.diagnostics.report(each);
+    if (reading.cues) file.cues.push_back(*std::move(reading.cues));
+  }
+  for (ComparedFile& file : files)
+    if (file.opened.diagnostics.has_errors()) file.cues.clear();
+  return files;
+}
+
+std::string why_not_compared(const std::vector<ComparedFile>& files) {
+  const Cues* first = nullptr;
+  std::size_t count = 0;
+  for (const ComparedFile& file : files)
+    for (const Cues& each : file.cues) {
+      if (!first) first = &each;
+      if (each.device != first->device)
+        return fmt::format("`{}` is built for `{}` and `{}` for `{}`: what is felt is compared on one device",
+                           first->material, first->device, each.material, each.device);
+      ++count;
+    }
+  return count < 2 ? "there is only one material; name another to compare it with" : "";
+}
+
+}  // namespace wale

@@ -1,0 +1,69 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "compiler/compare/propose_levels.hpp"
+#include "compiler/describe/describe.hpp"
+
+namespace wale {
+
+std::string levels_line(const LevelProposal& proposal) {
+  std::vector<std::string> levels;
+  for (const ProposedLevel& each : proposal.levels)
+    levels.push_back(fmt::format("level_{} {}", levels.size() + 1, each.level));
+  return fmt::format("levels {} {{ {} }}", proposal.percept, fmt::join(levels, "; "));
+}
+
+std::string proposal_text(const LevelProposal& proposal) {
+  const std::size_t count = proposal.levels.size();
+  std::string text = fmt::format("{} levels of {} on {}, from the least to the greatest that it renders as measured\n",
+                                 count, proposal.asked, proposal.device);
+  text += fmt::format("  {:<14} {:>8}  {:>14}  apart\n", "", "level", proposal.carrier);
+  std::set<const Threshold*> thresholds;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ProposedLevel& each = proposal.levels[proposal.reversed ? count - 1 - i : i];
+    const ProposedLevel& after = proposal.reversed && i > 0 ? proposal.levels[count - i] : each;
+    const std::string apart = i == 0 ? "-" : fmt::format("{:.2f}", after.apart);
+    text +=
+        fmt::format("  {:<14} {:>8.{}f}  {:>14}  {:>5}", fmt::format("level_{}", proposal.reversed ? count - i : i + 1),
+                    proposal.reversed ? 1 - each.level : each.level, proposal.digits,
+                    fmt::format("{:.3g} {}", each.size, proposal.unit), apart);
+    if (i > 0 && after.threshold)
+      text += fmt::format("  ({}: {})", evidence_word(after.evidence), after.threshold->source);
+    text += '\n';
+    if (after.threshold) thresholds.insert(after.threshold);
+  }
+  text += "  apart: just noticeable differences at d' = 1 from the one before";
+  for (const Threshold* each : thresholds) text += fmt::format("; {:.2g} of it ({})", each->weber, each->source);
+  text +=
+      fmt::format("\n  {} by {} ({})\n", proposal.carrier, proposal.map->source, evidence_word(proposal.map_evidence));
+  if (proposal.most > count) text += fmt::format("  {} would do\n", proposal.most);
+  return text + '\n' + levels_line(proposal) + '\n';
+}
+
+std::string proposal_json(const LevelProposal& proposal) {
+  using Json = nlohmann::ordered_json;
+  Json json = {{"asked", proposal.asked},
+               {"percept", proposal.percept},
+               {"device", proposal.device},
+               {"carrier", proposal.carrier},
+               {"unit", proposal.unit},
+               {"map", {{"source", proposal.map->source}, {"evidence", evidence_word(proposal.map_evidence)}}},
+               {"most", proposal.most}};
+  Json& levels = json["levels"] = Json::array();
+  for (const ProposedLevel& each : proposal.levels) {
+    Json& level = levels.emplace_back(Json{{"level", each.level}, {"size", each.size}});
+    if (proposal.reversed) level[proposal.asked] = 1 - each.level;
+    level["apart"] = levels.size() == 1 ? Json(nullptr) : Json(each.apart);
+    if (!each.threshold) continue;
+    level["weber"] = each.threshold->weber;
+    level["evidence"] = evidence_word(each.evidence);
+    level["source"] = each.threshold->source;
+  }
+  json["wale"] = levels_line(proposal);
+  return json.dump(2) + '\n';
+}
+
+}  // namespace wale

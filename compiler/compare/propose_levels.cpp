@@ -1,0 +1,158 @@
+#include "compiler/compare/propose_levels.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/solve/choose_map.hpp"
+#include "compiler/solve/level_scale.hpp"
+#include "compiler/text/spelling.hpp"
+
+namespace wale {
+namespace {
+
+/// More than anybody can tell apart of anything that a device renders.
+constexpr std::size_t most_levels = 1000;
+
+/// Sizes from one to another, each so far apart from the one before: as many as fit, the first among them, but no more
+/// than `most`.
+std::vector<double> stairs(const LevelScale& scale, double from, double to, double apart, std::size_t most) {
+  std::vector<double> sizes{from};
+  while (sizes.size() < most) {
+    const auto next = scale.step(sizes.back(), to, apart);
+    if (!next) break;
+    sizes.push_back(*next);
+  }
+  return sizes;
+}
+
+/// So many sizes from one to another, evenly far apart: the farthest with which they fit.
+std::vector<double> even_stairs(const LevelScale& scale, double from, double to, double apart, std::size_t count) {
+  double fits = apart, too_far = scale.people().distance(from, to).value_or(apart) + 1;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (fits + too_far);
+    (stairs(scale, from, to, middle, count).size() == count ? fits : too_far) = middle;
+  }
+  std::vector<double> sizes = stairs(scale, from, to, fits, count);
+  sizes.back() = to;
+  return sizes;
+}
+
+/// The levels written with so many digits, the ends within what can be rendered.
+std::vector<double> rounded(const std::vector<double>& levels, int digits) {
+  const double scale = std::pow(10, digits);
+  constexpr double slack = 1e-9;  // an end that was written with these digits stays what it is
+  std::vector<double> all;
+  for (const double level : levels) all.push_back(std::round(level * scale) / scale);
+  all.front() = std::ceil(levels.front() * scale - slack) / scale;
+  all.back() = std::floor(levels.back() * scale + slack) / scale;
+  return all;
+}
+
+/// The least distance between neighbours and the greatest.
+std::pair<double, double> spacing(const LevelScale& scale, const std::vector<double>& levels) {
+  double least = HUGE_VAL, greatest = 0;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const double apart =
+        levels[i] > levels[i - 1]
+            ? scale.people().distance(scale.size_of(levels[i - 1]), scale.size_of(levels[i])).value_or(0)
+            : 0;
+    least = std::min(least, apart), greatest = std::max(greatest, apart);
+  }
+  return {least, greatest};
+}
+
+std::string candidates(const std::string& wrong, const std::vector<std::string>& names) {
+  const auto near = nearest_spelling(wrong, names);
+  return near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(names, ", "));
+}
+
+/// Why a percept has no map to set its levels by.
+std::string why_no_map(const Percept& percept, const MapChoice& choice, const std::string& device) {
+  if (!percept.has_reference)
+    return fmt::format("{} has no reference stimulus yet, so it has an order and no levels", percept.name);
+  if (!choice.rivals.empty())
+    return fmt::format("{} maps for {} would do on `{}`, and no rule of the device chooses one", choice.rivals.size(),
+                       percept.name, device);
+  if (!choice.untied.empty())
+    return fmt::format("what is known of {} is not tied to its reference stimulus, so it orders and cannot set levels",
+                       percept.name);
+  return fmt::format("no map ties {} to a force on `{}`", percept.name, device);
+}
+
+std::string why_too_many(std::size_t steps, std::size_t most, double apart, const std::string& name) {
+  const std::string far =
+      apart == 1 ? "one just noticeable difference" : fmt::format("{:.3g} just noticeable differences", apart);
+  if (most < 2) return fmt::format("no two levels of {} are {} apart here", name, far);
+  return fmt::format("{} levels of {} would be less than {} apart; {} would do", steps, name, far, most);
+}
+
+}  // namespace
+
+std::variant<LevelProposal, std::string> propose_levels(const std::string& name, const std::string& device,
+                                                        std::optional<std::size_t> steps, double apart,
+                                                        const Declarations& declarations) {
+  const PerceptName meant = declarations.percept_named(name);
+  if (!meant.percept)
+    return fmt::format("nothing declares a percept `{}`; {}", name, candidates(name, declarations.percept_spellings()));
+  const DeviceDeclaration* on = declarations.devices.find(device);
+  if (!on)
+    return fmt::format("nothing declares a device `{}`; {}", device,
+                       candidates(device, declarations.devices.spellings()));
+  if (!(apart > 0)) return "levels are more than nothing apart: --jnd is above 0";
+  if (steps && *steps < 2) return "two levels are the fewest that can be apart";
+  const Percept& percept = *meant.percept;
+  const MapChoice choice = percept.has_reference ? choose_map(percept, *on, declarations) : MapChoice{};
+  if (!choice.map) return why_no_map(percept, choice, device);
+  const LevelScale scale(percept, *choice.map, declarations, *on);
+  if (!scale.people().known())
+    return fmt::format("unknown: no published threshold says how little of {} is noticed", percept.name);
+
+  // What is near threshold, beyond what was measured, or beyond the device, is no level to propose.
+  const double measured[] = {scale.level_of(choice.map->valid_low), scale.level_of(choice.map->valid_high)};
+  const double most_level = std::isfinite(scale.most_size()) ? scale.level_of(scale.most_size()) : 1;
+  const double low = std::max(std::min(measured[0], measured[1]), percept.near_threshold);
+  const double high = std::min({std::max(measured[0], measured[1]), most_level, 1.0});
+  const double from = scale.size_of(low), to = scale.size_of(high);
+  if (!(low < high) || !std::isfinite(from) || !std::isfinite(to))
+    return fmt::format("`{}` renders nothing of {} within what was measured ({})", device, percept.name,
+                       choice.map->source);
+
+  LevelProposal proposal;
+  proposal.most = stairs(scale, from, to, apart, most_levels).size();
+  const std::size_t count = steps.value_or(proposal.most);
+  if (count > proposal.most || count < 2) return why_too_many(count, proposal.most, apart, name);
+  std::vector<double> levels;
+  for (const double size : even_stairs(scale, from, to, apart, count)) levels.push_back(scale.level_of(size));
+  std::vector<double> written;
+  constexpr int most_digits = 6;
+  constexpr double uneven = 0.05;
+  for (proposal.digits = 2; proposal.digits <= most_digits; ++proposal.digits) {
+    written = rounded(levels, proposal.digits);
+    const auto [least, greatest] = spacing(scale, written);
+    if (least >= apart && greatest - least <= uneven * greatest) break;
+  }
+  proposal.digits = std::min(proposal.digits, most_digits);
+
+  const Map& map = *choice.map;
+  proposal.asked = name, proposal.percept = percept.name, proposal.reversed = meant.reversed;
+  proposal.device = device, proposal.carrier = percept.argument();
+  proposal.unit = declarations.names().unit(percept.carrier_dimension);
+  proposal.map = &map;
+  proposal.map_evidence = std::max({map.slope, map.anchor, map.device == device ? map.handle : Evidence::transferred});
+  for (const double level : written) {
+    ProposedLevel each{.level = level, .size = scale.size_of(level)};
+    if (!proposal.levels.empty()) {
+      const double before = proposal.levels.back().size;
+      each.apart = scale.people().distance(before, each.size).value_or(0);
+      each.threshold = scale.people().threshold(before, each.size);
+      if (each.threshold) each.evidence = scale.people().evidence(*each.threshold);
+    }
+    proposal.levels.push_back(each);
+  }
+  return proposal;
+}
+
+}  // namespace wale

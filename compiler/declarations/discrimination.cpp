@@ -1,0 +1,61 @@
+#include "compiler/declarations/discrimination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace wale {
+namespace {
+
+/// The `threshold` declarations of this cue tell of forces, in newtons.
+constexpr std::string_view force_cue = "amplitude";
+
+}  // namespace
+
+Discrimination::Discrimination(const Declarations& declarations, std::string_view cue, std::string device,
+                               double exerts)
+    : device_(std::move(device)) {
+  double least_force = 0;
+  for (const Threshold* each : declarations.thresholds()) {
+    if (each->cue == cue) thresholds_.push_back(each);
+    if (each->cue == force_cue) least_force = std::max(least_force, each->floor);
+  }
+  if (exerts > 0) least_ = least_force / exerts;
+  std::ranges::stable_sort(thresholds_, {}, [&](const Threshold* each) {
+    return std::tuple(each->device != device_, each->evidence, each->weber);
+  });
+}
+
+const Threshold* Discrimination::threshold(double a, double b) const {
+  if (thresholds_.empty()) return nullptr;
+  const auto compared = [&](const Threshold* each) {
+    return (a == 0 || each->valid.holds(std::abs(a))) && (b == 0 || each->valid.holds(std::abs(b)));
+  };
+  const bool own = thresholds_.front()->device == device_;
+  for (const Threshold* each : thresholds_) {
+    if (own && each->device != device_) break;
+    if (compared(each)) return each;
+  }
+  return thresholds_.front();
+}
+
+Evidence Discrimination::evidence(const Threshold& threshold) const {
+  return std::max(
+      {threshold.evidence, threshold.handle, threshold.device == device_ ? Evidence::measured : Evidence::transferred});
+}
+
+double Discrimination::floor(const Threshold& threshold) const { return std::max(threshold.floor, least_); }
+
+std::optional<double> Discrimination::distance(double a, double b) const {
+  if (a == b) return 0;
+  const Threshold* found = threshold(a, b);
+  if (!found) return std::nullopt;
+  // What pushes on and what holds back are no matter of ratio.
+  const double by_ratio =
+      a * b > 0 ? found->distance(std::abs(a), std::abs(b)) : std::numeric_limits<double>::infinity();
+  const double least = floor(*found);
+  const double distance = std::min(by_ratio, least > 0 ? std::abs(a - b) / least : by_ratio);
+  return std::isfinite(distance) ? std::optional(distance) : std::nullopt;
+}
+
+}  // namespace wale

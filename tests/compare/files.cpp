@@ -1,0 +1,74 @@
+// Files are read on all cores: what comes out is what one after the other gives, in their order. Run it under the
+// preset `tsan` too.
+
+#include <gtest/gtest.h>
+
+#include "compiler/compare/compare_files.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale::compare_files_test {
+namespace {
+
+const std::string library = std::string(WALE_SOURCE_DIR) + "/library/";
+
+const Declarations& known() {
+  static const auto common = common_modules();
+  return common->declarations;
+}
+
+/// The plain way: one file, one material at a time.
+std::vector<Cues> one_by_one(const std::vector<std::string>& names) {
+  std::vector<Cues> all;
+  for (const std::string& name : names) {
+    const auto [file, material] = named_material(name);
+    OpenedFile opened = open_file({file});
+    for (const std::string& each : material.empty() ? materials_of(opened) : std::vector{material})
+      all.push_back(cues_of(Bank(*compile_opened(opened, {file}, each, opened.diagnostics)), known()));
+  }
+  return all;
+}
+
+TEST(ComparedFiles, AreReadAsOneAfterTheOther) {
+  // Files that import one another, one with a picture, one with several materials, and the same twice.
+  const std::vector<std::string> names = {library + "fabric/workwear.wale", library + "stone/slate.wale",
+                                          library + "fabric/canvas.wale",   library + "fabric/denim.wale:denim",
+                                          library + "fluid/oil.wale",       library + "fabric/workwear.wale"};
+  const std::vector<Cues> expected = one_by_one(names);
+  for (int again = 0; again < 2; ++again) {
+    const std::vector<ComparedFile> files = read_cues(names, {}, known());
+    ASSERT_EQ(files.size(), names.size());
+    EXPECT_EQ(why_not_compared(files), "");
+    std::vector<Cues> all;
+    for (const ComparedFile& file : files) all.insert(all.end(), file.cues.begin(), file.cues.end());
+    ASSERT_EQ(all.size(), expected.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      EXPECT_EQ(all[i].material, expected[i].material);
+      EXPECT_EQ(all[i].values, expected[i].values) << all[i].material << ": the same bits";
+    }
+  }
+}
+
+TEST(ComparedFiles, SayWhatIsWrongEachOfItself) {
+  const std::vector<ComparedFile> files =
+      read_cues({library + "fabric/denim.wale:velvet", "nowhere.wale", library + "sandpaper/perlin.wale",
+                 library + "fabric/denim.wale:denim"},
+                {}, known());
+  ASSERT_EQ(files.size(), 4u);
+  EXPECT_TRUE(files[0].opened.diagnostics.has_errors());
+  EXPECT_TRUE(files[0].cues.empty());
+  EXPECT_NE(files[1].opened.refusal.find("nowhere.wale"), std::string::npos);
+  EXPECT_TRUE(files[2].without_material());
+  EXPECT_EQ(files[3].cues.size(), 1u);
+  EXPECT_NE(why_not_compared(files).find("only one material"), std::string::npos);
+}
+
+TEST(ComparedFiles, AreComparedOnOneDevice) {
+  std::vector<ComparedFile> files(2);
+  files[0].cues = {{"a", "sandpaper", {}}};
+  files[1].cues = {{"b", "falcon", {}}};
+  EXPECT_EQ(why_not_compared(files),
+            "`a` is built for `sandpaper` and `b` for `falcon`: what is felt is compared on one device");
+}
+
+}  // namespace
+}  // namespace wale::compare_files_test

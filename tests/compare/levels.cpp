@@ -1,0 +1,161 @@
+// wale levels: what is proposed, against the definition of a just noticeable difference worked out by hand.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "compiler/compare/propose_levels.hpp"
+#include "compiler/compile.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/solve/level_scale.hpp"
+
+namespace wale::compare_levels_test {
+namespace {
+
+constexpr double d_prime_of_three_of_four = 0.9538725524;  // sqrt(2) z(0.75): tables of the normal distribution
+
+std::variant<LevelProposal, std::string> propose(const std::string& percept, std::optional<std::size_t> steps,
+                                                 double apart = 1, const std::string& device = "sandpaper") {
+  static const auto common = common_modules();
+  return propose_levels(percept, device, steps, apart, common->declarations);
+}
+
+LevelProposal proposal(const std::string& percept, std::optional<std::size_t> steps, double apart = 1,
+                       const std::string& device = "sandpaper") {
+  const auto proposed = propose(percept, steps, apart, device);
+  if (const auto* reason = std::get_if<std::string>(&proposed)) throw std::runtime_error(*reason);
+  return std::get<LevelProposal>(proposed);
+}
+
+std::string reason(const std::variant<LevelProposal, std::string>& proposed) {
+  const auto* found = std::get_if<std::string>(&proposed);
+  return found ? *found : "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Levels, OfASpringAreAGeometricSeries) {
+  // Magnitude in proportion to stiffness, 200 N/m at level 1, measured from 20 N/m; Weber fraction 0.22 at three of
+  // four. So 20 .. 200 N/m are ln(10) / ln(1 + 0.2306) = 11.1 just noticeable differences.
+  const double whole = std::log(10.0) / std::log1p(0.22 / d_prime_of_three_of_four);
+  const LevelProposal four = proposal("springiness", 4);
+  ASSERT_EQ(four.levels.size(), 4u);
+  EXPECT_EQ(four.unit, "N/m");
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(four.levels[i].size, 20 * std::pow(10, i / 3.0), 0.2) << i;
+    EXPECT_NEAR(four.levels[i].level, 0.1 * std::pow(10, i / 3.0), 0.001) << i;
+    if (i > 0) {
+      EXPECT_NEAR(four.levels[i].apart, whole / 3, 0.05 * whole / 3) << i;
+    }
+  }
+  EXPECT_EQ(four.most, 1 + static_cast<std::size_t>(std::floor(whole)));
+  EXPECT_EQ(proposal("springiness", std::nullopt).levels.size(), 12u);
+  EXPECT_EQ(proposal("springiness", std::nullopt, 3).levels.size(),
+            1 + static_cast<std::size_t>(std::floor(whole / 3)));
+}
+
+TEST(Levels, AreSpacedByTheLeastForceWhereForcesAreSmall) {
+  // Level = (F / 194 pu)^0.759593 from the level 0.1, near threshold, on; a share of 0.07 at three of four, but no less
+  // than 0.1 N: below 1.36 N even steps of force, above it even ratios.
+  const LevelProposal all = proposal("roughness", std::nullopt);
+  const double one = 194 * 10.0 / 512, share = std::log1p(0.07 / d_prime_of_three_of_four);
+  const auto force = [&](double level) { return one * std::pow(level, 1 / 0.759593); };
+  double sum = 0;
+  for (std::size_t i = 1; i < all.levels.size(); ++i) {
+    const double low = force(all.levels[i - 1].level), high = force(all.levels[i].level);
+    const double apart = std::min((high - low) / 0.1, std::log(high / low) / share);
+    EXPECT_NEAR(all.levels[i].apart, apart, 1e-6) << i;
+    EXPECT_GE(apart, 1) << i;
+    EXPECT_LE(apart, 1.06) << i;
+    sum += apart;
+  }
+  EXPECT_DOUBLE_EQ(all.levels.front().level, 0.1);
+  EXPECT_DOUBLE_EQ(all.levels.back().level, 1);
+  // As many as that: the whole is worth no step more than a whole number of them.
+  const double knee = 0.1 / (std::exp(share) - 1);
+  const double whole = (knee - force(0.1)) / 0.1 + std::log(one / knee) / share;
+  EXPECT_NEAR(static_cast<double>(all.most), 1 + whole, 1.01);
+  EXPECT_NEAR(sum, whole, 0.02 * whole);
+}
+
+TEST(Levels, EndWhereTheDeviceDoes) {
+  // 3 N at level 1 on either; a spring of 200 N/m pushes 8 N at the end of a hand's reach, which the Falcon just has.
+  EXPECT_NEAR(proposal("springiness", 3, 1, "falcon").levels.back().size, 200, 0.1);
+  // What was measured of viscosity ends at 20 N s/m, beyond level 1; of hardness it begins at 100 N/m.
+  EXPECT_NEAR(proposal("viscosity", 3).levels.back().size, 10, 1e-9);
+  EXPECT_GE(proposal("hardness", 2).levels.front().size, 100 * (1 - 1e-9));
+}
+
+TEST(Levels, OfAnAntonymAreTheScaleFromItsOtherEnd) {
+  const LevelProposal rough = proposal("roughness", 5), smooth = proposal("smoothness", 5);
+  EXPECT_TRUE(smooth.reversed);
+  EXPECT_EQ(smooth.percept, "roughness");
+  ASSERT_EQ(rough.levels.size(), smooth.levels.size());
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(rough.levels[i].level, smooth.levels[i].level);
+  EXPECT_EQ(levels_line(rough), levels_line(smooth));
+  EXPECT_TRUE(levels_line(rough).starts_with("levels roughness { level_1 0.1; level_2 ")) << levels_line(rough);
+}
+
+TEST(Levels, ThatThereAreNoneIsExplained) {
+  EXPECT_TRUE(contains(reason(propose("rougness", 3)), "did you mean `roughness`?"));
+  EXPECT_TRUE(contains(reason(propose("roughness", 3, 1, "sandpapr")), "did you mean `sandpaper`?"));
+  EXPECT_TRUE(contains(reason(propose("vibration", 3)), "unknown: no published threshold"));
+  EXPECT_TRUE(contains(reason(propose("sharpness", 3)), "has an order and no levels"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 13)), "12 would do"));
+  EXPECT_TRUE(
+      contains(reason(propose("springiness", 4, 5)), "less than 5 just noticeable differences apart; 3 would do"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 2, 50)), "no two levels"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "two levels"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 3, 0)), "above 0"));
+}
+
+/// The codes of what is said of a text's levels on a device, and the messages.
+std::string said_of_levels(const std::string& text, const std::string& device) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const SourceId source = sources.add("levels.wale", "wale 1\n" + text);
+  const auto resolver = file_resolver({});
+  const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+  check_levels(module.declarations(), source, device, diagnostics);
+  std::string all;
+  for (const auto& each : diagnostics.all()) all += render_text(each, sources, false);
+  return all;
+}
+
+TEST(CloseLevels, AreJudgedOnTheDeviceAtHand) {
+  // 8.4 N and 9.6 N: ln(9.6 / 8.4) / ln(1 + 0.0734) = 1.9 on the Sandpaper joystick; on the Falcon 8 N both.
+  const std::string text =
+      "percept grit { one lateral amplitude 12 N on sandpaper\n  cue amplitude }\n"
+      "map grit from amplitude {\n  law magnitude = amplitude / 1 N\n  valid amplitude 0.1 N .. 12 N\n  scatter 0.05\n"
+      "  evidence slope measured, anchor measured, handle measured\n  on sandpaper\n  source \"a test\"\n}\n"
+      "levels grit {\n  gravel 0.7\n  rubble 0.8\n}\n";
+  EXPECT_EQ(said_of_levels(text, "sandpaper"), "");
+  EXPECT_TRUE(contains(said_of_levels(text, "falcon"), "warning[W0423]")) << said_of_levels(text, "falcon");
+}
+
+TEST(CloseLevels, WhatWouldDoIsOneApart) {
+  // Springiness is in proportion to stiffness: 0.5 (1 + w).
+  const double share = 1 + 0.22 / d_prime_of_three_of_four;
+  const std::string said = said_of_levels("levels springiness {\n  a 0.5\n  b 0.6\n}\n", "sandpaper");
+  EXPECT_TRUE(contains(said, "`b 0.616` would be one apart")) << said;
+  EXPECT_NEAR(0.5 * share, 0.616, 0.001);
+  EXPECT_EQ(said_of_levels("levels springiness {\n  a 0.5\n  b 0.616\n}\n", "sandpaper"), "");
+  EXPECT_EQ(said_of_levels("levels vibration {\n  a 0.5\n  b 0.51\n}\n", "sandpaper"), "") << "nobody knows";
+}
+
+TEST(CloseLevels, NoneAreShipped) {
+  const auto common = common_modules();
+  std::set<SourceId> files;
+  for (const Levels* each : common->declarations.levels()) files.insert(each->span.source);
+  EXPECT_FALSE(files.empty());
+  for (const char* device : {"sandpaper", "falcon"}) {
+    Diagnostics diagnostics;
+    for (const SourceId file : files) check_levels(common->declarations, file, device, diagnostics);
+    for (const auto& each : diagnostics.all()) ADD_FAILURE() << device << ": " << each.message;
+  }
+}
+
+}  // namespace
+}  // namespace wale::compare_levels_test
