@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -44,6 +45,7 @@
 #include "library/device_report.hpp"
 #include "wale/felt.hpp"
 #include "wale/library.hpp"
+#include "wale/simulated_pad.hpp"
 #include "wale/stage.hpp"
 
 namespace {
@@ -341,6 +343,10 @@ int compare(Choice choice, const std::vector<std::string>& files, bool json) {
         return refuse(fmt::format("`{}` is built for `{}` and `{}` for `{}`: what is felt is compared on one device",
                                   materials.front().material, materials.front().device, program.description().material,
                                   program.description().device.name));
+      if (program.description().vibrates())
+        return refuse(
+            fmt::format("`{}` is built for `{}`, which only vibrates: the cues that are compared are of forces",
+                        program.description().material, program.description().device.name));
       materials.push_back(cues_of(Bank(program), common->declarations));
     }
   }
@@ -372,7 +378,9 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
     hands.push_back({0, *hand});
   }
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  const std::string text = json ? samples_json(sample(bank, hands)) : samples_csv(sample(bank, hands));
+  const bool vibrates = programs.front().description().vibrates();
+  const std::string text =
+      json ? samples_json(sample(bank, hands), vibrates) : samples_csv(sample(bank, hands), vibrates);
   if (const auto problem = write_file(out, text)) return refuse(*problem);
   return 0;
 }
@@ -403,10 +411,17 @@ struct FeelOptions {
 };
 
 int feel(const FeelOptions& options) {
-  if (options.device != "simulated")
+  // A declared device is simulated, and built for.
+  const auto declared = Library().devices();
+  const bool known = std::ranges::any_of(declared, [&](const auto& one) { return one.profile.name == options.device; });
+  if (options.device != "simulated" && !known)
     return refuse(
-        fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
-  const auto programs = load_programs(options.choice, false);
+        fmt::format("there is no device `{}`; this version drives: simulated, and every device that materials "
+                    "are built for, simulated (see `wale devices`)",
+                    options.device));
+  Choice choice = options.choice;
+  if (known) choice.device = options.device;
+  const auto programs = load_programs(choice, false);
   if (programs.empty()) return refused;
   const Program& program = programs.front();
   const auto parameters = chosen_parameters(program, options.settings);
@@ -423,8 +438,17 @@ int feel(const FeelOptions& options) {
     if (!trace) return refused;
     motion = *std::move(trace);
   }
-  SimulatedJoystick joystick(program.description().device, person.hand, std::move(motion));
-  Stage stage(joystick);
+  const DeviceProfile& profile = program.description().device;
+  if (known && profile.name != options.device)
+    return refuse(fmt::format("`{}` is built for `{}`; feel it there, or build it for `{}`",
+                              program.description().material, profile.name, options.device));
+  const bool vibrates = program.description().vibrates();
+  std::unique_ptr<Device> device;
+  if (vibrates)
+    device = std::make_unique<SimulatedPad>(profile, std::move(motion));
+  else
+    device = std::make_unique<SimulatedJoystick>(profile, person.hand, std::move(motion));
+  Stage stage(*device);
   stage.place(program);
   for (std::size_t i = 0; i < parameters->size(); ++i)
     if (const auto refusal = stage.set(program.description().parameters[i].name, (*parameters)[i]))
@@ -435,7 +459,8 @@ int feel(const FeelOptions& options) {
   RunOptions run{
       .seconds = options.seconds, .virtual_time = options.virtual_time, .progress = {}, .stop = &interrupted};
   const bool live = isatty(fileno(stderr));
-  if (live) run.progress = [](const Progress& now) { fmt::print(stderr, "\r{}", progress_line(now)); };
+  if (live)
+    run.progress = [vibrates](const Progress& now) { fmt::print(stderr, "\r{}", progress_line(now, vibrates)); };
   const auto result = stage.run(run);
   if (live) fmt::print(stderr, "\r\033[K");
   if (const auto* refusal = std::get_if<Refusal>(&result)) return refuse(refusal->reason);
@@ -447,7 +472,7 @@ int feel(const FeelOptions& options) {
     if (const auto problem = write_file(options.record, csv.str())) return refuse(*problem);
   }
   const FeltReport report =
-      felt_report(*stage.bank(), done, joystick.profile(), {options.device, options.hand, options.virtual_time});
+      felt_report(*stage.bank(), done, profile, {"simulated", options.hand, options.virtual_time});
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
   return 0;
 }
@@ -550,7 +575,7 @@ int main(int argc, char** argv) {
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
   feeling.choice.offer(*verb, "--built-for");
   with_settings(verb, feeling.settings);
-  verb->add_option("--device", feeling.device, "the joystick (default: simulated; see `wale devices`)");
+  verb->add_option("--device", feeling.device, "the joystick or pad (default: simulated; see `wale devices`)");
   verb->add_option("--hand", feeling.hand,
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   verb->add_option("--seconds", feeling.seconds, "how long (default: 5)");

@@ -14,6 +14,7 @@ constexpr double longest_bump = 0.4;     // of the patch
 }  // namespace
 
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps) {
+  if (bank.program().description().vibrates()) return {};  // it has no force to read
   const StaticForce force(bank);
   Extraction found;
   found.texture = texture_force(bank, force, textures);

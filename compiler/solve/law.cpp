@@ -236,13 +236,14 @@ std::optional<TermId> Law::magnitude(Terms& terms, TermId carrier, const Sizes& 
 }
 
 std::optional<TermId> Law::level(Terms& terms, TermId carrier, const Sizes& couples) const {
-  const auto asked = magnitude(terms, carrier, couples), one = magnitude(terms, terms.literal(percept_.one));
+  const auto asked = magnitude(terms, carrier, couples),
+             one = magnitude(terms, terms.literal(map_.one.value_or(percept_.one)));
   if (!asked || !one) return std::nullopt;
   return terms.apply(Operation::divide, *asked, *one);
 }
 
 std::optional<TermId> Law::carrier(Terms& terms, TermId level, const Sizes& couples) const {
-  const auto one = magnitude(terms, terms.literal(percept_.one));
+  const auto one = magnitude(terms, terms.literal(map_.one.value_or(percept_.one)));
   if (!one) return std::nullopt;
   const TermId unknown = map_.table.empty() ? terms.add({.kind = TermKind::carrier}) : 0;
   const TermId magnitude = terms.apply(Operation::multiply, level, *one);

@@ -7,7 +7,9 @@ namespace wale {
 
 /// What stands between a program's force and the device, whatever the program does. In order: a force that is not a
 /// number becomes zero; each axis is held within the device's peak force; and after `slew` was called the force moves
-/// no faster than the profile's slew, until it has caught up with the wanted one. Begins at zero force, slewing.
+/// no faster than the profile's slew, until it has caught up with the wanted one. Begins at zero force, slewing. On a
+/// pad the same holds for the amplitude, which is not less than nothing, within the greatest acceleration; and the
+/// frequency is held within those that the pad has, at the least one where nothing is wanted.
 class Guards {
  public:
   /// A profile without a slew (zero) does not slow anything.
@@ -23,8 +25,9 @@ class Guards {
   const GuardCounts& counts() const noexcept { return counts_; }
 
  private:
-  float peak_;      // N per axis
-  float max_step_;  // N per tick
+  Force low_, high_;  // N per axis; m/s^2 and Hz
+  float max_step_;    // N or m/s^2 per tick
+  bool vibrates_;
   bool slewing_ = false;
   Force last_{0};
   GuardCounts counts_;
