@@ -116,6 +116,12 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   if (declarations) describe_extracted(description, bank, *declarations);
 }
 
+/// How it shakes a pad.
+void describe_shaking(Description& description, const Bank& bank) {
+  description.shaking = measure_shaking(bank);
+  if (description.percepts.empty()) description.no_percept = "nothing of it shakes the device";
+}
+
 }  // namespace
 
 std::string fate_word(Fate fate) {
@@ -162,7 +168,7 @@ Description describe(const Bank& bank, const Declarations* declarations) {
   }
   description.fates = program.fates;
   if (program.vibrates())
-    description.shaking = measure_shaking(bank);
+    describe_shaking(description, bank);
   else
     describe_force(description, bank, declarations);
   description.parameters = program.parameters;

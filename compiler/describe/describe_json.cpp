@@ -4,6 +4,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/fates_json.hpp"
 
 namespace wale {
 namespace {
@@ -71,19 +72,6 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   json["regularity"] = figure(force.regularity);
   json["steepness_per_m"] = figure(force.steepness);
   json["transitions_per_m"] = figure(force.transitions);
-  return json;
-}
-
-nlohmann::ordered_json to_json(const std::vector<FateRecord>& fates) {
-  nlohmann::ordered_json json;
-  auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
-  auto& physics = json["physics"] = nlohmann::ordered_json::object();
-  for (const FateRecord& each : fates) {
-    auto& entry = each.percept ? percepts[each.name] : physics[each.name];
-    entry["fate"] = fate_word(each.fate);
-    if (each.percept) entry["asked"] = figure(each.asked), entry["given"] = figure(each.given);
-    entry["reason"] = each.reason;
-  }
   return json;
 }
 

@@ -78,6 +78,11 @@ MeasuredShaking measure_shaking(const Bank& bank) {
   }
   std::vector<Force> drives(moments);
   tick_all(bank, stroke, drives);
+  const Shaker& shaker = *bank.program().description().device.shaker;
+  for (Force& drive : drives) {
+    drive.y = static_cast<float>(std::clamp<double>(drive.y, shaker.frequency_low, shaker.frequency_high));
+    drive.x = std::min(drive.x, static_cast<float>(shaker.acceleration(1, drive.y)));
+  }
   MeasuredShaking measured;
   std::vector<float> amplitudes;
   double squares = 0;
@@ -90,12 +95,10 @@ MeasuredShaking measure_shaking(const Bank& bank) {
   std::ranges::nth_element(amplitudes, p99);
   measured.p99 = *p99;
   measured.max = *std::max_element(p99, amplitudes.end());
-  const Shaker& shaker = *bank.program().description().device.shaker;
   for (const Force& drive : drives) {
     if (!(drive.x > 0) || drive.x < measured.p99 / 2) continue;
-    const auto often = static_cast<float>(std::clamp<double>(drive.y, shaker.frequency_low, shaker.frequency_high));
-    measured.lowest = measured.highest > 0 ? std::min(measured.lowest, often) : often;
-    measured.highest = std::max(measured.highest, often);
+    measured.lowest = measured.highest > 0 ? std::min(measured.lowest, drive.y) : drive.y;
+    measured.highest = std::max(measured.highest, drive.y);
   }
   return measured;
 }

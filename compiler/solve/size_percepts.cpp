@@ -258,7 +258,11 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   const Map& map = *found->map;
   const auto rule = realised_.find(asked.name);
   // What several of them share, or what couples others, is told by its size; a law of one at 0 of the others is near.
-  const double most = found->percept->exerts > 0 ? device_.profile.most() / found->percept->exerts : HUGE_VAL;
+  double most = found->percept->exerts > 0 ? device_.profile.most() / found->percept->exerts : HUGE_VAL;
+  // Where it is known how often a pad will shake, it gives no more than it does at that frequency.
+  if (const auto& shaker = device_.profile.shaker)
+    if (const auto rate = constant_value(*terms_, (*carriers_)[found->carrier].force_y, &material_.parameters))
+      most = std::min(most, shaker->acceleration(1, std::clamp(*rate, shaker->frequency_low, shaker->frequency_high)));
   const double given = Law(map, *found->percept).level_of(std::min(found->size, most), coupled_sizes(*found));
   record.given = std::isfinite(given) ? static_cast<float>(std::clamp(given, 0.0, 1.0)) : record.asked;
   constexpr double rounding = 1e-4;

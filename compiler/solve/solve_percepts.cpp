@@ -48,6 +48,7 @@ bool PerceptSolver::is_summand(const Carrier& carrier) const {
 }
 
 const Percept& PerceptSolver::percept(const std::string& name) {
+  if (!device_.profile.shaker) return *declarations_.percepts.find(name);
   const auto found = percepts_.find(name);
   if (found != percepts_.end()) return found->second;
   return percepts_.emplace(name, carried_on(device_, *declarations_.percepts.find(name), declarations_)).first->second;

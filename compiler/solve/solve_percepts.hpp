@@ -88,7 +88,8 @@ class PerceptSolver {
   Law::Sizes coupled_terms(const Told& told, SolvedMaterial& solved) const;
   PerceptRecord record(const Told& told) const;
   std::string unit(const Percept& percept) const {
-    return percept.extractor == Extractor::acceleration ? "m/s^2" : declarations_.names().unit(percept.carrier_dimension);
+    return percept.extractor == Extractor::acceleration ? "m/s^2"
+                                                        : declarations_.names().unit(percept.carrier_dimension);
   }
   void settle(const Carrier& carrier) {
     if (carrier.open) settled_.insert((*terms_)[carrier.size].index);
@@ -105,7 +106,7 @@ class PerceptSolver {
   const std::vector<Carrier>* carriers_ = nullptr;
   std::array<TermId, 2> force_{};
   std::map<std::string, std::string> realised_;
-  std::map<std::string, Percept> percepts_;  ///< that were asked for: see `percept`
+  std::map<std::string, Percept> percepts_;  ///< as a device that vibrates carries them: see `percept`
   std::vector<std::size_t> candidates_;      ///< carriers that tell of something
   std::vector<Told> told_;
   std::vector<std::size_t> order_;  ///< of `told_`: what is coupled before what couples it

@@ -126,9 +126,13 @@ CheckedMaterial without_force(const CheckedMaterial& material, const DeviceDecla
       tell("texture period", Fate::lost, fmt::format("nothing tells it, so that of the rule is taken"));
   }
   if (!is_sum_of_carriers(material)) tell("other forces", Fate::lost, fmt::format("`{}` cannot push", name));
+  const auto& [x, y] = *material.force;
+  const auto of_place = [&](TermId force) {
+    return material.terms.dependence(force).on(Dependence::position | Dependence::moment | Dependence::state);
+  };
   if (texture && device.profile.has_position())
     tell("place of features", Fate::approximated, "as many pass, and none is anywhere");
-  else
+  else if (texture || of_place(x) || of_place(y))
     tell("place of features", Fate::lost,
          device.profile.has_position() ? fmt::format("`{}` cannot push", name)
                                        : fmt::format("`{}` does not know where the hand is", name));

@@ -77,6 +77,23 @@ TEST(Pads, WithoutAPositionTheHandExploresAtTheDeclaredSpeed) {
   EXPECT_EQ(file.codes(), "W0415") << "the places are lost";
 }
 
+TEST(Pads, TheShippedOnesAreWholeAndEstimated) {
+  Declared declared("");
+  for (const char* name : {"touch_pad", "gamepad"}) {
+    const DeviceDeclaration& device = *declared.declarations().devices.find(name);
+    ASSERT_TRUE(device.profile.shaker) << name;
+    const Shaker& shaker = *device.profile.shaker;
+    EXPECT_EQ(device.of_class, "vibrating_pad");
+    EXPECT_EQ(shaker.command_steps, 255);
+    EXPECT_GT(shaker.spin_up, 0);
+    EXPECT_GE(shaker.response.size(), 3u);
+    EXPECT_GT(shaker.peak(), 12) << "level 1 of roughness";
+    EXPECT_FALSE(device.assumed.empty());
+    EXPECT_FALSE(device.source.empty());
+    EXPECT_EQ(device.profile.has_position(), std::string(name) == "touch_pad");
+  }
+}
+
 TEST(Pads, EveryFigureIsAnEstimate) {
   Declared file(corduroy() + "\nmaterial buzz { perceptual { vibration 0.5 } }\n");
   for (const char* device : {"touch_pad", "gamepad"})
@@ -127,6 +144,7 @@ TEST(Pads, WhatCannotBePushedIsLost) {
       "  physical   { force = lateral(grating(x, period: 3 mm)) + spring() + firm(500 N/m) + vector(0.1 N, 0 N) }\n"
       "}\n"
       "material wall { physical { force = firm(500 N/m) } }\n"
+      "material oil { physical { force = viscous(5 N s/m) } }\n"
       "material needs { perceptual { roughness 0.5; essential springiness 0.3 } }\n");
   const Program mixed = file.program("mixed", "touch_pad");
   EXPECT_EQ(fates(mixed),
@@ -136,7 +154,8 @@ TEST(Pads, WhatCannotBePushedIsLost) {
   // What is left of a wall is nothing, and that is said, and a program.
   Bank wall(file.program("wall", "touch_pad"));
   EXPECT_EQ(tick(wall, {.position = {0.03f, 0}, .velocity = {0.2f, 0}}), Force(0));
-  EXPECT_EQ(fate(wall.program(), "firm stiffness", false).fate, Fate::lost);
+  EXPECT_EQ(fates(wall.program()), "firm stiffness lost, place of features lost");
+  EXPECT_EQ(fates(file.program("oil", "touch_pad")), "viscous viscosity lost") << "which has no place";
   EXPECT_THROW(file.program("needs", "gamepad"), std::runtime_error) << "W0404";
 }
 
@@ -163,6 +182,22 @@ TEST(Pads, TwoPerceptsShareTheActuator) {
   EXPECT_EQ(moving.y, 120) << "the buzz is the stronger";
   EXPECT_NEAR(resting.x, buzz, 1e-3);
   for (const PerceptRecord& record : program.description().percepts) EXPECT_FALSE(record.alone);
+}
+
+// A gamepad that explores ribs of 2.5 mm at 0.1 m/s shakes 40 times a second, where it gives 10 m/s^2: a third of the
+// way from 8 m/s^2 at 30 Hz to 14 m/s^2 at 60 Hz. A buzz shakes 120 times: up to 15 m/s^2. Together they have 16 m/s^2.
+TEST(Pads, SaturateWhereTheActuatorHasNoMore) {
+  Declared file(
+      "material ribs { perceptual { roughness 1 } }\nmaterial soft { perceptual { roughness 0.5 } }\n"
+      "material both { perceptual { roughness 0.8; vibration 1 } }\n");
+  const FateRecord ribs = fate(file.program("ribs", "gamepad"), "roughness", true);
+  EXPECT_EQ(ribs.fate, Fate::saturated);
+  EXPECT_NEAR(ribs.given, std::pow(10.0 / 12, 0.76), 1e-5);
+  EXPECT_EQ(fate(file.program("ribs", "touch_pad"), "roughness", true).fate, Fate::approximated) << "at some speeds";
+  EXPECT_EQ(fate(file.program("soft", "gamepad"), "roughness", true).fate, Fate::approximated);
+  const FateRecord buzz = fate(file.program("both", "gamepad"), "vibration", true);
+  EXPECT_EQ(buzz.fate, Fate::saturated);
+  EXPECT_NEAR(buzz.given, std::pow((16 - 12 * std::pow(0.8, 1 / 0.76)) / 12, 0.89), 1e-5);
 }
 
 TEST(Pads, DeclarationsThatDoNotFitAreReported) {
