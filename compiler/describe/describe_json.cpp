@@ -136,10 +136,12 @@ nlohmann::ordered_json to_json(const Description& description) {
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (description.texture) json["texture"] = to_json(*description.texture);
   json["fates"] = to_json(description.fates);
-  if (description.shaking)
+  if (description.shaking) {
     json["shaking"] = to_json(*description.shaking);
-  else
+    json["grade"] = {{"name", "does not apply"}};
+  } else {
     add_force(json, description);
+  }
   auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
   for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
   auto& states = json["states"] = nlohmann::ordered_json::array();

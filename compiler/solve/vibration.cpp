@@ -136,6 +136,7 @@ CheckedMaterial without_force(const CheckedMaterial& material, const DeviceDecla
     tell("place of features", Fate::lost,
          device.profile.has_position() ? fmt::format("`{}` cannot push", name)
                                        : fmt::format("`{}` does not know where the hand is", name));
+  if (fates.empty()) tell("force", Fate::kept, "it pushes nowhere");
   left.force.reset();
   left.carriers.clear();
   left.open_spans.clear();

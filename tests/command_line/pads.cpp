@@ -31,7 +31,7 @@ TEST(Pads, AProgramTellsItsFatesByItself) {
   EXPECT_EQ(described.at("fates").at("physics").at("place of features").at("fate"), "lost");
   EXPECT_EQ(described, wale({"describe", corduroy, "--device", "gamepad", "--json"}).json());
   EXPECT_FALSE(described.contains("force"));
-  EXPECT_FALSE(described.contains("grade"));
+  EXPECT_EQ(described.at("grade").at("name"), "does not apply");
   const std::string text = wale({"describe", program}).out;
   EXPECT_TRUE(contains(text, "\non gamepad\n")) << text;
   EXPECT_TRUE(contains(text, "does not apply: it only vibrates")) << text;
