@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -26,6 +27,7 @@
 #include "compiler/text/spelling.hpp"
 #include "library/device_report.hpp"
 #include "wale/library.hpp"
+#include "wale/simulated_pad.hpp"
 
 namespace {
 
@@ -89,7 +91,9 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
     hands.push_back({0, *hand});
   }
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  const std::string text = json ? samples_json(sample(bank, hands)) : samples_csv(sample(bank, hands));
+  const bool vibrates = programs.front().description().vibrates();
+  const std::string text =
+      json ? samples_json(sample(bank, hands), vibrates) : samples_csv(sample(bank, hands), vibrates);
   if (const auto problem = command::write_file(out, text)) return refuse(*problem);
   return 0;
 }
@@ -106,11 +110,32 @@ struct FeelOptions {
   std::optional<std::uint64_t> seed;
 };
 
-/// A joystick in a hand that moves as asked; nothing when what is wrong has been printed.
-std::optional<SimulatedJoystick> joystick_for(const FeelOptions& options, const DeviceProfile& profile) {
-  if (options.device != "simulated") {
-    refuse(fmt::format("there is no device `{}`; this version drives: simulated (see `wale devices`)", options.device));
-    return std::nullopt;
+/// A declared device is simulated, and built for.
+bool is_declared(const std::string& device) {
+  return std::ranges::any_of(Library().devices(), [&](const auto& one) { return one.profile.name == device; });
+}
+
+/// What to build, and for what: the device that is to be felt on, where one is named.
+Choice choice_to_feel(const FeelOptions& options, const Choice& choice) {
+  Choice built = choice;
+  if (is_declared(options.device)) built.device = options.device;
+  return built;
+}
+
+/// A joystick or pad in a hand that moves as asked; null when what is wrong has been printed.
+std::unique_ptr<Device> device_for(const FeelOptions& options, const PatchProgram& program) {
+  const DeviceProfile& profile = program.device;
+  if (options.device != "simulated" && !is_declared(options.device)) {
+    refuse(
+        fmt::format("there is no device `{}`; this version drives: simulated, and every device that materials are built "
+                    "for, simulated (see `wale devices`)",
+                    options.device));
+    return nullptr;
+  }
+  if (options.device != "simulated" && profile.name != options.device) {
+    refuse(fmt::format("`{}` is built for `{}`; feel it there, or build it for `{}`", program.material, profile.name,
+                       options.device));
+    return nullptr;
   }
   const auto person = std::get<SimulatedPerson>(Library().person());
   Motion motion = person.lateral;
@@ -120,10 +145,11 @@ std::optional<SimulatedJoystick> joystick_for(const FeelOptions& options, const 
     motion = Rest{};
   else if (options.hand != "lateral") {
     auto trace = load_trace(options.hand);
-    if (!trace) return std::nullopt;
+    if (!trace) return nullptr;
     motion = *std::move(trace);
   }
-  return std::optional<SimulatedJoystick>(std::in_place, profile, person.hand, std::move(motion));
+  if (program.vibrates()) return std::make_unique<SimulatedPad>(profile, std::move(motion));
+  return std::make_unique<SimulatedJoystick>(profile, person.hand, std::move(motion));
 }
 
 /// Ctrl-C ends a run, and a question too, since reading is not taken up again.
@@ -144,12 +170,12 @@ std::optional<BlindMaterial> material_to_feel(const Choice& choice, const std::v
 }
 
 int feel(const FeelOptions& options) {
-  const auto material = material_to_feel(options.choice, options.settings);
+  const auto material = material_to_feel(choice_to_feel(options, options.choice), options.settings);
   if (!material) return refused;
   const PatchProgram& program = material->program.description();
-  auto joystick = joystick_for(options, program.device);
-  if (!joystick) return refused;
-  Stage stage(*joystick);
+  const auto device = device_for(options, program);
+  if (!device) return refused;
+  Stage stage(*device);
   stage.place(material->program);
   for (std::size_t i = 0; i < material->parameters.size(); ++i)
     if (const auto refusal = stage.set(program.parameters[i].name, material->parameters[i]))
@@ -162,7 +188,10 @@ int feel(const FeelOptions& options) {
                  .progress = {},
                  .stop = &interrupted};
   const bool live = isatty(fileno(stderr));
-  if (live) run.progress = [](const Progress& now) { fmt::print(stderr, "\r{}", progress_line(now)); };
+  if (live)
+    run.progress = [vibrates = program.vibrates()](const Progress& now) {
+      fmt::print(stderr, "\r{}", progress_line(now, vibrates));
+    };
   const auto result = stage.run(run);
   if (live) fmt::print(stderr, "\r\033[K");
   if (const auto* refusal = std::get_if<Refusal>(&result)) return refuse(refusal->reason);
@@ -174,7 +203,7 @@ int feel(const FeelOptions& options) {
     if (const auto problem = command::write_file(options.record, csv.str())) return refuse(*problem);
   }
   const FeltReport report =
-      felt_report(*stage.bank(), done, joystick->profile(), {options.device, options.hand, options.virtual_time});
+      felt_report(*stage.bank(), done, program.device, {"simulated", options.hand, options.virtual_time});
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
   return 0;
 }
@@ -184,13 +213,15 @@ int feel_blind(const FeelOptions& options) {
   Choice against = options.choice;
   const NamedMaterial named = named_material(options.against);
   against.file = named.file, against.material = named.material;
-  const auto a = material_to_feel(options.choice, options.settings), b = material_to_feel(against, {});
+  const auto a = material_to_feel(choice_to_feel(options, options.choice), options.settings),
+             b = material_to_feel(choice_to_feel(options, against), {});
   if (!a || !b) return refused;
   const DeviceProfile& device = a->program.description().device;
   if (b->program.description().device.name != device.name)
     return refuse(fmt::format("A is built for `{}` and B for `{}`: both are felt on one device", device.name,
                               b->program.description().device.name));
-  auto joystick = joystick_for(options, device);
+  if (device.shaker) return refuse(fmt::format("`{}` only vibrates: what is compared blindly are forces", device.name));
+  const auto joystick = device_for(options, a->program.description());
   if (!joystick) return refused;
 
   const std::shared_ptr<const CommonModules> common = common_modules();
@@ -335,7 +366,7 @@ int main(int argc, char** argv) {
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
   offer(*verb, feeling.choice, "--built-for");
   with_settings(verb, feeling.settings);
-  verb->add_option("--device", feeling.device, "the joystick (default: simulated; see `wale devices`)");
+  verb->add_option("--device", feeling.device, "the joystick or pad (default: simulated; see `wale devices`)");
   verb->add_option("--hand", feeling.hand,
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   verb->add_option("--seconds", feeling.seconds, "how long (default: 5; with --blind 3 for each of the two)");

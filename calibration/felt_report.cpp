@@ -40,6 +40,24 @@ std::string shown(const GuardCounts& counts) {
   return text.empty() ? "none stepped in" : text + " (ticks)";
 }
 
+std::string vibration_text(const FeltVibration& vibration) {
+  std::string text = fmt::format("  actuator     P99 {:.3f} m/s^2, maximum {:.3f} m/s^2, RMS {:.3f} m/s^2{}\n",
+                                 vibration.acceleration.p99, vibration.acceleration.maximum, vibration.acceleration.rms,
+                                 vibration.ticks > 0 ? " (amplitude, within the patch)" : " (never within the patch)");
+  if (vibration.highest > 0)
+    text += fmt::format("  frequency    {:.1f} .. {:.1f} Hz where it shakes\n", vibration.lowest, vibration.highest);
+  return text;
+}
+
+nlohmann::ordered_json vibration_json(const FeltVibration& vibration) {
+  return {{"p99_m_per_s2", vibration.acceleration.p99},
+          {"max_m_per_s2", vibration.acceleration.maximum},
+          {"rms_m_per_s2", vibration.acceleration.rms},
+          {"lowest_hz", vibration.lowest},
+          {"highest_hz", vibration.highest},
+          {"ticks", vibration.ticks}};
+}
+
 nlohmann::ordered_json force_json(const ForceSize& size) {
   return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
 }
@@ -55,10 +73,11 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   report.lateness = run.lateness;
   report.guards = run.guards;
   report.scheduling = run.scheduling;
-  report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.force_newton));
+  report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.most()));
   report.felt = measure(run.record, {.position_step = device.position_step(),
                                      .predicted_amplitude = report.predicted_amplitude,
-                                     .settling = std::min(settling_seconds, report.seconds / 2)});
+                                     .settling = std::min(settling_seconds, report.seconds / 2),
+                                     .vibrates = device.shaker.has_value()});
   report.levels = levels_back(bank, report.felt, least_crossings);
   for (const auto& level : report.levels) {
     const auto& parameter = program.percepts[level.percept].parameter;
@@ -80,17 +99,26 @@ std::string felt_text(const FeltReport& report) {
     text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50,
                         1e6 * report.lateness.p99, 1e6 * report.lateness.maximum);
   if (!report.scheduling.empty()) text += fmt::format("  scheduling   {}\n", report.scheduling);
-  text += fmt::format(
-      "  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
-      felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
+  if (felt.vibration)
+    text += vibration_text(*felt.vibration);
+  else
+    text += fmt::format(
+        "  actuator     {}{}\n", force_text(felt.ticks_rubbing > 0 ? felt.force_rubbing : felt.force),
+        felt.ticks_rubbing > 0 ? " (at the handle, while rubbing)" : " (at the handle; the hand did not rub)");
   if (report.predicted_amplitude > 0)
-    text += fmt::format("  predicted    amplitude {:.3f} N\n", report.predicted_amplitude);
+    text +=
+        fmt::format("  predicted    amplitude {:.3f} {}\n", report.predicted_amplitude, felt.vibration ? "m/s^2" : "N");
   if (felt.interaction)
     text += fmt::format(
         "  interaction  {} (hand on handle, with inertia and friction)\n",
         force_text(felt.interaction_rubbing && felt.ticks_rubbing > 0 ? *felt.interaction_rubbing : *felt.interaction));
-  text += fmt::format("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
-                      felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
+  if (!report.device.has_position())
+    text += fmt::format("  place        lost: `{}` does not know where the hand is\n", report.device.name);
+  else if (felt.vibration)
+    text += fmt::format("  place        the hand ranged over {:.1f} mm\n", 1e3 * felt.position_range);
+  else
+    text += fmt::format("  texture      {} crossings, {:.1f} % of the time stuck; the hand ranged over {:.1f} mm\n",
+                        felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const auto& level = report.levels[i];
     if (const auto* back = std::get_if<Prediction>(&level.back))
@@ -99,7 +127,9 @@ std::string felt_text(const FeltReport& report) {
     else
       text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
   }
-  if (report.levels.empty()) text += "  percepts     none to read back: nothing in its force is a texture\n";
+  if (report.levels.empty())
+    text += felt.vibration ? "  percepts     none to read back: nothing in it shakes\n"
+                           : "  percepts     none to read back: nothing in its force is a texture\n";
   text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
     text += fmt::format("  memory       {} time{} a state was not a number and began anew\n", report.guards.restored,
@@ -120,13 +150,20 @@ std::string felt_json(const FeltReport& report) {
   json["lateness"] = {
       {"p50_s", report.lateness.p50}, {"p99_s", report.lateness.p99}, {"max_s", report.lateness.maximum}};
   json["scheduling"] = report.scheduling;
-  json["actuator"] = force_json(felt.force);
-  json["actuator_rubbing"] = force_json(felt.force_rubbing);
-  json["predicted_amplitude_newton"] = report.predicted_amplitude;
+  if (felt.vibration) {
+    json["vibration"] = vibration_json(*felt.vibration);
+    json["predicted_amplitude_m_per_s2"] = report.predicted_amplitude;
+  } else {
+    json["actuator"] = force_json(felt.force);
+    json["actuator_rubbing"] = force_json(felt.force_rubbing);
+    json["predicted_amplitude_newton"] = report.predicted_amplitude;
+  }
   if (felt.interaction) json["interaction"] = force_json(*felt.interaction);
-  json["crossings"] = felt.crossings;
-  json["alternations"] = felt.alternations;
-  json["stuck"] = felt.stuck;
+  if (!felt.vibration) {
+    json["crossings"] = felt.crossings;
+    json["alternations"] = felt.alternations;
+    json["stuck"] = felt.stuck;
+  }
   json["position_rms_m"] = felt.position_rms;
   json["position_range_m"] = felt.position_range;
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
@@ -143,10 +180,12 @@ std::string felt_json(const FeltReport& report) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string progress_line(const Progress& now) {
-  return fmt::format("{:7.1f} s  x {:6.1f} mm  y {:6.1f} mm  {:5.0f} mm/s  {:5.2f} N  {} ticks, {} missed{}\033[K",
-                     now.time, 1e3 * now.position.x, 1e3 * now.position.y, 1e3 * glm::length(now.velocity),
-                     glm::length(now.force), now.ticks_run, now.ticks_missed, now.inside ? "" : "  (off the patch)");
+std::string progress_line(const Progress& now, bool vibrates) {
+  const std::string output = vibrates ? fmt::format("{:5.1f} m/s^2  {:4.0f} Hz", now.force.x, now.force.y)
+                                      : fmt::format("{:5.2f} N", glm::length(now.force));
+  return fmt::format("{:7.1f} s  x {:6.1f} mm  y {:6.1f} mm  {:5.0f} mm/s  {}  {} ticks, {} missed{}\033[K", now.time,
+                     1e3 * now.position.x, 1e3 * now.position.y, 1e3 * glm::length(now.velocity), output, now.ticks_run,
+                     now.ticks_missed, now.inside ? "" : "  (off the patch)");
 }
 
 }  // namespace wale

@@ -26,7 +26,7 @@ struct FeltReport {
   GuardCounts guards;
   std::string scheduling;
   Felt felt;
-  float predicted_amplitude = 0;  ///< N; 0 when no percept of the program says
+  float predicted_amplitude = 0;  ///< N, of a pad m/s^2; 0 when no percept of the program says
   std::vector<LevelBack> levels;
   std::vector<double> asked;  ///< beside `levels`: the level asked for, negative where none was
 };
@@ -40,7 +40,7 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
 std::string felt_text(const FeltReport& report);
 std::string felt_json(const FeltReport& report);
 
-/// The live line of a run under way: time, place, speed, force.
-std::string progress_line(const Progress& now);
+/// The live line of a run under way: time, place, speed, force, or how strongly and how often a pad shakes.
+std::string progress_line(const Progress& now, bool vibrates = false);
 
 }  // namespace wale

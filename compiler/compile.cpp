@@ -88,6 +88,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
          .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
+  if (solved.device.shaker) return std::get<Program>(std::move(loaded));  // no height pushes, and nobody is pushed
   const Bank bank(std::get<Program>(loaded));
   if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,

@@ -7,17 +7,71 @@
 
 namespace wale {
 
+namespace {
+
+const char* position_word(PositionSource source) {
+  switch (source) {
+    case PositionSource::none: return "none";
+    case PositionSource::pointer: return "pointer";
+    case PositionSource::touch: return "touch";
+  }
+  return "unknown";
+}
+
+nlohmann::ordered_json shaker_json(const DescribedDevice& device) {
+  const DeviceProfile& profile = device.profile;
+  const Shaker& shaker = *profile.shaker;
+  nlohmann::ordered_json json = {{"name", profile.name},
+                                 {"feel", true},
+                                 {"build", true},
+                                 {"axes", 1},
+                                 {"position", position_word(shaker.position)},
+                                 {"peak_m_per_s2", shaker.peak()},
+                                 {"lowest_hz", shaker.frequency_low},
+                                 {"highest_hz", shaker.frequency_high},
+                                 {"spin_up_s", shaker.spin_up},
+                                 {"rate_hz", profile.rate}};
+  if (shaker.position == PositionSource::none) {
+    json["exploring_speed_m_per_s"] = shaker.exploring_speed;
+  } else {
+    json["workspace_m"] = profile.workspace_diameter;
+    json["position_counts"] = profile.position_counts;
+  }
+  auto& response = json["response"] = nlohmann::ordered_json::array();
+  for (const Shaker::Response& row : shaker.response)
+    for (const auto& point : row.points)
+      response.push_back({{"hz", row.frequency}, {"command", point.command}, {"m_per_s2", point.acceleration}});
+  json["assumed"] = device.assumed;
+  json["source"] = device.source;
+  return json;
+}
+
+}  // namespace
+
 std::string devices_text(const std::vector<DescribedDevice>& devices) {
   std::string text =
       "to feel on (wale feel --device NAME)\n"
       "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
+      "  a device to build for, by its name: the same\n"
       "  USB joysticks are not driven by this version.\n\nto build for (wale build --device NAME)\n";
   for (const auto& [profile, source, assumed] : devices) {
-    text += fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
-                        profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
-                        profile.position_counts, profile.rate);
-    text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
-                        profile.damping, profile.friction);
+    if (profile.shaker) {
+      const Shaker& shaker = *profile.shaker;
+      text += fmt::format(
+          "  {:<12} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
+          shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
+      text +=
+          shaker.position == PositionSource::none
+              ? fmt::format("  {:<12} no position: taken to explore at {:.3g} m/s\n", "", shaker.exploring_speed)
+              : fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.4g} counts\n", "",
+                            position_word(shaker.position), 1e3 * profile.workspace_diameter, profile.position_counts);
+    } else {
+      text += fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
+                          profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
+                          profile.position_counts, profile.rate);
+      text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
+                          profile.damping, profile.friction);
+    }
     if (!assumed.empty()) text += fmt::format("  {:<12} assumed, not measured: {}\n", "", fmt::join(assumed, ", "));
     if (!source.empty()) text += fmt::format("  {:<12} {}\n", "", source);
   }
@@ -27,9 +81,14 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
 std::string devices_json(const std::vector<DescribedDevice>& devices) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   json.push_back({{"name", "simulated"}, {"feel", true}, {"build", false}});
-  for (const auto& [profile, source, assumed] : devices)
+  for (const DescribedDevice& device : devices) {
+    if (device.profile.shaker) {
+      json.push_back(shaker_json(device));
+      continue;
+    }
+    const auto& [profile, source, assumed] = device;
     json.push_back({{"name", profile.name},
-                    {"feel", false},
+                    {"feel", true},
                     {"build", true},
                     {"axes", 2},
                     {"force_newton", profile.force_newton},
@@ -42,6 +101,7 @@ std::string devices_json(const std::vector<DescribedDevice>& devices) {
                     {"friction_newton", profile.friction},
                     {"assumed", assumed},
                     {"source", source}});
+  }
   return json.dump(2) + "\n";
 }
 

@@ -53,14 +53,22 @@ struct HeightTable {
   friend bool operator==(const HeightTable&, const HeightTable&) = default;
 };
 
-enum class OutputQuantity : std::uint8_t { force = 1 };  ///< N along `axis`
+enum class OutputQuantity : std::uint8_t {
+  force = 1,      ///< N along `axis`
+  amplitude = 2,  ///< m/s^2: of a pad's vibration
+  frequency = 3,  ///< Hz: of the same
+};
 
 /// Where a tick leaves a result. `value` is written by the section's `limit` whose ceiling is the register `ceiling`.
+/// A program has either force x and force y, or amplitude and frequency.
 struct Output {
   OutputQuantity quantity = OutputQuantity::force;
-  std::uint8_t axis = 0;  ///< 0 x, 1 y
+  std::uint8_t axis = 0;  ///< of a force 0 x, 1 y; of the others 0
   RegisterNumber value = 0;
   RegisterNumber ceiling = 0;
+
+  /// Which of a tick's two numbers it is: 0 force x or amplitude, 1 force y or frequency.
+  std::size_t component() const { return quantity == OutputQuantity::frequency ? 1 : axis; }
 
   friend bool operator==(const Output&, const Output&) = default;
 };
@@ -160,6 +168,7 @@ enum class Extractor : std::uint8_t {
   vibration = 8,       ///< N: amplitude of the force on a hand at rest
   steepness = 9,       ///< 1/m: the lateral force's steepest change over its amplitude
   periodicity = 10,    ///< share of the lateral force that comes back after a period, 0 .. 1
+  acceleration = 11,   ///< m/s^2: amplitude of a pad's vibration under a moving hand
 };
 
 /// One percept of the program: what was asked, through which map it is realised, and how to read it back.
@@ -178,7 +187,7 @@ struct PerceptRecord {
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   std::string map, device, source;  ///< the map's name, the device it was measured on, the citation
 
-  std::string unit;      ///< of the carrier's size, SI: "N", "N s/m"
+  std::string unit;  ///< of the carrier's size, SI: "N", "N s/m"
   Extractor extractor = Extractor::none;
   float period_low = 0, period_high = 0;  ///< m: the band that the extractor reads; 0, 0 for any
   float one = 0;                          ///< the carrier's size at level 1
@@ -193,6 +202,25 @@ struct PerceptRecord {
   std::string realisation;  ///< the device's own force for it, as written; empty where the author's physics carries it
 
   friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
+};
+
+/// What becomes on a device of something that the author asked for or wrote.
+enum class Fate : std::uint8_t {
+  kept = 1,          ///< it is there as it was meant
+  approximated = 2,  ///< something else stands for it, or a figure from another handle
+  saturated = 3,     ///< less of it than asked for, since the device gives no more
+  lost = 4,          ///< it is not there
+};
+
+/// The fate of one percept, or of one thing in the physics.
+struct FateRecord {
+  std::string name;      ///< "roughness"; "lateral amplitude", "place of features"
+  bool percept = false;  ///< otherwise physics
+  Fate fate = Fate::kept;
+  float asked = 0, given = 0;  ///< levels of a percept; given 0 where it is lost; both 0 for physics
+  std::string reason;          ///< how it is realised, or why it is not there; empty where nothing need be said
+
+  friend bool operator==(const FateRecord&, const FateRecord&) = default;
 };
 
 /// The layers as their author wrote them: kept for people and catalogues, never executed.
@@ -263,9 +291,12 @@ struct PatchProgram {
   float active_watt = 0;  ///< W, 0 .. most_active_watt: what the author lets the program give to the hand by itself
   DeviceProfile device;
   std::vector<PerceptRecord> percepts;
+  std::vector<FateRecord> fates;  ///< of what was asked for, in that order, then of the physics; never executed
   Layers layers;
   SourcePlaces places;  ///< empty where nobody recorded them
 
+  /// Whether it vibrates a pad instead of pushing: what the two numbers of a tick are.
+  bool vibrates() const { return device.shaker.has_value(); }
   /// The code of a section; peaks and predictions have the `index` of their peak or percept, the others 0.
   const std::vector<Instruction>& code(CodeSection section, std::size_t index = 0) const;
   /// The line that an instruction comes from, where it is known; also when code has been changed since, if there is

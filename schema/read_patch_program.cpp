@@ -1,98 +1,14 @@
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
+#include "schema/byte_reader.hpp"
 #include "schema/patch_program_format.hpp"
+#include "schema/read_device.hpp"
 #include "schema/refuse.hpp"
 
 namespace wale {
 namespace {
 
 using namespace patch_program_format;
-
-/// Little-endian values out of one part of a file. Never reads past its end: it refuses, naming the part.
-class ByteReader {
- public:
-  ByteReader(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)), bytes_(bytes) {}
-
-  std::uint8_t u8() { return number<std::uint8_t>(); }
-  std::uint16_t u16() { return number<std::uint16_t>(); }
-  std::uint32_t u32() { return number<std::uint32_t>(); }
-  std::uint64_t u64() { return number<std::uint64_t>(); }
-  float f32() { return std::bit_cast<float>(u32()); }
-  double f64() { return std::bit_cast<double>(u64()); }
-
-  /// A figure that must be finite; `what` names it in the refusal.
-  float finite_f32(std::string_view what) { return finite(f32(), what); }
-  double finite_f64(std::string_view what) { return finite(f64(), what); }
-
-  bool boolean(std::string_view what) {
-    const std::uint8_t value = u8();
-    if (value > 1) refuse(name_, " holds ", int{value}, " for ", what, ", which is 0 or 1");
-    return value == 1;
-  }
-
-  std::string text(std::string_view what) {
-    const std::uint32_t length = u32();
-    if (length > longest_text) {
-      refuse(name_, " claims ", length, " bytes for ", what, "; texts have at most ", longest_text);
-    }
-    need(length);
-    const auto* first = reinterpret_cast<const char*>(bytes_.data() + position_);
-    position_ += length;
-    std::string text(first, length);
-    if (text.find('\0') != std::string::npos) refuse(name_, " has a NUL inside ", what);
-    return text;
-  }
-
-  /// A number of things that take at least `least_bytes` each, so that no count outgrows the file.
-  std::uint32_t count(std::size_t least_bytes, std::string_view what) {
-    const std::uint32_t count = u32();
-    if (count > remaining() / least_bytes) {
-      refuse(name_, " claims ", count, " ", what, " and has ", remaining(), " bytes left for them");
-    }
-    return count;
-  }
-
-  std::vector<Instruction> code() {
-    std::vector<Instruction> code(count(8, "instructions"));
-    for (Instruction& instruction : code) instruction = decode(u64());
-    return code;
-  }
-
-  std::size_t remaining() const { return bytes_.size() - position_; }
-  const std::string& name() const { return name_; }
-
-  void finish() const {
-    if (remaining() != 0) refuse(name_, " has ", remaining(), " bytes after its end");
-  }
-
- private:
-  void need(std::size_t size) const {
-    if (size > remaining()) refuse(name_, " ends early: ", size, " bytes are due and ", remaining(), " are left");
-  }
-
-  template <typename Unsigned>
-  Unsigned number() {
-    need(sizeof(Unsigned));
-    Unsigned value = 0;
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-      value = static_cast<Unsigned>(value | std::to_integer<Unsigned>(bytes_[position_ + i]) << 8 * i);
-    }
-    position_ += sizeof(Unsigned);
-    return value;
-  }
-
-  template <typename Float>
-  Float finite(Float value, std::string_view what) const {
-    if (!std::isfinite(value)) refuse(name_, " holds ", value, " for ", what, ", which is no figure");
-    return value;
-  }
-
-  std::string name_;
-  std::span<const std::byte> bytes_;
-  std::size_t position_ = 0;
-};
 
 std::vector<float> read_constants(ByteReader& in) {
   std::vector<float> constants(in.count(4, "constants"));
@@ -201,10 +117,11 @@ std::vector<Output> read_outputs(ByteReader& in) {
   std::vector<Output> outputs(in.count(6, "outputs"));
   for (Output& output : outputs) {
     const std::uint8_t quantity = in.u8();
-    if (quantity != static_cast<std::uint8_t>(OutputQuantity::force)) {
+    if (quantity < static_cast<std::uint8_t>(OutputQuantity::force) ||
+        quantity > static_cast<std::uint8_t>(OutputQuantity::frequency)) {
       refuse(in.name(), " names quantity ", int{quantity}, ", which this Wale does not know");
     }
-    output.quantity = OutputQuantity::force;
+    output.quantity = static_cast<OutputQuantity>(quantity);
     output.axis = in.u8();
     output.value = in.u16();
     output.ceiling = in.u16();
@@ -229,34 +146,6 @@ std::vector<HeightTable> read_tables(ByteReader& in) {
     if (content_hash(table) != hash) refuse(in.name(), " holds table ", number, " with heights that its hash denies");
   }
   return tables;
-}
-
-DeviceProfile read_device(ByteReader& in) {
-  DeviceProfile device;
-  device.name = in.text("the device's name");
-  const auto figure = [&in](double& value, std::string_view what) { value = in.finite_f64(what); };
-  figure(device.workspace_diameter, "the workspace's diameter");
-  figure(device.position_counts, "the position's counts");
-  figure(device.force_newton, "the force");
-  figure(device.force_counts, "the force's counts");
-  figure(device.rate, "the rate");
-  figure(device.speed_limit, "the speed limit");
-  figure(device.slew, "the slew");
-  figure(device.velocity_window, "the velocity window");
-  figure(device.velocity_noise_counts, "the velocity's noise");
-  figure(device.patch_width, "the patch's width");
-  figure(device.patch_height, "the patch's height");
-  figure(device.patch_rim, "the patch's rim");
-  figure(device.mass, "the mass");
-  figure(device.damping, "the damping");
-  figure(device.friction, "the friction");
-  figure(device.delay_x, "the delay along x");
-  figure(device.delay_y, "the delay along y");
-  figure(device.bandwidth_x, "the bandwidth along x");
-  figure(device.bandwidth_y, "the bandwidth along y");
-  device.damping_known = in.boolean("whether the damping is known");
-  device.friction_known = in.boolean("whether the friction is known");
-  return device;
 }
 
 Evidence read_evidence(ByteReader& in, std::string_view what) {
@@ -293,7 +182,7 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.source = in.text("a map's source");
     percept.unit = in.text("a carrier's unit");
     const std::uint8_t extractor = in.u8();
-    if (extractor > static_cast<std::uint8_t>(Extractor::periodicity)) {
+    if (extractor > static_cast<std::uint8_t>(Extractor::acceleration)) {
       refuse(in.name(), " reads a percept by extractor ", int{extractor}, ", which this Wale does not know");
     }
     percept.extractor = static_cast<Extractor>(extractor);
@@ -308,6 +197,24 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
   }
   if (percepts.empty()) refuse(in.name(), " is there and empty; a file without percepts leaves it out");
   return percepts;
+}
+
+std::vector<FateRecord> read_fates(ByteReader& in) {
+  std::vector<FateRecord> fates(in.count(18, "fates"));
+  for (FateRecord& fate : fates) {
+    fate.name = in.text("what has a fate");
+    fate.percept = in.boolean("whether a fate is a percept's");
+    const std::uint8_t word = in.u8();
+    if (word < static_cast<std::uint8_t>(Fate::kept) || word > static_cast<std::uint8_t>(Fate::lost)) {
+      refuse(in.name(), " tells fate ", int{word}, ", which this Wale does not know");
+    }
+    fate.fate = static_cast<Fate>(word);
+    fate.asked = in.finite_f32("the level asked for");
+    fate.given = in.finite_f32("the level given");
+    fate.reason = in.text("the reason of a fate");
+  }
+  if (fates.empty()) refuse(in.name(), " is there and empty; a file without fates leaves it out");
+  return fates;
 }
 
 Layers read_layers(ByteReader& in) {
@@ -377,7 +284,9 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
     program.active_watt = in.finite_f32("the power of what is active");
   }
   if (kind == "DEVI") program.device = read_device(in);
+  if (kind == "VIBR") program.device.shaker = read_shaker(in);
   if (kind == "PERC") program.percepts = read_percepts(in);
+  if (kind == "FATE") program.fates = read_fates(in);
   if (kind == "LAYR") program.layers = read_layers(in);
   if (kind == "PLAC") program.places = read_places(in, program);
   in.finish();

@@ -150,6 +150,34 @@ void write_device(ByteWriter& out, const DeviceProfile& device) {
   out.u8(device.friction_known);
 }
 
+void write_shaker(ByteWriter& out, const Shaker& vibration) {
+  out.u8(static_cast<std::uint8_t>(vibration.position));
+  for (const double figure : {vibration.frequency_low, vibration.frequency_high, vibration.command_steps,
+                              vibration.spin_up, vibration.exploring_speed})
+    out.f64(figure);
+  out.u32(vibration.response.size());
+  for (const Shaker::Response& response : vibration.response) {
+    out.f64(response.frequency);
+    out.u32(response.points.size());
+    for (const auto& point : response.points) {
+      out.f64(point.command);
+      out.f64(point.acceleration);
+    }
+  }
+}
+
+void write_fates(ByteWriter& out, std::span<const FateRecord> fates) {
+  out.u32(fates.size());
+  for (const FateRecord& fate : fates) {
+    out.text(fate.name);
+    out.u8(fate.percept);
+    out.u8(static_cast<std::uint8_t>(fate.fate));
+    out.f32(fate.asked);
+    out.f32(fate.given);
+    out.text(fate.reason);
+  }
+}
+
 void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
   out.u32(percepts.size());
   for (const PerceptRecord& percept : percepts) {
@@ -239,7 +267,9 @@ std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& 
     out.f32(program.active_watt);
   }
   if (kind == "DEVI") write_device(out, program.device);
+  if (kind == "VIBR" && program.device.shaker) write_shaker(out, *program.device.shaker);
   if (kind == "PERC" && !program.percepts.empty()) write_percepts(out, program.percepts);
+  if (kind == "FATE" && !program.fates.empty()) write_fates(out, program.fates);
   if (kind == "LAYR" && program.layers != Layers{}) write_layers(out, program.layers);
   if (kind == "PLAC" && program.places != SourcePlaces{}) write_places(out, program.places);
   return std::move(out.result());

@@ -8,6 +8,7 @@
 #include "compiler/compare/propose_levels.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_module.hpp"
+#include "compiler/describe/fates.hpp"
 #include "compiler/image/image_library.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/preview.hpp"
@@ -26,9 +27,35 @@ void print_recalled(const std::set<const Threshold*>& thresholds) {
   for (const std::string& line : lines) fmt::print(stderr, "{}", line);
 }
 
+/// What every device makes of a file's materials.
+int describe_fates(const Choice& choice, bool json) {
+  const auto opened = open(choice);
+  if (!opened) return refused;
+  if (opened->program) return refuse(fmt::format("`{}` is built for one device already", choice.file));
+  const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
+  std::vector<DeviceFates> all;
+  for (const std::string& material : names)
+    for (const std::string& device : common_modules()->declarations.devices.spellings()) {
+      FileRequest request = choice.request();
+      request.device = device;
+      DeviceFates fates{.material = material, .device = device, .fates = {}, .refusal = {}};
+      Diagnostics diagnostics;
+      if (const auto program = compile_opened(*opened, request, material, diagnostics))
+        fates.fates = program->description().fates;
+      else
+        for (const Diagnostic& each : diagnostics.all())
+          if (fates.refusal.empty() && severity_of(each.code) == Severity::error) fates.refusal = each.message;
+      all.push_back(std::move(fates));
+    }
+  if (all.empty()) return refuse("there is no material to describe");
+  fmt::print("{}", json ? fates_json(all) : fates_text(all));
+  return done;
+}
+
 }  // namespace
 
 int describe(const Choice& choice, const std::vector<std::string>& settings, bool exports, bool json) {
+  if (choice.device == "all") return describe_fates(choice, json);
   auto opened = open(choice);
   if (!opened) return refused;
   if (opened->module && choice.material.empty() && (exports || opened->module->materials.empty())) {

@@ -26,6 +26,7 @@ struct MaterialReading {
   std::string name;
   Diagnostics diagnostics;
   std::optional<Cues> cues;
+  bool vibrates = false;
 };
 
 std::vector<std::string> materials_to_read(const ComparedFile& file) {
@@ -46,21 +47,28 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
     ComparedFile& file = files[i];
     file.name = named_material(names[i]);
     file.opened = open_file(request_for(file));
-    if (file.opened.program) file.cues.push_back(cues_of(Bank(*file.opened.program), declarations));
+    if (!file.opened.program) return;
+    if (file.opened.program->description().vibrates())
+      file.vibrates = file.opened.program->description().material;
+    else
+      file.cues.push_back(cues_of(Bank(*file.opened.program), declarations));
   });
   std::vector<MaterialReading> readings;
   for (std::size_t i = 0; i < files.size(); ++i)
-    for (std::string& name : materials_to_read(files[i])) readings.push_back({i, std::move(name), {}, {}});
+    for (std::string& name : materials_to_read(files[i])) readings.push_back({i, std::move(name), {}, {}, false});
   for_each_in_parallel(readings.size(), [&](std::size_t i) {
     MaterialReading& reading = readings[i];
     const ComparedFile& file = files[reading.file];
     const auto program = compile_opened(file.opened, request_for(file), reading.name, reading.diagnostics);
-    if (program) reading.cues = cues_of(Bank(*program), declarations);
+    if (!program) return;
+    reading.vibrates = program->description().vibrates();
+    if (!reading.vibrates) reading.cues = cues_of(Bank(*program), declarations);
   });
   for (MaterialReading& reading : readings) {
     ComparedFile& file = files[reading.file];
     for (const Diagnostic& each : reading.diagnostics.all()) file.opened.diagnostics.report(each);
     if (reading.cues) file.cues.push_back(*std::move(reading.cues));
+    if (reading.vibrates && file.vibrates.empty()) file.vibrates = reading.name;
   }
   for (ComparedFile& file : files)
     if (file.opened.diagnostics.has_errors()) file.cues.clear();
@@ -70,6 +78,10 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
 std::string why_not_compared(const std::vector<ComparedFile>& files) {
   const Cues* first = nullptr;
   std::size_t count = 0;
+  for (const ComparedFile& file : files)
+    if (!file.vibrates.empty())
+      return fmt::format("`{}` is built for a device that only vibrates, and the cues that are compared are of forces",
+                         file.vibrates);
   for (const ComparedFile& file : files)
     for (const Cues& each : file.cues) {
       if (!first) first = &each;

@@ -13,6 +13,7 @@ struct ComparedFile {
   NamedMaterial name;      ///< without a material: all of them
   OpenedFile opened;       ///< with all that was said of it and its materials
   std::vector<Cues> cues;  ///< of each material, in the order written; none where one of them has an error
+  std::string vibrates;    ///< a material that only vibrates, and so has no cues of forces; most have none
 
   /// It was read and has no material, as a file that only lends functions to others.
   bool without_material() const { return name.material.empty() && opened.module && opened.module->materials.empty(); }

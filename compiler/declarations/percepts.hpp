@@ -79,6 +79,9 @@ struct Map {
                                              ///< the sizes rising; straight lines in logarithms between them
   std::vector<Coupling> couples;
   Branch branch = Branch::only;
+  /// Of a quantity that stands for the carrier on another kind of device: its size at level 1, SI. Where it is not
+  /// there the percept's own holds.
+  std::optional<double> one;
   double valid_low = 0, valid_high = 0;  ///< of the quantity, SI
   struct Condition {
     std::string quantity;
@@ -160,10 +163,12 @@ struct Rule {
   const Case* first(const std::map<std::string, double>& sizes, const std::string& kind) const;
 };
 
-/// A force that stands for a percept where the physics is left open, and through which map.
+/// What stands for a percept where the physics is left open, and through which map: a force, or how a pad shakes.
 struct Realisation {
   const SyntaxTree* tree = nullptr;
-  ExprId force = 0;
+  ExprId force = 0;            ///< of a pad the amplitude of its shaking, an acceleration
+  std::optional<ExprId> rate;  ///< of a pad: how often a second
+  double period = 0;           ///< of a pad, m: what `period` is where the material tells none
   const Declarations* home = nullptr;
   std::string by;          ///< the map's name; empty where there is only one to choose
   double active_watt = 0;  ///< that it gives to the hand by itself
@@ -177,6 +182,9 @@ struct DeviceClass {
   std::string documentation;
   Span span;
 };
+
+/// The carrier's name on a pad, "roughness shaking": what its realisations and maps call `shaking`.
+inline std::string shaking_carrier(const std::string& percept) { return percept + " shaking"; }
 
 /// How much of a normal distribution lies below z, turned round: z of the share p in (0, 1).
 double normal_quantile(double p);

@@ -33,8 +33,9 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
                            .device = record.device,
                            .source = record.source};
   const float aimed = amplitude(bank, index);
-  // Only a carrier that is a force itself is what the device's limit cuts.
-  const float most = record.unit == "N" ? static_cast<float>(program.device.force_newton) : HUGE_VALF;
+  // Only a carrier that is what the device puts out is what its limit cuts.
+  const char* limited = program.vibrates() ? "m/s^2" : "N";
+  const float most = record.unit == limited ? static_cast<float>(program.device.most()) : HUGE_VALF;
   percept.saturated = aimed > most;
   percept.amplitude = std::min(aimed, most);
   const Prediction prediction = predict(bank, index, static_cast<float>(percept.amplitude));
@@ -97,7 +98,41 @@ std::string why_no_texture(const PatchProgram& program, const Measured& force) {
   return fmt::format("its force depends on {}, so it is not one texture", text);
 }
 
+/// How it pushes, how stable the loop is, and what its force tells.
+void describe_force(Description& description, const Bank& bank, const Declarations* declarations) {
+  const PatchProgram& program = bank.program().description();
+  description.force = measure(bank);
+  // What a program remembers pushes too, once it has something to remember.
+  if (remembers(program))
+    for (const Force force : rehearse(bank).forces)
+      if (const float size = std::hypot(force.x, force.y); size > description.force.max_newton)
+        description.force.max_newton = size;
+  description.bound = force_bound(bank.program());
+  const Proof proof = prove(bank.program());
+  description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
+  description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
+  description.grade = grade(bank);
+  description.no_percept = why_no_texture(program, description.force);
+  if (declarations) describe_extracted(description, bank, *declarations);
+}
+
+/// How it shakes a pad.
+void describe_shaking(Description& description, const Bank& bank) {
+  description.shaking = measure_shaking(bank);
+  if (description.percepts.empty()) description.no_percept = "nothing of it shakes the device";
+}
+
 }  // namespace
+
+std::string fate_word(Fate fate) {
+  switch (fate) {
+    case Fate::kept: return "kept";
+    case Fate::approximated: return "approximated";
+    case Fate::saturated: return "saturated";
+    case Fate::lost: return "lost";
+  }
+  return "unknown";
+}
 
 std::string evidence_word(Evidence evidence) {
   switch (evidence) {
@@ -131,19 +166,11 @@ Description describe(const Bank& bank, const Declarations* declarations) {
     // A slider may make a viscosity or a spring push along instead of against: nothing that a map knows.
     if (std::isfinite(percept.level)) description.percepts.push_back(percept);
   }
-  description.force = measure(bank);
-  // What a program remembers pushes too, once it has something to remember.
-  if (remembers(program))
-    for (const Force force : rehearse(bank).forces)
-      if (const float size = std::hypot(force.x, force.y); size > description.force.max_newton)
-        description.force.max_newton = size;
-  description.bound = force_bound(bank.program());
-  const Proof proof = prove(bank.program());
-  description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
-  description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
-  description.grade = grade(bank);
-  description.no_percept = why_no_texture(program, description.force);
-  if (declarations) describe_extracted(description, bank, *declarations);
+  description.fates = program.fates;
+  if (program.vibrates())
+    describe_shaking(description, bank);
+  else
+    describe_force(description, bank, declarations);
   description.parameters = program.parameters;
   description.states = program.states;
   description.memories = program.grids;

@@ -55,8 +55,11 @@ struct Description {
   std::vector<DescribedPercept> percepts;
   std::optional<DescribedTexture> texture;  ///< where the declarations were given
   std::string no_percept;                   ///< why none is of a texture, in a line; empty when there is one
-  Measured force;                           ///< `max_newton` also of a rehearsal, when the program remembers
-  ForceBound bound;                         ///< that no force exceeds, proved, and the largest that a search found
+  std::vector<FateRecord> fates;            ///< what the device makes of what was asked for and written
+  std::optional<MeasuredShaking>
+      shaking;                        ///< of a program that vibrates; then force, bound, grade and texture are empty
+  Measured force;                     ///< `max_newton` also of a rehearsal, when the program remembers
+  ForceBound bound;                   ///< that no force exceeds, proved, and the largest that a search found
   bool limit_matters = false;         ///< without its last limit the program could ask for more than the device gives
   Interval asked;                     ///< of both components before that limit, N, as far as it is proved
   Grade grade;                        ///< how stable the loop is
@@ -83,6 +86,8 @@ std::string description_text(const Description& description);
 /// An object for one, an array for several.
 std::string descriptions_json(const std::vector<Description>& descriptions);
 
+/// "kept", "approximated", "saturated", "lost".
+std::string fate_word(Fate fate);
 /// "measured", "published", …
 std::string evidence_word(Evidence evidence);
 /// "point", "spring", …

@@ -4,6 +4,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/fates_json.hpp"
 
 namespace wale {
 namespace {
@@ -79,6 +80,24 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   return json;
 }
 
+nlohmann::ordered_json to_json(const MeasuredShaking& shaking) {
+  return {{"max_m_per_s2", figure(shaking.max)},
+          {"p99_m_per_s2", figure(shaking.p99)},
+          {"rms_m_per_s2", figure(shaking.rms)},
+          {"lowest_hz", figure(shaking.lowest)},
+          {"highest_hz", figure(shaking.highest)}};
+}
+
+void add_force(nlohmann::ordered_json& json, const Description& description) {
+  json["force"] = {
+      {"max_newton", figure(description.force.max_newton)},     {"p99_newton", figure(description.force.p99_newton)},
+      {"rms_newton", figure(description.force.rms_newton)},     {"bound_newton", figure(description.bound.newton)},
+      {"found_newton", figure(description.bound.found.newton)}, {"limit_matters", description.limit_matters}};
+  json["grade"] = to_json(description.grade);
+  json["stiffness"] = {{"max_newton_per_metre", figure(description.grade.stiffness)},
+                       {"at", to_json(description.grade.stiffest)}};
+}
+
 nlohmann::ordered_json to_json(const Description& description) {
   nlohmann::ordered_json json;
   json["material"] = description.material;
@@ -121,13 +140,13 @@ nlohmann::ordered_json to_json(const Description& description) {
   }
   if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
   if (description.texture) json["texture"] = to_json(*description.texture);
-  json["force"] = {
-      {"max_newton", figure(description.force.max_newton)},     {"p99_newton", figure(description.force.p99_newton)},
-      {"rms_newton", figure(description.force.rms_newton)},     {"bound_newton", figure(description.bound.newton)},
-      {"found_newton", figure(description.bound.found.newton)}, {"limit_matters", description.limit_matters}};
-  json["grade"] = to_json(description.grade);
-  json["stiffness"] = {{"max_newton_per_metre", figure(description.grade.stiffness)},
-                       {"at", to_json(description.grade.stiffest)}};
+  json["fates"] = to_json(description.fates);
+  if (description.shaking) {
+    json["shaking"] = to_json(*description.shaking);
+    json["grade"] = {{"name", "does not apply"}};
+  } else {
+    add_force(json, description);
+  }
   auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
   for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
   auto& states = json["states"] = nlohmann::ordered_json::array();

@@ -35,13 +35,16 @@ void write_percepts(std::string& text, const Description& description) {
                           percept.individual_high);
     if (percept.near_threshold) text += fmt::format("  {:<12} near or below threshold\n", "");
     if (percept.saturated)
-      text += fmt::format("  {:<12} saturated: `{}` cannot push harder\n", "", description.device.name);
+      text += fmt::format("  {:<12} saturated: `{}` cannot {} harder\n", "", description.device.name,
+                          description.shaking ? "shake" : "push");
     if (!percept.realisation.empty())
-      text += fmt::format("  {:<12} nothing was said of its physics: `{}` renders it as {}\n", "",
-                          description.device.name, percept.realisation);
+      text += fmt::format("  {:<12} {}`{}` renders it as {}\n", "",
+                          description.shaking ? "" : "nothing was said of its physics: ", description.device.name,
+                          percept.realisation);
     if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
     if (!percept.alone && !percept.extracted)
-      text += fmt::format("  {:<12} other forces push too; a run cannot read it back\n", "");
+      text += fmt::format("  {:<12} other {} too; a run cannot read it back\n", "",
+                          description.shaking ? "percepts shake it" : "forces push");
     text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
                         evidence_word(percept.anchor), evidence_word(percept.handle));
     text += fmt::format("  {:<12} {} ({}, on {})\n", "", percept.source, percept.map, percept.device);
@@ -69,6 +72,26 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
 
 /// Of a direction in [0, pi), whole and less than 180.
 long degrees(double radians) { return std::lround(radians * 180 / std::numbers::pi) % 180; }
+
+/// What the device makes of it: the percepts first, then the physics.
+void write_fates(std::string& text, const Description& description) {
+  if (description.fates.empty()) return;
+  text += fmt::format("\non {}\n", description.device.name);
+  for (const FateRecord& each : description.fates) {
+    std::string level;
+    if (each.percept && each.fate == Fate::saturated)
+      level = fmt::format(" from {:.2f} to {:.2f}", each.asked, each.given);
+    text += fmt::format("  {:<18} {}{}{}{}\n", each.name, fate_word(each.fate), level, each.reason.empty() ? "" : ": ",
+                        each.reason);
+  }
+}
+
+void write_shaking(std::string& text, const MeasuredShaking& shaking) {
+  text += fmt::format("\nshakes\n  {:.3f} m/s^2 at most under the hand `normal`: P99 {:.3f} m/s^2, RMS {:.3f} m/s^2\n",
+                      shaking.max, shaking.p99, shaking.rms);
+  if (shaking.highest > 0) text += fmt::format("  {:.4g} .. {:.4g} Hz\n", shaking.lowest, shaking.highest);
+  text += "\nstability\n  does not apply: it only vibrates, and closes no loop with the hand\n";
+}
 
 void write_texture(std::string& text, const Description& description) {
   if (!description.texture) return;
@@ -126,6 +149,13 @@ std::string bound_lines(const Description& description) {
   return line;
 }
 
+void write_pushing(std::string& text, const Description& description) {
+  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
+                      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  text += bound_lines(description);
+  text += "\nstability\n" + grade_text(description.grade, description.device);
+}
+
 /// A program does not know the units of its states; in SI every figure means one thing.
 void write_memory(std::string& text, const Description& description) {
   if (description.states.empty() && description.memories.empty()) return;
@@ -149,17 +179,19 @@ void write_shown(std::string& text, const Description& description) {
 }  // namespace
 
 std::string description_text(const Description& description) {
-  std::string text = fmt::format("{}\n  built for {}, {:.3g} N at {:.4g} Hz\n", heading(description),
-                                 description.device.name, description.device.force_newton, description.device.rate);
+  const DeviceProfile& device = description.device;
+  std::string text = fmt::format("{}\n  built for {}, {:.3g} {} at {:.4g} Hz\n", heading(description), device.name,
+                                 device.most(), device.shaker ? "m/s^2" : "N", device.rate);
   write_documentation(text, 2, description.layers.documentation);
   for (const auto& [key, values] : description.layers.representative)
     if (key != "title") text += fmt::format("  {:<12} {}\n", key, fmt::join(values, ", "));
   write_percepts(text, description);
+  write_fates(text, description);
   write_texture(text, description);
-  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
-                      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
-  text += bound_lines(description);
-  text += "\nstability\n" + grade_text(description.grade, description.device);
+  if (description.shaking)
+    write_shaking(text, *description.shaking);
+  else
+    write_pushing(text, description);
   write_parameters(text, description.parameters);
   write_memory(text, description);
   write_shown(text, description);

@@ -30,6 +30,7 @@ class Emitter {
     program_.patch_rim = static_cast<float>(material_.patch_rim);
     program_.active_watt = static_cast<float>(material_.active_watt);
     program_.device = material_.device;
+    program_.fates = material_.fates;
     program_.layers = material_.layers;
 
     plan();
@@ -67,8 +68,12 @@ class Emitter {
     for (const auto& state : lowered_.states) roots.push_back(state.next);
     for (const auto& write : lowered_.writes) roots.insert(roots.end(), {write.u, write.v, write.value});
     program_.tick = section(roots);
-    for (std::uint8_t axis = 0; axis < 2; ++axis)
-      program_.outputs.push_back({OutputQuantity::force, axis, at(lowered_.force[axis]), at(lowered_.ceiling)});
+    for (std::uint8_t i = 0; i < 2; ++i) {
+      Output output{.axis = i, .value = at(lowered_.force[i]), .ceiling = at(lowered_.ceiling[i])};
+      if (material_.device.shaker)
+        output.quantity = i == 0 ? OutputQuantity::amplitude : OutputQuantity::frequency, output.axis = 0;
+      program_.outputs.push_back(output);
+    }
     for (std::size_t i = 0; i < lowered_.states.size(); ++i) program_.states[i].next = at(lowered_.states[i].next);
     program_.grids = material_.memories;
     for (std::size_t i = 0; i < lowered_.writes.size(); ++i)
@@ -179,7 +184,7 @@ class Emitter {
     wanted_.resize(graph_.size() + 1, not_needed);
     const auto need = [&](NodeId id) { wanted_[id] = in_no_section; };
     need(nothing_);
-    for (const NodeId id : {lowered_.force[0], lowered_.force[1], lowered_.ceiling}) need(id);
+    for (const NodeId id : {lowered_.force[0], lowered_.force[1], lowered_.ceiling[0], lowered_.ceiling[1]}) need(id);
     if (lowered_.relief) need(*lowered_.relief);
     if (lowered_.colour) std::ranges::for_each(*lowered_.colour, need);
     for (const auto& state : lowered_.states) need(state.initial), need(state.next);

@@ -69,9 +69,11 @@ LoweredMaterial lower(const SolvedMaterial& material) {
     }
   }
 
-  lowered.ceiling = graph.constant(static_cast<float>(material.device.force_newton));
+  const auto& vibration = material.device.shaker;
+  lowered.ceiling.fill(graph.constant(static_cast<float>(material.device.most())));
+  if (vibration) lowered.ceiling[1] = graph.constant(static_cast<float>(vibration->frequency_high));
   for (std::size_t axis = 0; axis < 2; ++axis)
-    lowered.force[axis] = graph.output_limit(nodes[material.force[axis]], lowered.ceiling, material.force_span);
+    lowered.force[axis] = graph.output_limit(nodes[material.force[axis]], lowered.ceiling[axis], material.force_span);
   const auto node_of = [&](TermId id) { return nodes[id]; };
   if (material.relief) lowered.relief = node_of(*material.relief);
   if (material.colour)

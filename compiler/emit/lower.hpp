@@ -21,8 +21,8 @@ struct LoweredMaterial {
     NodeId u, v, value;
   };
   Graph graph;
-  std::array<NodeId, 2> force{};  ///< each a final limit at the device's force
-  NodeId ceiling = 0;             ///< of both
+  std::array<NodeId, 2> force{};    ///< each a final limit at its ceiling; on a pad amplitude and frequency
+  std::array<NodeId, 2> ceiling{};  ///< the device's force, or its acceleration and its greatest frequency
   std::optional<NodeId> relief;
   std::optional<std::array<NodeId, 3>> colour;
   std::vector<State> states;               ///< beside `SolvedMaterial::states`

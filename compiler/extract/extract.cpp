@@ -23,6 +23,7 @@ double even_stiffness(const StaticForce& force) {
 }  // namespace
 
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps) {
+  if (bank.program().description().vibrates()) return {};  // it has no force to read
   const StaticForce force(bank);
   Extraction found;
   found.texture = texture_force(bank, force, textures, least_of_field * force.largest);

@@ -382,10 +382,16 @@ std::optional<double> Grade::margin() const {
   return device_damping - required_damping;
 }
 
-Grade grade(const Bank& bank, const GradingHand& hand) { return Grader(bank, hand).grade(); }
+Grade grade(const Bank& bank, const GradingHand& hand) {
+  if (bank.program().description().vibrates()) return {};
+  return Grader(bank, hand).grade();
+}
 
 Grade grade(const Bank& bank) { return grade(bank, normal_hand()); }
 
-Energy energy_of(const Bank& bank) { return Grader(bank, normal_hand()).energy(); }
+Energy energy_of(const Bank& bank) {
+  if (bank.program().description().vibrates()) return {};
+  return Grader(bank, normal_hand()).energy();
+}
 
 }  // namespace wale

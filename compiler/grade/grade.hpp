@@ -91,8 +91,8 @@ struct Grade {
 /// The part of a grade that says whether a program must say `active`: quicker.
 Energy energy_of(const Bank& bank);
 
-/// Grades a program at a bank's parameters, in the hand called `normal` (calibration/hands.wale), or in another.
-/// Deterministic; some milliseconds.
+/// Grades a program at a bank's parameters (one that only vibrates a pad closes no loop and is not analysed), in the
+/// hand called `normal` (calibration/hands.wale), or in another. Deterministic; some milliseconds.
 Grade grade(const Bank& bank);
 Grade grade(const Bank& bank, const GradingHand& hand);
 

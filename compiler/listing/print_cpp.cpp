@@ -194,7 +194,9 @@ class CppPrinter {
     const auto& outside = code.read_from_outside();
     const std::string lines = code.lines(surroundings_of_run(), 2);
 
-    std::string text = "\n/// One tick: the force on a hand within the envelope, in N; then the state goes on.\n";
+    std::string text = program_.vibrates()
+                           ? "\n/// One tick: how to shake under a hand within the envelope; then the state goes on.\n"
+                           : "\n/// One tick: the force on a hand within the envelope, in N; then the state goes on.\n";
     text += fmt::format(
         "inline Force tick([[maybe_unused]] const Setup& bank, [[maybe_unused]] State& state,{}\n"
         "                  [[maybe_unused]] const Hand& hand) {{\n",
@@ -217,7 +219,7 @@ class CppPrinter {
           cpp_literal(grid.low), cpp_literal(grid.high));
     }
     std::array<std::string, 2> force;
-    for (const Output& output : program_.outputs) force[output.axis] = code.result(output.value);
+    for (const Output& output : program_.outputs) force[output.component()] = code.result(output.value);
     return text + fmt::format("  return {{{}, {}}};\n}}\n", force[0], force[1]);
   }
 
@@ -410,7 +412,8 @@ class CppPrinter {
     }
     add("}};\n");
     if (!program_.grids.empty()) print_cells();
-    add("\nstruct Force {{\n  float x = 0, y = 0;  ///< N\n}};\n");
+    add("\nstruct Force {{\n  float x = 0, y = 0;  ///< {}\n}};\n",
+        program_.vibrates() ? "the device only vibrates: its amplitude in m/s^2, and its frequency in Hz" : "N");
   }
 
   void print_hand() {

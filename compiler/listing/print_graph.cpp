@@ -43,7 +43,7 @@ class GraphPrinter {
 
   void find_needed() {
     for (const NodeId id : lowered_.force) want(id, tick);
-    want(lowered_.ceiling, tick);
+    for (const NodeId id : lowered_.ceiling) want(id, tick);
     if (lowered_.relief) want(*lowered_.relief, picture);
     if (lowered_.colour)
       for (const NodeId id : *lowered_.colour) want(id, picture);
@@ -109,7 +109,9 @@ class GraphPrinter {
 
   void print_results() {
     const auto result = [&](const std::string& text) { text_ += text + '\n'; };
-    result(fmt::format("force x = %{}, force y = %{}", lowered_.force[0], lowered_.force[1]));
+    const bool vibrates = material_.device.shaker.has_value();
+    result(fmt::format("{} = %{}, {} = %{}", vibrates ? "amplitude" : "force x", lowered_.force[0],
+                       vibrates ? "frequency" : "force y", lowered_.force[1]));
     for (std::size_t i = 0; i < lowered_.states.size(); ++i)
       result(fmt::format("{} begins at %{} and becomes %{}", material_.states[i].name, lowered_.states[i].initial,
                          lowered_.states[i].next));

@@ -24,6 +24,19 @@ const char* mark_name(MarkKind kind) {
   return "mark";
 }
 
+std::string output_name(const Output& output) {
+  switch (output.quantity) {
+    case OutputQuantity::amplitude: return "amplitude";
+    case OutputQuantity::frequency: return "frequency";
+    case OutputQuantity::force: break;
+  }
+  return output.axis == 0 ? "force x" : "force y";
+}
+
+const char* output_unit(OutputQuantity quantity) {
+  return quantity == OutputQuantity::force ? "N" : quantity == OutputQuantity::frequency ? "Hz" : "m/s^2";
+}
+
 class ProgramPrinter {
  public:
   ProgramPrinter(const PatchProgram& program, const IntervalOf& interval_of)
@@ -139,8 +152,8 @@ class ProgramPrinter {
         break;
       case CodeSection::tick:
         for (const Output& o : program_.outputs)
-          results.push_back(
-              fmt::format("force {} is {} within {} N", o.axis == 0 ? 'x' : 'y', operand(o.value), operand(o.ceiling)));
+          results.push_back(fmt::format("{} is {} within {} {}", output_name(o), operand(o.value), operand(o.ceiling),
+                                        output_unit(o.quantity)));
         for (const State& s : program_.states)
           results.push_back(
               fmt::format("{} becomes {} in {} .. {}", s.name, operand(s.next), figure(s.low), figure(s.high)));

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "compiler/measure/hands.hpp"
+#include "compiler/modules/load_modules.hpp"
 
 namespace wale {
 
@@ -56,6 +58,48 @@ Measured measure(const Bank& bank) {
     if (instruction.operation == static_cast<std::uint8_t>(Operation::peak) &&
         !(bank.registers()[instruction.destination] > 0))
       measured.flat = true;
+  return measured;
+}
+
+MeasuredShaking measure_shaking(const Bank& bank) {
+  constexpr std::size_t moments = 4096;
+  const PatchSize size = bank.size();
+  const HandDeclaration* person = common_modules()->declarations.hands.find("normal");
+  const double frequency = person ? person->lateral_frequency : 1;
+  const double reach = std::min(person ? person->lateral_amplitude : 0.04, 0.5 * size.width - size.rim);
+  std::vector<Hand> stroke(moments);
+  for (std::size_t i = 0; i < moments; ++i) {
+    const double phase = 2 * std::numbers::pi * static_cast<double>(i) / moments;
+    Hand& hand = stroke[i];
+    hand.position = hand.workspace = glm::vec2(static_cast<float>(reach * std::sin(phase)), 0);
+    const double speed = 2 * std::numbers::pi * frequency * reach * std::cos(phase);
+    hand.velocity = hand.raw_velocity = glm::vec2(static_cast<float>(speed), 0);
+    hand.time = static_cast<double>(i) / moments / frequency;
+  }
+  std::vector<Force> drives(moments);
+  tick_all(bank, stroke, drives);
+  const Shaker& shaker = *bank.program().description().device.shaker;
+  for (Force& drive : drives) {
+    drive.y = static_cast<float>(std::clamp<double>(drive.y, shaker.frequency_low, shaker.frequency_high));
+    drive.x = std::min(drive.x, static_cast<float>(shaker.acceleration(1, drive.y)));
+  }
+  MeasuredShaking measured;
+  std::vector<float> amplitudes;
+  double squares = 0;
+  for (const Force& drive : drives) {
+    amplitudes.push_back(std::max(drive.x, 0.0f));
+    squares += static_cast<double>(amplitudes.back()) * amplitudes.back();
+  }
+  measured.rms = static_cast<float>(std::sqrt(squares / moments));
+  const auto p99 = amplitudes.begin() + static_cast<std::ptrdiff_t>(moments * 99 / 100);
+  std::ranges::nth_element(amplitudes, p99);
+  measured.p99 = *p99;
+  measured.max = *std::max_element(p99, amplitudes.end());
+  for (const Force& drive : drives) {
+    if (!(drive.x > 0) || drive.x < measured.p99 / 2) continue;
+    measured.lowest = measured.highest > 0 ? std::min(measured.lowest, drive.y) : drive.y;
+    measured.highest = std::max(measured.highest, drive.y);
+  }
   return measured;
 }
 

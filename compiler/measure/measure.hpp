@@ -15,4 +15,13 @@ struct Measured {
 /// Runs the program at this bank's parameters. Deterministic; about a millisecond.
 Measured measure(const Bank& bank);
 
+/// How a program shakes a pad, as far as the actuator can at each frequency, under a hand that goes to and fro across its patch as the hand `normal` does.
+struct MeasuredShaking {
+  float max = 0, p99 = 0, rms = 0;  ///< of the amplitude, m/s^2
+  float lowest = 0, highest = 0;    ///< Hz, where it shakes with half of its P99 or more
+};
+
+/// The same of a program that vibrates.
+MeasuredShaking measure_shaking(const Bank& bank);
+
 }  // namespace wale

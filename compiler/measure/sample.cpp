@@ -47,15 +47,16 @@ std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
   return hands;
 }
 
-std::string samples_csv(const std::vector<SampledHand>& samples) {
-  std::string text = "t (s),x (m),y (m),vx (m/s),vy (m/s),fx (N),fy (N)\n";
+std::string samples_csv(const std::vector<SampledHand>& samples, bool vibrates) {
+  std::string text = fmt::format("t (s),x (m),y (m),vx (m/s),vy (m/s),{}\n",
+                                 vibrates ? "amplitude (m/s^2),frequency (Hz)" : "fx (N),fy (N)");
   for (const auto& [time, hand, force] : samples)
     text += fmt::format("{},{},{},{},{},{},{}\n", time, hand.position.x, hand.position.y, hand.velocity.x,
                         hand.velocity.y, force.x, force.y);
   return text;
 }
 
-std::string samples_json(const std::vector<SampledHand>& samples) {
+std::string samples_json(const std::vector<SampledHand>& samples, bool vibrates) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& [time, hand, force] : samples)
     json.push_back({{"t", time},
@@ -63,8 +64,8 @@ std::string samples_json(const std::vector<SampledHand>& samples) {
                     {"y", shortest(hand.position.y)},
                     {"vx", shortest(hand.velocity.x)},
                     {"vy", shortest(hand.velocity.y)},
-                    {"fx", shortest(force.x)},
-                    {"fy", shortest(force.y)}});
+                    {vibrates ? "amplitude" : "fx", shortest(force.x)},
+                    {vibrates ? "frequency" : "fy", shortest(force.y)}});
   return json.dump(2) + "\n";
 }
 

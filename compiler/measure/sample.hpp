@@ -20,8 +20,8 @@ struct SampledHand {
 std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands);
 
 /// A line a hand under a header with units, in the shortest digits that read back as the same numbers.
-std::string samples_csv(const std::vector<SampledHand>& samples);
+std::string samples_csv(const std::vector<SampledHand>& samples, bool vibrates = false);
 /// An array of objects with t, x, y, vx, vy, fx, fy in SI units.
-std::string samples_json(const std::vector<SampledHand>& samples);
+std::string samples_json(const std::vector<SampledHand>& samples, bool vibrates = false);
 
 }  // namespace wale

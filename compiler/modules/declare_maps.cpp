@@ -139,6 +139,7 @@ class MapReader {
                        fmt::format("nothing declares a dimension `{}`", words_of(quantity->items[0])),
                        "name the dimension of what the law starts from, or `number`");
       map_.of_carrier = map_.from == percept_.argument() && map_.dimension == percept_.carrier_dimension;
+      read_one();
       return;
     }
     map_.dimension = percept_.carrier_dimension;
@@ -156,6 +157,18 @@ class MapReader {
                        .see(percept_.span, "declared here"));
   }
 
+  /// `one 12 m/s^2`: what stands for the carrier on another kind of device feels like the reference stimulus there.
+  void read_one() {
+    const auto* one = reader_.setting("one");
+    if (!one || one->items.size() != 1 || !one->items[0].value) return;
+    map_.one = reader_.value(*one->items[0].value, map_.dimension);
+    if (map_.of_carrier)
+      reader_.report(Code::wrong_type, one->span, fmt::format("`{}` is the carrier itself", map_.from),
+                     "its size at level 1 is the percept's: leave out `one`");
+    else if (map_.one && !(*map_.one > 0))
+      reader_.report(Code::value_out_of_range, one->span, "level 1 has no size", "write, for example, `one 12 m/s^2`");
+  }
+
   void read_evidence() {
     const auto* evidence = reader_.required("evidence", "slope measured, anchor measured, handle measured");
     if (!evidence) return;
@@ -165,11 +178,11 @@ class MapReader {
                   map_.tied = false;
                   return true;
                 });
-    if (map_.tied && !map_.of_carrier)
+    if (map_.tied && !map_.of_carrier && !map_.one)
       reader_.report(
           Code::wrong_type, evidence->span,
           fmt::format("a law from `{}` is not tied to the reference stimulus of {}", map_.from, map_.percept),
-          "write `anchor none`");
+          "write `anchor none`; or `one`, its size at level 1, where it stands for the carrier on another device");
   }
 
   /// `couples stickiness drag`.

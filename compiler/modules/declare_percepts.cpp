@@ -146,15 +146,20 @@ void read_realisations(RecordReader& reader, const Declarations& declarations, c
     for (std::size_t i = 1; i < setting->items.size(); ++i) {
       const SettingItem& further = setting->items[i];
       const std::string word = further.words.empty() ? "" : further.words[0].text;
-      good = good && ((word == "by" && further.words.size() == 2) || (word == "active" && further.value));
+      good = good && ((word == "by" && further.words.size() == 2) || (word == "active" && further.value) ||
+                      (word == "rate" && further.equals) || (word == "period" && further.value));
       if (good && word == "by") realisation.by = further.words[1].text;
       if (good && word == "active")
         realisation.active_watt = reader.value(*further.value, declarations.dimension("power")).value_or(0);
+      if (good && word == "rate") realisation.rate = *further.equals;
+      if (good && word == "period")
+        realisation.period = reader.value(*further.value, declarations.dimension("length")).value_or(0);
     }
+    good = good && (realisation.rate || realisation.period == 0);
     if (!good) {
-      reader.report(Code::wrong_type, setting->span, "a realisation is a force for a percept",
+      reader.report(Code::wrong_type, setting->span, "a realisation is a force for a percept, or how a pad shakes",
                     "write, for example, `realise roughness = lateral(grating(x, period: 2.5 mm))`, and behind it "
-                    "`, by NAME` to choose a map");
+                    "`, by NAME` to choose a map; of a pad `realise vibration = shaking, rate = 120 Hz`");
       continue;
     }
     realisation.force = *item.equals;

@@ -102,6 +102,11 @@ Look look_at(const Bank& bank, const Memory* memory, const std::vector<glm::vec2
   return look;
 }
 
+/// Of a tick's two numbers the force along the axis; of a pad how strongly it shakes.
+int component_of(const Bank& bank, const Exhibit& exhibit) {
+  return bank.program().description().vibrates() ? 0 : exhibit.axis;
+}
+
 }  // namespace
 
 Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
@@ -196,7 +201,7 @@ Profile force_along(const Bank& bank, const Exhibit& exhibit, double speed, int 
     hand.position[exhibit.axis] = static_cast<float>(profile.at.back());
     hand.velocity[exhibit.axis] = static_cast<float>(speed);
   }
-  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[exhibit.axis]);
+  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[component_of(bank, exhibit)]);
   return profile;
 }
 
@@ -207,7 +212,7 @@ Profile force_against_speed(const Bank& bank, const Exhibit& exhibit, int count)
     profile.at.push_back((i / (count - 1.0) - 0.5) * 2 * exhibit.speed);
     hands[static_cast<std::size_t>(i)].velocity[exhibit.axis] = static_cast<float>(profile.at.back());
   }
-  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[exhibit.axis]);
+  for (Force force : forces_on(bank, hands)) profile.values.push_back(force[component_of(bank, exhibit)]);
   return profile;
 }
 

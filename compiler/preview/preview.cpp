@@ -109,6 +109,15 @@ Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
   return plot;
 }
 
+/// How strongly a pad shakes.
+Plot shaking_plot(const Bank& bank, const Exhibit& exhibit) {
+  Plot plot = speed_plot(bank, exhibit);
+  plot.title = fmt::format("Amplitude of the shaking against velocity along {}", axis_name(exhibit));
+  plot.y_notation = {"m/s²", 1};
+  plot.balanced = false;
+  return plot;
+}
+
 /// Where the hand was along x while it rubbed.
 Plot stroke_plot(const Rehearsal& rehearsal) {
   Plot plot;
@@ -214,10 +223,15 @@ Drawing draw_preview(const Bank& bank, const PreviewText& text) {
   write_words(canvas, bank, text);
   if (exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() || remembers(program)) {
     draw_surface(canvas, bank, exhibit, rehearsal);
+  } else if (program.vibrates()) {
+    draw_surface(canvas, bank, exhibit, rehearsal);
   } else {
     draw_field_and_scale(canvas, bank, exhibit, of_velocity);
   }
-  if (remembers(program) && exhibit.has_relief) {
+  if (program.vibrates()) {
+    if (exhibit.has_relief) draw_plot(canvas, upper_of_two, height_plot(bank, rehearsal.memory, exhibit));
+    draw_plot(canvas, exhibit.has_relief ? lower_of_two : tall_plot, shaking_plot(bank, exhibit));
+  } else if (remembers(program) && exhibit.has_relief) {
     Plot heights = height_plot(bank, rehearsal.memory, exhibit);
     heights.x_name = fmt::format("position {}", axis_name(exhibit));
     draw_plot(canvas, upper_of_two, heights);

@@ -55,12 +55,16 @@ PreviewText preview_text(const Bank& bank) {
   std::vector<std::string> evidence;
   for (const DescribedPercept& percept : description.percepts) {
     text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
-    text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, force_notation(percept.amplitude))});
+    const Notation notation = percept.unit == "m/s^2" ? Notation{"m/s²", 1} : force_notation(percept.amplitude);
+    text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, notation)});
     evidence.push_back(evidence_of(percept));
   }
   text.evidence = evidence.empty() ? "described by its physics alone: no percept" : joined(evidence, " · ");
-  text.figures.push_back(
-      {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
+  if (description.shaking)
+    text.figures.push_back({"most shaking", shown_quantity(description.shaking->max, {"m/s²", 1})});
+  else
+    text.figures.push_back(
+        {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});
 
   std::vector<bool> is_level(program.parameters.size(), false);
   for (const PerceptRecord& percept : program.percepts) {

@@ -20,8 +20,9 @@ Domain whole_domain(const PatchProgram& program) {
        {Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y}) {
     domain[acceleration] = either_way(envelope.acceleration);
   }
-  domain[Input::patch_half_width] = domain[Input::patch_half_height] = Interval::between(0, 0.5f * envelope.reach);
-  domain[Input::patch_rim] = Interval::between(0, 0.5f * envelope.reach);
+  const float widest = static_cast<float>(program.device.widest_patch());
+  domain[Input::patch_half_width] = domain[Input::patch_half_height] = Interval::between(0, 0.5f * widest);
+  domain[Input::patch_rim] = Interval::between(0, 0.5f * widest);
   domain[Input::time] = Interval::between(0, std::numeric_limits<float>::max());
   domain[Input::button] = Interval::between(0, 1);
   domain[Input::probe] = Interval::everything(true);

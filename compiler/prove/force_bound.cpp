@@ -35,7 +35,7 @@ class Splitting {
   Splitting(const Program& program, const ForceSlice& slice)
       : machine_(program), slice_(slice), relations_(program.description(), slice.setup, slice.tick) {
     machine_.replace_peaks(slice.peaks);
-    for (const Output& output : program.description().outputs) values_[output.axis] = output.value;
+    for (const Output& output : program.description().outputs) values_[output.component()] = output.value;
   }
 
   Part evaluated(const Domain& domain) {

@@ -37,9 +37,9 @@ Proof prove(const Program& program, const Domain& domain) {
   machine.run(description.tick, relations, description.setup.size(), proof.tick);
   std::array<RegisterNumber, 2> values{};
   for (const Output& output : description.outputs) {
-    proof.force[output.axis] = machine.range(output.value);
-    proof.ceiling[output.axis] = machine.range(output.ceiling);
-    values[output.axis] = output.value;
+    proof.force[output.component()] = machine.range(output.value);
+    proof.ceiling[output.component()] = machine.range(output.ceiling);
+    values[output.component()] = output.value;
   }
   proof.bound_newton =
       std::min(length_bound(proof.force[0], proof.force[1]), machine.length(relations, values[0], values[1]));
@@ -50,7 +50,7 @@ Proof prove(const Program& program, const Domain& domain) {
     while (description.tick[limit].destination != output.value) --limit;
     const std::span before(description.tick.data(), limit);
     machine.run(before, relations, description.setup.size());
-    proof.unlimited[output.axis] = machine.range(description.tick[limit].a);
+    proof.unlimited[output.component()] = machine.range(description.tick[limit].a);
   }
   proof.picture = run(description.picture.code);
   proof.frame = run(description.picture.frame);

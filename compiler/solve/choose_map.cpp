@@ -4,6 +4,19 @@
 
 namespace wale {
 
+Percept carried_on(const DeviceDeclaration& device, const Percept& percept, const Declarations& declarations) {
+  if (!device.profile.shaker || !device.realise.contains(percept.name)) return percept;
+  Percept shaken = percept;
+  shaken.carrier = shaking_carrier(percept.name);
+  shaken.carrier_dimension = declarations.dimension("acceleration");
+  shaken.one = 0;  // the map knows
+  shaken.extractor = Extractor::acceleration;
+  shaken.period = {};
+  shaken.cue = "shaking";
+  shaken.exerts = 1;
+  return shaken;
+}
+
 MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, const Declarations& declarations,
                      const std::string& named) {
   const auto rule = device.realise.find(percept.name);
@@ -12,7 +25,8 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
   std::vector<const Map*> tied;
   declarations.each_map([&](const Map& map) {
     if (map.percept != percept.name || (!by.empty() && map.name != by)) return;
-    (map.tied && map.of_carrier ? tied : choice.untied).push_back(&map);
+    const bool of_carrier = map.from == percept.argument() && map.dimension == percept.carrier_dimension;
+    (map.tied && of_carrier ? tied : choice.untied).push_back(&map);
   });
   if (!tied.empty()) choice.untied.clear();
   const auto choose = [&](const std::vector<const Map*>& candidates) {
@@ -22,7 +36,7 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
   };
   const auto declared_class = [&](const std::string& name) {
     const auto* found = declarations.devices.find(name);
-    return found ? found->of_class : "";
+    return found ? found->of_class : name;  // a map may be of a whole class
   };
   const auto measured = [&](const auto& there) {
     std::vector<const Map*> all;

@@ -301,13 +301,13 @@ std::optional<TermId> Law::level(Terms& terms, TermId carrier, const Sizes& coup
 }
 
 std::optional<TermId> Law::level_of_magnitude(Terms& terms, TermId asked) const {
-  const auto one = magnitude(terms, terms.literal(percept_.one));
+  const auto one = magnitude(terms, terms.literal(map_.one.value_or(percept_.one)));
   if (!one) return std::nullopt;
   return terms.apply(Operation::divide, asked, *one);
 }
 
 std::optional<TermId> Law::carrier(Terms& terms, TermId level, const Sizes& couples) const {
-  const auto one = magnitude(terms, terms.literal(percept_.one));
+  const auto one = magnitude(terms, terms.literal(map_.one.value_or(percept_.one)));
   if (!one) return std::nullopt;
   const TermId magnitude = terms.apply(Operation::multiply, level, *one);
   if (!map_.table.empty()) return looked_up(terms, magnitude, true);
@@ -324,7 +324,7 @@ bool Law::has_inverse() const {
 }
 
 double Law::level_of(double carrier, const std::vector<double>& couples) const {
-  if (magnitude_stands_alone_) return magnitude_of(carrier, couples) / magnitude_of(percept_.one);
+  if (magnitude_stands_alone_) return magnitude_of(carrier, couples) / magnitude_of(map_.one.value_or(percept_.one));
   return number_of([&](Terms& terms) { return level(terms, terms.literal(carrier), literals(terms, couples)); });
 }
 
@@ -335,7 +335,7 @@ double Law::magnitude_of(double carrier, const std::vector<double>& couples) con
 
 double Law::carrier_of(double level, const std::vector<double>& couples) const {
   if (magnitude_stands_alone_ && carrier_stands_alone_)
-    return solved_for(of_carrier_, level * magnitude_of(percept_.one), couples);
+    return solved_for(of_carrier_, level * magnitude_of(map_.one.value_or(percept_.one)), couples);
   return number_of([&](Terms& terms) { return this->carrier(terms, terms.literal(level), literals(terms, couples)); });
 }
 

@@ -92,13 +92,14 @@ void PerceptSolver::warn_of_range(const Told& told) {
   const Percept& percept = *told.percept;
   const Map& map = *told.map;
   const std::string of_carrier = unit(percept);
-  const double most = percept.exerts > 0 ? device_.profile.force_newton / percept.exerts : HUGE_VAL;
+  const double most = percept.exerts > 0 ? device_.profile.most() / percept.exerts : HUGE_VAL;
   const double size = told.size;
   constexpr double rounding = 1e-6;  // a reference stimulus at the very end of the range is inside it
   if (size > most)
     report(Code::saturates, asked.span,
-           fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` pushes {:.3g} {} at most", asked.name, asked.level, size,
-                       of_carrier, device_.profile.name, most, of_carrier),
+           fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` {} {:.3g} {} at most", asked.name, asked.level, size,
+                       of_carrier, device_.profile.name, device_.profile.shaker ? "shakes with" : "pushes", most,
+                       of_carrier),
            Advice(fmt::format("the most it can render is {:.2g}", law.level_of(most)))
                .fact("most_level", law.level_of(most))
                .fact("needed", size, of_carrier)
@@ -139,11 +140,12 @@ bool PerceptSolver::may_exceed() const {
         told.solved ? !told.map->couples.empty() : !constant_value(*terms_, (*carriers_)[told.carrier].size);
     sum += live ? HUGE_VAL : told.percept->exerts * (told.solved ? most_size(told) : told.size);
   }
-  return count > 1 && !(sum <= device_.profile.force_newton);
+  return count > 1 && !(sum <= device_.profile.most());
 }
 
 void PerceptSolver::reduce() {
-  const double limit = device_.profile.force_newton;
+  const double limit = device_.profile.most();
+  const char* limited = device_.profile.shaker ? "m/s^2" : "N";
   double used = 0;
   int count = 0;
   for (const Told& told : told_) {
@@ -159,17 +161,17 @@ void PerceptSolver::reduce() {
     if (told.size > left && told.percept->exerts * told.size <= limit) {
       const double level = told.law->level_of(left, coupled_sizes(told));
       report(Code::reduced_percept, told.asked->span,
-             fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would come to {:.3g} N, and `{}` gives "
-                         "{:.3g} N",
-                         told.asked->name, told.asked->level, level, used + told.percept->exerts * told.size,
-                         device_.profile.name, limit),
+             fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would come to {:.3g} {}, and `{}` gives "
+                         "{:.3g} {}",
+                         told.asked->name, told.asked->level, level, used + told.percept->exerts * told.size, limited,
+                         device_.profile.name, limit, limited),
              Advice(before.empty() ? std::string("the forces that are fixed come first; weaken them")
                                    : fmt::format("what stands above it comes first: {}; put it higher, mark it "
                                                  "`essential`, or ask for less of the others",
                                                  fmt::join(before, ", ")))
                  .fact("asked", told.asked->level)
                  .fact("reduced", level)
-                 .fact("most", limit, "N"));
+                 .fact("most", limit, limited));
     }
     told.size = std::min(told.size, left);
     used += told.percept->exerts * told.size;
@@ -200,7 +202,7 @@ std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, Ter
   if (may_exceed()) {
     // What is left of the device's force for each, after what the author fixed and what matters more.
     const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };
-    TermId left = terms.literal(device_.profile.force_newton);
+    TermId left = terms.literal(device_.profile.most());
     const auto take = [&](const Told& told) {
       const TermId force = apply(Operation::multiply, terms.literal(told.percept->exerts), *told.term);
       left = apply(Operation::maximum, apply(Operation::subtract, left, force), terms.literal(0));
@@ -240,7 +242,7 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   record.scatter = static_cast<float>(map.scatter);
   record.slope = map.slope;
   record.anchor = map.anchor;
-  record.handle = map.device == device_.profile.name ? map.handle : Evidence::transferred;
+  record.handle = is_of(map, device_) ? map.handle : Evidence::transferred;
   record.map = fmt::format("{} from {}", map.percept, map.from);
   record.device = map.device;
   record.source = map.source;
@@ -250,7 +252,7 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
     record.period_low = static_cast<float>(percept.period.low);
     record.period_high = static_cast<float>(percept.period.high);
   }
-  record.one = static_cast<float>(percept.one);
+  record.one = static_cast<float>(map.one.value_or(percept.one));
   record.near_threshold = static_cast<float>(percept.near_threshold);
   record.spread = static_cast<float>(map.spread);
   record.observers = static_cast<std::uint16_t>(std::clamp(map.observers, 0, 65535));
@@ -262,6 +264,40 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
     record.weber_source = threshold->source;
   }
   if (const auto rule = realised_.find(percept.name); rule != realised_.end()) record.realisation = rule->second;
+  return record;
+}
+
+FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
+  FateRecord record{.name = asked.name, .percept = true, .asked = static_cast<float>(asked.level), .reason = {}};
+  const auto found = std::ranges::find(told_, &asked, &Told::asked);
+  if (found == told_.end()) {
+    record.fate = Fate::lost;
+    return record;
+  }
+  const Map& map = *found->map;
+  const auto rule = realised_.find(asked.name);
+  // What several of them share, or what couples others, is told by its size; a law of one at 0 of the others is near.
+  double most = found->percept->exerts > 0 ? device_.profile.most() / found->percept->exerts : HUGE_VAL;
+  // Where it is known how often a pad will shake, it gives no more than it does at that frequency.
+  if (const auto& shaker = device_.profile.shaker)
+    if (const auto rate = constant_value(*terms_, (*carriers_)[found->carrier].force_y, &material_.parameters))
+      most = std::min(most, shaker->acceleration(1, std::clamp(*rate, shaker->frequency_low, shaker->frequency_high)));
+  const double given = Law(map, *found->percept).level_of(std::min(found->size, most), coupled_sizes(*found));
+  record.given = std::isfinite(given) ? static_cast<float>(std::clamp(given, 0.0, 1.0)) : record.asked;
+  constexpr double rounding = 1e-4;
+  const bool foreign = !is_of(map, device_);
+  if (found->solved && given < asked.level * (1 - rounding)) {
+    record.fate = Fate::saturated;
+    record.reason = found->size > most ? fmt::format("`{}` gives no more", device_.profile.name)
+                                       : fmt::format("`{}` gives no more to all together", device_.profile.name);
+  } else if (rule != realised_.end() || foreign) {
+    record.fate = Fate::approximated;
+  }
+  if (rule != realised_.end())
+    record.reason += fmt::format("{}rendered as {}", record.reason.empty() ? "" : "; ", rule->second);
+  if (foreign)
+    record.reason += fmt::format("{}by {}, on {}", record.reason.empty() ? "" : "; ",
+                                 map.name.empty() ? map.source : map.name, map.device);
   return record;
 }
 

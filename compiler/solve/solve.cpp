@@ -10,6 +10,7 @@
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/copy_terms.hpp"
 #include "compiler/solve/solve_percepts.hpp"
+#include "compiler/solve/vibration.hpp"
 #include "compiler/text/spelling.hpp"
 
 namespace wale {
@@ -18,13 +19,15 @@ namespace {
 
 class Solver {
  public:
+  /// `physics` is what becomes of the material's physics, where that is known.
   Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
-         Diagnostics& diagnostics)
+         Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
       : material_(material),
         declarations_(module.declarations()),
         sources_(sources),
         resolver_(resolver),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        physics_(std::move(physics)) {}
 
   SolvedMaterial solve(const std::string& device_name) {
     solved_.name = material_.name;
@@ -49,7 +52,7 @@ class Solver {
     solved_.patch_rim =
         std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
 
-    const double workspace = device_->profile.workspace_diameter;
+    const double workspace = device_->profile.widest_patch();
     if (std::max(solved_.patch_width, solved_.patch_height) > workspace)
       report(Code::value_out_of_range, material_.patch ? material_.patch_span : material_.span,
              fmt::format("a patch of {:.4g} mm x {:.4g} mm does not fit `{}`", 1e3 * solved_.patch_width,
@@ -80,13 +83,14 @@ class Solver {
     TermCopier copier(open_terms_, solved_.terms);
     substitute(percepts, copier);
     percepts.describe(solved_);
+    tell_fates(percepts);
     return std::move(solved_);
   }
 
  private:
   /// A material without a force takes the device's own realisations of its percepts, side by side.
   bool realise_percepts() {
-    if (material_.percepts.empty()) {
+    if (material_.percepts.empty() && physics_.empty()) {
       report(Code::no_force, material_.span,
              fmt::format("`{}` says neither how it pushes nor how it feels", material_.name),
              "add `physical { force = … }` or `perceptual { roughness … }`");
@@ -96,6 +100,7 @@ class Solver {
     checker.states() = states_;
     const std::size_t errors_before = diagnostics_.error_count();
     std::vector<Span> spans;
+    const bool vibrates = device_->profile.shaker.has_value();
     for (const auto& asked : material_.percepts) {
       if (!declarations_.percepts.find(asked.name)->has_reference) continue;  // it has no levels: said later
       const auto rule = device_->realise.find(asked.name);
@@ -103,15 +108,24 @@ class Solver {
         lose(asked);
         continue;
       }
+      if (vibrates) {
+        realise_by_shaking(asked, rule->second, checker, spans);
+        continue;
+      }
       realise(asked, rule->second, checker);
       spans.resize(checker.open_spans().size(), asked.span);
+    }
+    if (!force_ && vibrates && diagnostics_.error_count() == errors_before) {
+      // The rest of the material, its picture and what it says, is there all the same.
+      const TermId none = open_terms_.literal(0);
+      force_ = {none, none};
     }
     if (!force_) {
       if (diagnostics_.error_count() == errors_before) lose_all();
       return false;
     }
-    force_span_ = material_.percepts.front().span;
-    carriers_ = checker.carriers();
+    if (!material_.percepts.empty()) force_span_ = material_.percepts.front().span;
+    if (!vibrates) carriers_ = checker.carriers();
     open_spans_ = spans;
     states_ = checker.states();
     for (const auto& carrier : carriers_)
@@ -140,17 +154,53 @@ class Solver {
       force_ = {value.x, value.y};
   }
 
-  /// A percept that the device has no rule for.
-  void lose(const AskedPercept& asked) {
-    lost_.insert(asked.name);
+  /// Adds what stands for a percept on a device that vibrates.
+  void realise_by_shaking(const AskedPercept& asked, const Realisation& rule, ExpressionChecker& checker,
+                          std::vector<Span>& spans) {
+    open_terms_.attribute(asked.span);
+    checker.read(*rule.home);
+    const TermId size = open_terms_.add(
+        {.kind = TermKind::open, .index = static_cast<std::uint32_t>(spans.size()), .span = asked.span});
+    const auto period = texture_period(material_, *declarations_.percepts.find(asked.name));
+    Scope scope = shaking_scope(open_terms_, size, period ? *period : open_terms_.literal(rule.period), *device_,
+                                declarations_, asked.span);
+    const Value amplitude =
+        checker.check_as(*rule.tree, rule.force, scope, Value::Type::number, declarations_.dimension("acceleration"));
+    const Value rate =
+        checker.check_as(*rule.tree, *rule.rate, scope, Value::Type::number, declarations_.dimension("frequency"));
+    if (amplitude.failed() || rate.failed()) return;
+    const auto of_the_hand = [&](const Value& value) {
+      return open_terms_.dependence(value.x).on(Dependence::position | Dependence::velocity | Dependence::moment);
+    };
+    if (!device_->profile.has_position() && (of_the_hand(amplitude) || of_the_hand(rate)))
+      return lose(asked, fmt::format("`{}` does not know where the hand is", device_->profile.name));
+    spans.push_back(asked.span);
+    Shaking shaking{amplitude.x, rate.x};
+    carriers_.push_back({.name = shaking_carrier(asked.name),
+                         .size = size,
+                         .open = true,
+                         .dimension = declarations_.dimension("acceleration"),
+                         .force_x = shaking.amplitude,
+                         .force_y = shaking.rate,
+                         .relief = {},
+                         .span = asked.span,
+                         .size_span = asked.span});
+    realised_[asked.name] =
+        fmt::format("{} at {}", sources_.text(rule.tree->span(rule.force)), sources_.text(rule.tree->span(*rule.rate)));
+    if (force_) shaking = together(open_terms_, {(*force_)[0], (*force_)[1]}, shaking);
+    force_ = {shaking.amplitude, shaking.rate};
+  }
+
+  /// A percept that the device has no rule for, or no use of it.
+  void lose(const AskedPercept& asked, const std::string& why = {}) {
     const std::string& device = device_->profile.name;
+    lost_[asked.name] = why.empty() ? fmt::format("`{}` has no realisation of {}", device, asked.name) : why;
     if (asked.essential)
       report(Code::percept_unrealised, asked.span,
              fmt::format("`{}` cannot render {}, which is essential here", device, asked.name),
              "build it for another device, or write the physics: `physical { force = … }`");
-    else if (material_.percepts.size() > 1)
-      report(Code::lost_percept, asked.span,
-             fmt::format("`{}` has no realisation of {}, so it is lost", device, asked.name),
+    else if (material_.percepts.size() > 1 || device_->profile.shaker)
+      report(Code::lost_percept, asked.span, lost_[asked.name] + ", so it is lost",
              "leave it out, write the physics, or mark it `essential` to refuse such a device");
   }
 
@@ -164,6 +214,33 @@ class Solver {
     report(Code::percept_unrealised, asked.span,
            fmt::format("`{}` has no realisation of {} of its own", device_->profile.name, asked.name),
            "write the physics: `physical { force = … }`");
+  }
+
+  /// What becomes of each percept asked for, and of the physics. What of it is lost is said once, of a material that
+  /// has a force for devices that push.
+  void tell_fates(const PerceptSolver& percepts) {
+    for (const auto& asked : material_.percepts) {
+      const auto lost = lost_.find(asked.name);
+      if (lost == lost_.end())
+        solved_.fates.push_back(percepts.fate(asked));
+      else
+        solved_.fates.push_back({.name = asked.name,
+                                 .percept = true,
+                                 .fate = Fate::lost,
+                                 .asked = static_cast<float>(asked.level),
+                                 .reason = lost->second});
+    }
+    if (material_.force)
+      solved_.fates.push_back({.name = "force", .fate = Fate::kept, .reason = "as its author wrote it"});
+    std::string lost;
+    for (const FateRecord& each : physics_)
+      if (each.fate == Fate::lost) lost += (lost.empty() ? "" : "; ") + each.name + ": " + each.reason;
+    if (!lost.empty())
+      report(Code::lost_percept, material_.force_span,
+             fmt::format("on `{}` some of this force is lost ({})", device_->profile.name, lost),
+             "`wale describe --device` says what becomes of each; say what matters as a percept, and mark it "
+             "`essential` to refuse such a device");
+    solved_.fates.insert(solved_.fates.end(), physics_.begin(), physics_.end());
   }
 
   /// A size that neither the author nor a percept sets.
@@ -281,14 +358,20 @@ class Solver {
   Span force_span_;
   std::vector<CheckedState> states_;             ///< the material's, and what a realisation adds
   std::map<std::string, std::string> realised_;  ///< percepts that the device renders in its own way: how
-  std::set<std::string> lost_;                   ///< percepts that it does not render
+  std::map<std::string, std::string> lost_;      ///< percepts that it does not render: why
+  std::vector<FateRecord> physics_;              ///< of what the device cannot exert
 };
 
 }  // namespace
 
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
                      const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics) {
-  return Solver(material, module, sources, resolver, diagnostics).solve(device);
+  const DeviceDeclaration* found = module.declarations().devices.find(device);
+  if (!found || !found->profile.shaker || !material.force)
+    return Solver(material, module, sources, resolver, diagnostics).solve(device);
+  std::vector<FateRecord> physics;
+  const CheckedMaterial rest = without_force(material, *found, module.declarations(), physics);
+  return Solver(rest, module, sources, resolver, diagnostics, std::move(physics)).solve(device);
 }
 
 }  // namespace wale

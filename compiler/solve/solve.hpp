@@ -32,7 +32,7 @@ struct SolvedMaterial {
   Terms terms;
   std::vector<HeightTable> tables;
   std::vector<Parameter> parameters;  ///< the author's, then one for each solved percept
-  std::array<TermId, 2> force{};
+  std::array<TermId, 2> force{};      ///< N along x and y; on a device that vibrates its amplitude and its frequency
   Span force_span;
   std::optional<TermId> relief;
   bool relief_is_length = false;
@@ -42,6 +42,7 @@ struct SolvedMaterial {
   std::vector<SolvedWrite> writes;
   std::vector<CheckedMark> marks;
   std::vector<SolvedPercept> percepts;
+  std::vector<FateRecord> fates;  ///< of the percepts asked for, in their order, then of the physics
   DeviceProfile device;
   double patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m
   double active_watt = 0;                                   ///< that the program may give by itself, W
@@ -49,8 +50,9 @@ struct SolvedMaterial {
 };
 
 /// Chooses maps for the device and puts their inverse laws, as expressions in a live level, where quantities were left
-/// open; a material that says only what it feels like gets the device's own realisation. Purely symbolic but for
-/// warnings about the level asked for. The result is fit for `lower` only when no error was reported.
+/// open; a material that says only what it feels like gets the device's own realisation, and so does one whose force
+/// the device cannot exert, since it only vibrates. Purely symbolic but for warnings about the level asked for. The
+/// result is fit for `lower` only when no error was reported.
 SolvedMaterial solve(const CheckedMaterial& material, const CheckedModule& module, const std::string& device,
                      const SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
 

@@ -48,6 +48,13 @@ bool PerceptSolver::is_summand(const Carrier& carrier) const {
   return false;
 }
 
+const Percept& PerceptSolver::percept(const std::string& name) {
+  if (!device_.profile.shaker) return *declarations_.percepts.find(name);
+  const auto found = percepts_.find(name);
+  if (found != percepts_.end()) return found->second;
+  return percepts_.emplace(name, carried_on(device_, *declarations_.percepts.find(name), declarations_)).first->second;
+}
+
 void PerceptSolver::find_told_carriers() {
   for (std::size_t i = 0; i < carriers_->size(); ++i) {
     const Carrier& carrier = (*carriers_)[i];
@@ -58,8 +65,8 @@ void PerceptSolver::find_told_carriers() {
 }
 
 void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carriers, const std::array<TermId, 2>& force,
-                         const std::map<std::string, std::string>& realised, const std::set<std::string>& lost,
-                         std::vector<Parameter>& parameters) {
+                         const std::map<std::string, std::string>& realised,
+                         const std::map<std::string, std::string>& lost, std::vector<Parameter>& parameters) {
   terms_ = &terms;
   carriers_ = &carriers;
   force_ = force;
@@ -69,7 +76,8 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
   for (const auto& asked : material_.percepts)
     if (!lost.contains(asked.name)) match(asked);
   // What nobody asked for is told all the same, where it is alone of its kind and a map is there.
-  declarations_.percepts.each([&](const std::string& name, const Percept& percept) {
+  declarations_.percepts.each([&](const std::string& name, const Percept& declared) {
+    const Percept& percept = this->percept(name);
     if (!percept.has_reference) return;
     if (std::ranges::any_of(told_, [&](const Told& told) { return told.percept == &percept; })) return;
     std::vector<std::size_t> mine;
@@ -129,7 +137,7 @@ void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const
 }
 
 void PerceptSolver::match(const AskedPercept& asked) {
-  const Percept& percept = *declarations_.percepts.find(asked.name);
+  const Percept& percept = this->percept(asked.name);
   std::vector<std::size_t> mine;
   std::vector<const Carrier*> open;
   for (const std::size_t i : candidates_) {

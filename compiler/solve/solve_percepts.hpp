@@ -28,7 +28,7 @@ class PerceptSolver {
   /// parameter for each percept that is solved. `realised` are those that the device renders by a rule of its own, each
   /// with the rule's force as written.
   void plan(const Terms& terms, const std::vector<Carrier>& carriers, const std::array<TermId, 2>& force,
-            const std::map<std::string, std::string>& realised, const std::set<std::string>& lost,
+            const std::map<std::string, std::string>& realised, const std::map<std::string, std::string>& lost,
             std::vector<Parameter>& parameters);
 
   /// Whether an open quantity is solved, or something has been said of it.
@@ -37,6 +37,9 @@ class PerceptSolver {
   /// Builds the size of every open quantity that is solved, in setup expressions of `solved`; `copy` brings what the
   /// author fixed there.
   std::map<std::uint32_t, TermId> sizes(SolvedMaterial& solved, TermCopier& copy);
+
+  /// What becomes of a percept that was asked for and planned without an error.
+  FateRecord fate(const AskedPercept& asked) const;
 
   /// Adds a record for every percept that a carrier tells of, asked for or not; the asked ones first, in their order.
   void describe(SolvedMaterial& solved);
@@ -59,6 +62,8 @@ class PerceptSolver {
     std::optional<TermId> term;        ///< in the solved terms, once it is built
   };
 
+  /// A percept as this device carries it.
+  const Percept& percept(const std::string& name);
   void find_told_carriers();
   bool is_summand(const Carrier& carrier) const;
   void match(const AskedPercept& asked);
@@ -86,7 +91,10 @@ class PerceptSolver {
   std::vector<double> coupled_sizes(const Told& told) const;
   Law::Sizes coupled_terms(const Told& told, SolvedMaterial& solved) const;
   PerceptRecord record(const Told& told) const;
-  std::string unit(const Percept& percept) const { return declarations_.names().unit(percept.carrier_dimension); }
+  std::string unit(const Percept& percept) const {
+    return percept.extractor == Extractor::acceleration ? "m/s^2"
+                                                        : declarations_.names().unit(percept.carrier_dimension);
+  }
   void settle(const Carrier& carrier) {
     if (carrier.open) settled_.insert((*terms_)[carrier.size].index);
   }
@@ -102,7 +110,8 @@ class PerceptSolver {
   const std::vector<Carrier>* carriers_ = nullptr;
   std::array<TermId, 2> force_{};
   std::map<std::string, std::string> realised_;
-  std::vector<std::size_t> candidates_;  ///< carriers that tell of something
+  std::map<std::string, Percept> percepts_;  ///< as a device that vibrates carries them: see `percept`
+  std::vector<std::size_t> candidates_;      ///< carriers that tell of something
   std::vector<Told> told_;
   std::vector<std::size_t> order_;  ///< of `told_`: what is coupled before what couples it
   std::set<std::uint32_t> settled_;

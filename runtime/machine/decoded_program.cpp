@@ -70,7 +70,7 @@ DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(ve
   for (const State& state : description.states) state_rules.emplace_back(state);
   for (const GridWrite& write : description.writes)
     write_rules.emplace_back(write, description.grids[write.grid], grids[write.grid]);
-  for (const Output& output : description.outputs) (output.axis == 0 ? force_x : force_y) = output.value;
+  for (const Output& output : description.outputs) (output.component() == 0 ? force_x : force_y) = output.value;
 }
 
 }  // namespace wale

@@ -60,7 +60,7 @@ std::optional<std::size_t> Program::parameter(std::string_view name) const {
 
 Bank::Bank(const Program& program, std::span<const float> parameters, PatchSize size)
     : program_(program),
-      size_(sensible(size, program.default_size(), program.decoded().envelope.reach)),
+      size_(sensible(size, program.default_size(), static_cast<float>(program.description().device.widest_patch()))),
       registers_(program.description().register_count()) {
   const PatchProgram& description = program_.description();
   float* registers = registers_.data();

@@ -94,7 +94,7 @@ class Verifier {
     verify_picture();
     for (std::size_t i = 0; i < program_.percepts.size(); ++i) verify_percept(i);
     verify_outputs();
-    verify_costs();
+    verify_costs(program_);
   }
 
  private:
@@ -313,43 +313,58 @@ class Verifier {
     for (int i = legal_fields[instruction.operation].results; --i > 0;) *++result = section.stamp;
   }
 
-  /// Keeps up to date which setup registers are proved to lie below the device's force.
+  /// Keeps up to date below what the setup registers are proved to lie.
   void note_ceiling(const Instruction& instruction) {
     const int results = legal_fields[instruction.operation].results;
-    char* proved = proved_.data() + (instruction.destination - first_setup_);
-    std::fill(proved, proved + results, false);
+    float* proved = proved_.data() + (instruction.destination - first_setup_);
+    std::fill(proved, proved + results, 0.0f);
     if (instruction.operation == static_cast<std::uint8_t>(Operation::limit)) {
-      *proved = is_ceiling_constant(instruction.b);
+      *proved = ceiling_constant(instruction.b);
     }
   }
 
-  bool is_proved(RegisterNumber number) const {
-    return number >= first_setup_ && number < first_state_ && proved_[number - first_setup_] != 0;
+  /// What a setup register is proved to lie below, or 0.
+  float proved(RegisterNumber number) const {
+    return number >= first_setup_ && number < first_state_ ? proved_[number - first_setup_] : 0;
   }
 
-  bool is_ceiling_constant(RegisterNumber number) const {
-    if (number < first_constant || number >= program_.first_parameter()) return false;
+  /// A constant that may be a ceiling, or 0.
+  float ceiling_constant(RegisterNumber number) const {
+    if (number < first_constant || number >= program_.first_parameter()) return 0;
     const float value = program_.constants[number - first_constant];
-    return value > 0 && value <= program_.device.force_newton;
+    return value > 0 ? value : 0;
   }
 
+  /// A program pushes or vibrates, as its device does.
   void verify_outputs() const {
+    const bool vibrates = program_.vibrates();
+    const std::array<std::string, 2> names = vibrates ? std::array<std::string, 2>{"amplitude", "frequency"}
+                                                      : std::array<std::string, 2>{"force x", "force y"};
     std::array<int, 2> seen{};
     for (const Output& output : program_.outputs) {
-      if (output.quantity != OutputQuantity::force || output.axis > 1) {
-        refuse("an output is neither force x nor force y");
+      const bool known =
+          vibrates ? output.quantity == OutputQuantity::amplitude || output.quantity == OutputQuantity::frequency
+                   : output.quantity == OutputQuantity::force;
+      if (!known || output.axis > (vibrates ? 0 : 1)) {
+        refuse("an output is neither ", names[0], " nor ", names[1],
+               vibrates ? ", which are all that the device has" : "");
       }
-      ++seen[output.axis];
-      verify_output(output);
+      ++seen[output.component()];
+      verify_output(output, "output " + names[output.component()]);
     }
-    for (std::size_t axis = 0; axis < seen.size(); ++axis) {
-      if (seen[axis] != 1)
-        refuse("output force ", "xy"[axis], " is given ", seen[axis], " times and must be given once");
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i] != 1) refuse("output ", names[i], " is given ", seen[i], " times and must be given once");
     }
   }
 
-  void verify_output(const Output& output) const {
-    const std::string name = std::string("output force ") + "xy"[output.axis];
+  /// The most that the device gives of an output, as a program's constants have it.
+  float device_limit(const Output& output) const {
+    const DeviceProfile& device = program_.device;
+    return static_cast<float>(output.quantity == OutputQuantity::frequency ? device.shaker->frequency_high
+                                                                           : device.most());
+  }
+
+  void verify_output(const Output& output, const std::string& name) const {
     const Code code = program_.tick;
     const auto last = last_writer(code, code.size(), output.value);
     if (!last) refuse(name, " is register ", output.value, ", which tick does not write");
@@ -362,7 +377,9 @@ class Verifier {
       refuse_at(tick, code, *last, name, " is limited by register ", limit.b, " and declares register ", output.ceiling,
                 " its ceiling");
     }
-    if (is_ceiling_constant(output.ceiling) || is_proved(output.ceiling)) return;
+    const float most = device_limit(output),
+                ceiling_value = std::max(ceiling_constant(output.ceiling), proved(output.ceiling));
+    if (ceiling_value > 0 && ceiling_value <= most) return;
     const auto ceiling = [&](const auto&... parts) {
       // Where setup makes the ceiling, that is what went wrong.
       const auto made = last_writer(program_.setup, program_.setup.size(), output.ceiling);
@@ -370,31 +387,11 @@ class Verifier {
       refuse_at(tick, code, *last, parts...);
     };
     ceiling(name, " has register ", output.ceiling, " for its ceiling, which is neither a constant above 0 and up to ",
-            program_.device.force_newton, " N nor limited by one in setup");
+            most, unit_of(output.quantity), " nor limited by one in setup");
   }
 
-  void verify_costs() const {
-    const double period = tick_share_of_period * 1e9 / program_.device.rate;
-    const auto check = [period](const std::string& name, std::span<const Instruction> code) {
-      const auto cost = static_cast<double>(cost_of(code));
-      if (cost > period) {
-        refuse(name, " costs ", cost, " units and the device's period has room for ", std::floor(period));
-      }
-    };
-    check("tick", program_.tick);
-    check("enter", program_.enter);
-    check("picture", program_.picture.code);
-    check("frame", program_.picture.frame);
-    for (std::size_t i = 0; i < program_.percepts.size(); ++i) {
-      check("percept " + std::to_string(i), program_.percepts[i].prediction);
-    }
-    double setup = static_cast<double>(cost_of(program_.setup));
-    for (const Peak& peak : program_.peaks) {
-      setup += static_cast<double>(peak.points) * (1.0 + static_cast<double>(cost_of(peak.code)));
-    }
-    if (setup > setup_cost_limit) {
-      refuse("setup and its peaks cost ", setup, " units and may cost ", setup_cost_limit);
-    }
+  static std::string_view unit_of(OutputQuantity quantity) {
+    return quantity == OutputQuantity::force ? " N" : quantity == OutputQuantity::frequency ? " Hz" : " m/s^2";
   }
 
   static std::string place(const Section& section, std::size_t number, const Instruction& instruction) {
@@ -466,7 +463,7 @@ class Verifier {
   std::vector<std::uint32_t> readable_;
   std::array<std::size_t, field_kinds> ends_{};  ///< by field: operands of the section at work are below
   std::uint32_t stamp_ = always;
-  std::vector<char> proved_;  ///< setup registers below the device's force
+  std::vector<float> proved_;  ///< by setup register: what it is proved to lie below, 0 for nothing
 };
 
 }  // namespace

@@ -119,7 +119,7 @@ void verify_lattices(const PatchProgram& program) {
 }
 
 void verify_patch(const PatchProgram& program) {
-  const double most = program.device.workspace_diameter;
+  const double most = program.device.widest_patch();
   const auto side = [most](float value, std::string_view what) {
     if (!(value >= 2 * arithmetic::least_normal && value <= most)) {  // half of less is zero to the machine
       refuse("the patch's ", what, " is ", value, " m and must be above 0 and at most the workspace's ", most);
@@ -136,13 +136,51 @@ void verify_patch(const PatchProgram& program) {
   }
 }
 
+/// What a pad vibrates with: every acceleration that it can be asked for has a command.
+void verify_vibration(const Shaker& vibration) {
+  require_within(vibration.frequency_low, 1e-3, 1e5, "the device's least frequency (Hz)");
+  require_within(vibration.frequency_high, vibration.frequency_low, 1e5, "the device's greatest frequency (Hz)");
+  require_within(vibration.command_steps, 0, 1e9, "the device's number of command steps");
+  require_within(vibration.spin_up, 0, 10, "the device's spin-up (s)");
+  const bool has_position = vibration.position != PositionSource::none;
+  if (vibration.position > PositionSource::touch) refuse("the device takes its position from an unknown source");
+  require_within(vibration.exploring_speed, has_position ? 0 : 1e-3, 100, "the device's exploring speed (m/s)");
+  require_within(static_cast<double>(vibration.response.size()), 1, 4096, "the number of frequencies in its response");
+  double frequency = 0;
+  for (const Shaker::Response& response : vibration.response) {
+    if (!(response.frequency > frequency)) refuse("the frequencies of the device's response do not rise");
+    require_within(frequency = response.frequency, 1e-3, 1e5, "a frequency of the device's response (Hz)");
+    require_within(static_cast<double>(response.points.size()), 1, 4096, "the number of points in its response");
+    double command = 0, acceleration = 0;
+    for (const auto& point : response.points) {
+      if (!(point.command > command && point.acceleration > acceleration)) {
+        refuse("the points of the device's response at ", frequency, " Hz do not rise");
+      }
+      require_within(command = point.command, 1e-6, 1, "a command of the device's response");
+      require_within(acceleration = point.acceleration, 1e-6, 1e5, "an acceleration of the device's response (m/s^2)");
+    }
+  }
+}
+
 void verify_device(const DeviceProfile& device) {
-  require_within(device.workspace_diameter, 1e-3, 10, "the device's workspace diameter (m)");
-  require_within(device.position_counts, 2, 1e9, "the device's number of position counts");
-  require_within(device.force_newton, 1e-3, 1000, "the device's force (N)");
-  require_within(device.force_counts, 1, 1e9, "the device's number of force counts");
+  if (device.has_position()) {
+    require_within(device.workspace_diameter, 1e-3, 10, "the device's workspace diameter (m)");
+    require_within(device.position_counts, 2, 1e9, "the device's number of position counts");
+    require_within(device.speed_limit, 1e-3, 100, "the device's speed limit (m/s)");
+  } else {
+    require_within(device.workspace_diameter, 0, 0, "the workspace diameter (m) of a device without a position");
+    require_within(device.position_counts, 0, 0, "the number of position counts of a device without a position");
+    require_within(device.speed_limit, 0, 0, "the speed limit (m/s) of a device without a position");
+  }
+  if (device.shaker) {
+    verify_vibration(*device.shaker);
+    require_within(device.force_newton, 0, 0, "the force (N) of a device that vibrates");
+    require_within(device.force_counts, 0, 0, "the number of force counts of a device that vibrates");
+  } else {
+    require_within(device.force_newton, 1e-3, 1000, "the device's force (N)");
+    require_within(device.force_counts, 1, 1e9, "the device's number of force counts");
+  }
   require_within(device.rate, 100, 10000, "the device's rate (Hz)");
-  require_within(device.speed_limit, 1e-3, 100, "the device's speed limit (m/s)");
   require_within(device.slew, 0, 1e9, "the device's slew (N/s)");
   require_within(device.velocity_window, 0, 1e4, "the device's velocity window (ticks)");
   require_within(device.velocity_noise_counts, 0, 1e6, "the device's velocity noise (counts)");
@@ -188,6 +226,17 @@ void verify_percepts(const PatchProgram& program) {
   }
 }
 
+void verify_fates(const PatchProgram& program) {
+  for (std::size_t i = 0; i < program.fates.size(); ++i) {
+    const FateRecord& fate = program.fates[i];
+    const std::string name = "fate " + std::to_string(i);
+    if (fate.name.empty()) refuse(name, " has no name");
+    if (fate.fate < Fate::kept || fate.fate > Fate::lost) refuse(name, " is none that this Wale knows");
+    require_within(fate.asked, 0, 1, name + "'s level asked for");
+    require_within(fate.given, 0, 1, name + "'s level given");
+  }
+}
+
 }  // namespace
 
 void verify_figures(const PatchProgram& program) {
@@ -201,6 +250,31 @@ void verify_figures(const PatchProgram& program) {
   verify_tables(program);
   verify_lattices(program);
   verify_percepts(program);
+  verify_fates(program);
+}
+
+void verify_costs(const PatchProgram& program) {
+  const double period = tick_share_of_period * 1e9 / program.device.rate;
+  const auto check = [period](const std::string& name, std::span<const Instruction> code) {
+    const auto cost = static_cast<double>(cost_of(code));
+    if (cost > period) {
+      refuse(name, " costs ", cost, " units and the device's period has room for ", std::floor(period));
+    }
+  };
+  check("tick", program.tick);
+  check("enter", program.enter);
+  check("picture", program.picture.code);
+  check("frame", program.picture.frame);
+  for (std::size_t i = 0; i < program.percepts.size(); ++i) {
+    check("percept " + std::to_string(i), program.percepts[i].prediction);
+  }
+  double setup = static_cast<double>(cost_of(program.setup));
+  for (const Peak& peak : program.peaks) {
+    setup += static_cast<double>(peak.points) * (1.0 + static_cast<double>(cost_of(peak.code)));
+  }
+  if (setup > setup_cost_limit) {
+    refuse("setup and its peaks cost ", setup, " units and may cost ", setup_cost_limit);
+  }
 }
 
 }  // namespace wale

@@ -8,4 +8,7 @@ namespace wale {
 /// states, grids, marks, peaks' lattices, the patch, the device, percepts. Throws a `Refusal`.
 void verify_figures(const PatchProgram& program);
 
+/// The part that looks at what code costs: each run within its share of the period, setup within its limit. Throws too.
+void verify_costs(const PatchProgram& program);
+
 }  // namespace wale

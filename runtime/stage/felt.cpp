@@ -78,6 +78,22 @@ void measure_movement(std::span<const TickRecord> record, Felt& felt) {
   felt.position_range = std::max(high.x - low.x, high.y - low.y);
 }
 
+/// Of a pad: the first number of each tick's output is the amplitude, the second the frequency.
+FeltVibration vibration_of(std::span<const TickRecord> record) {
+  FeltVibration felt;
+  std::vector<float> amplitudes;
+  for (const TickRecord& tick : record)
+    if (tick.inside) amplitudes.push_back(tick.force.x);
+  felt.ticks = static_cast<long>(amplitudes.size());
+  felt.acceleration = size_of(std::move(amplitudes));
+  for (const TickRecord& tick : record) {
+    if (!tick.inside || !(tick.force.x > 0) || tick.force.x < felt.acceleration.p99 / 2) continue;
+    felt.lowest = felt.highest > 0 ? std::min(felt.lowest, tick.force.y) : tick.force.y;
+    felt.highest = std::max(felt.highest, tick.force.y);
+  }
+  return felt;
+}
+
 }  // namespace
 
 Felt measure(const Record& record, const MeasureOptions& options) {
@@ -91,6 +107,11 @@ Felt measure(const Record& record, const MeasureOptions& options) {
 
   Felt felt;
   felt.ticks = static_cast<long>(ticks.size());
+  if (options.vibrates) {
+    felt.vibration = vibration_of(ticks);
+    measure_movement(ticks, felt);
+    return felt;
+  }
   std::vector<float> force, force_rubbing, interaction, interaction_rubbing;
   long inside = 0, inside_stuck = 0;
   bool interaction_known = !ticks.empty();
@@ -125,7 +146,16 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i) {
     LevelBack level{i, percepts[i].name, amplitude(bank, i), Prediction{}};
-    if (percepts[i].extractor != Extractor::lateral_force) {
+    if (felt.vibration) {
+      if (percepts[i].extractor != Extractor::acceleration)
+        level.back = Refusal{"a vibration does not read " + percepts[i].name};
+      else if (!percepts[i].alone)
+        level.back = Refusal{"other things shake besides, so the vibration does not read " + percepts[i].name};
+      else if (felt.vibration->ticks == 0)
+        level.back = Refusal{"the hand was never on the patch"};
+      else
+        level.back = predict(bank, i, felt.vibration->acceleration.p99);
+    } else if (percepts[i].extractor != Extractor::lateral_force) {
       level.back = Refusal{"the force while rubbing does not read " + percepts[i].name};
     } else if (!percepts[i].alone) {
       level.back = Refusal{"other forces push besides the " + percepts[i].carrier +
@@ -144,7 +174,8 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
 float predicted_amplitude(const Bank& bank) {
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i)
-    if (percepts[i].extractor == Extractor::lateral_force) return amplitude(bank, i);
+    if (percepts[i].extractor == Extractor::lateral_force || percepts[i].extractor == Extractor::acceleration)
+      return amplitude(bank, i);
   return 0;
 }
 

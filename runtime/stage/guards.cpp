@@ -12,11 +12,17 @@ constexpr float furthest = 1e6f;  ///< N; beyond it is no force, and no energy
 }  // namespace
 
 Guards::Guards(const DeviceProfile& profile, double most)
-    : peak_(static_cast<float>(profile.force_newton)),
+    : low_(-static_cast<float>(profile.most())),
+      high_(static_cast<float>(profile.most())),
       most_(static_cast<float>(most)),
       max_step_(static_cast<float>(profile.slew / profile.rate)),
+      vibrates_(profile.shaker.has_value()),
       meter_(profile),
       observer_(profile) {
+  if (vibrates_) {
+    low_ = Force(0, static_cast<float>(profile.shaker->frequency_low));
+    high_.y = static_cast<float>(profile.shaker->frequency_high);
+  }
   slew();
 }
 
@@ -25,6 +31,7 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
     wanted = Force(0);
     ++counts_.not_a_number;
   }
+  if (vibrates_) return slewed(within_limits(wanted));
   const long held = meter_.held();
   const Force lawful = meter_(glm::clamp(wanted, -furthest, furthest), position, periods);
   counts_.energy += meter_.held() - held;
@@ -32,7 +39,7 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
   const long acted = observer_.acted();
   const Force calmed = observer_(field, position, periods);
   counts_.passivity += observer_.acted() - acted;
-  return glm::clamp(calmed, -peak_, peak_);
+  return glm::clamp(calmed, low_, high_);
 }
 
 Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
@@ -43,16 +50,19 @@ Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
   }
   last_ = Force(0);
   slew();
+  if (vibrates_) return Force(0, low_.y);
   meter_(Force(0), position, periods);
   observer_(Force(0), position, periods);
   return Force(0);
 }
 
 Force Guards::within_limits(Force wanted) noexcept {
-  Force within = glm::clamp(wanted, -peak_, peak_);
-  if (within != wanted) ++counts_.device_limit;
-  if (const float size = glm::length(within); size > most_) {
-    within *= most_ / size;
+  Force within = glm::clamp(wanted, low_, high_);
+  // A hand at rest wants no frequency, and nothing is held back when it gets the least one with no amplitude.
+  if (vibrates_ ? within.x != wanted.x : within != wanted) ++counts_.device_limit;
+  const float size = vibrates_ ? within.x : glm::length(within);
+  if (size > most_) {
+    within = vibrates_ ? Force(most_, within.y) : within * (most_ / size);
     ++counts_.user_limit;
   }
   return within;
@@ -61,11 +71,13 @@ Force Guards::within_limits(Force wanted) noexcept {
 Force Guards::slewed(Force wanted) noexcept {
   Force force = wanted;
   if (slewing_) {
-    const Force step = wanted - last_;
+    Force step = wanted - last_;
+    if (vibrates_) step.y = 0;
     const float size = glm::length(step);
     slewing_ = size > max_step_;
     if (slewing_) {
       force = last_ + step * (max_step_ / size);
+      if (vibrates_) force.y = wanted.y;
       ++counts_.slew;
     }
   }

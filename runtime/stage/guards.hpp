@@ -13,7 +13,9 @@ namespace wale {
 /// number becomes zero; what gives more energy than it may is held back; its size is held within what the user allows
 /// and each axis within the device's peak force; after `slew` was called the force moves no faster than the profile's
 /// slew, until it has caught up with the wanted one; and the passivity observer takes away what the sampled loop
-/// gained. Begins at zero force, slewing.
+/// gained. Begins at zero force, slewing. On a pad, which gives no energy, the amplitude is held within what the user
+/// allows and the greatest acceleration and is not less than nothing, and slews likewise; the frequency is held within
+/// those that the pad has, at the least one where nothing is wanted.
 class Guards {
  public:
   /// A profile without a slew (zero) does not slow anything. `most` is the largest force that the user allows, N.
@@ -42,9 +44,10 @@ class Guards {
   Force within_limits(Force wanted) noexcept;
   Force slewed(Force wanted) noexcept;
 
-  float peak_;      // N per axis
-  float most_;      // N, of the whole
-  float max_step_;  // N per tick
+  Force low_, high_;  // N per axis; m/s^2 and Hz
+  float most_;        // N, of the whole; m/s^2
+  float max_step_;    // N or m/s^2 per tick
+  bool vibrates_;
   bool slewing_ = false;
   Force last_{0};
   EnergyMeter meter_;

@@ -26,6 +26,7 @@ Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record,
       filters_y_(device.profile()),
       guards_(device.profile(), most_newton) {
   record_.seconds_per_tick = 1 / device.profile().rate;
+  record_.vibrates = device.profile().shaker.has_value();
   record_.ticks.resize(beats);
 }
 

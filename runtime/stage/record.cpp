@@ -35,8 +35,9 @@ class Line {
 }  // namespace
 
 void write_csv(std::ostream& out, const Record& record) {
-  out << "t (s),x (m),y (m),vx (m/s),vy (m/s),force x (N),force y (N),interaction x (N),interaction y (N),"
-         "lateness (s),skipped (periods),inside\n";
+  out << "t (s),x (m),y (m),vx (m/s),vy (m/s),"
+      << (record.vibrates ? "amplitude (m/s^2),frequency (Hz)" : "force x (N),force y (N)")
+      << ",interaction x (N),interaction y (N),lateness (s),skipped (periods),inside\n";
   for (const TickRecord& tick : record.ticks) {
     Line(out) << tick.time << tick.position << tick.velocity << tick.force << tick.interaction << tick.lateness
               << tick.skipped << (tick.inside ? 1 : 0);

@@ -33,17 +33,32 @@ std::string shown(const Parameter& parameter, float value) {
 }
 
 std::optional<Refusal> lacks(const DeviceProfile& profile) {
-  const std::array<std::pair<const char*, double>, 5> needed{{{"rate", profile.rate},
-                                                              {"workspace", profile.workspace_diameter},
-                                                              {"position counts", profile.position_counts},
-                                                              {"force", profile.force_newton},
-                                                              {"force counts", profile.force_counts}}};
-  for (const auto& [name, value] : needed) {
-    if (!(value > 0) || !std::isfinite(value)) {
+  struct Figure {
+    const char* name;
+    double value;
+    bool needed;
+  };
+  const bool place = profile.has_position(), push = !profile.shaker;
+  const std::array<Figure, 6> figures{{{"rate", profile.rate, true},
+                                       {"workspace", profile.workspace_diameter, place},
+                                       {"position counts", profile.position_counts, place},
+                                       {"force", profile.force_newton, push},
+                                       {"force counts", profile.force_counts, push},
+                                       {"acceleration", profile.most(), !push}}};
+  for (const auto& [name, value, needed] : figures) {
+    if (needed && (!(value > 0) || !std::isfinite(value))) {
       return Refusal{"the device " + profile.name + " declares no positive " + name};
     }
   }
   return std::nullopt;
+}
+
+/// A program speaks either to actuators that push or to one that shakes.
+std::optional<Refusal> misfit(const PatchProgram& program, const DeviceProfile& device) {
+  if (program.vibrates() == device.shaker.has_value()) return std::nullopt;
+  return Refusal{program.material + " was built for " + program.device.name +
+                 (program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + device.name +
+                 (program.vibrates() ? " pushes" : " only vibrates") + ": build it for " + device.name};
 }
 
 /// How many ticks the run is to have, at least one.
@@ -314,6 +329,8 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
     const std::lock_guard lock(parts_->mutex);
     if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
     if (parts_->running) return Refusal{"another run is under way on this stage"};
+    for (const Placement& placement : parts_->placements)
+      if (auto refusal = misfit(placement.program.description(), profile)) return *refusal;
     parts_->running = true;
     parts_->cleared = true;  // every run begins with banks of its own, and with memories of its own
     parts_->changed.clear();

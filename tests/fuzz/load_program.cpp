@@ -26,16 +26,18 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   for (const auto& peak : program.description().peaks) points += peak.points * static_cast<long>(peak.code.size());
   if (points > 1'000'000) return 0;  // accepted, but too slow to fuzz
   wale::Bank bank(program);
-  const float most = static_cast<float>(program.description().device.force_newton);
+  const auto& device = program.description().device;
+  const float most = static_cast<float>(device.most());
+  const float most_y = device.shaker ? static_cast<float>(device.shaker->frequency_high) : most;
   for (const float place : {0.0f, 0.013f, -1e30f, std::nanf("")}) {
     const wale::Force force = tick(bank, {{place, -place}, {place, 1.0f}});
-    if (!(std::abs(force.x) <= most && std::abs(force.y) <= most)) std::abort();
+    if (!(std::abs(force.x) <= most && std::abs(force.y) <= most_y)) std::abort();
   }
   wale::Memory memory(program);
   memory.enter(bank, {});
   for (const float place : {0.0f, 0.013f, -1e30f, std::nanf("")}) {
     const wale::Force force = tick(bank, memory, {{place, -place}, {place, 1.0f}});
-    if (!(std::abs(force.x) <= most && std::abs(force.y) <= most)) std::abort();
+    if (!(std::abs(force.x) <= most && std::abs(force.y) <= most_y)) std::abort();
   }
   for (const float value : memory.states()) {
     if (!std::isfinite(value)) std::abort();

@@ -80,6 +80,12 @@ void change(PatchProgram& program, Choices& choices) {
 std::variant<Program, Refusal> made(Choices& choices) {
   const std::uint32_t kind = choices.next(1);
   PatchProgram program = example::RandomProgram(choices.next(2)).make();
+  if (kind % 8 >= 6) {  // the same on a pad
+    program.device = example::pad_device(kind % 16 >= 14 ? PositionSource::none : PositionSource::touch);
+    program.outputs[0].quantity = OutputQuantity::amplitude;
+    program.outputs[1].quantity = OutputQuantity::frequency;
+    program.outputs[1].axis = 0;
+  }
   program.peaks[0].points = 20;  // quick
   if (kind % 4 != 0) {
     // Ordinary constants: proofs say little about others.
@@ -135,10 +141,12 @@ class Bounds {
     const PatchProgram& description = program_.description();
     for (const Output& output : description.outputs) {
       const float ceiling = bank.registers()[output.ceiling];
-      const double pushed = std::abs(stepping::seen(force[output.axis]));
+      const double pushed = std::abs(stepping::seen(force[output.component()]));
       if (!(pushed <= ceiling || pushed == 0)) fail("above the ceiling");
-      if (!(ceiling <= description.device.force_newton)) fail("a ceiling above the device");
-      if (!proof_.force[output.axis].contains(force[output.axis])) fail("outside the proved range");
+      const DeviceProfile& device = description.device;
+      const double most = output.quantity == OutputQuantity::frequency ? device.shaker->frequency_high : device.most();
+      if (!(ceiling <= static_cast<float>(most))) fail("a ceiling above the device");
+      if (!proof_.force[output.component()].contains(force[output.component()])) fail("outside the proved range");
     }
     const double length = std::hypot(stepping::seen(force.x), stepping::seen(force.y));
     if (!(length <= proof_.bound_newton * (1 + 1e-15)))
@@ -163,7 +171,7 @@ void step_through(const Bank& bank, const Memory& memory, const Hand& hand, cons
   if (force == nullptr) return;
   for (const Output& output : program.description.outputs) {
     const float stepped = state.registers[output.value];
-    if (std::bit_cast<std::uint32_t>(stepped) != std::bit_cast<std::uint32_t>((*force)[output.axis]))
+    if (std::bit_cast<std::uint32_t>(stepped) != std::bit_cast<std::uint32_t>((*force)[output.component()]))
       fail("stepped through, the force is another");
   }
 }

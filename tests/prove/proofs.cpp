@@ -93,7 +93,7 @@ TEST(Proofs, TheSteppedMachineIsTheMachine) {
       ASSERT_FALSE(complaint) << "seed " << seed << ": " << *complaint;
       const Force force = tick(bank, memory, hand);
       for (const Output& output : description.outputs) {
-        ASSERT_EQ(std::bit_cast<std::uint32_t>(force[output.axis]),
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(force[output.component()]),
                   std::bit_cast<std::uint32_t>(state.registers[output.value]));
       }
     }

@@ -108,7 +108,7 @@ inline std::optional<std::string> run_all(State& state, const Proof& proof) {
   double squares = 0;
   for (const Output& output : program.outputs) {
     const float force = state.registers[output.value];
-    if (!proof.force[output.axis].contains(force)) return "a force leaves its range";
+    if (!proof.force[output.component()].contains(force)) return "a force leaves its range";
     const float ceiling = state.registers[output.ceiling];
     if (!(std::abs(seen(force)) <= ceiling || seen(force) == 0)) return "a force leaves its ceiling";
     squares += seen(force) * seen(force);

@@ -369,10 +369,12 @@ void FloatSimulation::enter(const FloatInputs& hand) {
 std::array<float, 2> FloatSimulation::tick(const FloatInputs& hand) {
   const FloatingPointMode mode;
   FloatEvaluation evaluation(*this, hand);
-  const auto ceiling = static_cast<float>(material_.device.force_newton);
+  const DeviceProfile& device = material_.device;
+  std::array<float, 2> ceiling{static_cast<float>(device.most()), static_cast<float>(device.most())};
+  if (device.shaker) ceiling[1] = static_cast<float>(device.shaker->frequency_high);
   std::array<float, 2> force{};
   for (std::size_t axis = 0; axis < 2; ++axis)
-    force[axis] = applied(Operation::limit, evaluation.value(material_.force[axis]), ceiling, 0);
+    force[axis] = applied(Operation::limit, evaluation.value(material_.force[axis]), ceiling[axis], 0);
   std::vector<float> next;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const auto& state = material_.states[i];

@@ -118,6 +118,8 @@ inline PatchProgram program() {
   percept.weber_source = "Tan 1992";
   percept.realisation = "lateral(sin(x))";
   p.percepts = {percept};
+  p.fates = {{"roughness", true, Fate::saturated, 0.75f, 0.5f, "`bench` gives no more"},
+             {"force", false, Fate::kept, 0, 0, ""}};
   p.layers.representative = {{"title", {"Bench grating"}}, {"called", {"grating", "r\xc3\xa4ndel"}}, {"kind", {}}};
   p.layers.perceptual = "roughness 0.6";
   p.layers.physical = "force = lateral(sin(x))";
@@ -140,6 +142,50 @@ inline PatchProgram least() {
   p.patch_width = 0.1f;
   p.patch_height = 0.08f;
   p.device = device();
+  return p;
+}
+
+/// A pad with two frequencies in its response; amplitudes and frequencies up to 16 m/s^2 and 200 Hz.
+inline DeviceProfile pad_device(PositionSource position = PositionSource::touch) {
+  DeviceProfile device;
+  device.name = "bench pad";
+  device.rate = 1000;
+  device.slew = 2000;
+  device.patch_width = 0.1;
+  device.patch_height = 0.08;
+  device.patch_rim = 0.005;
+  device.shaker = Shaker{.position = position,
+                         .frequency_low = 40,
+                         .frequency_high = 200,
+                         .command_steps = 0,
+                         .spin_up = 0.02,
+                         .exploring_speed = 0.1,
+                         .response = {{40, {{0.5, 4}, {1, 8}}}, {120, {{0.25, 6}, {1, 16}}}}};
+  if (position == PositionSource::none) return device;
+  device.workspace_diameter = 0.12;
+  device.position_counts = 2400;
+  device.speed_limit = 1;
+  device.velocity_window = 15;
+  device.velocity_noise_counts = 1;
+  return device;
+}
+
+/// Ribs of 2.5 mm on a pad: amplitude 5 m/s^2, frequency |v_x| / 2.5 mm.
+inline PatchProgram pad(PositionSource position = PositionSource::touch) {
+  using enum Operation;
+  PatchProgram p;
+  p.material = "bench ribs";
+  p.constants = {400.0f, 16.0f, 200.0f, 5.0f, 0.0f};  // 32 .. 36
+  p.temporaries = 4;                                  // 37 .. 40
+  p.tick = {instruction(absolute, 37, 2), instruction(multiply, 38, 37, 32), instruction(limit, 39, 35, 33),
+            instruction(limit, 40, 38, 34)};
+  p.outputs = {{OutputQuantity::amplitude, 0, 39, 33}, {OutputQuantity::frequency, 0, 40, 34}};
+  p.picture.relief = 36;
+  p.patch_width = 0.1f;
+  p.patch_height = 0.08f;
+  p.patch_rim = 0.005f;
+  p.device = pad_device(position);
+  p.fates = {{"place of features", false, Fate::lost, 0, 0, "no position"}};
   return p;
 }
 

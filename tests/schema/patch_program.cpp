@@ -49,9 +49,10 @@ TEST(PatchProgram, FileIsLaidOutAsDocumented) {
   EXPECT_EQ(wpp::get(bytes, 16, 8), bytes.size());
   std::string kinds;
   for (const auto& section : wpp::sections_of(bytes)) kinds += section.kind + (section.flags != 0 ? "! " : "? ");
-  EXPECT_EQ(kinds,
-            "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? LAYR? "
-            "PLAC? ");
+  EXPECT_EQ(
+      kinds,
+      "NAME! REGS! CONS! PARM! SETU! PEAK! STAT! GRID! TICK! OUTP! PICT! FRAM? TABL! PTCH! DEVI! PERC? FATE? LAYR? "
+      "PLAC? ");
 }
 
 TEST(PatchProgram, WhatIsNotThereIsLeftOut) {
@@ -168,8 +169,15 @@ TEST(PatchProgram, ChecksumIsCrc32) {
   EXPECT_EQ(wpp::crc(check), 0xcbf43926u);
 }
 
+TEST(PatchProgram, WhatAPadIsComesBack) {
+  for (const PositionSource source : {PositionSource::none, PositionSource::pointer, PositionSource::touch}) {
+    const PatchProgram pad = example::pad(source);
+    EXPECT_EQ(read(write_patch_program(pad)), pad);
+  }
+}
+
 TEST(PatchProgram, UnknownSkippableSectionsAreSkipped) {
-  for (const std::size_t place : {0u, 5u, 17u, 18u}) {
+  for (const std::size_t place : {0u, 5u, 17u, 18u, 19u}) {
     auto sections = wpp::sections_of(write_patch_program(example::program()));
     sections.insert(sections.begin() + place, {"XTRA", 0, Bytes(13, std::byte{0xee})});
     EXPECT_EQ(read(wpp::file_of(sections)), example::program());

@@ -138,7 +138,7 @@ TEST(Refusals, SectionKindsAndFlags) {
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.erase(s.begin() + 8); }), "section TICK is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.clear(); }), "section NAME is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }), "section TICK is marked skippable and is not");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[16].flags = 1; }), "section LAYR is marked required and is not");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[17].flags = 1; }), "section LAYR is marked required and is not");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 3; }),
             "section TICK has flags that this Wale does not know");
 }
@@ -150,8 +150,8 @@ TEST(Refusals, ContentThatEndsEarlyOrLate) {
 }
 
 TEST(Refusals, CountsBeyondTheFile) {
-  for (const std::string kind :
-       {"CONS", "PARM", "SETU", "PEAK", "STAT", "GRID", "TICK", "OUTP", "FRAM", "TABL", "PERC", "LAYR", "PLAC"}) {
+  for (const std::string kind : {"CONS", "PARM", "SETU", "PEAK", "STAT", "GRID", "TICK", "OUTP", "FRAM", "TABL", "PERC",
+                                 "FATE", "LAYR", "PLAC"}) {
     for (const std::uint32_t count : {0xffffffffu, 0x20000000u, 100000u}) {
       const std::string reason = refusal_of_content(kind, [count](Bytes& b) { wpp::put(b, 0, count, 4); });
       EXPECT_EQ(reason.substr(0, 20), "section " + kind + " claims ") << reason;
@@ -211,6 +211,9 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
   const std::size_t slope = live + 1 + 2 + 2 + 1 + (4 + 2 * 8) + 2 + 2 + 3 * 4;
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[slope] = std::byte{6}; }),
             "section PERC grades the evidence of a slope 6, which this Wale does not know");
+  const std::size_t fate = 4 + (4 + 9) + 1;  // after the count, "roughness" and whether it is a percept
+  EXPECT_EQ(refusal_of_content("FATE", [&](Bytes& b) { b[fate] = std::byte{5}; }),
+            "section FATE tells fate 5, which this Wale does not know");
 }
 
 TEST(Refusals, PlacesThatDoNotFitTheCode) {
@@ -236,6 +239,8 @@ TEST(Refusals, EmptySectionsThatAreLeftOut) {
             "section FRAM is there and empty; a file without marks leaves it out");
   EXPECT_EQ(refusal_of_content("PERC", [](Bytes& b) { b = Bytes(4); }),
             "section PERC is there and empty; a file without percepts leaves it out");
+  EXPECT_EQ(refusal_of_content("FATE", [](Bytes& b) { b = Bytes(4); }),
+            "section FATE is there and empty; a file without fates leaves it out");
   EXPECT_EQ(refusal_of_content("LAYR", [](Bytes& b) { b = Bytes(16); }),
             "section LAYR is there and empty; a file without layers leaves it out");
   EXPECT_EQ(refusal_of_content("PLAC", [](Bytes& b) { b = Bytes(4); }),
@@ -244,23 +249,46 @@ TEST(Refusals, EmptySectionsThatAreLeftOut) {
 
 // What a loader accepts it can write again to the same bytes: no two files say the same.
 TEST(Refusals, WhateverIsAcceptedIsCanonical) {
-  const Bytes whole = example_bytes();
+  const std::size_t sections = wpp::get(example_bytes(), 12, 4);
   int accepted = 0;
-  for (std::size_t at = 0; at < whole.size(); ++at) {
-    for (const int flip : {0x01, 0x80, 0xff}) {
-      Bytes bytes = whole;
-      bytes[at] ^= static_cast<std::byte>(flip);
-      if (at == 10 || at == 11) continue;  // a later minor version is read but written as this one
-      const auto result = read_patch_program(wpp::sealed(bytes));
-      const auto* program = std::get_if<PatchProgram>(&result);
-      if (program == nullptr) continue;
-      ++accepted;
-      const bool unknown_section = at >= 32 && at < 32 + 24 * 18;
-      if (unknown_section) continue;  // one that lost its name is skipped
-      ASSERT_EQ(write_patch_program(*program), wpp::sealed(bytes)) << "byte " << at;
+  for (const Bytes& whole : {example_bytes(), write_patch_program(example::pad())})
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      for (const int flip : {0x01, 0x80, 0xff}) {
+        Bytes bytes = whole;
+        bytes[at] ^= static_cast<std::byte>(flip);
+        if (at == 10 || at == 11) continue;  // a later minor version is read but written as this one
+        const auto result = read_patch_program(wpp::sealed(bytes));
+        const auto* program = std::get_if<PatchProgram>(&result);
+        if (program == nullptr) continue;
+        ++accepted;
+        const bool unknown_section = at >= 32 && at < 32 + 24 * sections;
+        if (unknown_section) continue;  // one that lost its name is skipped
+        ASSERT_EQ(write_patch_program(*program), wpp::sealed(bytes)) << "byte " << at;
+      }
     }
-  }
   EXPECT_GT(accepted, 100);
+}
+
+TEST(Refusals, WhatAPadVibratesWith) {
+  const Bytes pad = write_patch_program(example::pad());
+  const auto refusal = [&](const std::function<void(Bytes&)>& change) {
+    auto sections = wpp::sections_of(pad);
+    for (auto& section : sections)
+      if (section.kind == "VIBR") change(section.content);
+    const auto result = read_patch_program(wpp::file_of(sections));
+    return std::holds_alternative<Refusal>(result) ? std::get<Refusal>(result).reason : "";
+  };
+  EXPECT_EQ(refusal([](Bytes&) {}), "");
+  EXPECT_EQ(refusal([](Bytes& b) { b[0] = std::byte{3}; }),
+            "section VIBR takes the position from source 3, which this Wale does not know");
+  EXPECT_EQ(refusal([](Bytes& b) { wpp::put(b, 1, 0x7ff0000000000000, 8); }),
+            "section VIBR holds inf for a figure of the vibration, which is no figure");
+  EXPECT_EQ(refusal([](Bytes& b) { wpp::put(b, 1 + 5 * 8, 1000, 4); }).substr(0, 40),
+            "section VIBR claims 1000 frequencies and");
+  EXPECT_EQ(refusal([](Bytes& b) { wpp::put(b, 1 + 5 * 8 + 4 + 8, 1000, 4); }).substr(0, 48),
+            "section VIBR claims 1000 points of the response ");
+  EXPECT_EQ(refusal([](Bytes& b) { b.resize(b.size() - 1); }),
+            "section VIBR claims 2 points of the response and has 31 bytes left for them");
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ struct Reading {
   Contact contact = Contact::good;
 };
 
-/// A force-feedback joystick: position in, force out. One thread at a time uses it.
+/// A force-feedback joystick: position in, force out; or a pad: position in where it has one, vibration out. One thread
+/// at a time uses it.
 ///
 /// The real-time loop calls `elapse`, `sample` and `command` once a tick, in this order; they allocate nothing, take no
 /// lock, do not throw, and make no system call besides those that reach the hardware.
@@ -42,7 +43,8 @@ class Device {
   virtual Reading sample() noexcept = 0;
 
   /// Pushes with `force` (N at the handle) until the next command. Returns what the actuator exerts from now on, after
-  /// calibration, clamping and quantisation; a device that cannot tell returns what it sent.
+  /// calibration, clamping and quantisation; a device that cannot tell returns what it sent. A pad, whose profile says
+  /// that it vibrates, is commanded an amplitude (m/s^2) and a frequency (Hz) and returns how it shakes now.
   virtual Force command(Force force) noexcept = 0;
 };
 

@@ -26,7 +26,8 @@ struct Hand {
   bool button = false;               ///< is pressed
 };
 
-/// Newtons along x and y, as commanded.
+/// What is commanded: newtons along x and y. Of a program that vibrates a pad (`PatchProgram::vibrates`) the same two
+/// numbers are the amplitude in m/s^2 and the frequency in Hz.
 using Force = glm::vec2;
 
 /// Full width and height of a placed patch and the rim over which it fades, in m.
@@ -83,9 +84,10 @@ class Bank {
   std::vector<float> registers_;
 };
 
-/// The program's force on a hand that has just entered, in N: states are at their initial values and grids as at the
-/// beginning, and nothing is remembered (`Memory` is what remembers). Outside the patch's rectangle the caller decides.
-/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+/// The program's force on a hand that has just entered, in N (a pad's amplitude in m/s^2 and frequency in Hz): states
+/// are at their initial values and grids as at the beginning, and nothing is remembered (`Memory` is what remembers).
+/// Outside the patch's rectangle the caller decides. Real-time: allocates nothing, takes no lock, makes no system call,
+/// does not throw.
 Force tick(Bank& bank, const Hand& hand) noexcept;
 
 /// The same for many hands, in blocks of lanes and, where it is worth it, on all cores; bit-identical to `tick`.
@@ -102,10 +104,10 @@ struct Prediction {
   float level = 0;      ///< 1 is the percept's reference stimulus
 };
 
-/// Asks percept number `index` of the program about a carrier of size `amplitude` (N).
+/// Asks percept number `index` of the program about a carrier of size `amplitude`, in its record's unit.
 Prediction predict(const Bank& bank, std::size_t index, float amplitude);
 
-/// The carrier's size that the program aims at with this bank's parameters, N.
+/// The carrier's size that the program aims at with this bank's parameters, in its record's unit.
 float amplitude(const Bank& bank, std::size_t index);
 
 }  // namespace wale

@@ -14,7 +14,8 @@ struct TickRecord {
   double time = 0;            ///< s since the run began
   glm::vec2 position{0};      ///< m from the workspace's centre, as the encoder has it
   glm::vec2 velocity{0};      ///< m/s, filtered
-  Force force{0};             ///< N, what the actuator exerts from this tick on: clamped, quantised, held
+  Force force{0};             ///< N, what the actuator exerts from this tick on: clamped, quantised, held; of a pad
+                              ///< how it shakes, m/s^2 and Hz
   Force interaction{0};       ///< N from hand to handle over the period before; not-a-number where unknown
   float lateness = 0;         ///< s that the tick began after its deadline
   std::uint32_t skipped = 0;  ///< periods that passed unserved just before
@@ -24,6 +25,7 @@ struct TickRecord {
 /// A run, tick by tick.
 struct Record {
   double seconds_per_tick = 0;
+  bool vibrates = false;  ///< of a pad
   std::vector<TickRecord> ticks;
 };
 

@@ -106,7 +106,8 @@ class Stage {
 
   /// Runs for `options.seconds` and leaves the device without force, whatever ends the run. Refused when the time is
   /// not positive or longer than a record holds (2^24 ticks), when the largest force is not positive, when nothing is
-  /// placed, when the device's profile lacks what a loop needs, or while another run is under way.
+  /// placed, when the device's profile lacks what a loop needs, when a program pushes and the device only vibrates or the
+  /// other way round, or while another run is under way.
   std::variant<RunResult, Refusal> run(const RunOptions& options);
 
  private:

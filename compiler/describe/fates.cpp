@@ -1,0 +1,91 @@
+#include "compiler/describe/fates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
+#include "compiler/describe/fates_json.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t first_column = 22, column = 16;
+
+struct Row {
+  std::string name;
+  bool percept = false;
+
+  friend bool operator==(const Row&, const Row&) = default;
+};
+
+std::string cell(const DeviceFates& device, const Row& row) {
+  if (!device.refusal.empty()) return "-";
+  for (const FateRecord& each : device.fates)
+    if (Row{each.name, each.percept} == row)
+      return each.fate == Fate::saturated ? fmt::format("saturated {:.2f}", each.given) : fate_word(each.fate);
+  return "";
+}
+
+void write_material(std::string& text, const std::vector<const DeviceFates*>& devices) {
+  const auto add_line = [&](const std::string& line) { text += line.substr(0, line.find_last_not_of(' ') + 1); };
+  std::string head = fmt::format("{:<{}}", devices.front()->material, first_column);
+  for (const DeviceFates* device : devices) head += fmt::format("{:<{}}", device->device, column);
+  add_line(head);
+  std::vector<Row> rows;
+  for (const bool percepts : {true, false})
+    for (const DeviceFates* device : devices)
+      for (const FateRecord& each : device->fates)
+        if (const Row row{each.name, each.percept};
+            each.percept == percepts && std::ranges::find(rows, row) == rows.end())
+          rows.push_back(row);
+  for (const Row& row : rows) {
+    std::string line = fmt::format("\n  {:<{}}", row.name, first_column - 2);
+    for (const DeviceFates* device : devices) line += fmt::format("{:<{}}", cell(*device, row), column);
+    add_line(line);
+  }
+  text += '\n';
+  for (const DeviceFates* device : devices)
+    if (!device->refusal.empty()) text += fmt::format("  not for {}: {}\n", device->device, device->refusal);
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const std::vector<FateRecord>& fates) {
+  nlohmann::ordered_json percepts = nlohmann::ordered_json::object(), physics = percepts;
+  for (const FateRecord& each : fates) {
+    nlohmann::ordered_json entry = {{"fate", fate_word(each.fate)}};
+    if (each.percept) entry["asked"] = figure(each.asked), entry["given"] = figure(each.given);
+    entry["reason"] = each.reason;
+    (each.percept ? percepts : physics)[each.name] = std::move(entry);
+  }
+  return {{"percepts", std::move(percepts)}, {"physics", std::move(physics)}};
+}
+
+std::string fates_text(const std::vector<DeviceFates>& all) {
+  std::string text;
+  for (std::size_t i = 0; i < all.size();) {
+    std::vector<const DeviceFates*> devices;
+    for (const std::string& material = all[i].material; i < all.size() && all[i].material == material; ++i)
+      devices.push_back(&all[i]);
+    if (!text.empty()) text += '\n';
+    write_material(text, devices);
+  }
+  return text;
+}
+
+std::string fates_json(const std::vector<DeviceFates>& all) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const DeviceFates& each : all) {
+    auto& entry = json[each.material][each.device];
+    if (each.refusal.empty())
+      entry = to_json(each.fates);
+    else
+      entry = {{"refused", each.refusal}};
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wale

@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/modules/declare_records.hpp"
+
+namespace wale {
+
+namespace {
+
+void read_workspace(RecordReader& reader, DeviceProfile& profile) {
+  const auto* workspace = reader.required("workspace", "disc(228.6 mm)");
+  if (!workspace || workspace->items.empty()) return;
+  const auto* call =
+      workspace->items[0].value ? std::get_if<Call>(&reader.tree.expr(*workspace->items[0].value)) : nullptr;
+  if (call && call->callee.text == "disc" && call->arguments.size() == 1)
+    profile.workspace_diameter =
+        reader.value(call->arguments[0].value, reader.declarations.dimension("length")).value_or(0);
+  if (!(profile.workspace_diameter > 0))
+    reader.report(Code::wrong_type, workspace->span, "a workspace is a disc of some diameter",
+                  "write, for example, `workspace disc(228.6 mm)`");
+}
+
+/// `position touch, 1024 counts`, `position none`.
+void read_source_of_position(RecordReader& reader, DeviceProfile& profile) {
+  const auto* position = reader.required("position", "touch, 1024 counts");
+  if (!position || position->items.empty()) return;
+  const std::string source = words_of(position->items[0]);
+  if (source == "none") return;
+  if (source == "pointer" || source == "touch")
+    profile.shaker->position = source == "touch" ? PositionSource::touch : PositionSource::pointer;
+  else
+    reader.report(Code::wrong_type, position->span, "a device that vibrates has its position from somewhere, or none",
+                  "write `position pointer, 1024 counts`, `position touch, 1024 counts` or `position none`");
+  profile.position_counts = reader.quantity(*position, 1, "number").value_or(0);
+}
+
+/// `acceleration 60 Hz, 50 % = 2 m/s^2, 100 % = 5 m/s^2`: one frequency of a pad's response.
+std::optional<Shaker::Response> response_of(RecordReader& reader, const Setting& setting) {
+  const Declarations& declarations = reader.declarations;
+  Shaker::Response response;
+  response.frequency = reader.quantity(setting, 0, "frequency").value_or(0);
+  for (std::size_t i = 1; i < setting.items.size(); ++i) {
+    const SettingItem& item = setting.items[i];
+    const auto command = item.value ? reader.value(*item.value, Dimension{}) : std::nullopt;
+    const auto acceleration =
+        item.equals ? reader.value(*item.equals, declarations.dimension("acceleration")) : std::nullopt;
+    if (!command || !acceleration) return std::nullopt;
+    response.points.push_back({*command, *acceleration});
+  }
+  const auto rises = [](const auto& a, const auto& b) {
+    return a.command < b.command && a.acceleration < b.acceleration;
+  };
+  Shaker::Response::Point before;
+  for (const auto& point : response.points) {
+    if (!rises(before, point) || point.command > 1) return std::nullopt;
+    before = point;
+  }
+  if (response.points.empty() || !(response.frequency > 0)) return std::nullopt;
+  return response;
+}
+
+Shaker read_vibration(RecordReader& reader) {
+  const Declarations& declarations = reader.declarations;
+  Shaker vibration;
+  for (const Setting* setting : reader.settings("acceleration")) {
+    const std::size_t errors_before = reader.diagnostics.error_count();
+    const auto response = response_of(reader, *setting);
+    const bool rises =
+        vibration.response.empty() || !response || response->frequency > vibration.response.back().frequency;
+    if (response && rises)
+      vibration.response.push_back(*response);
+    else if (reader.diagnostics.error_count() == errors_before)
+      reader.report(Code::value_out_of_range, setting->span,
+                    "a response is a frequency and then commands up to 100 % with their accelerations, all rising",
+                    "write, for example, `acceleration 60 Hz, 50 % = 2 m/s^2, 100 % = 5 m/s^2`");
+  }
+  if (const auto* frequency = reader.required("frequency", "40 Hz .. 250 Hz"); frequency && !frequency->items.empty()) {
+    const SettingItem& item = frequency->items.front();
+    const Dimension hertz = declarations.dimension("frequency");
+    if (item.value && item.range_end) {
+      vibration.frequency_low = reader.value(*item.value, hertz).value_or(0);
+      vibration.frequency_high = reader.value(*item.range_end, hertz).value_or(0);
+    }
+    if (!(vibration.frequency_low > 0 && vibration.frequency_high >= vibration.frequency_low))
+      reader.report(Code::value_out_of_range, frequency->span, "this range of frequencies is empty",
+                    "write, for example, `frequency 40 Hz .. 250 Hz`");
+  }
+  const auto optional = [&](const char* key, const char* dimension, double& figure) {
+    const auto* found = reader.setting(key);
+    if (!found) return;
+    figure = reader.quantity(*found, 0, dimension).value_or(0);
+    if (figure < 0)
+      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` is not less than nothing", key),
+                    "leave out the `-`");
+  };
+  optional("command", "number", vibration.command_steps);
+  optional("spin_up", "time", vibration.spin_up);
+  return vibration;
+}
+
+/// What moves and how it resists, beneath what it pushes with.
+void read_handle(RecordReader& reader, DeviceProfile& profile) {
+  const auto optional = [&](const char* key, const char* dimension, double& figure) {
+    if (const auto* found = reader.setting(key)) figure = reader.quantity(*found, 0, dimension).value_or(0);
+  };
+  optional("mass", "mass", profile.mass);
+  optional("damping", "viscosity", profile.damping);
+  optional("friction", "force", profile.friction);
+  // One value for both axes, or one for each.
+  const auto per_axis = [&](const char* key, const char* dimension, double& x, double& y) {
+    const auto* found = reader.setting(key);
+    if (found == nullptr) return;
+    x = reader.quantity(*found, 0, dimension).value_or(0);
+    y = found->items.size() > 1 ? reader.quantity(*found, 1, dimension).value_or(0) : x;
+    if (x < 0 || y < 0)
+      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` is not less than nothing", key),
+                    fmt::format("leave out the `-`, or `{}` where nobody knows it", key));
+  };
+  per_axis("delay", "time", profile.delay_x, profile.delay_y);
+  per_axis("bandwidth", "frequency", profile.bandwidth_x, profile.bandwidth_y);
+}
+
+}  // namespace
+
+void declare_device(RecordReader& reader, Declarations& declarations) {
+  const RecordDecl& record = reader.record;
+  DeviceDeclaration device{.documentation = record.documentation, .span = record.name.span};
+  DeviceProfile& profile = device.profile;
+  profile.name = record.name.text;
+  if (const auto* other = declarations.devices.entry(profile.name))
+    return reader.reject(Code::declared_twice, record.name.span,
+                         fmt::format("a device `{}` is declared already", profile.name), another_name(other->declared));
+
+  const bool vibrates = !reader.settings("acceleration").empty();
+  if (vibrates) {
+    profile.shaker = read_vibration(reader);
+    read_source_of_position(reader, profile);
+  }
+  const bool has_position = profile.has_position();
+  if (has_position) read_workspace(reader, profile);
+  if (!vibrates) {
+    profile.position_counts = reader.positive("position", 0, "number", "4096 counts");
+    profile.force_newton = reader.positive("force", 0, "force", "10 N, 2048 counts");
+    if (const auto* force = reader.setting("force"))
+      profile.force_counts = reader.quantity(*force, 1, "number").value_or(0);
+  }
+  profile.rate = reader.positive("rate", 0, "frequency", "900 Hz");
+  if (has_position)
+    profile.speed_limit = reader.positive("speed", 0, "velocity", "1 m/s");
+  else
+    profile.shaker->exploring_speed = reader.positive("explores", 0, "velocity", "0.1 m/s");
+  if (!vibrates)
+    profile.slew = reader.positive("slew", 0, "slew", "200 N/s");
+  else if (const auto* slew = reader.setting("slew"); slew && !slew->items.empty() && slew->items[0].value)
+    profile.slew =
+        reader.value(*slew->items[0].value, declarations.dimension("acceleration") / declarations.dimension("time"))
+            .value_or(0);
+  if (const auto* filter = has_position ? reader.required("velocity_filter", "15, 1 counts") : nullptr) {
+    profile.velocity_window = reader.quantity(*filter, 0, "number").value_or(0);
+    profile.velocity_noise_counts = reader.quantity(*filter, 1, "number").value_or(0);
+  }
+  if (const auto* patch = reader.required("patch", "160 mm, 160 mm, 5 mm")) {
+    profile.patch_width = reader.quantity(*patch, 0, "length").value_or(0);
+    profile.patch_height = reader.quantity(*patch, 1, "length").value_or(0);
+    profile.patch_rim = reader.quantity(*patch, 2, "length").value_or(0);
+  }
+  if (!vibrates) read_handle(reader, profile);
+  for (const auto& setting : record.settings)
+    for (const auto& item : setting.items)
+      if (has_word(item, "assumed") &&
+          (device.assumed.empty() || device.assumed.back() != setting.key.text || setting.key.text != "acceleration"))
+        device.assumed.push_back(setting.key.text);
+  const auto known = [&](const char* key) {
+    return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end();
+  };
+  profile.damping_known = !vibrates && known("damping");
+  profile.friction_known = !vibrates && known("friction");
+  read_realisations(reader, declarations, profile.name, device.realise);
+  if (const auto* of_class = reader.setting("class"); of_class && !of_class->items.empty()) {
+    device.of_class = words_of(of_class->items.front());
+    if (const auto* found = declarations.classes.find(device.of_class))
+      device.realise.insert(found->realise.begin(), found->realise.end());
+    else
+      reader.report(Code::unknown_name, of_class->span,
+                    fmt::format("nothing declares a class of devices `{}`", device.of_class),
+                    did_you_mean(of_class->items.front().span, device.of_class, declarations.classes.spellings(),
+                                 "declare it, as in calibration/device_classes.wale"));
+  }
+  for (const auto& [percept, rule] : device.realise)
+    if (rule.rate.has_value() != vibrates)
+      reader.report(
+          Code::wrong_type, record.name.span,
+          fmt::format("`{}` {}, and its realisation of {} ({}) is {}", profile.name, vibrates ? "vibrates" : "pushes",
+                      percept, rule.owner, vibrates ? "a force" : "a vibration"),
+          vibrates ? "give how it shakes and its `rate`, or another class of devices"
+                   : "give a force without a `rate`, or another class of devices");
+  device.source = reader.text("source");
+  const std::string name = profile.name;
+  declarations.devices.add(name,
+                           {.what = std::move(device), .declared = record.name.span, .exported = record.exported});
+}
+
+}  // namespace wale

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/instruction.hpp"
+#include "schema/patch_program_format.hpp"
+#include "schema/refuse.hpp"
+
+namespace wale::patch_program_format {
+
+/// Little-endian values out of one part of a file. Never reads past its end: it refuses, naming the part.
+class ByteReader {
+ public:
+  ByteReader(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)), bytes_(bytes) {}
+
+  std::uint8_t u8() { return number<std::uint8_t>(); }
+  std::uint16_t u16() { return number<std::uint16_t>(); }
+  std::uint32_t u32() { return number<std::uint32_t>(); }
+  std::uint64_t u64() { return number<std::uint64_t>(); }
+  float f32() { return std::bit_cast<float>(u32()); }
+  double f64() { return std::bit_cast<double>(u64()); }
+
+  /// A figure that must be finite; `what` names it in the refusal.
+  float finite_f32(std::string_view what) { return finite(f32(), what); }
+  double finite_f64(std::string_view what) { return finite(f64(), what); }
+
+  bool boolean(std::string_view what) {
+    const std::uint8_t value = u8();
+    if (value > 1) refuse(name_, " holds ", int{value}, " for ", what, ", which is 0 or 1");
+    return value == 1;
+  }
+
+  std::string text(std::string_view what) {
+    const std::uint32_t length = u32();
+    if (length > longest_text) {
+      refuse(name_, " claims ", length, " bytes for ", what, "; texts have at most ", longest_text);
+    }
+    need(length);
+    const auto* first = reinterpret_cast<const char*>(bytes_.data() + position_);
+    position_ += length;
+    std::string text(first, length);
+    if (text.find('\0') != std::string::npos) refuse(name_, " has a NUL inside ", what);
+    return text;
+  }
+
+  /// A number of things that take at least `least_bytes` each, so that no count outgrows the file.
+  std::uint32_t count(std::size_t least_bytes, std::string_view what) {
+    const std::uint32_t count = u32();
+    if (count > remaining() / least_bytes) {
+      refuse(name_, " claims ", count, " ", what, " and has ", remaining(), " bytes left for them");
+    }
+    return count;
+  }
+
+  std::vector<Instruction> code() {
+    std::vector<Instruction> code(count(8, "instructions"));
+    for (Instruction& instruction : code) instruction = decode(u64());
+    return code;
+  }
+
+  std::size_t remaining() const { return bytes_.size() - position_; }
+  const std::string& name() const { return name_; }
+
+  void finish() const {
+    if (remaining() != 0) refuse(name_, " has ", remaining(), " bytes after its end");
+  }
+
+ private:
+  void need(std::size_t size) const {
+    if (size > remaining()) refuse(name_, " ends early: ", size, " bytes are due and ", remaining(), " are left");
+  }
+
+  template <typename Unsigned>
+  Unsigned number() {
+    need(sizeof(Unsigned));
+    Unsigned value = 0;
+    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+      value = static_cast<Unsigned>(value | std::to_integer<Unsigned>(bytes_[position_ + i]) << 8 * i);
+    }
+    position_ += sizeof(Unsigned);
+    return value;
+  }
+
+  template <typename Float>
+  Float finite(Float value, std::string_view what) const {
+    if (!std::isfinite(value)) refuse(name_, " holds ", value, " for ", what, ", which is no figure");
+    return value;
+  }
+
+  std::string name_;
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace wale::patch_program_format
