@@ -78,7 +78,8 @@ struct DeviceProfile {
 
   /// Metres per encoder count; 0 without a position.
   double position_step() const { return position_counts > 0 ? workspace_diameter / position_counts : 0; }
-  /// The widest side that a patch may have, m: where there is no place to put it, a picture's.
+  /// The widest side that a patch may have and how far a place may be from its centre, m: without a position those of a
+  /// picture.
   double widest_patch() const { return has_position() ? workspace_diameter : 10; }
   bool has_position() const { return !shaker || shaker->position != PositionSource::none; }
   /// The most that it puts out: N per axis, of a pad m/s^2.

@@ -430,7 +430,7 @@ class CppPrinter {
         case Input::x:
         case Input::y:
         case Input::workspace_x:
-        case Input::workspace_y: bound = static_cast<float>(device.workspace_diameter); break;
+        case Input::workspace_y: bound = static_cast<float>(device.widest_patch()); break;
         case Input::velocity_x:
         case Input::velocity_y:
         case Input::raw_velocity_x:

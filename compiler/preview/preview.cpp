@@ -229,8 +229,11 @@ Drawing draw_preview(const Bank& bank, const PreviewText& text) {
     draw_field_and_scale(canvas, bank, exhibit, of_velocity);
   }
   if (program.vibrates()) {
-    if (exhibit.has_relief) draw_plot(canvas, upper_of_two, height_plot(bank, rehearsal.memory, exhibit));
-    draw_plot(canvas, exhibit.has_relief ? lower_of_two : tall_plot, shaking_plot(bank, exhibit));
+    const bool of_speed = program.device.has_position();  // otherwise it shakes as it does, however the hand goes
+    const bool both = exhibit.has_relief && of_speed;
+    if (exhibit.has_relief)
+      draw_plot(canvas, both ? upper_of_two : tall_plot, height_plot(bank, rehearsal.memory, exhibit));
+    if (of_speed) draw_plot(canvas, both ? lower_of_two : tall_plot, shaking_plot(bank, exhibit));
   } else if (remembers(program) && exhibit.has_relief) {
     Plot heights = height_plot(bank, rehearsal.memory, exhibit);
     heights.x_name = fmt::format("position {}", axis_name(exhibit));

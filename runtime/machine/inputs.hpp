@@ -13,7 +13,7 @@ namespace wale {
 /// at most.
 struct Envelope {
   explicit Envelope(const DeviceProfile& device)
-      : reach(static_cast<float>(device.workspace_diameter)),
+      : reach(static_cast<float>(device.widest_patch())),
         speed(static_cast<float>(device.speed_limit)),
         acceleration(static_cast<float>(device.speed_limit * device.rate)) {}
 
