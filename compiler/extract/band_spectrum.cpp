@@ -98,7 +98,7 @@ std::vector<WaveComponent> BandSpectrum::components(std::size_t most, double lea
   const auto rows = static_cast<std::ptrdiff_t>(side_), columns = static_cast<std::ptrdiff_t>(half);
   const auto at = [&](std::ptrdiff_t column, std::ptrdiff_t row) -> float& {
     if (column < 0) column = -column, row = -row;
-    return left[static_cast<std::size_t>((row + rows) % rows * columns + std::min(column, columns - 1))];
+    return left[static_cast<std::size_t>((row % rows + rows) % rows * columns + std::min(column, columns - 1))];
   };
   while (found.size() < most) {
     const auto top = std::ranges::max_element(left) - left.begin();

@@ -45,6 +45,8 @@ ForceField without(ForceField field, const LinearField& part);
 /// As x + i y.
 std::vector<std::complex<float>> as_complex(const std::vector<Force>& forces);
 
+inline float squared(Force force) { return force.x * force.x + force.y * force.y; }
+
 /// The value below which the share of them lies, 0 .. 1. Reorders its copy; 0 of none.
 double quantile(std::vector<float> values, double share);
 

@@ -86,12 +86,13 @@ double agreement_after(const BandSpectrum& spectrum, const CommonShare& common, 
 /// How far one goes along a direction (of length 1) until a texture begins to agree with where one came from again, m;
 /// nothing where it never changes.
 std::optional<double> first_change(const Agreement& agreement, glm::dvec2 along, glm::dvec2 spacing, double farthest) {
-  const glm::dvec2 step = 0.5 * spacing.x * along / spacing;  // in samples
-  double changed = 0.5 * spacing.x, last = 1;
+  const double metres = 0.5 * std::min(spacing.x, spacing.y);
+  const glm::dvec2 step = metres * along / spacing;  // in samples, of which it is half of one or less
+  double changed = metres, last = 1;
   for (int i = 1; 0.5 * i < farthest; ++i) {
     const double here = agreement.between(static_cast<double>(i) * step);
     if (here > last) break;
-    last = here, changed = 0.5 * i * spacing.x;
+    last = here, changed = i * metres;
   }
   return last > forgotten ? std::nullopt : std::optional(changed);
 }
@@ -126,7 +127,7 @@ double regularity(const BandSpectrum& spectrum, glm::dvec2 strongest) {
 
 double repetition(const BandSpectrum& spectrum, const std::vector<WaveComponent>& components) {
   const glm::dvec2 strongest = components.front().waves;
-  const double wave = 1 / glm::length(strongest), farthest = reach * spectrum.extent().x;
+  const double wave = 1 / glm::length(strongest), farthest = reach * std::min(spectrum.extent().x, spectrum.extent().y);
   const CommonShare common(spectrum.side());
   const auto again = [&](glm::dvec2 distance) { return agreement_after(spectrum, common, distance); };
   for (const WaveComponent& other : components) {

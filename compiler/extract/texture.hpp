@@ -1,9 +1,9 @@
 #pragma once
 
-#include "compiler/extract/band_spectrum.hpp"
-#include "compiler/extract/force_field.hpp"
+#include <vector>
+
 #include "compiler/extract/period_band.hpp"
-#include "compiler/extract/slow_force.hpp"
+#include "compiler/extract/static_force.hpp"
 
 namespace wale {
 
@@ -36,19 +36,6 @@ struct TextureForce {
   bool regular() const { return amplitude > 0 && regularity >= 0.5; }
   /// It changes mostly in one direction, so that this can be told.
   bool oriented() const { return amplitude > 0 && anisotropy >= 0.5; }
-};
-
-/// Static forces at two scales: over the whole patch, and where its texture is strongest.
-struct StaticForce {
-  ForceField whole;  ///< without its mean and slope, if they are worth it
-  LinearField slope;
-  double largest = 0;     ///< N: about the 99th percentile of the whole force
-  double bent = 0;        ///< N: the largest that is left of it without mean and slope
-  glm::dvec2 busiest{0};  ///< where it varies most, m from the patch's centre
-  ForceField close;       ///< about there; empty where the force is the same everywhere
-  SlowForce slow;         ///< of `whole`
-
-  explicit StaticForce(const Bank& bank);
 };
 
 /// Reads the texture whose periods lie within the band. What is slower, springs and hills, and what is faster counts

@@ -42,7 +42,7 @@ std::vector<Scan> scans_of(PatchSize patch) {
       const glm::dvec2 across{std::abs(direction.y), std::abs(direction.x)};
       const double length = 2 * glm::dot(half, glm::abs(direction));
       scans.push_back({-half * direction + half * across * ((line + 0.5) / (0.5 * scan_lines) - 1), direction, first,
-                       static_cast<std::size_t>(length / step)});
+                       static_cast<std::size_t>(std::max(1.0, length / step))});
       first += scans.back().count;
     }
   return scans;

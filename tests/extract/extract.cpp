@@ -115,6 +115,19 @@ TEST(Extract, WhatIsStrictlyPeriodicComesBackWhateverItsHarmonics) {
   EXPECT_NEAR(turned.period, 3e-3, 0.1e-3);
 }
 
+TEST(Extract, ALongPatchIsReadAsASquareOne) {
+  for (const char* size : {"160 mm, 40 mm", "40 mm, 160 mm", "60 mm, 60 mm", "40 mm, 30 mm"})
+    for (const char* along : {"x", "y"}) {
+      const std::string wave = "1 N * sin(2 * pi * " + std::string(along) + " / 2.2 mm)";
+      const TextureForce texture = texture_of(pushing("patch " + std::string(size) + "\nforce = vector(" +
+                                                      (*along == 'x' ? wave + ", 0 N" : "0 N, " + wave) + ")"));
+      EXPECT_NEAR(texture.amplitude, 1, 0.03) << size << along;
+      EXPECT_NEAR(texture.period, 2.2e-3, 0.05e-3) << size << along;
+      EXPECT_GT(texture.regularity, 0.95) << size << along;
+      EXPECT_NEAR(std::abs(std::cos(texture.orientation)), *along == 'x' ? 1 : 0, 0.05) << size << along;
+    }
+}
+
 TEST(Extract, TheShippedMeshesAreRegular) {
   for (const char* name : {"wire_mesh", "perforated_sheet"}) {
     const TextureForce texture = texture_of(Bank(standard::made("std.mesh", name)));

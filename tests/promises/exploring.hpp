@@ -120,7 +120,11 @@ struct FeltSize {
 inline void on_two_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
   const auto some = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
+    for (std::size_t i = next++; i < count; i = next++) try {
+        work(i);
+      } catch (const std::exception& problem) {
+        ADD_FAILURE() << problem.what();
+      }
   };
   std::thread other(some);
   some();
