@@ -96,12 +96,13 @@ TEST(Pads, CommandsHaveSteps) {
 
 TEST(Pads, GuardsHoldAmplitudeAndFrequencyAndSlewTheAmplitude) {
   Guards guards(pad_device());  // 2000 m/s^3 at 1000 Hz: 2 m/s^2 a tick
-  EXPECT_EQ(guards({5, 100}), Force(2, 100)) << "begins slewing; the frequency is there at once";
-  EXPECT_EQ(guards({5, 150}), Force(4, 150));
-  EXPECT_EQ(guards({5, 150}), Force(5, 150));
-  EXPECT_EQ(guards({-4, 10}), Force(0, 40)) << "neither less than nothing nor below its least frequency";
-  EXPECT_EQ(guards({99, 999}), Force(16, 200));
-  EXPECT_EQ(guards({std::nanf(""), 100}), Force(0, 40));
+  EXPECT_EQ(guards({5, 100}, glm::dvec2(0), 1), Force(2, 100)) << "begins slewing; the frequency is there at once";
+  EXPECT_EQ(guards({5, 150}, glm::dvec2(0), 1), Force(4, 150));
+  EXPECT_EQ(guards({5, 150}, glm::dvec2(0), 1), Force(5, 150));
+  EXPECT_EQ(guards({-4, 10}, glm::dvec2(0), 1), Force(0, 40))
+      << "neither less than nothing nor below its least frequency";
+  EXPECT_EQ(guards({99, 999}, glm::dvec2(0), 1), Force(16, 200));
+  EXPECT_EQ(guards({std::nanf(""), 100}, glm::dvec2(0), 1), Force(0, 40));
   EXPECT_EQ(guards.counts().not_a_number, 1);
 }
 
