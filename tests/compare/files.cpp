@@ -29,8 +29,9 @@ std::vector<Cues> one_by_one(const std::vector<std::string>& names) {
 }
 
 TEST(ComparedFiles, AreReadAsOneAfterTheOther) {
-  // Files that import one another, one with a picture, one with several materials, and the same twice.
-  const std::vector<std::string> names = {library + "fabric/workwear.wale", library + "stone/slate.wale",
+  // Files that import one another, one with several materials, and the same twice. None with a picture: the thread
+  // sanitizer takes OpenImageIO, which is built without it, for a race.
+  const std::vector<std::string> names = {library + "fabric/workwear.wale", library + "fabric/velvet.wale",
                                           library + "fabric/canvas.wale",   library + "fabric/denim.wale:denim",
                                           library + "fluid/oil.wale",       library + "fabric/workwear.wale"};
   const std::vector<Cues> expected = one_by_one(names);
