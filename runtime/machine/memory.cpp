@@ -20,7 +20,7 @@ Memory::Memory(const Program& program) : program_(program), cells_(program.decod
 
 Memory::Memory(const Program& program, std::shared_ptr<Memory> predecessor) : Memory(program) {
   predecessor_ = std::move(predecessor);
-  succeeded_ = std::make_unique<std::atomic<bool>>(false);
+  succeeded_.store(false);
   const PatchProgram &here = program.description(), &there = predecessor_->program().description();
   for (std::size_t i = 0; i < here.states.size(); ++i) {
     const auto same = std::ranges::find(there.states, here.states[i].name, &State::name);
@@ -34,25 +34,24 @@ Memory::Memory(const Program& program, std::shared_ptr<Memory> predecessor) : Me
 }
 
 void Memory::succeed(bool with_states) noexcept {
-  if (!succeeded_ || succeeded_->load(std::memory_order_relaxed)) return;
+  if (succeeded_.load(std::memory_order_relaxed)) return;
   predecessor_->succeed(with_states);
   for (const auto& [there, here] : kept_states_) {
     const StateRule& rule = program_.decoded().state_rules[here];
     if (with_states) states_[here] = held_within(predecessor_->states_[there], rule.low, rule.high, states_[here]);
   }
   if (keeps_grids_) cells_.swap(predecessor_->cells_);
-  succeeded_->store(true, std::memory_order_release);
+  succeeded_.store(true, std::memory_order_release);
 }
 
 bool Memory::follows(const Memory* other) const noexcept {
-  for (const Memory* each = this; each->succeeded_ && !each->succeeded_->load(std::memory_order_relaxed);
-       each = each->predecessor_.get())
+  for (const Memory* each = this; !each->succeeded_.load(std::memory_order_relaxed); each = each->predecessor_.get())
     if (each->predecessor_.get() == other) return true;
   return false;
 }
 
 void Memory::forget_predecessor() {
-  if (succeeded_ && succeeded_->load(std::memory_order_acquire)) predecessor_.reset();
+  if (succeeded_.load(std::memory_order_acquire)) predecessor_.reset();
 }
 
 void Memory::enter(Bank& bank, const Hand& hand) noexcept {

@@ -64,7 +64,16 @@ class Memory {
   std::shared_ptr<Memory> predecessor_;
   std::vector<std::pair<std::uint16_t, std::uint16_t>> kept_states_;  // there and here
   bool keeps_grids_ = false;
-  std::unique_ptr<std::atomic<bool>> succeeded_;  // a memory moves
+  /// Set by the real-time side, read by the other; a copy of a memory copies what it was.
+  struct Succeeded : std::atomic<bool> {
+    Succeeded() : std::atomic<bool>(true) {}
+    Succeeded(const Succeeded& other) : std::atomic<bool>(other.load()) {}
+    Succeeded& operator=(const Succeeded& other) {
+      store(other.load());
+      return *this;
+    }
+  };
+  Succeeded succeeded_;
 };
 
 /// One execution of the program: its force on the hand, in N, and what it remembers from here on. States read as they
