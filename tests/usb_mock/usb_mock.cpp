@@ -18,7 +18,7 @@ namespace {
 
 constexpr unsigned long disconnect_claim = 0x8108551b;  // USBDEVFS_DISCONNECT_CLAIM with its argument's size
 constexpr std::uint8_t in_endpoint = 0x83, out_endpoint = 0x02;
-constexpr long frame_nanoseconds = 500'000;
+constexpr long frame_nanoseconds = 300'000;
 
 std::string in_hex(const std::vector<std::uint8_t>& bytes) {
   std::string text;
