@@ -1,15 +1,37 @@
 #include "runtime/device/usb/hid_pid_device.hpp"
 
 #include <gtest/gtest.h>
-#include <time.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
 #include <thread>
 
 #include "runtime/device/usb/list_usb_devices.hpp"
+#include "tests/runtime/programs.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
+#include "wale/stage.hpp"
+
+namespace {
+thread_local long allocations = 0;
+}  // namespace
+
+// These replace the whole test program's, to see who allocates. Not inlined, or the compiler, knowing malloc and free
+// by their names, thinks that one of each pair is missing.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
 // Unmodified libusb and all of the driver, against devices that are not there. What is asserted is counts, order and
 // bytes, never how long anything took: waiting has no end of its own but the test's.
@@ -18,6 +40,8 @@ namespace wale::test {
 namespace {
 
 using namespace std::chrono_literals;
+
+constexpr char push_until_killed[] = "--push-until-killed";
 
 DeviceProfile profile() {
   DeviceProfile profile;
@@ -158,10 +182,12 @@ TEST_F(UsbDriver, AWholeLife) {
   // Each tick's force says which tick it is of: x grows, y (to the user, so of the other sign) grows with it.
   constexpr long ticks = 10'000;
   run_ticks(mock_, ticks, [&](long tick) {
+    const auto newton = static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10);
+    const long before = allocations;
     device->elapse(1);
     device->sample();
-    const auto newton = static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10);
     const Force exerted = device->command({newton, newton});
+    ASSERT_EQ(allocations, before);
     ASSERT_NEAR(exerted.x, newton, 10.0 / 32767 / 2);
   });
   await([&] {
@@ -203,6 +229,54 @@ TEST_F(UsbDriver, AWholeLife) {
   EXPECT_EQ(joystick->releases, 1);
   EXPECT_EQ(joystick->drivers_back, 1) << "the kernel's driver";
   EXPECT_EQ(joystick->unknown_ioctls, 0);
+}
+
+TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  auto result = HidPidDevice::open(context(), found(1), sandpaper());
+  const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+  Stage stage(*device);
+  stage.place(spring(50));
+  long calls = 0;
+  RunOptions options{.seconds = 0.8};
+  options.progress = [&](const Progress&) {
+    if (++calls == 3) stage.place(oil(5));
+  };
+  const auto ran = stage.run(options);
+  ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
+  EXPECT_GE(calls, 3);
+  await([&] { return joystick->with_model([](PidModel& model) { return model.force(); }) == glm::dvec2(0); });
+
+  // What went out along x is what the ticks commanded, in their order, some ticks left out.
+  const auto& ticks = std::get<RunResult>(ran).record.ticks;
+  const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
+  std::size_t tick = 0;
+  long found_again = 0;
+  for (std::size_t i = 2; i < sent.size(); ++i) {
+    if (sent[i].block != 1 || sent[i].counts == 0) continue;
+    while (tick < ticks.size() && std::lround(ticks[tick].force.x / 10 * 32767) != sent[i].counts) ++tick;
+    ASSERT_LT(tick, ticks.size()) << "a force that no later tick commanded: packet " << i;
+    ++found_again;
+  }
+  EXPECT_GT(found_again, 50);
+  EXPECT_EQ(joystick->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
+}
+
+TEST_F(UsbDriver, AKilledProcessIsFeltNoLonger) {
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  found(1);
+  const auto force = [&] { return joystick->with_model([](PidModel& model) { return model.force(); }); };
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
+  pid_t child = 0;
+  const char* words[] = {self.c_str(), push_until_killed, nullptr};
+  ASSERT_EQ(posix_spawn(&child, self.c_str(), nullptr, nullptr, const_cast<char**>(words), environ), 0);
+  await([&] { return force().x > 0.29; });
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  await([&] { return force() == glm::dvec2(0); });
+  EXPECT_TRUE(joystick->with_model([](PidModel& model) { return model.effects[1].plays; })) << "nobody stopped it";
 }
 
 TEST_F(UsbDriver, EachFamilyIsFelt) {
@@ -342,10 +416,25 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
   }
 }
 
+/// Opens the joystick at port 1 in a process of its own and pushes to the right with 3 N.
+[[noreturn]] void push_for_ever() {
+  auto context = std::get<std::shared_ptr<UsbContext>>(UsbContext::open());
+  for (const UsbDeviceInfo& info : context->devices()) {
+    auto result = HidPidDevice::open(context, info, profile());
+    const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+    while (true) {
+      device->command({3, 0});
+      std::this_thread::sleep_for(1ms);
+    }
+  }
+  std::exit(1);
+}
+
 }  // namespace
 }  // namespace wale::test
 
 int main(int count, char** words) {
+  if (count == 2 && words[1] == std::string_view(wale::test::push_until_killed)) wale::test::push_for_ever();
   testing::InitGoogleTest(&count, words);
   UMockdevTestbed* testbed = umockdev_testbed_new();
   const bool is_mocked = umockdev_in_mock_environment();

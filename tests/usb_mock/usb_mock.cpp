@@ -4,11 +4,11 @@
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr unsigned long disconnect_claim = 0x8108551b;  // USBDEVFS_DISCONNECT_CLAIM with its argument's size
 constexpr std::uint8_t in_endpoint = 0x83, out_endpoint = 0x02;
-constexpr long frame_nanoseconds = 300'000;
+constexpr std::chrono::microseconds frame_time(300);  // the model takes it for a millisecond
 
 std::string in_hex(const std::vector<std::uint8_t>& bytes) {
   std::string text;
@@ -262,12 +262,10 @@ void MockJoystick::answer(UMockdevIoctlClient* client) {
 
 UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
   thread_ = std::thread([this] {
-    timespec next{};
-    clock_gettime(CLOCK_MONOTONIC, &next);
+    auto next = std::chrono::steady_clock::now();
     while (!ends_) {
-      next.tv_nsec += frame_nanoseconds;
-      if (next.tv_nsec >= 1'000'000'000) next.tv_nsec -= 1'000'000'000, ++next.tv_sec;
-      clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
+      next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up
+      std::this_thread::sleep_until(next);
       const std::lock_guard lock(mutex_);
       for (const auto& joystick : joysticks_) joystick->frame();
       ++frames_;

@@ -1,6 +1,8 @@
 #include "runtime/device/usb/pid_transport.hpp"
 
 #include <libusb.h>
+#include <pthread.h>
+#include <sched.h>
 #include <time.h>
 
 #include <algorithm>
@@ -86,6 +88,11 @@ PidTransport::PidTransport(std::shared_ptr<UsbContext> context, libusb_device_ha
   }
   sem_init(&commanded_, 0, 0);
   writer_ = std::thread([this] { write_forces(); });
+  if (options.priority > 0) {
+    sched_param parameters{};
+    parameters.sched_priority = options.priority;
+    pthread_setschedparam(writer_.native_handle(), SCHED_FIFO, &parameters);
+  }
   const std::lock_guard lock(mutex_);
   pump();
 }
@@ -156,11 +163,11 @@ void PidTransport::publish() {
 void PidTransport::write_forces() {
   while (true) {
     timespec until{};
-    clock_gettime(CLOCK_REALTIME, &until);
+    clock_gettime(CLOCK_MONOTONIC, &until);
     constexpr long patience = 20'000'000, second = 1'000'000'000;  // ns; refreshes and silences are due then
     until.tv_nsec += patience;
     if (until.tv_nsec >= second) until.tv_nsec -= second, ++until.tv_sec;
-    const bool is_commanded = sem_timedwait(&commanded_, &until) == 0;
+    const bool is_commanded = sem_clockwait(&commanded_, CLOCK_MONOTONIC, &until) == 0;
     while (is_commanded && sem_trywait(&commanded_) == 0) {  // several commands: only the newest counts
     }
     if (ends_.load(std::memory_order_acquire)) return;

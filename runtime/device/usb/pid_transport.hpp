@@ -29,6 +29,8 @@ class PidTransport {
   struct Options {
     hid::PidSessionOptions session;
     unsigned timeout = 100;  ///< ms, of each transfer that the session wants
+    /// SCHED_FIFO, of the thread that submits forces: best just below that of the loop, where permitted; 0: ordinary.
+    int priority = 0;
   };
 
   /// Claims the interface, detaching the kernel's driver, which gets it back in the end, and sets the device up: a few
