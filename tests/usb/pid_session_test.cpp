@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/usb/pid_bus.hpp"
@@ -269,6 +270,29 @@ TEST(PidSession, UnpluggedAtEveryStepOfSettingUpAndLeaving) {
     bus.unplug();
     bus.pump();
     EXPECT_EQ(bus.session.state(), State::over) << frames;
+  }
+}
+
+TEST(PidSession, StoppedAtEveryStepOfSettingUp) {
+  for (int frames = 0; frames < 24; ++frames) {
+    PidModel model(openffboard());
+    PidBus bus(model);
+    bus.pump();
+    for (int i = 0; i < frames; ++i) bus.frame();
+    const auto was = bus.session.state();
+    bus.session.stop();
+    bus.settle();
+    bus.settle();
+    EXPECT_EQ(bus.session.state(), State::over) << frames;
+    EXPECT_FALSE(bus.session.was_lost());
+    EXPECT_FALSE(model.is_enabled);
+    EXPECT_EQ(model.wrong_reports, 0);
+    for (const PidModel::Effect& effect : model.effects) EXPECT_FALSE(effect.plays) << frames;
+    if (bus.session.layout()) {
+      EXPECT_EQ(std::count(model.log.begin(), model.log.end(), "OUT 0C 04"), 1) << frames;
+      EXPECT_EQ(model.log.back(), "OUT 0C 02") << frames;
+    }
+    EXPECT_TRUE(frames < 23 || was == State::running) << "all of setting up is covered";
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wale::hid {
 namespace {
@@ -137,7 +138,14 @@ void PidSession::advance(std::int64_t now) noexcept {
 void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer,
                         std::int64_t now) {
   switch (transfer.purpose) {
-    case Transfer::Purpose::step: step_under_way_ = false; break;
+    case Transfer::Purpose::step:
+      step_under_way_ = false;
+      // Stopped while this was on its way: what comes next is settled, whatever became of it.
+      if (std::exchange(step_is_void_, false) && outcome != Outcome::gone) {
+        if (outcome != Outcome::done && transfer.kind == Transfer::Kind::interrupt_out) out_failed_ = true;
+        return;
+      }
+      break;
     case Transfer::Purpose::poll: poll_under_way_ = false; break;
     default: --in_flight_; break;
   }
@@ -274,6 +282,7 @@ void PidSession::stop() noexcept {
     return;
   }
   state_ = State::leaving;
+  step_is_void_ = step_under_way_;
   step_ = created_ > 0 ? Step::leave_zero : Step::leave_stop_all;
 }
 

@@ -162,7 +162,7 @@ class PidSession {
   Step step_ = Step::read_descriptor;
   std::size_t effect_ = 0;  // that the step is about
   std::size_t created_ = 0;
-  bool lost_ = false, step_under_way_ = false, out_failed_ = false, poll_under_way_ = false;
+  bool lost_ = false, step_under_way_ = false, step_is_void_ = false, out_failed_ = false, poll_under_way_ = false;
   int in_flight_ = 0, load_attempts_ = 0, failures_leaving_ = 0, bad_inputs_ = 0;
   std::string_view reason_;
   std::string refusal_;  // what `reason_` sees where it is not a literal
