@@ -74,7 +74,8 @@ void write_control(Items& items, const PidFamily& family) {
   for (const std::uint8_t order : family.control_orders) items.use(order);
   const auto count = static_cast<int>(family.control_orders.size());
   if (family.control_is_mask) {
-    items.logical(0, 1).physical(0, 1).size(1, static_cast<std::uint16_t>(count)).output(variable);
+    // The range of one bit is what OpenFFBoard declares, meaningless as it is.
+    items.logical(1, count).physical(1, count).size(1, static_cast<std::uint16_t>(count)).output(variable);
     if (count < 8) items.size(static_cast<std::uint8_t>(8 - count), 1).output(constant);
     items.end();
   } else {

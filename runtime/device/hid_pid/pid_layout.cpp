@@ -95,7 +95,8 @@ class Search {
   Order order_if_any(Usage wanted, const char* name) {
     const Element element = find(wanted, 0);
     if (element.field == nullptr) return {};
-    if (element.field->variable) return {at(element, name), 1};
+    // A bit of its own, whatever its range: OpenFFBoard declares 1 .. 6 for one bit.
+    if (element.field->variable) return {placed(element, 0, 1), 1};
     return {at({element.field, 0}, name), element.field->logical_minimum + element.index};
   }
 
@@ -132,10 +133,14 @@ class Search {
       refuse(std::string(name) + " of its " + name_ + " report, " + std::to_string(field.logical_minimum) + " .. " +
              std::to_string(field.logical_maximum) + ", does not fit in " + std::to_string(field.bits) + " bits");
     }
+    return placed(element, field.logical_minimum, field.logical_maximum);
+  }
+
+  Number placed(const Element& element, std::int64_t minimum, std::int64_t maximum) const {
+    const Field& field = *element.field;
     const std::uint32_t bit = field.bit_offset + element.index * field.bits + (report_->id != 0 ? 8 : 0);
     if (bit + field.bits > 8 * most_packet_bytes) return {};  // the report has been refused
-    return {static_cast<std::uint16_t>(bit), static_cast<std::uint8_t>(std::min(field.bits, 32u)),
-            field.logical_minimum, field.logical_maximum};
+    return {static_cast<std::uint16_t>(bit), static_cast<std::uint8_t>(std::min(field.bits, 32u)), minimum, maximum};
   }
 
   Number missing(Usage wanted, const char* name) {
