@@ -83,7 +83,9 @@ class UsbDriver : public testing::Test {
   }
 
   std::string refusal(int port) const {
-    auto result = HidPidDevice::open(context_, found(port), profile());
+    HidPidOptions options;
+    options.transport.set_up_timeout = 100;
+    auto result = HidPidDevice::open(context_, found(port), profile(), options);
     const auto* refusal = std::get_if<Refusal>(&result);
     return refusal == nullptr ? "opened" : refusal->reason;
   }

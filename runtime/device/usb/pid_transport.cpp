@@ -69,6 +69,7 @@ PidTransport::PidTransport(std::shared_ptr<UsbContext> context, libusb_device_ha
       handle_(handle),
       interface_(interface),
       timeout_(options.timeout),
+      set_up_timeout_(options.set_up_timeout),
       session_(hid::HidInterface{interface.number, interface.report_descriptor_bytes, interface.out_endpoint != 0},
                options.session) {
   const auto add = [&](bool is_input, std::size_t bytes) {
@@ -199,17 +200,18 @@ void PidTransport::submit(const hid::Transfer& transfer) {
     auto& ended = *static_cast<Slot*>(usb->user_data);
     ended.owner->ended(ended);
   };
+  const unsigned timeout = session_.state() == hid::PidSession::State::setting_up ? set_up_timeout_ : timeout_;
   const auto data = transfer.data.view();
   if (transfer.kind == hid::Transfer::Kind::interrupt_out) {
     std::copy(data.begin(), data.end(), slot.buffer.begin());
     libusb_fill_interrupt_transfer(slot.usb, handle_, interface_.out_endpoint, slot.buffer.data(),
-                                   static_cast<int>(data.size()), when_ended, &slot, timeout_);
+                                   static_cast<int>(data.size()), when_ended, &slot, timeout);
   } else {
     const auto length = std::min<std::size_t>(transfer.length, most_control_bytes);
     libusb_fill_control_setup(slot.buffer.data(), transfer.request_type, transfer.request, transfer.value,
                               transfer.index, static_cast<std::uint16_t>(length));
     std::copy(data.begin(), data.end(), slot.buffer.begin() + LIBUSB_CONTROL_SETUP_SIZE);
-    libusb_fill_control_transfer(slot.usb, handle_, slot.buffer.data(), when_ended, &slot, timeout_);
+    libusb_fill_control_transfer(slot.usb, handle_, slot.buffer.data(), when_ended, &slot, timeout);
   }
   slot.is_busy = true;
   if (const int error = libusb_submit_transfer(slot.usb); error != 0) {

@@ -28,7 +28,8 @@ class PidTransport {
  public:
   struct Options {
     hid::PidSessionOptions session;
-    unsigned timeout = 100;  ///< ms, of each transfer that the session wants
+    unsigned timeout = 100;          ///< ms, of each transfer while running and leaving
+    unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
     /// SCHED_FIFO, of the thread that submits forces: best just below that of the loop, where permitted; 0: ordinary.
     int priority = 0;
   };
@@ -89,7 +90,7 @@ class PidTransport {
   std::shared_ptr<UsbContext> context_;
   libusb_device_handle* handle_;
   UsbHidInterface interface_;
-  unsigned timeout_;
+  unsigned timeout_, set_up_timeout_;
 
   mutable std::mutex mutex_;  // of all below that is not atomic; never taken by the real-time thread
   std::condition_variable changed_;
