@@ -217,7 +217,7 @@ TEST(PidSession, OneEffectIsTurned) {
     PidBus bus(model);
     bus.settle();
     ASSERT_EQ(bus.session.state(), State::running) << bus.session.reason();
-    EXPECT_EQ(bus.session.arrangement(), Arrangement::combined);
+    EXPECT_EQ(in_words(bus.session.arrangement()), "one effect that is turned");
     for (const glm::dvec2 force : {glm::dvec2(0.5, -0.25), glm::dvec2(-0.5, 0.25), glm::dvec2(0, 0.7), glm::dvec2(0),
                                    glm::dvec2(-0.1, -0.1), glm::dvec2(0.9, 0.9)}) {
       run_ticks(bus, 6, [&](long) { return force; });

@@ -23,6 +23,15 @@ double finite_or_none(double value) noexcept { return std::isnan(value) ? 0 : st
 
 }  // namespace
 
+std::string_view in_words(Arrangement arrangement) noexcept {
+  switch (arrangement) {
+    case Arrangement::by_direction: return "an effect for each axis, by direction";
+    case Arrangement::by_axis: return "an effect for each axis";
+    case Arrangement::combined: break;
+  }
+  return "one effect that is turned";
+}
+
 PidSession::PidSession(const HidInterface& interface, const PidSessionOptions& options)
     : interface_(interface), options_(options) {
   options_.most_in_flight = std::max(1, options_.most_in_flight);

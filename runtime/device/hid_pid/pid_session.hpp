@@ -55,6 +55,9 @@ enum class Arrangement : std::uint8_t {
   combined       ///< one effect that is turned anew: where the device has room for one only
 };
 
+/// For whoever runs it: "an effect for each axis, by direction".
+std::string_view in_words(Arrangement arrangement) noexcept;
+
 /// What a session has done since it was made.
 struct PidSessionCounts {
   std::array<long, 2> forces_sent{};  ///< Set Constant Force packets while running, per effect

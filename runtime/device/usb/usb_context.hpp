@@ -64,8 +64,8 @@ class UsbContext {
   /// What is plugged in now.
   std::vector<UsbDeviceInfo> devices() const;
 
-  /// Calls `changed` on the event thread whenever a device comes or goes; it returns soon and opens none itself. One
-  /// at a time; an empty one ends it. False: this system does not tell.
+  /// Calls `changed` on the event thread whenever a device comes or goes; it returns soon, opens no device and does not
+  /// watch anew. One at a time; an empty one ends it. False: this system does not tell.
   bool watch(std::function<void(const UsbEvent&)> changed);
 
   /// Gives the event thread this SCHED_FIFO priority, which is best just below that of the loop. False: not permitted.
