@@ -20,7 +20,7 @@ constexpr Usage device_control_report = usage(pid_page, 0x95), create_new_effect
 
 // fields
 constexpr Usage block_index = usage(pid_page, 0x22), effect_type = usage(pid_page, 0x25);
-constexpr Usage constant_force = usage(pid_page, 0x26), byte_count = usage(0x01, 0x3b);
+constexpr Usage constant_force = usage(pid_page, 0x26);
 constexpr Usage duration = usage(pid_page, 0x50), gain = usage(pid_page, 0x52);
 constexpr Usage axes_enable = usage(pid_page, 0x55), direction_enable = usage(pid_page, 0x56);
 constexpr Usage direction = usage(pid_page, 0x57), magnitude = usage(pid_page, 0x70);
@@ -29,7 +29,7 @@ constexpr Usage device_control = usage(pid_page, 0x96);
 constexpr Usage device_gain = usage(pid_page, 0x7e), simultaneous_effects = usage(pid_page, 0x83);
 constexpr Usage load_success = usage(pid_page, 0x8c), load_full = usage(pid_page, 0x8d);
 constexpr Usage enable_actuators = usage(pid_page, 0x97), disable_actuators = usage(pid_page, 0x98);
-constexpr Usage stop_all = usage(pid_page, 0x99), reset = usage(pid_page, 0x9a), start_delay = usage(pid_page, 0xa7);
+constexpr Usage stop_all = usage(pid_page, 0x99), reset = usage(pid_page, 0x9a);
 
 }  // namespace usages
 }  // namespace wale::hid
