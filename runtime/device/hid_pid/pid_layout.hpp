@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "runtime/device/hid_pid/report_descriptor.hpp"
+
+namespace wale::hid {
+
+/// Where a number stands in a packet, little-endian, and the values that it may have.
+struct Number {
+  std::uint16_t bit = 0;  ///< from the packet's first bit; an id byte counts
+  std::uint8_t bits = 0;  ///< 1 .. 32; 0: the report has no such number
+  std::int64_t minimum = 0, maximum = 0;
+
+  explicit operator bool() const { return bits != 0; }
+  friend bool operator==(const Number&, const Number&) = default;
+};
+
+/// A value that says one thing, such as "start": a bit of its own, or the number of it in a field for many such.
+struct Order {
+  Number number;
+  std::int64_t value = 0;
+
+  explicit operator bool() const { return bool(number); }
+  friend bool operator==(const Order&, const Order&) = default;
+};
+
+/// A report as a packet.
+struct PacketShape {
+  std::uint8_t id = 0;     ///< its first byte; 0: it has no id byte
+  std::uint8_t bytes = 0;  ///< with the id; 0: the device has no such report
+
+  explicit operator bool() const { return bytes != 0; }
+  friend bool operator==(const PacketShape&, const PacketShape&) = default;
+};
+
+/// A packet of a full-speed interrupt endpoint holds no more (USB 2.0, section 5.7.3).
+constexpr std::size_t most_packet_bytes = 64;
+
+/// Which reports a device of USB's PID class wants, and where their numbers stand, as its descriptor says. What is not
+/// marked "may be missing" is there.
+struct PidLayout {
+  struct Input : PacketShape {
+    Number x, y;
+    Number button;  ///< the first; may be missing
+  };
+  struct SetEffect : PacketShape {
+    Number block_index;
+    Order constant_force;  ///< the effect's type
+    Number duration;
+    double duration_step = 0;         ///< s, what one count of `duration` stands for
+    Number gain;                      ///< may be missing
+    Number enable_x, enable_y;        ///< may be missing, both together
+    Number direction_enable;          ///< may be missing
+    std::array<Number, 2> direction;  ///< polar, the first one counts; may be missing, unless `enable_x` is
+    double direction_step = 0;        ///< degrees, what one count of `direction` stands for
+  };
+  struct SetConstantForce : PacketShape {
+    Number block_index, magnitude;  ///< magnitude has both signs
+    /// Counts, what full force is: the range's smaller side, so that both signs are alike.
+    std::int64_t full() const {
+      return magnitude.maximum < -magnitude.minimum ? magnitude.maximum : -magnitude.minimum;
+    }
+  };
+  struct EffectOperation : PacketShape {
+    Number block_index;
+    Order start, stop;
+    Number loop_count;  ///< may be missing
+  };
+  struct DeviceControl : PacketShape {  ///< may be missing, and so may each of its orders
+    Order enable_actuators, disable_actuators, stop_all, reset;
+  };
+  struct DeviceGain : PacketShape {  ///< may be missing
+    Number gain;
+  };
+  struct CreateNewEffect : PacketShape {
+    Order constant_force;
+  };
+  struct BlockLoad : PacketShape {
+    Number block_index;
+    Order success;
+    Order full;  ///< may be missing
+  };
+  struct BlockFree : PacketShape {  ///< may be missing
+    Number block_index;
+  };
+  struct Pool : PacketShape {  ///< may be missing
+    Number simultaneous_effects;
+  };
+
+  Input input;
+  SetEffect set_effect;
+  SetConstantForce set_constant_force;
+  EffectOperation effect_operation;
+  DeviceControl device_control;
+  DeviceGain device_gain;
+  CreateNewEffect create_new_effect;
+  BlockLoad block_load;
+  BlockFree block_free;
+  Pool pool;
+
+  bool has_direction() const { return bool(set_effect.direction_enable) && bool(set_effect.direction[0]); }
+  bool has_axes() const { return bool(set_effect.enable_x); }
+};
+
+/// Why no force can be made by these reports: "it has no Set Constant Force report (usage 0F:73)".
+struct PidRefusal {
+  std::string reason;
+};
+
+/// Finds the reports of a force-feedback joystick by their usages. Refused for what is missing and needed, for a number
+/// whose declared range does not fit in its bits, for packets beyond `most_packet_bytes`.
+std::variant<PidLayout, PidRefusal> find_pid_layout(const ReportDescriptor& descriptor);
+
+}  // namespace wale::hid

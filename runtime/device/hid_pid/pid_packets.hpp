@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "runtime/device/hid_pid/pid_layout.hpp"
+
+namespace wale::hid {
+
+// Reports of a force-feedback joystick as bytes and back. All of it is real-time: allocates nothing, takes no lock,
+// makes no system call, does not throw.
+
+struct Packet {
+  std::array<std::uint8_t, most_packet_bytes> bytes{};
+  std::uint8_t size = 0;
+
+  std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
+};
+
+/// How long an effect plays that nobody stops.
+constexpr double endless = 0;
+
+/// An effect of the type constant force, without its force.
+struct ConstantEffect {
+  std::uint8_t block_index = 0;
+  /// s; `endless`, or until it is started again. At least one count of the report's field, at most what it can say.
+  double duration = endless;
+  /// Degrees from the direction away from the user, clockwise; a force of magnitude m is m sin along x and -m cos along
+  /// y (HID PID 1.0, section 3.1.2.2.1: y points to the user). Ignored unless `by_direction`.
+  double direction = 0;
+  bool by_direction = true;
+  bool on_x = false, on_y = false;  ///< the axes that it pushes, unless `by_direction`
+};
+
+Packet encode_set_effect(const PidLayout& layout, const ConstantEffect& effect) noexcept;
+
+/// `magnitude` in -1 .. 1 of the device's full force; beyond that it is clamped, not-a-number is none.
+Packet encode_constant_force(const PidLayout& layout, std::uint8_t block_index, double magnitude) noexcept;
+/// The magnitude that such a packet says, in counts: `encode_constant_force` rounds to the nearest.
+std::int64_t magnitude_counts(const PidLayout& layout, double magnitude) noexcept;
+
+/// Starts an effect: once, or again and again for ever (`endlessly`).
+Packet encode_start(const PidLayout& layout, std::uint8_t block_index, bool endlessly) noexcept;
+Packet encode_stop(const PidLayout& layout, std::uint8_t block_index) noexcept;
+
+/// One of `layout.device_control`'s orders.
+Packet encode_device_control(const PidLayout& layout, const Order& order) noexcept;
+/// All of the force that the device has.
+Packet encode_full_gain(const PidLayout& layout) noexcept;
+Packet encode_create_constant_force(const PidLayout& layout) noexcept;
+Packet encode_block_free(const PidLayout& layout, std::uint8_t block_index) noexcept;
+
+/// What an input report tells. Decoding gives nothing for what is too short or of another report.
+struct InputState {
+  std::int64_t x = 0, y = 0;  ///< held within the ranges of `layout.input`: some devices go a count beyond
+  bool button = false;
+};
+std::optional<InputState> decode_input(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
+
+struct BlockLoadAnswer {
+  enum class Status { pending, loaded, full, failed } status = Status::pending;
+  std::uint8_t block_index = 0;  ///< of a loaded one: 1 .. 255
+};
+/// `pending` is what neither the number of success nor any other says: 0, from a device that has not come to it yet.
+std::optional<BlockLoadAnswer> decode_block_load(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
+
+/// How many effects can play at once, as the pool report says.
+std::optional<std::int64_t> decode_pool(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
+
+}  // namespace wale::hid

@@ -1,0 +1,192 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "runtime/device/hid_pid/pid_layout.hpp"
+#include "runtime/device/hid_pid/pid_packets.hpp"
+
+namespace wale::hid {
+
+/// What an interface's descriptors say, as far as the session needs it.
+struct HidInterface {
+  std::uint8_t number = 0;
+  std::uint16_t report_descriptor_bytes = 0;
+  bool has_interrupt_out = true;  ///< otherwise output reports go by the control endpoint
+};
+
+struct PidSessionOptions {
+  /// s, after which a device stops by itself when nobody speaks to it any more, whatever ended the process; `endless`:
+  /// never. Playing effects are started again each third of it.
+  double effect_duration = 0.25;
+  /// s without a command after which the force is none and effects are left to end.
+  double command_silence = 0.1;
+  /// s without an input report after which the device is asked for one.
+  double input_silence = 0.1;
+  int most_in_flight = 2;   ///< output reports on their way at once, at least 1
+  int most_bad_inputs = 8;  ///< one after another; then the device is lost
+};
+
+/// A transfer that the session wants made.
+struct Transfer {
+  enum class Kind : std::uint8_t { control_in, control_out, interrupt_out };
+  enum class Purpose : std::uint8_t { step, force, refresh, poll };
+
+  Kind kind = Kind::interrupt_out;
+  Purpose purpose = Purpose::step;  ///< the session's own
+  /// Of a control transfer (USB 2.0, section 9.3); `length` bytes come in, or those of `data` go out.
+  std::uint8_t request_type = 0, request = 0;
+  std::uint16_t value = 0, index = 0, length = 0;
+  Packet data;
+};
+
+/// How a transfer ended.
+enum class Outcome : std::uint8_t { done, stalled, timed_out, failed, gone };
+
+/// How two axes share the device's effects.
+enum class Arrangement : std::uint8_t {
+  by_direction,  ///< an effect for each axis, turned to it: what hosts usually send, so what devices do best
+  by_axis,       ///< an effect for each axis, enabled on it: where the device knows no directions
+  combined       ///< one effect that is turned anew: where the device has room for one only
+};
+
+/// For whoever runs it: "an effect for each axis, by direction".
+std::string_view in_words(Arrangement arrangement) noexcept;
+
+/// What a session has done since it was made.
+struct PidSessionCounts {
+  std::array<long, 2> forces_sent{};  ///< Set Constant Force packets while running, per effect
+  long directions_sent = 0;           ///< Set Effect packets that turned the combined effect
+  long overwritten = 0;               ///< commands that a newer one replaced before any of it was sent
+  long refreshes = 0;                 ///< effects started again
+  long inputs = 0;                    ///< good input reports
+  long other_reports = 0;             ///< input reports that are not about position
+  long bad_inputs = 0;                ///< too short or of no known report
+  long polls = 0;                     ///< input reports asked for
+  long silences = 0;                  ///< times that no command came
+};
+
+/// The life of a force-feedback joystick of USB's PID class, without USB: it says which transfer comes next and takes
+/// how it went. Transfers of setting up and of leaving are made one by one, because a device's endpoints are not
+/// ordered against each other; while running, up to `most_in_flight` output reports and one poll are on their way.
+///
+/// There is never more than one force pending: `next` takes the newest command, so no old force queues. Effects play
+/// for a finite time and are refreshed, so that a device that honours durations stops when the process is killed. After
+/// a failure the device is told to stop as well as it goes, and the session is over.
+///
+/// One thread at a time. Times are microseconds of any steady clock.
+class PidSession {
+ public:
+  enum class State : std::uint8_t {
+    setting_up,
+    running,
+    leaving,  ///< stops the device
+    over      ///< nothing more to do: `was_lost` and `reason` say why
+  };
+
+  explicit PidSession(const HidInterface& interface, const PidSessionOptions& options = {});
+
+  State state() const noexcept { return state_; }
+  /// Whether it ended, or is ending, without `stop`.
+  bool was_lost() const noexcept { return lost_; }
+  /// Why it was lost; empty otherwise.
+  std::string_view reason() const noexcept { return reason_; }
+
+  /// Known once the descriptor has been read.
+  const std::optional<PidLayout>& layout() const noexcept { return layout_; }
+  /// Known once it runs.
+  Arrangement arrangement() const noexcept { return arrangement_; }
+  const PidSessionCounts& counts() const noexcept { return counts_; }
+  const std::optional<InputState>& input() const noexcept { return input_; }
+
+  /// The transfer to make now, if any; each is given to `finish` once it has ended.
+  /// Real-time while running and leaving: allocates nothing, takes no lock, makes no system call, does not throw.
+  std::optional<Transfer> next(std::int64_t now) noexcept;
+
+  /// `answer` is what came in. Real-time as `next` is; allocates while setting up.
+  void finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now);
+
+  /// An input report has come on the interrupt endpoint. Real-time.
+  void receive(std::span<const std::uint8_t> report, std::int64_t now) noexcept;
+
+  /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user).
+  /// Not-a-number is none. Ignored unless running. Real-time.
+  void command(glm::dvec2 force, std::int64_t now) noexcept;
+
+  /// No force, all effects stopped and freed, actuators disabled: then the session is over. Real-time.
+  void stop() noexcept;
+
+  /// The transport has failed: as after a transfer with that outcome. `reason` outlives the session. Real-time.
+  void lose(std::string_view reason, Outcome outcome) noexcept;
+
+ private:
+  enum class Step : std::uint8_t {
+    read_descriptor,
+    read_pool,
+    reset,
+    enable,
+    gain,
+    create,
+    load,
+    set,
+    zero,
+    start,
+    run,
+    leave_zero,
+    leave_stop,
+    leave_stop_all,
+    leave_free,
+    leave_disable,
+    none
+  };
+
+  std::optional<Transfer> step_transfer() noexcept;
+  void finish_step(Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now);
+  void finish_load(Outcome outcome, std::span<const std::uint8_t> answer);
+  void learn(std::span<const std::uint8_t> descriptor);
+  void advance(std::int64_t now) noexcept;
+  std::optional<Transfer> running_transfer(std::int64_t now) noexcept;
+  std::optional<Transfer> force_transfer() noexcept;
+  Packet turned_effect(std::size_t effect, double direction) const noexcept;
+  Packet effect_packet(std::size_t effect) const noexcept;
+  Transfer output(const Packet& packet, Transfer::Purpose purpose) const noexcept;
+  Transfer get_report(std::uint8_t kind, const PacketShape& shape, Transfer::Purpose purpose) const noexcept;
+  std::size_t effects() const noexcept { return arrangement_ == Arrangement::combined ? 1 : 2; }
+  void refuse(std::string reason);
+
+  HidInterface interface_;
+  PidSessionOptions options_;
+  State state_ = State::setting_up;
+  Step step_ = Step::read_descriptor;
+  std::size_t effect_ = 0;  // that the step is about
+  std::size_t created_ = 0;
+  bool lost_ = false, step_under_way_ = false, step_is_void_ = false, out_failed_ = false, poll_under_way_ = false;
+  int in_flight_ = 0, load_attempts_ = 0, failures_leaving_ = 0, bad_inputs_ = 0;
+  std::string_view reason_;
+  std::string refusal_;  // what `reason_` sees where it is not a literal
+
+  std::optional<PidLayout> layout_;
+  std::array<std::uint8_t, 256> input_bytes_{};  // by report id; 0: no such report
+  Arrangement arrangement_ = Arrangement::by_direction;
+  std::array<std::uint8_t, 2> blocks_{};
+  double duration_ = 0;  // s; endless or what the device can say
+
+  glm::dvec2 wanted_{0};
+  std::array<std::int64_t, 2> sent_{};  // magnitudes, counts; of the combined effect the first
+  double direction_ = 90;               // degrees, of the combined effect
+  bool turned_ = false;                 // the direction has been sent, its magnitude not yet
+  std::size_t turn_ = 0;                // whose force comes first
+  bool pending_ = false;
+  std::int64_t commanded_ = 0, heard_ = 0;  // when
+  bool silent_ = false;
+  std::array<std::int64_t, 2> refresh_at_{};
+  std::optional<InputState> input_;
+  PidSessionCounts counts_;
+};
+
+}  // namespace wale::hid

@@ -1,0 +1,65 @@
+#include "runtime/device/usb/hid_pid_device.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wale {
+namespace {
+
+int scaled_counts(std::int32_t raw, const hid::Number& range, double counts, int sign) noexcept {
+  const double length = static_cast<double>(range.maximum - range.minimum);
+  const double centre = (static_cast<double>(range.maximum) + static_cast<double>(range.minimum)) / 2;
+  return sign * static_cast<int>(std::lround((raw - centre) * counts / length));
+}
+
+}  // namespace
+
+std::variant<std::unique_ptr<HidPidDevice>, Refusal> HidPidDevice::open(std::shared_ptr<UsbContext> context,
+                                                                        const UsbDeviceInfo& info,
+                                                                        DeviceProfile profile,
+                                                                        const HidPidOptions& options) {
+  Refusal refusal{
+      in_words(info.vendor, info.product) + ": it is not a force device: it has no interface of the HID class", {}};
+  bool is_first = true;
+  for (const UsbHidInterface& interface : info.hid) {
+    auto opened = PidTransport::open(context, info, interface, options.transport);
+    if (auto* transport = std::get_if<std::unique_ptr<PidTransport>>(&opened)) {
+      return std::unique_ptr<HidPidDevice>(new HidPidDevice(std::move(*transport), std::move(profile), options.signs));
+    }
+    // A keyboard beside the joystick is not what stands in the way.
+    Refusal& why = std::get<Refusal>(opened);
+    if (is_first || refusal.reason.find("not a force device") != std::string::npos) refusal = std::move(why);
+    is_first = false;
+  }
+  return refusal;
+}
+
+HidPidDevice::HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile, const AxisSigns& signs)
+    : transport_(std::move(transport)), profile_(std::move(profile)), signs_(signs) {}
+
+Reading HidPidDevice::sample() noexcept {
+  const PidTransport::Seen seen = transport_->seen();
+  const hid::PidLayout::Input& input = transport_->layout().input;
+  Reading reading;
+  reading.counts.x = scaled_counts(seen.x, input.x, profile_.position_counts, signs_.position_x);
+  reading.counts.y = scaled_counts(seen.y, input.y, profile_.position_counts, signs_.position_y);
+  reading.button = seen.button;
+  return reading;
+}
+
+Force HidPidDevice::command(Force force) noexcept {
+  const auto full = static_cast<double>(transport_->layout().set_constant_force.full());
+  glm::vec2 wanted(0), exerted(0);
+  const int signs[2] = {signs_.force_x, signs_.force_y};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double fraction = force[axis] / profile_.force_newton;
+    const auto counts = hid::magnitude_counts(transport_->layout(), fraction);  // not-a-number is none
+    wanted[axis] = static_cast<float>(signs[axis] * static_cast<double>(counts) / full);
+    exerted[axis] = static_cast<float>(static_cast<double>(counts) / full * profile_.force_newton);
+  }
+  if (transport_->was_lost()) return Force(0);
+  transport_->command(wanted);
+  return exerted;
+}
+
+}  // namespace wale

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "runtime/device/usb/pid_transport.hpp"
+#include "runtime/device/usb/usb_context.hpp"
+#include "wale/device.hpp"
+
+namespace wale {
+
+/// How a device's own axes lie in the workspace, whose x points to the right and whose y away from the user: 1 or -1.
+/// HID's y points to the user; a device whose motors are wired otherwise than its encoders needs other signs.
+struct AxisSigns {
+  int position_x = 1, position_y = -1;
+  int force_x = 1, force_y = -1;
+};
+
+struct HidPidOptions {
+  PidTransport::Options transport;
+  AxisSigns signs;
+};
+
+/// A force-feedback joystick of USB's PID class, whatever its report descriptor makes of it. Positions are scaled from
+/// the descriptor's range to the profile's counts, forces from the profile's peak force to the descriptor's range.
+///
+/// Where two axes have an effect each, each packet carries one axis: they alternate when both change, which halves the
+/// rate of each. A device that is lost (`was_lost`) pushes no more and stays where it was last seen.
+class HidPidDevice final : public Device {
+ public:
+  /// Takes the first interface of the device that can push. The profile's counts and force are positive. The refusal
+  /// says what is in the way: permissions and the rule that gives them, another program, that it is no force device, or
+  /// what its descriptor lacks.
+  static std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(std::shared_ptr<UsbContext> context,
+                                                                   const UsbDeviceInfo& info, DeviceProfile profile,
+                                                                   const HidPidOptions& options = {});
+
+  const DeviceProfile& profile() const noexcept override { return profile_; }
+  void elapse(long) noexcept override {}
+  Reading sample() noexcept override;
+  Force command(Force force) noexcept override;
+
+  /// Real-time: one atomic load.
+  bool was_lost() const noexcept { return transport_->was_lost(); }
+  /// Why it was lost; empty otherwise.
+  std::string reason() const { return transport_->reason(); }
+  hid::Arrangement arrangement() const { return transport_->arrangement(); }
+  hid::PidSessionCounts counts() const { return transport_->counts(); }
+  const hid::PidLayout& layout() const { return transport_->layout(); }
+
+ private:
+  HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile, const AxisSigns& signs);
+
+  std::unique_ptr<PidTransport> transport_;
+  DeviceProfile profile_;
+  AxisSigns signs_;
+};
+
+}  // namespace wale

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/device/usb/usb_context.hpp"
+
+namespace wale {
+
+/// A device that is plugged in and may be able to push.
+struct ListedUsbDevice {
+  UsbDeviceInfo usb;
+  std::string name;      ///< as it calls itself; empty where that cannot be read
+  std::string can;       ///< what it can do, in a line: "two axes by direction, 32767 steps of force to each side"
+  std::string obstacle;  ///< why it cannot be used; empty: nothing is known to be in the way
+};
+
+/// All devices of the HID class that are plugged in, in the order of their ports. Asks no device for anything but its
+/// descriptors, and takes none from the kernel's driver or from another program.
+std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context);
+
+}  // namespace wale

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "schema/patch_program.hpp"
+
+struct libusb_context;
+struct libusb_device;
+
+namespace wale {
+
+/// An interface of USB's HID class.
+struct UsbHidInterface {
+  std::uint8_t number = 0;
+  std::uint16_t report_descriptor_bytes = 0;
+  std::uint8_t in_endpoint = 0;  ///< address of its interrupt IN endpoint; 0: it has none
+  std::uint8_t out_endpoint = 0;
+  std::uint16_t in_bytes = 0;  ///< of a packet
+  int interval = 0;            ///< bInterval of the IN endpoint: ms at full speed
+
+  friend bool operator==(const UsbHidInterface&, const UsbHidInterface&) = default;
+};
+
+/// A device that is plugged in, as its descriptors say.
+struct UsbDeviceInfo {
+  std::uint16_t vendor = 0, product = 0;
+  std::uint8_t bus = 0, address = 0;
+  std::string port;  ///< as Linux names it: "1-2.3"; the same after it is plugged in there again
+  std::vector<UsbHidInterface> hid;
+
+  friend bool operator==(const UsbDeviceInfo&, const UsbDeviceInfo&) = default;
+};
+
+/// "1209:ffb0"
+std::string in_words(std::uint16_t vendor, std::uint16_t product);
+
+/// Why a device cannot be used, by libusb's number of the error, with what to do about it: permissions are given by a
+/// udev rule, which stands in the text.
+Refusal why_not_usable(int error, const UsbDeviceInfo& info);
+
+struct UsbEvent {
+  bool arrived = false;  ///< otherwise it left
+  std::uint16_t vendor = 0, product = 0;
+  std::uint8_t bus = 0, address = 0;
+};
+
+/// libusb, and the thread that handles its events. Devices share it and keep it alive; it is let go on no thread of its
+/// own.
+class UsbContext {
+ public:
+  static std::variant<std::shared_ptr<UsbContext>, Refusal> open();
+  ~UsbContext();
+  UsbContext(const UsbContext&) = delete;
+  UsbContext& operator=(const UsbContext&) = delete;
+
+  /// What is plugged in now.
+  std::vector<UsbDeviceInfo> devices() const;
+
+  /// Calls `changed` on the event thread whenever a device comes or goes; it returns soon, opens no device and does not
+  /// watch anew. One at a time; an empty one ends it. False: this system does not tell.
+  bool watch(std::function<void(const UsbEvent&)> changed);
+
+  /// Gives the event thread this SCHED_FIFO priority, which is best just below that of the loop. False: not permitted.
+  bool set_priority(int priority);
+
+  libusb_context* handle() const { return context_; }
+  /// The device that `info` is of, with a reference that the caller gives back (`libusb_unref_device`); null when it is
+  /// gone.
+  libusb_device* find(const UsbDeviceInfo& info) const;
+
+ private:
+  explicit UsbContext(libusb_context* context);
+  void tell(const UsbEvent& event);
+
+  libusb_context* context_;
+  std::atomic<bool> ends_{false};
+  std::mutex watch_mutex_;
+  std::function<void(const UsbEvent&)> changed_;
+  int watch_ = -1;  // libusb's number of it
+  std::thread events_;
+};
+
+}  // namespace wale

@@ -1,0 +1,98 @@
+// A libFuzzer target for what a USB joystick says of itself and sends: any bytes at all are refused, or make a layout
+// by which packets are written that are as long as it says and hold what was asked for, and by which packets of any
+// bytes are read or refused.
+//
+// The first byte selects: a report descriptor as it stands, or one of the layouts of the tests with some of its bytes
+// changed, so that the fuzzer begins with descriptors that are accepted.
+
+#include <cstdlib>
+#include <span>
+
+#include "runtime/device/hid_pid/pid_layout.hpp"
+#include "runtime/device/hid_pid/pid_packets.hpp"
+#include "runtime/device/hid_pid/report_descriptor.hpp"
+#include "tests/usb/pid_descriptor.hpp"
+
+namespace {
+
+using namespace wale::hid;
+
+void demand(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check(const Packet& packet, const PacketShape& shape) {
+  demand(packet.size == shape.bytes && (shape.id == 0 || packet.size == 0 || packet.bytes[0] == shape.id));
+  for (std::size_t i = packet.size; i < packet.bytes.size(); ++i) demand(packet.bytes[i] == 0);
+}
+
+void write_packets(const PidLayout& layout) {
+  const double strange[] = {0, 1, -1, 0.3, 1e300, -1e300, std::strtod("nan", nullptr), std::strtod("inf", nullptr)};
+  for (const double value : strange) {
+    check(encode_constant_force(layout, 255, value), layout.set_constant_force);
+    check(encode_set_effect(layout, {7, value, 30 * value, false, true, false}), layout.set_effect);
+    check(encode_set_effect(layout, {7, value, 30 * value, true}), layout.set_effect);
+    demand(std::abs(magnitude_counts(layout, value)) <= layout.set_constant_force.full());
+  }
+  check(encode_start(layout, 1, true), layout.effect_operation);
+  check(encode_stop(layout, 1), layout.effect_operation);
+  const auto& control = layout.device_control;
+  for (const Order* order :
+       {&control.enable_actuators, &control.disable_actuators, &control.stop_all, &control.reset}) {
+    check(encode_device_control(layout, *order), control);
+  }
+  check(encode_full_gain(layout), layout.device_gain);
+  check(encode_create_constant_force(layout), layout.create_new_effect);
+  check(encode_block_free(layout, 1), layout.block_free);
+}
+
+void read_packets(const PidLayout& layout, std::span<const std::uint8_t> bytes) {
+  if (const auto input = decode_input(layout, bytes)) {
+    demand(bytes.size() >= layout.input.bytes);
+    demand(input->x >= layout.input.x.minimum && input->x <= layout.input.x.maximum);
+    demand(input->y >= layout.input.y.minimum && input->y <= layout.input.y.maximum);
+  }
+  if (const auto load = decode_block_load(layout, bytes)) {
+    demand(bytes.size() >= layout.block_load.bytes);
+    demand((load->status == BlockLoadAnswer::Status::loaded) == (load->block_index != 0));
+  }
+  if (decode_pool(layout, bytes)) demand(bytes.size() >= layout.pool.bytes);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  static const auto families = wale::test::all_families();
+  if (size == 0) return 0;
+  std::span<const std::uint8_t> rest(data + 1, size - 1);
+  std::vector<std::uint8_t> bytes(rest.begin(), rest.end());
+  const std::size_t which = data[0] % (families.size() + 1);
+  if (which > 0) {
+    bytes = wale::test::report_descriptor(families[which - 1]);
+    // A number of changes, then the packet to read.
+    std::size_t changes = 0;
+    if (!rest.empty()) changes = rest[0] % 8, rest = rest.subspan(1);
+    for (; changes > 0 && rest.size() >= 3; --changes, rest = rest.subspan(3)) {
+      bytes[(rest[0] | rest[1] << 8) % bytes.size()] = rest[2];
+    }
+  }
+  const auto descriptor = parse_report_descriptor(bytes);
+  if (const auto* error = std::get_if<ReportDescriptorError>(&descriptor)) {
+    demand(!error->reason.empty() && error->offset <= bytes.size());
+    return 0;
+  }
+  for (const Report& report : std::get<ReportDescriptor>(descriptor).reports) {
+    for (const Field& field : report.fields) {
+      demand(field.bit_offset + field.bits * field.count <= report.bits);
+      demand(field.logical_minimum <= field.logical_maximum && field.usage_at(0).has_value());
+    }
+  }
+  const auto layout = find_pid_layout(std::get<ReportDescriptor>(descriptor));
+  if (const auto* refusal = std::get_if<PidRefusal>(&layout)) {
+    demand(!refusal->reason.empty());
+    return 0;
+  }
+  write_packets(std::get<PidLayout>(layout));
+  read_packets(std::get<PidLayout>(layout), rest);
+  return 0;
+}

@@ -1,0 +1,296 @@
+#include "tests/usb/pid_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wale::test {
+namespace {
+
+constexpr double full_newton = 10;
+
+DeviceProfile stick_profile() {
+  DeviceProfile profile;
+  profile.name = "model";
+  profile.workspace_diameter = 0.2;
+  profile.position_counts = 65534;
+  profile.force_newton = full_newton;
+  profile.force_counts = 32767;
+  profile.rate = 1000;
+  profile.speed_limit = 1;
+  profile.mass = 0.3;
+  profile.damping = 1;
+  profile.friction = 0.15;
+  return profile;
+}
+
+int unsigned16(const std::vector<std::uint8_t>& bytes, std::size_t at) { return bytes[at] | bytes[at + 1] << 8; }
+
+}  // namespace
+
+PidModel::PidModel(PidFamily of, Faults with)
+    : family(std::move(of)),
+      faults(with),
+      descriptor(test::report_descriptor(family)),
+      stick_(stick_profile(), HandModel{0.55, 6.5, 135}, Lateral{0.04, 1}) {}
+
+std::vector<std::uint8_t> PidModel::device_descriptor() const {
+  const auto low = [](std::uint16_t value) { return static_cast<std::uint8_t>(value & 0xff); };
+  const auto high = [](std::uint16_t value) { return static_cast<std::uint8_t>(value >> 8); };
+  return {18,
+          1,
+          0x00,
+          0x02,
+          0,
+          0,
+          0,
+          64,
+          low(family.vendor),
+          high(family.vendor),
+          low(family.product),
+          high(family.product),
+          0x00,
+          0x01,
+          0,
+          0,
+          0,
+          1};
+}
+
+std::vector<std::uint8_t> PidModel::configuration_descriptor() const {
+  const auto length = static_cast<std::uint16_t>(descriptor.size());
+  return {9,
+          2,
+          41,
+          0,
+          1,
+          1,
+          0,
+          0x80,
+          50,  // one interface
+          9,
+          4,
+          0,
+          0,
+          2,
+          3,
+          0,
+          0,
+          0,  // HID, two endpoints
+          9,
+          0x21,
+          0x11,
+          0x01,
+          0,
+          1,
+          0x22,
+          static_cast<std::uint8_t>(length & 0xff),
+          static_cast<std::uint8_t>(length >> 8),
+          7,
+          5,
+          0x83,
+          3,
+          64,
+          0,
+          1,  // interrupt IN, each millisecond
+          7,
+          5,
+          0x02,
+          3,
+          64,
+          0,
+          1};  // interrupt OUT
+}
+
+std::optional<std::vector<std::uint8_t>> PidModel::control(const std::array<std::uint8_t, 8>& setup,
+                                                           const std::vector<std::uint8_t>& out) {
+  const std::uint8_t low = setup[2], high = setup[3];
+  if (setup[0] == 0x81 && setup[1] == 6 && high == 0x22) {
+    auto answer = descriptor;
+    answer.resize(std::min<std::size_t>(answer.size(), setup[6] | setup[7] << 8));
+    return answer;
+  }
+  if (setup[0] == 0xa1 && setup[1] == 1) {
+    if (high == 1 && low == family.input) {
+      ++polls;
+      if (faults.stalls_polls) return std::nullopt;
+      return input_report();
+    }
+    if (high != 3) return std::nullopt;
+    if (logs) log.push_back("GET " + hex({low}));
+    if (low == family.load) return block_load();
+    if (family.has_pool && low == family.pool) {
+      return std::vector<std::uint8_t>{low, 0, 0x10, static_cast<std::uint8_t>(family.simultaneous), 3};
+    }
+    return std::nullopt;
+  }
+  if (setup[0] == 0x21 && setup[1] == 9) {
+    if (out.empty() || out[0] != low || out.size() != static_cast<std::size_t>(setup[6] | setup[7] << 8)) {
+      ++wrong_reports;
+      return std::nullopt;
+    }
+    if (logs) log.push_back("SET " + hex(out));
+    if (high == 2) {
+      take(out);
+    } else if (high == 3 && low == family.create) {
+      if (out.size() != 4 || out[1] != 1) ++wrong_reports;
+      last_created_ = 0;
+      if (created_ < faults.room) {
+        ++created_;
+        last_created_ = faults.block_zero ? 0 : static_cast<std::uint8_t>(faults.same_block ? 1 : created_);
+        effects[last_created_].exists = true;
+      }
+    } else {
+      return std::nullopt;
+    }
+    return std::vector<std::uint8_t>{};
+  }
+  if (setup[0] == 0x21 && setup[1] == 10) return std::vector<std::uint8_t>{};  // SET_IDLE
+  return std::nullopt;
+}
+
+std::vector<std::uint8_t> PidModel::block_load() {
+  if (faults.pending_loads > 0) {
+    --faults.pending_loads;
+    return {family.load, 0, 0, 0, 0};
+  }
+  if (faults.short_load) return {family.load, last_created_};
+  const bool is_loaded = last_created_ != 0 || faults.block_zero;
+  return {family.load, last_created_, static_cast<std::uint8_t>(is_loaded ? 1 : 2), 0, 0x10};
+}
+
+bool PidModel::output(const std::vector<std::uint8_t>& report) {
+  if (faults.stall_outputs_after >= 0 && outputs >= faults.stall_outputs_after) return false;
+  ++outputs;
+  if (logs) log.push_back("OUT " + hex(report));
+  take(report);
+  return true;
+}
+
+void PidModel::take(const std::vector<std::uint8_t>& report) {
+  if (report.size() < 2) {
+    ++wrong_reports;
+    return;
+  }
+  const std::uint8_t id = report[0];
+  Effect& effect = effects[report[1]];
+  const auto is_long = [&](std::size_t bytes) {
+    if (report.size() != bytes) ++wrong_reports;
+    return report.size() == bytes;
+  };
+  if (id == family.set_effect) {
+    set_effect(report);
+  } else if (id == family.constant && is_long(4)) {
+    const auto counts = static_cast<std::int16_t>(unsigned16(report, 2));
+    if (!effect.exists || std::abs(counts) > family.magnitude_maximum) ++wrong_reports;
+    effect.magnitude = static_cast<double>(counts) / family.magnitude_maximum;
+  } else if (id == family.operation && is_long(4)) {
+    if (!effect.exists || report[2] < 1 || report[2] > 3) ++wrong_reports;
+    effect.plays = report[2] != 3;
+    effect.loops = report[3];
+    effect.started = now_;
+  } else if (id == family.free && is_long(2)) {
+    if (!effect.exists) ++wrong_reports;
+    effect = {};
+    --created_;
+  } else if (id == family.gain && is_long(2)) {
+    gain = report[1] / 255.0;
+  } else if (id == family.control && is_long(2)) {
+    for (std::size_t i = 0; i < family.control_orders.size(); ++i) {
+      const bool is_said = family.control_is_mask ? (report[1] >> i & 1) != 0 : report[1] == i + 1;
+      if (!is_said) continue;
+      switch (family.control_orders[i]) {
+        case 0x97: is_enabled = true; break;
+        case 0x98: is_enabled = false; break;
+        case 0x99:
+          for (Effect& each : effects) each.plays = false;
+          break;
+        case 0x9a: reset(); break;
+        default: ++wrong_reports; break;
+      }
+    }
+  } else if (id != family.constant && id != family.operation && id != family.free && id != family.gain &&
+             id != family.control) {
+    ++wrong_reports;
+  }
+}
+
+void PidModel::set_effect(const std::vector<std::uint8_t>& report) {
+  using Delay = PidFamily::Delay;
+  const std::size_t gain_bytes = static_cast<std::size_t>(family.gain_bits) / 8;
+  const std::size_t direction_bytes = family.has_direction ? static_cast<std::size_t>(family.direction_bits) / 8 : 0;
+  const std::size_t gain_at = 9 + (family.delay == Delay::before_gain ? 2 : 0);
+  const std::size_t axes_at = gain_at + gain_bytes + 1, direction_at = axes_at + 1;
+  const std::size_t bytes =
+      direction_at + 2 * direction_bytes + (family.type_offsets ? 4 : 0) + (family.delay == Delay::last ? 2 : 0);
+  if (report.size() != bytes || !effects[report[1]].exists || report[2] != 1) {
+    ++wrong_reports;
+    return;
+  }
+  Effect& effect = effects[report[1]];
+  effect.duration = unsigned16(report, 3);
+  const int effect_gain = gain_bytes == 2 ? unsigned16(report, gain_at) : report[gain_at];
+  effect.gain = static_cast<double>(effect_gain) / family.gain_maximum;
+  effect.on_x = (report[axes_at] & 1) != 0;
+  effect.on_y = (report[axes_at] & 2) != 0;
+  effect.by_direction = (report[axes_at] & 4) != 0;
+  if (family.has_direction) {
+    const int direction = direction_bytes == 2 ? unsigned16(report, direction_at) : report[direction_at];
+    effect.direction = 360.0 * direction / family.direction_maximum;
+  }
+}
+
+void PidModel::reset() {
+  effects = {};
+  created_ = 0;
+  is_enabled = false;
+}
+
+std::vector<std::uint8_t> PidModel::input_report() {
+  const Reading reading = stick_.sample();
+  std::vector<std::uint8_t> report{family.input};
+  report.resize(1 + static_cast<std::size_t>(family.buttons + 7) / 8);
+  const auto put = [&](int value) {
+    report.push_back(static_cast<std::uint8_t>(value & 0xff));
+    report.push_back(static_cast<std::uint8_t>(value >> 8 & 0xff));
+  };
+  for (const std::uint8_t axis : family.axes)
+    put(axis == 0x30 ? reading.counts.x : axis == 0x31 ? -reading.counts.y : 0);
+  return report;
+}
+
+std::optional<std::vector<std::uint8_t>> PidModel::input() {
+  const auto is_past = [&](long after) { return after >= 0 && inputs >= after; };
+  if (is_past(faults.no_inputs_after)) return std::nullopt;
+  auto report = input_report();
+  if (is_past(faults.bad_inputs_after)) report.assign(report.size(), 0xee);
+  if (is_past(faults.short_inputs_after)) report.resize(3);
+  ++inputs;
+  return report;
+}
+
+glm::dvec2 PidModel::force() const {
+  glm::dvec2 force(0);
+  if (!is_enabled) return force;
+  for (const Effect& effect : effects) {
+    if (!effect.exists || !effect.plays) continue;
+    const bool is_endless = effect.duration == 0xffff || effect.loops == 255;
+    if (!is_endless && now_ - effect.started >= static_cast<long long>(effect.duration) * effect.loops) continue;
+    const double size = effect.magnitude * effect.gain * gain,
+                 radians = effect.direction * 3.14159265358979323846 / 180;
+    if (effect.by_direction) {
+      force += size * glm::dvec2(std::sin(radians), -std::cos(radians));
+    } else {
+      force += size * glm::dvec2(effect.on_x ? 1 : 0, effect.on_y ? 1 : 0);
+    }
+  }
+  return force;
+}
+
+void PidModel::step() {
+  const glm::dvec2 now = force() * full_newton;
+  stick_.command({static_cast<float>(now.x), static_cast<float>(-now.y)});
+  stick_.elapse(1);
+  ++now_;
+}
+
+}  // namespace wale::test

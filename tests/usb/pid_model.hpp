@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/usb/pid_descriptor.hpp"
+#include "wale/simulated.hpp"
+
+namespace wale::test {
+
+/// How a model of a device misbehaves.
+struct Faults {
+  long stall_outputs_after = -1;   ///< interrupt OUT transfers that go well before all others stall; -1: never
+  long silent_outputs_after = -1;  ///< as above, but no answer at all comes
+  long bad_inputs_after = -1;      ///< input reports that are good before they are nonsense
+  long short_inputs_after = -1;
+  long no_inputs_after = -1;
+  bool deaf_to_polls = false;  ///< GET_REPORT of input reports is not answered
+  bool stalls_polls = false;
+  int room = 40;            ///< effects that fit
+  int pending_loads = 0;    ///< answers of Block Load that say nothing yet
+  bool same_block = false;  ///< gives out the same block twice
+  bool block_zero = false;  ///< gives out block 0
+  bool short_load = false;  ///< answers Block Load with two bytes
+  bool silent = false;      ///< answers nothing
+};
+
+/// A force-feedback joystick of USB's PID class, as far as its packets and its stick go. It reads and writes packets by
+/// its family's table alone. Time goes by `step`s of a millisecond, the frames of full-speed USB.
+class PidModel {
+ public:
+  struct Effect {
+    bool exists = false, plays = false, by_direction = false, on_x = false, on_y = false;
+    int duration = 0;      // ms; 0xffff: for ever
+    int loops = 1;         // 255: for ever
+    double direction = 0;  // degrees
+    double gain = 1, magnitude = 0;
+    long long started = 0;  // ms
+  };
+
+  explicit PidModel(PidFamily family, Faults faults = {});
+
+  std::vector<std::uint8_t> device_descriptor() const;
+  std::vector<std::uint8_t> configuration_descriptor() const;
+
+  /// A control transfer with its 8 bytes of set-up and what goes out; what comes in. Nothing: the endpoint stalls.
+  std::optional<std::vector<std::uint8_t>> control(const std::array<std::uint8_t, 8>& setup,
+                                                   const std::vector<std::uint8_t>& out);
+  /// An output report on the interrupt endpoint; false: the endpoint stalls.
+  bool output(const std::vector<std::uint8_t>& report);
+  bool is_deaf_to_outputs() const { return faults.silent_outputs_after >= 0 && outputs >= faults.silent_outputs_after; }
+  /// The input report of this frame, if it sends one.
+  std::optional<std::vector<std::uint8_t>> input();
+  void step();
+
+  /// The force that the motors exert, of full force along the axes of HID (y to the user).
+  glm::dvec2 force() const;
+  /// m from the centre, x to the right, y away from the user.
+  glm::dvec2 position() const { return stick_.position(); }
+
+  PidFamily family;
+  Faults faults;
+  std::vector<std::uint8_t> descriptor;
+  std::vector<std::string> log;  ///< "OUT 0C 08", "SET 11 01 00 00", "GET 12"
+  bool logs = true;
+  std::array<Effect, 256> effects{};
+  bool is_enabled = false;
+  double gain = 1;
+  long outputs = 0, inputs = 0, wrong_reports = 0, polls = 0;
+
+ private:
+  void take(const std::vector<std::uint8_t>& report);
+  void set_effect(const std::vector<std::uint8_t>& report);
+  void reset();
+  std::vector<std::uint8_t> input_report();
+  std::vector<std::uint8_t> block_load();
+
+  SimulatedJoystick stick_;
+  long long now_ = 0;  // ms
+  int created_ = 0;
+  std::uint8_t last_created_ = 0;
+};
+
+}  // namespace wale::test

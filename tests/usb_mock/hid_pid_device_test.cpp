@@ -1,0 +1,449 @@
+#include "runtime/device/usb/hid_pid_device.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <thread>
+
+#include "runtime/device/usb/list_usb_devices.hpp"
+#include "tests/runtime/programs.hpp"
+#include "tests/usb_mock/usb_mock.hpp"
+#include "wale/stage.hpp"
+
+namespace {
+thread_local long allocations = 0;
+}  // namespace
+
+// These replace the whole test program's, to see who allocates. Not inlined, or the compiler, knowing malloc and free
+// by their names, thinks that one of each pair is missing.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
+
+// Unmodified libusb and all of the driver, against devices that are not there. What is asserted is counts, order and
+// bytes, never how long anything took: waiting has no end of its own but the test's.
+
+namespace wale::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr char push_until_killed[] = "--push-until-killed";
+
+DeviceProfile profile() {
+  DeviceProfile profile;
+  profile.name = "mock";
+  profile.workspace_diameter = 0.2;
+  profile.position_counts = 65534;
+  profile.force_newton = 10;
+  profile.force_counts = 32767;
+  profile.rate = 900;
+  return profile;
+}
+
+class UsbDriver : public testing::Test {
+ protected:
+  UsbDriver() {
+    auto opened = UsbContext::open();
+    context_ = std::get<std::shared_ptr<UsbContext>>(opened);
+  }
+
+  std::shared_ptr<UsbContext> context() const { return context_; }
+
+  /// The device at a port, once libusb sees it.
+  UsbDeviceInfo found(int port) const {
+    while (true) {
+      for (const UsbDeviceInfo& info : context_->devices()) {
+        if (info.port == "1-" + std::to_string(port)) return info;
+      }
+      std::this_thread::sleep_for(1ms);
+    }
+  }
+
+  std::unique_ptr<HidPidDevice> opened(int port, const HidPidOptions& options = {}) const {
+    auto result = HidPidDevice::open(context_, found(port), profile(), options);
+    if (const auto* refusal = std::get_if<Refusal>(&result)) {
+      ADD_FAILURE() << refusal->reason;
+      return nullptr;
+    }
+    return std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+  }
+
+  std::string refusal(int port) const {
+    HidPidOptions options;
+    options.transport.set_up_timeout = 100;
+    auto result = HidPidDevice::open(context_, found(port), profile(), options);
+    const auto* refusal = std::get_if<Refusal>(&result);
+    return refusal == nullptr ? "opened" : refusal->reason;
+  }
+
+  UsbMock mock_;
+
+ private:
+  std::shared_ptr<UsbContext> context_;
+};
+
+/// Waits until `holds`.
+template <class Condition>
+void await(Condition holds) {
+  while (!holds()) std::this_thread::sleep_for(1ms);
+}
+
+/// Ticks as fast as the mock's frames come, as a loop of their rate would.
+template <class Serve>
+void run_ticks(UsbMock& mock, long ticks, Serve serve) {
+  for (long tick = 0; tick < ticks; ++tick) {
+    const long frame = mock.frames();
+    serve(tick);
+    while (mock.frames() == frame) std::this_thread::sleep_for(50us);
+  }
+}
+
+/// The Set Constant Force packets of OpenFFBoard in a log, as block and counts.
+struct Sent {
+  int block = 0, counts = 0;
+};
+std::vector<Sent> forces_in(const std::vector<std::string>& log) {
+  std::vector<Sent> sent;
+  for (const std::string& line : log) {
+    if (line.rfind("OUT 05 ", 0) != 0) continue;
+    const auto bytes = from_hex(line.substr(4));
+    sent.push_back({bytes[1], static_cast<std::int16_t>(bytes[2] | bytes[3] << 8)});
+  }
+  return sent;
+}
+
+TEST_F(UsbDriver, FindsItAndWhatItHas) {
+  mock_.plug(PidModel(openffboard()), 1);
+  const UsbDeviceInfo info = found(1);
+  EXPECT_EQ(in_words(info.vendor, info.product), "1209:ffb0");
+  const auto bytes = static_cast<std::uint16_t>(report_descriptor(openffboard()).size());
+  EXPECT_EQ(info.hid, (std::vector<UsbHidInterface>{{0, bytes, 0x83, 0x02, 64, 1}}));
+}
+
+TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
+  const auto felt = mock_.plug(PidModel(openffboard()), 1);
+  PidModel stick(arduino());
+  stick.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");
+  const auto plain = mock_.plug(std::move(stick), 2), taken = mock_.plug(PidModel(rhino()), 3);
+  taken->is_claimed_elsewhere = true;
+  found(3);
+  const auto listed = list_usb_devices(*context());
+  ASSERT_EQ(listed.size(), 3u);
+  EXPECT_EQ(listed[0].name, "OpenFFBoard");
+  EXPECT_EQ(listed[0].can, "two axes by direction, 32767 steps of force to each side");
+  EXPECT_EQ(listed[0].obstacle, "");
+  EXPECT_EQ(listed[1].obstacle, "it is not a force device: nothing in its report descriptor is of usage page 0F");
+  EXPECT_EQ(listed[2].obstacle, "another program has claimed it");
+  EXPECT_EQ(felt->claims, felt->releases);
+  EXPECT_EQ(felt->drivers_back, 0);
+  EXPECT_TRUE(felt->with_model([](PidModel& model) { return model.log.empty(); })) << "no report, only descriptors";
+}
+
+TEST(UsbRefusal, PermissionComesWithTheRuleToInstall) {
+  UsbDeviceInfo info;
+  info.vendor = 0x1209;
+  info.product = 0xffb0;
+  constexpr int access = -3;  // LIBUSB_ERROR_ACCESS
+  EXPECT_EQ(why_not_usable(access, info).reason,
+            "no permission to open it; as root, write the line\n"
+            "  SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1209\", ATTR{idProduct}==\"ffb0\", TAG+=\"uaccess\"\n"
+            "to /etc/udev/rules.d/70-wale.rules, then plug it in again");
+}
+
+TEST_F(UsbDriver, AWholeLife) {
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  EXPECT_EQ(device->arrangement(), hid::Arrangement::by_direction);
+  EXPECT_EQ(joystick->claims, 1);
+  // usb.md, "Sequence that worked end to end", with durations of 250 ms.
+  const auto set_up = joystick->with_model([](PidModel& model) { return model.log; });
+  const std::vector<std::string> expected{
+      "GET 13",          "OUT 0C 08",       "OUT 0C 01",
+      "OUT 0D FF",       "SET 11 01 00 00", "GET 12",
+      "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+      "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+      "OUT 05 02 00 00", "OUT 0A 02 01 01"};
+  ASSERT_GE(set_up.size(), expected.size());
+  EXPECT_EQ(std::vector<std::string>(set_up.begin(), set_up.begin() + static_cast<long>(expected.size())), expected);
+
+  // Each tick's force says which tick it is of: x grows, y (to the user, so of the other sign) grows with it.
+  constexpr long ticks = 10'000;
+  run_ticks(mock_, ticks, [&](long tick) {
+    const auto newton = static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10);
+    const long before = allocations;
+    device->elapse(1);
+    device->sample();
+    const Force exerted = device->command({newton, newton});
+    ASSERT_EQ(allocations, before);
+    ASSERT_NEAR(exerted.x, newton, 10.0 / 32767 / 2);
+  });
+  await([&] {
+    return joystick->with_model([&](PidModel& model) {
+      return model.effects[1].magnitude == ticks / 32767.0 && model.effects[2].magnitude == -ticks / 32767.0;
+    });
+  });
+  const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
+  const auto counts = device->counts();
+  EXPECT_EQ(counts.forces_sent[0] + counts.forces_sent[1] + 2, static_cast<long>(sent.size())) << "two of set-up";
+  EXPECT_GT(sent.size(), 100u);
+  int newest[3] = {0, 0, 0};
+  for (std::size_t i = 2; i < sent.size(); ++i) {
+    const int size = sent[i].block == 1 ? sent[i].counts : -sent[i].counts;
+    ASSERT_GT(size, newest[sent[i].block]) << "no old force after a newer one, and none twice";
+    newest[sent[i].block] = size;
+    ASSERT_NE(sent[i].block, sent[i - 1].block) << "axes alternate when both have something new to say";
+  }
+  EXPECT_GT(counts.refreshes, 10);
+  EXPECT_EQ(counts.bad_inputs, 0);
+  EXPECT_GT(counts.inputs, 100);
+
+  // The stick is where the device says.
+  await([&] {
+    const Reading reading = device->sample();
+    const glm::dvec2 position = joystick->with_model([](PidModel& model) { return model.position(); });
+    return std::abs(reading.counts.x * profile().position_step() - position.x) < 0.002 &&
+           std::abs(reading.counts.y * profile().position_step() - position.y) < 0.002;
+  });
+
+  device.reset();
+  joystick->with_model([](PidModel& model) {
+    EXPECT_EQ(std::vector<std::string>(model.log.end() - 8, model.log.end()),
+              (std::vector<std::string>{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00", "OUT 0A 02 03 00",
+                                        "OUT 0C 04", "OUT 0B 01", "OUT 0B 02", "OUT 0C 02"}));
+    EXPECT_EQ(model.wrong_reports, 0);
+    EXPECT_EQ(model.force(), glm::dvec2(0));
+  });
+  EXPECT_EQ(joystick->releases, 1);
+  EXPECT_EQ(joystick->drivers_back, 1) << "the kernel's driver";
+  EXPECT_EQ(joystick->unknown_ioctls, 0);
+}
+
+TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  auto result = HidPidDevice::open(context(), found(1), sandpaper());
+  const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+  Stage stage(*device);
+  stage.place(spring(50));
+  long calls = 0;
+  RunOptions options{.seconds = 0.8};
+  options.progress = [&](const Progress&) {
+    if (++calls == 3) stage.place(oil(5));
+  };
+  const auto ran = stage.run(options);
+  ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
+  EXPECT_GE(calls, 3);
+  await([&] { return joystick->with_model([](PidModel& model) { return model.force(); }) == glm::dvec2(0); });
+
+  // What went out along x is what the ticks commanded, in their order, some ticks left out.
+  const auto& ticks = std::get<RunResult>(ran).record.ticks;
+  const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
+  std::size_t tick = 0;
+  long found_again = 0;
+  for (std::size_t i = 2; i < sent.size(); ++i) {
+    if (sent[i].block != 1 || sent[i].counts == 0) continue;
+    while (tick < ticks.size() && std::lround(ticks[tick].force.x / 10 * 32767) != sent[i].counts) ++tick;
+    ASSERT_LT(tick, ticks.size()) << "a force that no later tick commanded: packet " << i;
+    ++found_again;
+  }
+  EXPECT_GT(found_again, 50);
+  EXPECT_EQ(joystick->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
+}
+
+TEST_F(UsbDriver, AKilledProcessIsFeltNoLonger) {
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  found(1);
+  const auto force = [&] { return joystick->with_model([](PidModel& model) { return model.force(); }); };
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
+  pid_t child = 0;
+  const char* words[] = {self.c_str(), push_until_killed, nullptr};
+  ASSERT_EQ(posix_spawn(&child, self.c_str(), nullptr, nullptr, const_cast<char**>(words), environ), 0);
+  await([&] { return force().x > 0.29; });
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  await([&] { return force() == glm::dvec2(0); });
+  EXPECT_TRUE(joystick->with_model([](PidModel& model) { return model.effects[1].plays; })) << "nobody stopped it";
+}
+
+TEST_F(UsbDriver, EachFamilyIsFelt) {
+  int port = 0;
+  for (const PidFamily& family : all_families()) {
+    const auto joystick = mock_.plug(PidModel(family), ++port);
+    const auto device = opened(port);
+    ASSERT_NE(device, nullptr) << family.name;
+    await([&] {
+      device->command({5, 2.5});
+      const glm::dvec2 force = joystick->with_model([](PidModel& model) { return model.force(); });
+      return std::abs(force.x - 0.5) < 0.02 && std::abs(force.y + 0.25) < 0.02;  // HID's y is to the user
+    });
+    EXPECT_EQ(joystick->with_model([](PidModel& model) { return model.wrong_reports; }), 0) << family.name;
+  }
+}
+
+TEST_F(UsbDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
+  std::atomic<int> arrived{0}, left{0};
+  ASSERT_TRUE(context()->watch([&](const UsbEvent& event) {
+    EXPECT_EQ(event.vendor, 0x1209);
+    ++(event.arrived ? arrived : left);
+  }));
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  await([&] { return arrived == 1; });
+  const auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  run_ticks(mock_, 200, [&](long tick) { device->command({static_cast<float>(tick) / 100, 1}); });
+  EXPECT_FALSE(device->was_lost());
+  mock_.unplug(joystick);
+  await([&] { return device->was_lost(); });
+  EXPECT_EQ(device->reason(), "it was unplugged");
+  EXPECT_EQ(device->command({1, 1}), Force(0));
+  await([&] { return left == 1; });
+
+  const auto again = mock_.plug(PidModel(openffboard()), 1);
+  await([&] { return arrived == 2; });
+  const auto second = opened(1);
+  ASSERT_NE(second, nullptr);
+  await([&] {
+    second->command({2, 0});
+    return std::abs(again->with_model([](PidModel& model) { return model.force(); }).x - 0.2) < 1e-3;
+  });
+}
+
+TEST_F(UsbDriver, TwoAtOnce) {
+  const auto left = mock_.plug(PidModel(openffboard()), 1), right = mock_.plug(PidModel(rhino()), 2);
+  auto first = opened(1);
+  const auto second = opened(2);
+  ASSERT_TRUE(first != nullptr && second != nullptr);
+  run_ticks(mock_, 300, [&](long) {
+    first->command({4, 0});
+    second->command({0, -4});
+    if (first != nullptr && mock_.frames() % 100 == 0) second->sample();
+  });
+  await([&] { return std::abs(left->with_model([](PidModel& model) { return model.force(); }).x - 0.4) < 1e-3; });
+  await([&] { return std::abs(right->with_model([](PidModel& model) { return model.force(); }).y - 0.4) < 0.02; });
+  first.reset();
+  EXPECT_EQ(left->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
+  EXPECT_FALSE(second->was_lost());
+  await([&] {
+    second->command({0, 4});
+    return std::abs(right->with_model([](PidModel& model) { return model.force(); }).y + 0.4) < 0.02;
+  });
+}
+
+TEST_F(UsbDriver, IsLetGoInAnyOrder) {
+  const auto joystick = mock_.plug(PidModel(openffboard()), 1);
+  std::unique_ptr<HidPidDevice> device;
+  {
+    auto own = UsbContext::open();
+    auto result = HidPidDevice::open(std::get<std::shared_ptr<UsbContext>>(own), found(1), profile());
+    device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+  }
+  device->command({1, 1});  // outlives its context's last other owner
+  device.reset();
+  opened(1).reset();  // at once
+  const auto third = opened(1);
+  mock_.unplug(joystick);  // and one that is let go while it goes
+}
+
+// Devices that do not do as they say.
+
+TEST_F(UsbDriver, SaysWhyItCannotBeUsed) {
+  const auto refused = [&](PidModel model, int port) {
+    mock_.plug(std::move(model), port);
+    return refusal(port);
+  };
+  const auto taken = mock_.plug(PidModel(openffboard()), 1);
+  taken->is_claimed_elsewhere = true;
+  EXPECT_EQ(refusal(1), "1209:ffb0: another program has claimed it");
+  PidModel stick(openffboard());
+  stick.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");
+  EXPECT_EQ(refused(stick, 2),
+            "1209:ffb0: it is not a force device: nothing in its report descriptor is of usage page 0F");
+  PidModel damaged(openffboard());
+  damaged.descriptor.back() = 0xa4;
+  EXPECT_EQ(refused(damaged, 3), "1209:ffb0: its report descriptor is damaged at byte " +
+                                     std::to_string(damaged.descriptor.size()) + ": a collection is not ended");
+  EXPECT_EQ(refused(PidModel(arduino(), {.room = 0}), 4),
+            "2341:8036: it has no room for an effect: another program may hold them");
+  EXPECT_EQ(refused(PidModel(arduino(), {.silent = true}), 5), "2341:8036: it does not answer in time");
+  EXPECT_EQ(refused(PidModel(arduino(), {.short_load = true}), 6),
+            "2341:8036: what it says of a new effect is nonsense");
+  EXPECT_EQ(refused(PidModel(arduino(), {.no_inputs_after = 0, .stalls_polls = true}), 7),
+            "2341:8036: it tells no position");
+  EXPECT_EQ(taken->releases, 0);
+}
+
+TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
+  struct Case {
+    Faults faults;
+    const char* reason;
+  };
+  const Case cases[] = {
+      {{.stall_outputs_after = 100}, "it refuses a report that its descriptor declares"},
+      {{.silent_outputs_after = 100}, "it does not answer in time"},
+      {{.bad_inputs_after = 100}, "its input reports are not what its descriptor declares"},
+      {{.short_inputs_after = 100}, "its input reports are not what its descriptor declares"},
+      {{.no_inputs_after = 100, .deaf_to_polls = true}, "it does not answer in time"},
+  };
+  int port = 0;
+  for (const Case& fault : cases) {
+    const auto joystick = mock_.plug(PidModel(openffboard(), fault.faults), ++port);
+    auto device = opened(port);
+    ASSERT_NE(device, nullptr);
+    long tick = 0;
+    await([&] {
+      ++tick;
+      device->command({3.0f + static_cast<float>(tick % 100) / 100, 3});
+      return device->was_lost();
+    });
+    EXPECT_EQ(device->reason(), fault.reason);
+    device.reset();
+    EXPECT_EQ(joystick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0)) << fault.reason;
+    EXPECT_EQ(joystick->releases, 1);
+  }
+}
+
+/// Opens the joystick at port 1 in a process of its own and pushes to the right with 3 N.
+[[noreturn]] void push_for_ever() {
+  auto context = std::get<std::shared_ptr<UsbContext>>(UsbContext::open());
+  for (const UsbDeviceInfo& info : context->devices()) {
+    auto result = HidPidDevice::open(context, info, profile());
+    const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+    while (true) {
+      device->command({3, 0});
+      std::this_thread::sleep_for(1ms);
+    }
+  }
+  std::exit(1);
+}
+
+}  // namespace
+}  // namespace wale::test
+
+int main(int count, char** words) {
+  if (count == 2 && words[1] == std::string_view(wale::test::push_until_killed)) wale::test::push_for_ever();
+  testing::InitGoogleTest(&count, words);
+  UMockdevTestbed* testbed = umockdev_testbed_new();
+  const bool is_mocked = umockdev_in_mock_environment();
+  g_object_unref(testbed);
+  if (!is_mocked) {
+    std::fprintf(stderr, "to be run as: umockdev-wrapper %s\n", words[0]);
+    return 2;
+  }
+  return RUN_ALL_TESTS();
+}

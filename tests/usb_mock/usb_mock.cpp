@@ -1,0 +1,299 @@
+#include "tests/usb_mock/usb_mock.hpp"
+
+#include <fcntl.h>
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+namespace wale::test {
+namespace {
+
+constexpr unsigned long disconnect_claim = 0x8108551b;  // USBDEVFS_DISCONNECT_CLAIM with its argument's size
+constexpr std::uint8_t in_endpoint = 0x83, out_endpoint = 0x02;
+constexpr std::chrono::microseconds frame_time(300);  // the model takes it for a millisecond
+
+std::string in_hex(const std::vector<std::uint8_t>& bytes) {
+  std::string text;
+  char two[3];
+  for (const std::uint8_t byte : bytes) {
+    std::snprintf(two, sizeof two, "%02X", byte);
+    text += two;
+  }
+  return text;
+}
+
+std::string digits(int value, int count) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%0*d", count, value);
+  return text;
+}
+
+std::string hexadecimal(int value, int count) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%0*x", count, static_cast<unsigned>(value));
+  return text;
+}
+
+usbdevfs_urb& urb_of(UMockdevIoctlData* data) { return *reinterpret_cast<usbdevfs_urb*>(data->data); }
+
+}  // namespace
+
+MockJoystick::MockJoystick(UMockdevTestbed* testbed, PidModel model, int port, int address)
+    : model_(std::move(model)), testbed_(testbed) {
+  syspath_ = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-" + std::to_string(port);
+  node_ = "/dev/bus/usb/001/" + digits(address, 3);
+  const auto device = model_.device_descriptor(), configuration = model_.configuration_descriptor();
+  const int vendor = model_.family.vendor, product = model_.family.product;
+  const std::string text = "P: " + syspath_.substr(4) + "\nN: " + node_.substr(5) +
+                           "\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: DEVNAME=" + node_ +
+                           "\nE: BUSNUM=001\nE: DEVNUM=" + digits(address, 3) +
+                           "\nE: MAJOR=189\nE: MINOR=" + std::to_string(address - 1) +
+                           "\nE: PRODUCT=" + hexadecimal(vendor, 1) + "/" + hexadecimal(product, 1) +
+                           "/100\nE: TYPE=0/0/0\nA: busnum=1\nA: devnum=" + std::to_string(address) +
+                           "\nA: bConfigurationValue=1\nA: speed=12\nA: idVendor=" + hexadecimal(vendor, 4) +
+                           "\nA: idProduct=" + hexadecimal(product, 4) +
+                           "\nA: bNumConfigurations=1\nA: maxchild=0\nA: product=" + model_.family.name +
+                           "\nH: descriptors=" + in_hex(device) + in_hex(configuration) + "\n\n";
+  GError* error = nullptr;
+  if (!umockdev_testbed_add_from_string(testbed, text.c_str(), &error)) throw std::runtime_error(error->message);
+  handler_ = umockdev_ioctl_base_new();
+  connection_ = g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(when_asked), this);
+  if (!umockdev_testbed_attach_ioctl(testbed, node_.c_str(), handler_, &error)) {
+    throw std::runtime_error(error->message);
+  }
+  // A regular file is always ready, and libusb would spin; a pipe of one page is not while it holds a byte.
+  gchar* root = umockdev_testbed_get_root_dir(testbed);
+  const std::string file = root + node_;
+  g_free(root);
+  unlink(file.c_str());
+  if (mkfifo(file.c_str(), 0666) != 0) throw std::runtime_error("no fifo");
+  fifo_ = open(file.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  fcntl(fifo_, F_SETPIPE_SZ, 4096);
+  show_whether_ready();
+}
+
+MockJoystick::~MockJoystick() {
+  g_signal_handler_disconnect(handler_, connection_);
+  umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
+  g_object_unref(handler_);
+  for (auto* queue : {&in_, &out_, &late_, &done_}) {
+    for (const Urb& urb : *queue) {
+      g_object_unref(urb.urb);
+      if (urb.buffer != nullptr) g_object_unref(urb.buffer);
+    }
+  }
+  close(fifo_);
+}
+
+/// Ready is what has something to reap.
+void MockJoystick::show_whether_ready() {
+  const bool is_ready = !done_.empty();
+  if (is_ready == is_shown_ready_) return;
+  is_shown_ready_ = is_ready;
+  char byte = 0;
+  const ssize_t moved = is_ready ? read(fifo_, &byte, 1) : write(fifo_, &byte, 1);
+  if (moved != 1) std::perror("usb_mock: fifo");
+}
+
+void MockJoystick::end(const Urb& urb, int status, int length) {
+  urb_of(urb.urb).status = status;
+  urb_of(urb.urb).actual_length = length;
+  done_.push_back(urb);
+}
+
+void MockJoystick::frame() {
+  const std::lock_guard lock(mutex_);
+  if (is_gone_) return;
+  model_.step();
+  if (!out_.empty() && !model_.is_deaf_to_outputs()) {
+    const Urb urb = out_.front();
+    out_.pop_front();
+    const auto& wanted = urb_of(urb.urb);
+    const bool is_taken = model_.output({urb.buffer->data, urb.buffer->data + wanted.buffer_length});
+    end(urb, is_taken ? 0 : -EPIPE, is_taken ? wanted.buffer_length : 0);
+  }
+  if (!in_.empty()) {
+    if (const auto report = model_.input()) {
+      const Urb urb = in_.front();
+      in_.pop_front();
+      const auto length =
+          std::min<std::size_t>(report->size(), static_cast<std::size_t>(urb_of(urb.urb).buffer_length));
+      std::copy_n(report->begin(), length, urb.buffer->data);
+      end(urb, 0, static_cast<int>(length));
+    }
+  }
+  show_whether_ready();
+}
+
+void MockJoystick::unplug() {
+  const std::lock_guard lock(mutex_);
+  is_gone_ = true;
+  for (auto* queue : {&in_, &out_, &late_}) {
+    for (const Urb& urb : *queue) end(urb, -ESHUTDOWN, 0);
+    queue->clear();
+  }
+  show_whether_ready();
+}
+
+void MockJoystick::control(const Urb& urb) {
+  std::array<std::uint8_t, 8> setup{};
+  std::copy_n(urb.buffer->data, setup.size(), setup.begin());
+  const int length = setup[6] | setup[7] << 8;
+  const bool is_in = (setup[0] & 0x80) != 0;
+  const bool is_poll = is_in && setup[1] == 1 && setup[3] == 1;
+  if (model_.faults.silent || (is_poll && model_.faults.deaf_to_polls)) {
+    late_.push_back(urb);
+    return;
+  }
+  const std::vector<std::uint8_t> out(urb.buffer->data + 8, urb.buffer->data + 8 + (is_in ? 0 : length));
+  const auto answer = model_.control(setup, out);
+  if (!answer) return end(urb, -EPIPE, 0);
+  if (!is_in) return end(urb, 0, length);
+  const auto given = std::min<std::size_t>(answer->size(), static_cast<std::size_t>(length));
+  std::copy_n(answer->begin(), given, urb.buffer->data + 8);
+  end(urb, 0, static_cast<int>(given));
+}
+
+int MockJoystick::submit(UMockdevIoctlData* argument) {
+  Urb urb;
+  urb.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
+  const usbdevfs_urb& wanted = urb_of(urb.urb);
+  if (wanted.buffer_length > 0) {
+    urb.buffer = umockdev_ioctl_data_resolve(urb.urb, offsetof(usbdevfs_urb, buffer),
+                                             static_cast<gsize>(wanted.buffer_length), nullptr);
+  }
+  if (wanted.type == USBDEVFS_URB_TYPE_CONTROL) {
+    control(urb);
+  } else if (wanted.endpoint == in_endpoint) {
+    in_.push_back(urb);
+  } else if (wanted.endpoint == out_endpoint) {
+    out_.push_back(urb);
+  } else {
+    return ENOENT;
+  }
+  return 0;
+}
+
+int MockJoystick::discard(UMockdevIoctlData* argument) {
+  gulong address = 0;
+  std::memcpy(&address, argument->data, sizeof address);
+  for (auto* queue : {&in_, &out_, &late_}) {
+    const auto found =
+        std::find_if(queue->begin(), queue->end(), [&](const Urb& urb) { return urb.urb->client_addr == address; });
+    if (found == queue->end()) continue;
+    const Urb urb = *found;
+    queue->erase(found);
+    end(urb, -ENOENT, 0);
+    return 0;
+  }
+  return EINVAL;
+}
+
+int MockJoystick::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
+  if (done_.empty()) return is_gone_ ? ENODEV : EAGAIN;
+  const Urb urb = done_.front();
+  done_.pop_front();
+  UMockdevIoctlData* pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
+  umockdev_ioctl_data_set_ptr(pointer, 0, urb.urb);
+  show_whether_ready();
+  umockdev_ioctl_client_complete(client, 0, 0);
+  g_object_unref(pointer);
+  g_object_unref(urb.urb);
+  if (urb.buffer != nullptr) g_object_unref(urb.buffer);
+  return 0;
+}
+
+gboolean MockJoystick::when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+  static_cast<MockJoystick*>(self)->answer(client);
+  return TRUE;
+}
+
+void MockJoystick::answer(UMockdevIoctlClient* client) {
+  const std::lock_guard lock(mutex_);
+  const gulong request = umockdev_ioctl_client_get_request(client);
+  UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
+  int error = 0;
+  const bool is_reap = request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY;
+  if (is_gone_ && !is_reap) {
+    error = ENODEV;
+  } else if (is_reap) {
+    error = reap(client, argument);
+    if (error == 0) return;
+  } else if (request == USBDEVFS_GET_CAPABILITIES) {
+    UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, sizeof(std::uint32_t), nullptr);
+    const std::uint32_t capabilities = USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
+                                       USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
+    std::memcpy(data->data, &capabilities, sizeof capabilities);
+    umockdev_ioctl_client_complete(client, 0, 0);
+    g_object_unref(data);
+    return;
+  } else if (request == disconnect_claim || request == USBDEVFS_CLAIMINTERFACE) {
+    if (is_claimed_elsewhere) {
+      error = EBUSY;
+    } else {
+      ++claims;
+    }
+  } else if (request == USBDEVFS_RELEASEINTERFACE) {
+    ++releases;
+  } else if (request == USBDEVFS_IOCTL) {
+    ++drivers_back;  // the kernel's driver is connected again
+  } else if (request == USBDEVFS_SUBMITURB) {
+    error = submit(argument);
+    show_whether_ready();
+  } else if (request == USBDEVFS_DISCARDURB) {
+    error = discard(argument);
+    show_whether_ready();
+  } else if (request == USBDEVFS_GETDRIVER) {
+    error = ENODATA;
+  } else if (request != USBDEVFS_CLEAR_HALT && request != USBDEVFS_RESET && request != USBDEVFS_SETINTERFACE) {
+    ++unknown_ioctls;
+    error = ENOTTY;
+  }
+  umockdev_ioctl_client_complete(client, error == 0 ? 0 : -1, error);
+}
+
+UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
+  thread_ = std::thread([this] {
+    auto next = std::chrono::steady_clock::now();
+    while (!ends_) {
+      next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up
+      std::this_thread::sleep_until(next);
+      const std::lock_guard lock(mutex_);
+      for (const auto& joystick : joysticks_) joystick->frame();
+      ++frames_;
+    }
+  });
+}
+
+UsbMock::~UsbMock() {
+  ends_ = true;
+  thread_.join();
+  joysticks_.clear();
+  g_object_unref(testbed_);
+}
+
+std::shared_ptr<MockJoystick> UsbMock::plug(PidModel model, int port) {
+  auto joystick = std::make_shared<MockJoystick>(testbed_, std::move(model), port, ++address_);
+  const std::lock_guard lock(mutex_);
+  joysticks_.push_back(joystick);
+  umockdev_testbed_uevent(testbed_, joystick->syspath().c_str(), "add");
+  return joystick;
+}
+
+void UsbMock::unplug(const std::shared_ptr<MockJoystick>& joystick) {
+  joystick->unplug();
+  umockdev_testbed_uevent(testbed_, joystick->syspath().c_str(), "remove");
+  umockdev_testbed_remove_device(testbed_, joystick->syspath().c_str());
+  const std::lock_guard lock(mutex_);
+  std::erase(joysticks_, joystick);
+}
+
+}  // namespace wale::test
