@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -26,6 +27,7 @@
 #include "compiler/quantity.hpp"
 #include "compiler/text/spelling.hpp"
 #include "library/device_report.hpp"
+#include "library/plugged_report.hpp"
 #include "wale/library.hpp"
 #include "wale/simulated_pad.hpp"
 
@@ -104,6 +106,7 @@ struct FeelOptions {
   std::string device = "simulated", hand = "lateral", record;
   std::optional<double> seconds;
   bool virtual_time = false, json = false;
+  std::string max_force;
   std::string against;
   bool blind = false;
   int trials = BlindOptions{}.trials;
@@ -126,10 +129,10 @@ Choice choice_to_feel(const FeelOptions& options, const Choice& choice) {
 std::unique_ptr<Device> device_for(const FeelOptions& options, const PatchProgram& program) {
   const DeviceProfile& profile = program.device;
   if (options.device != "simulated" && !is_declared(options.device)) {
-    refuse(
-        fmt::format("there is no device `{}`; this version drives: simulated, and every device that materials are built "
-                    "for, simulated (see `wale devices`)",
-                    options.device));
+    refuse(fmt::format(
+        "there is no device `{}`; this version drives: simulated, and every device that materials are built "
+        "for, simulated (see `wale devices`)",
+        options.device));
     return nullptr;
   }
   if (options.device != "simulated" && profile.name != options.device) {
@@ -181,9 +184,22 @@ int feel(const FeelOptions& options) {
     if (const auto refusal = stage.set(program.parameters[i].name, material->parameters[i]))
       return refuse(refusal->reason);
 
+  double most_newton = HUGE_VAL;
+  if (!options.max_force.empty()) {
+    if (program.vibrates())
+      return refuse(fmt::format("`{}` only vibrates: it has no force to limit", program.device.name));
+    QuantityReader reader;
+    const auto most = reader.force("--max-force", options.max_force);
+    if (!most) {
+      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
+      return refused;
+    }
+    most_newton = *most;
+  }
   stop_on_signals();
   constexpr double usual_seconds = 5;
   RunOptions run{.seconds = options.seconds.value_or(usual_seconds),
+                 .most_newton = most_newton,
                  .virtual_time = options.virtual_time,
                  .progress = {},
                  .stop = &interrupted};
@@ -247,7 +263,9 @@ int feel_blind(const FeelOptions& options) {
 }
 
 int devices(bool json) {
-  fmt::print("{}", json ? devices_json(Library().devices()) : devices_text(Library().devices()));
+  const auto known = Library().devices();
+  const PluggedDevices plugged = plugged_devices();
+  fmt::print("{}", json ? with_plugged(devices_json(known), plugged) : devices_text(known) + plugged_text(plugged));
   return 0;
 }
 
@@ -371,12 +389,14 @@ int main(int argc, char** argv) {
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   verb->add_option("--seconds", feeling.seconds, "how long (default: 5; with --blind 3 for each of the two)");
   verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
+  auto* most = verb->add_option("--max-force", feeling.max_force, "the largest force allowed, as in \"3 N\"");
   auto* record = verb->add_option("--record", feeling.record, "writes every tick to a CSV file");
   auto* against = verb->add_option("--against", feeling.against, "another to tell it from: a file, or FILE:MATERIAL");
   auto* blind = verb->add_flag("--blind", feeling.blind,
                                "feels FILE (A) and the other (B) in random order and asks which of two was A")
                     ->needs(against)
-                    ->excludes(record);
+                    ->excludes(record)
+                    ->excludes(most);
   against->needs(blind);
   verb->add_option("--trials", feeling.trials, "how often it asks (default: 12)")
       ->needs(blind)

@@ -52,6 +52,17 @@ std::optional<Hand> QuantityReader::hand(const std::string& option, const std::s
   return hand;
 }
 
+std::optional<double> QuantityReader::force(const std::string& option, const std::string& text) {
+  const auto values = list(option, text, {names_.dimension("force")}, 1, "3 N");
+  if (!values) return std::nullopt;
+  if (values->front() > 0) return values->front();
+  diagnostics_.report({.code = Code::value_out_of_range,
+                       .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
+                       .message = "the largest force allowed is more than nothing",
+                       .help = fmt::format("write, for example, `{} \"3 N\"`", option)});
+  return std::nullopt;
+}
+
 std::optional<float> QuantityReader::parameter(const std::string& option, const Parameter& parameter,
                                                const std::string& text) {
   Dimension dimension;

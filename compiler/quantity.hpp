@@ -21,6 +21,9 @@ class QuantityReader {
   /// A hand: position, and velocity where it is given: "10 mm, 5 mm[, 0.1 m/s, 0 m/s]".
   std::optional<Hand> hand(const std::string& option, const std::string& text);
 
+  /// A largest force, N: "3 N"; more than nothing.
+  std::optional<double> force(const std::string& option, const std::string& text);
+
   /// A value for a parameter, in SI and in its range: "5mm" for one in mm. Its own unit is known even where nothing
   /// else declares it. One outside its usual (soft) range is a warning.
   std::optional<float> parameter(const std::string& option, const Parameter& parameter, const std::string& text);

@@ -53,7 +53,7 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       "to feel on (wale feel --device NAME)\n"
       "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
       "  a device to build for, by its name: the same\n"
-      "  USB joysticks are not driven by this version.\n\nto build for (wale build --device NAME)\n";
+      "\nto build for (wale build --device NAME)\n";
   for (const auto& [profile, source, assumed] : devices) {
     if (profile.shaker) {
       const Shaker& shaker = *profile.shaker;

@@ -145,6 +145,7 @@ TEST(Check, JsonHasEveryFieldOfADiagnostic) {
 
 TEST(Devices, AreTheSimulatedOneAndThoseToBuildFor) {
   EXPECT_TRUE(contains(wale({"devices"}).out, "sandpaper"));
+  EXPECT_TRUE(contains(wale({"devices"}).out, "plugged in"));
   const auto devices = wale({"devices", "--json"}).json();
   const auto named = [&](const std::string& name) {
     for (const auto& device : devices)

@@ -205,5 +205,19 @@ TEST(Set, OutsideTheUsualRangeIsAWarning) {
   EXPECT_EQ(wale({"describe", file, "--set", "k=250 N/m"}).status, 1);
 }
 
+TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
+  const auto felt = [](const std::string& most) {
+    return wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--max-force", most, "--json"});
+  };
+  const auto limited = felt("1 N").json();
+  EXPECT_LE(limited.at("actuator").at("max_newton").get<double>(), 1.005);
+  EXPECT_GT(limited.at("guards").at("user_limit").get<long>(), 100);
+  EXPECT_EQ(felt("9 N").json().at("guards").at("user_limit"), 0);
+  for (const char* wrong : {"0 N", "-2 N", "3", "5 mm", "much"}) {
+    EXPECT_EQ(felt(wrong).status, 1) << wrong;
+    EXPECT_FALSE(felt(wrong).err.empty()) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace wale::command_line::describing_test

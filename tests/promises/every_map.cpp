@@ -166,6 +166,9 @@ FeltSize felt_size(const PublishedLaw& law, const Program& program, const std::m
 }
 
 constexpr double by_default = 0.5;
+/// To peak force, as the thesis's joystick has. USB joysticks have sixteen times as many: finer than encoder and rate
+/// let anybody read a speed or an acceleration.
+constexpr double finest_steps = 2048;
 
 std::string material_of(const PublishedLaw& law) {
   const std::string asked = std::string("perceptual { ") + law.percept + " 0.5, by " + law.map + " }";
@@ -200,7 +203,7 @@ TEST(EveryMap, GivesTheLevelBackFromTheForceAtTheHandle) {
       std::map<std::string, float> set;
       if (level != by_default) set = {{law.percept, static_cast<float>(level)}};
       const FeltSize felt = felt_size(law, program, set);
-      const double step = felt.per_newton * device.force_step();
+      const double step = felt.per_newton * device.force_newton / std::min(device.force_counts, finest_steps);
       const double worth = std::max(law.level_of(size + step) - level, level - law.level_of(size - step));
       EXPECT_NEAR(law.level_of(felt.size), level, worth)
           << law.map << " on " << device.name << ": " << felt.size << " for " << size << ", a step " << step;

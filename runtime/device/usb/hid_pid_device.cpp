@@ -44,6 +44,7 @@ Reading HidPidDevice::sample() noexcept {
   reading.counts.x = scaled_counts(seen.x, input.x, profile_.position_counts, signs_.position_x);
   reading.counts.y = scaled_counts(seen.y, input.y, profile_.position_counts, signs_.position_y);
   reading.button = seen.button;
+  reading.contact = transport_->was_lost() ? Contact::lost : Contact::good;
   return reading;
 }
 
