@@ -38,7 +38,7 @@ std::optional<double> level_of(const CheckedMaterial& material, const Carrier& c
 bool is_sum_of_carriers(const CheckedMaterial& material) {
   std::vector<std::array<TermId, 2>> waiting{*material.force};
   while (!waiting.empty()) {
-    const auto [x, y] = waiting.back();
+    const TermId x = waiting.back()[0], y = waiting.back()[1];
     waiting.pop_back();
     const auto carries = [&](const Carrier& carrier) { return carrier.force_x == x && carrier.force_y == y; };
     if (std::ranges::any_of(material.carriers, carries)) continue;
