@@ -120,7 +120,8 @@ class Emitter {
     };
     const auto runs_of = [&](const std::vector<NodeId>& nodes) {
       std::vector<SourcePlaces::Run> runs;
-      for (const NodeId id : nodes | std::views::reverse) {
+      for (auto each = nodes.rbegin(); each != nodes.rend(); ++each) {
+        const NodeId id = *each;
         const SourcePlaces::Run run = run_of(id);
         if (!runs.empty() && runs.back().file == run.file && runs.back().line == run.line)
           ++runs.back().instructions;
@@ -167,7 +168,8 @@ class Emitter {
     for (const NodeId id : parameter_nodes_)
       registers_[id] = static_cast<std::uint32_t>(first_parameter + graph_[id].index);
     std::size_t next = first_setup;
-    for (const NodeId id : setup_nodes_ | std::views::reverse) {
+    for (auto each = setup_nodes_.rbegin(); each != setup_nodes_.rend(); ++each) {
+      const NodeId id = *each;
       registers_[id] = static_cast<std::uint32_t>(next);
       next += steps_[id].width;
     }
@@ -256,7 +258,8 @@ class Emitter {
 
   void emit_setup() {
     program_.setup.reserve(setup_nodes_.size());
-    for (const NodeId id : setup_nodes_ | std::views::reverse) {
+    for (auto each = setup_nodes_.rbegin(); each != setup_nodes_.rend(); ++each) {
+      const NodeId id = *each;
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::operation) {
         program_.setup.push_back(instruction(id));
