@@ -178,6 +178,7 @@ struct PerceptRecord {
   std::string name;                        ///< "roughness"
   std::string carrier;                     ///< "lateral amplitude"
   std::optional<std::uint16_t> parameter;  ///< the live level, when the percept was asked for
+  bool blended = false;                    ///< asked for by a blend's components, whose levels are parameters
   RegisterNumber amplitude = 0;            ///< constant or setup register: the carrier's size, SI
   bool alone = false;                      ///< nothing but this carrier pushes, so total force reads it
   std::vector<Instruction> prediction;

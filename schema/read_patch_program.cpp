@@ -162,10 +162,12 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
   for (PerceptRecord& percept : percepts) {
     percept.name = in.text("a percept's name");
     percept.carrier = in.text("a percept's carrier");
-    const bool live = in.boolean("a percept's being live");
+    const std::uint8_t live = in.u8();
+    if (live > 2) refuse(in.name(), " holds ", int{live}, " for a percept's being live, which is 0, 1 or 2");
     const std::uint16_t parameter = in.u16();
-    if (live) percept.parameter = parameter;
-    if (!live && parameter != 0) refuse(in.name(), " names parameter ", parameter, " for a percept that has none");
+    if (live == 1) percept.parameter = parameter;
+    percept.blended = live == 2;
+    if (live != 1 && parameter != 0) refuse(in.name(), " names parameter ", parameter, " for a percept that has none");
     percept.amplitude = in.u16();
     percept.alone = in.boolean("a percept's being alone");
     percept.prediction = in.code();

@@ -183,7 +183,7 @@ void write_percepts(ByteWriter& out, std::span<const PerceptRecord> percepts) {
   for (const PerceptRecord& percept : percepts) {
     out.text(percept.name);
     out.text(percept.carrier);
-    out.u8(percept.parameter.has_value());
+    out.u8(percept.parameter ? 1 : percept.blended ? 2 : 0);
     out.u16(percept.parameter.value_or(0));
     out.u16(percept.amplitude);
     out.u8(percept.alone);

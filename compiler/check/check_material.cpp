@@ -106,10 +106,10 @@ class MaterialChecker {
     for (const auto& setting : node_.representative) {
       const auto& key = setting.key.text;
       if (key == "like") continue;  // `assemble` has read it
-      if (key != "title" && key != "called" && key != "kind") {
+      if (key != "title" && key != "called" && key != "kind" && key != "feels") {
         report(Code::unknown_setting, setting.key.span, fmt::format("a representative block has no setting `{}`", key),
-               did_you_mean(setting.key.span, key, {"title", "called", "kind", "like"},
-                            "it has: title, called, kind, like"));
+               did_you_mean(setting.key.span, key, {"title", "called", "kind", "feels", "like"},
+                            "it has: title, called, kind, feels, like"));
         continue;
       }
       has_kind = has_kind || key == "kind";

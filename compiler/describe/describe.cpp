@@ -43,6 +43,7 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   percept.magnitude = prediction.magnitude;
   tell_intervals(percept, record.scatter, record.spread, record.one > 0 ? percept.amplitude / record.one : 0,
                  record.near_threshold);
+  percept.blended = record.blended;
   if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
   constexpr float rounding = 1e-5f;
   percept.outside_validity =

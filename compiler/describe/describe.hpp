@@ -29,6 +29,7 @@ struct DescribedPercept {
   /// published how much.
   double individual_low = 0, individual_high = 0;
   bool near_threshold = false;  ///< near or below what is felt at all
+  bool blended = false;         ///< mixed of what the components of a blend ask for
   bool extracted = false;       ///< read from the program's force, not from what its author said
   bool saturated = false;       ///< the device pushes less than the percept needs; level is what comes out
   bool outside_validity = false;

@@ -104,7 +104,7 @@ nlohmann::ordered_json to_json(const Description& description) {
   json["device"] = description.device.name;
   auto& representative = json["representative"] = nlohmann::ordered_json::object();
   for (const auto& [key, values] : description.layers.representative) {
-    if (key == "called")
+    if (key == "called" || key == "feels")
       representative[key] = values;
     else
       representative[key] = values.empty() ? "" : values.front();

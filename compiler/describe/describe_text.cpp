@@ -28,6 +28,7 @@ void write_percepts(std::string& text, const Description& description) {
                         percept.level, percept.low, percept.high, percept.magnitude);
     text += fmt::format("  {:<12} {} {:.3f} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
                         percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
+                        : percept.blended   ? ", solved for what its components ask"
                         : percept.extracted ? ", read from its force"
                                             : ", fixed by the author");
     if (percept.individual_high > percept.high * 1.005)
@@ -59,13 +60,15 @@ std::string range_text(const Parameter& parameter, float low, float high) {
 void write_parameters(std::string& text, const std::vector<Parameter>& parameters) {
   text += "\nparameters\n";
   if (parameters.empty()) text += "  none\n";
+  std::size_t width = 12;
+  for (const auto& parameter : parameters) width = std::max(width, parameter.name.size());
   for (const auto& parameter : parameters) {
     const bool usual = parameter.soft_low != parameter.low || parameter.soft_high != parameter.high;
-    text += fmt::format("  {:<12} {:<12} {:<20} {}\n", parameter.name,
+    text += fmt::format("  {:<{}} {:<12} {:<20} {}\n", parameter.name, width,
                         fmt::format("{} {}", shown(parameter.value, parameter.unit_in_si), parameter.unit),
                         range_text(parameter, parameter.low, parameter.high), parameter.description);
     if (usual)
-      text += fmt::format("  {:<12} {:<12} usually {}\n", "", "",
+      text += fmt::format("  {:<{}} {:<12} usually {}\n", "", width, "",
                           range_text(parameter, parameter.soft_low, parameter.soft_high));
   }
 }

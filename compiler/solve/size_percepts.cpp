@@ -235,7 +235,8 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   record.name = percept.name;
   record.carrier = percept.carrier;
   const Told& setting = told.shares == none ? told : told_[told.shares];
-  if (setting.solved && !setting.asked->blended) record.parameter = static_cast<std::uint16_t>(setting.parameter);
+  record.blended = setting.solved && setting.asked->blended;
+  if (setting.solved && !record.blended) record.parameter = static_cast<std::uint16_t>(setting.parameter);
   record.alone = force_[0] == carrier.force_x && force_[1] == carrier.force_y;
   record.valid_low = static_cast<float>(map.valid_low);
   record.valid_high = static_cast<float>(map.valid_high);

@@ -205,6 +205,17 @@ TEST(Set, OutsideTheUsualRangeIsAWarning) {
   EXPECT_EQ(wale({"describe", file, "--set", "k=250 N/m"}).status, 1);
 }
 
+TEST(Describing, KeepsWordsThatNobodyInterprets) {
+  const Folder folder;
+  const std::string file =
+      folder.write("m.wale",
+                   "wale 1\n\nmaterial m {\n  representative { feels \"pleasant\", \"like ball bearings\" }\n"
+                   "  physical { force = spring(40 N/m) }\n}\n");
+  EXPECT_TRUE(contains(wale({"describe", file}).out, "pleasant, like ball bearings"));
+  EXPECT_EQ(wale({"describe", file, "--json"}).json().at("representative").at("feels"),
+            (std::vector<std::string>{"pleasant", "like ball bearings"}));
+}
+
 TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
   const auto felt = [](const std::string& most) {
     return wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--max-force", most, "--json"});

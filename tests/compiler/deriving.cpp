@@ -228,10 +228,14 @@ material all = 0.5 mixed + 0.7 ribbed
   Bank mixed = turned("mixed", dials);
   expect_same(mixed, Bank(written.programs.at("mixed")));
   EXPECT_NEAR(predict(mixed, 0, wale::amplitude(mixed, 0)).level, (0.1 * 0.6 + 0.25 * 0.3) / (0.1 + 0.25 + 0.9), 1e-4);
+  const PerceptRecord& record = live.programs.at("mixed").description().percepts.front();
+  EXPECT_TRUE(record.blended);
+  EXPECT_FALSE(record.parameter);
   // A level of the blend's own does not follow the weights.
   const Program& own = written.programs.at("own");
   EXPECT_FLOAT_EQ(own.default_parameters()[*own.parameter("roughness")], 0.4f);
   EXPECT_FALSE(own.parameter("soft_roughness"));
+  EXPECT_FALSE(own.description().percepts.front().blended);
   std::vector<float> less = own.default_parameters();
   less[*own.parameter("ribbed_weight")] = 0;
   Bank less_ribbed(own, less, own.default_size());

@@ -204,8 +204,8 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
   EXPECT_EQ(refusal_of_content("PICT", [](Bytes& b) { b[3] = std::byte{0}; }),
             "section PICT names registers for a colour that it does not have");
   const std::size_t live = 4 + (4 + 9) + (4 + 17);  // after the count, "roughness" and "lateral amplitude"
-  EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{2}; }),
-            "section PERC holds 2 for a percept's being live, which is 0 or 1");
+  EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{3}; }),
+            "section PERC holds 3 for a percept's being live, which is 0, 1 or 2");
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{0}; }),
             "section PERC names parameter 1 for a percept that has none");
   const std::size_t slope = live + 1 + 2 + 2 + 1 + (4 + 2 * 8) + 2 + 2 + 3 * 4;
