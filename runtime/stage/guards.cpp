@@ -39,7 +39,7 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
   const long acted = observer_.acted();
   const Force calmed = observer_(field, position, periods);
   counts_.passivity += observer_.acted() - acted;
-  return glm::clamp(calmed, low_, high_);
+  return bounded(calmed);
 }
 
 Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
@@ -56,16 +56,21 @@ Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
   return Force(0);
 }
 
-Force Guards::within_limits(Force wanted) noexcept {
-  Force within = glm::clamp(wanted, low_, high_);
-  // A hand at rest wants no frequency, and nothing is held back when it gets the least one with no amplitude.
-  if (vibrates_ ? within.x != wanted.x : within != wanted) ++counts_.device_limit;
+Force Guards::within_device(Force wanted) const noexcept { return glm::clamp(wanted, low_, high_); }
+
+Force Guards::bounded(Force wanted) const noexcept {
+  const Force within = within_device(wanted);
   const float size = vibrates_ ? within.x : glm::length(within);
-  if (size > most_) {
-    within = vibrates_ ? Force(most_, within.y) : within * (most_ / size);
-    ++counts_.user_limit;
-  }
-  return within;
+  if (!(size > most_)) return within;
+  return vibrates_ ? Force(most_, within.y) : within * (most_ / size);
+}
+
+Force Guards::within_limits(Force wanted) noexcept {
+  const Force possible = within_device(wanted), allowed = bounded(wanted);
+  // A hand at rest wants no frequency, and nothing is held back when it gets the least one with no amplitude.
+  if (vibrates_ ? possible.x != wanted.x : possible != wanted) ++counts_.device_limit;
+  if (allowed != possible) ++counts_.user_limit;
+  return allowed;
 }
 
 Force Guards::slewed(Force wanted) noexcept {

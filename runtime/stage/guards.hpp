@@ -13,9 +13,9 @@ namespace wale {
 /// number becomes zero; what gives more energy than it may is held back; its size is held within what the user allows
 /// and each axis within the device's peak force; after `slew` was called the force moves no faster than the profile's
 /// slew, until it has caught up with the wanted one; and the passivity observer takes away what the sampled loop
-/// gained. Begins at zero force, slewing. On a pad, which gives no energy, the amplitude is held within what the user
-/// allows and the greatest acceleration and is not less than nothing, and slews likewise; the frequency is held within
-/// those that the pad has, at the least one where nothing is wanted.
+/// gained, within the same limits. Begins at zero force, slewing. On a pad, which gives no energy, the amplitude is
+/// held within what the user allows and the greatest acceleration and is not less than nothing, and slews likewise; the
+/// frequency is held within those that the pad has, at the least one where nothing is wanted.
 class Guards {
  public:
   /// A profile without a slew (zero) does not slow anything. `most` is the largest force that the user allows, N.
@@ -41,6 +41,10 @@ class Guards {
   const GuardCounts& counts() const noexcept { return counts_; }
 
  private:
+  Force within_device(Force wanted) const noexcept;
+  /// Within what the device can and the user allows.
+  Force bounded(Force wanted) const noexcept;
+  /// The same, counted.
   Force within_limits(Force wanted) noexcept;
   Force slewed(Force wanted) noexcept;
 

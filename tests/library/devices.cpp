@@ -8,23 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "compiler/compile.hpp"
 #include "compiler/describe/describe.hpp"
-#include "compiler/diagnostics/render.hpp"
 #include "compiler/listing/print_cpp.hpp"
 #include "compiler/listing/print_program.hpp"
+#include "tests/library/shelf.hpp"
 
 namespace wale::devices_test {
 namespace {
-
-std::vector<std::string> material_files() {
-  std::vector<std::string> files;
-  const std::filesystem::path library = std::filesystem::path(WALE_SOURCE_DIR) / "library";
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(library))
-    if (entry.path().extension() == ".wale") files.push_back(entry.path().string());
-  std::ranges::sort(files);
-  return files;
-}
 
 /// What of a device a material may ask too much of: an essential percept (W0404), a patch that does not fit (W0305).
 bool explains(const Diagnostics& diagnostics) {
@@ -38,16 +28,13 @@ class EveryDevice : public testing::TestWithParam<std::string> {};
 TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
   const std::string device = GetParam();
   int built = 0, refused = 0;
-  for (const std::string& path : material_files()) {
-    SourceSet sources;
-    Diagnostics checking;
-    const auto resolver = file_resolver({});
-    auto read = read_file(path);
-    const SourceId source = sources.add(path, std::get<ResolvedFile>(read).bytes);
-    const CheckedModule module = check_source(sources, source, *resolver, checking);
-    for (const auto& material : module.materials) {
+  for (const std::string& path : shelf::library_files()) {
+    const shelf::Checked checked(path);
+    const SourceSet& sources = checked.sources;
+    for (const auto& material : checked.module.materials) {
       Diagnostics diagnostics;
-      const auto program = compile_material(module, material.name, device, sources, source, *resolver, diagnostics);
+      const auto program = compile_material(checked.module, material.name, device, sources, checked.source,
+                                            *checked.resolver, diagnostics);
       std::string said;
       for (const auto& each : diagnostics.all()) said += render_text(each, sources, false);
       if (!program) {

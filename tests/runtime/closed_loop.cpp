@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "runtime/stage/guards.hpp"
 #include "tests/runtime/figures.hpp"
@@ -165,6 +166,20 @@ TEST(PassivityObserver, WhatItAddsIsDampingAndBounded) {
   }
   EXPECT_GT(acted, 0);
   EXPECT_EQ(acted, observer.acted());
+}
+
+/// What the observer adds is a force too: where a force opposes the motion already, damping comes on top of it.
+TEST(PassivityObserver, WhatItAddsStaysWithinWhatTheUserAllows) {
+  constexpr double most = 0.5;
+  Guards guards(frictionless(false), most);
+  double last = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const double x = 0.001 * std::sin(0.2 * tick), step = x - std::exchange(last, x);
+    const Force force = guards(Force(step > 0 ? -most : most, 0), {x, 0}, 1);
+    ASSERT_LE(glm::length(force), most * 1.00001) << tick;
+    guards.commanded(Force(20 * step * 900, 0));  // an actuator that goes along with the hand
+  }
+  EXPECT_GT(guards.counts().passivity, 0);
 }
 
 TEST(PassivityObserver, WithoutAKnownMassItOnlyMeters) {

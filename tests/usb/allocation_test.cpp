@@ -2,25 +2,11 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "tests/usb/allocations.hpp"
 #include "tests/usb/pid_bus.hpp"
-
-namespace {
-thread_local long allocations = 0;
-}  // namespace
-
-// These replace the whole test program's, to see who allocates. Not inlined, or the compiler, knowing malloc and free
-// by their names, thinks that one of each pair is missing.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
 namespace wale::test {
 namespace {

@@ -11,27 +11,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <thread>
 
 #include "runtime/device/usb/list_usb_devices.hpp"
 #include "tests/runtime/programs.hpp"
+#include "tests/usb/allocations.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/stage.hpp"
-
-namespace {
-thread_local long allocations = 0;
-}  // namespace
-
-// These replace the whole test program's, to see who allocates. Not inlined, or the compiler, knowing malloc and free
-// by their names, thinks that one of each pair is missing.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
 // Unmodified libusb and all of the driver, against devices that are not there. What is asserted is counts, order and
 // bytes, never how long anything took: waiting has no end of its own but the test's.
