@@ -63,7 +63,7 @@ std::variant<Program, Unavailable> Library::material(const std::string& file, co
 std::vector<DescribedDevice> Library::devices() const {
   std::vector<DescribedDevice> devices;
   parts_->common->declarations.devices.each([&](const std::string&, const DeviceDeclaration& device) {
-    devices.push_back({device.profile, device.source, device.assumed});
+    devices.push_back({device.profile, device.source, device.assumed, device.unknown, device.wiring, device.of_class});
   });
   return devices;
 }

@@ -108,9 +108,11 @@ ListedUsbDevice listed_device(const UsbContext& context, const UsbDeviceInfo& in
 
 }  // namespace
 
-std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context) {
+std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context, const std::optional<UsbNumbers>& only) {
   std::vector<UsbDeviceInfo> devices = context.devices();
-  std::erase_if(devices, [](const UsbDeviceInfo& info) { return info.hid.empty(); });
+  std::erase_if(devices, [&](const UsbDeviceInfo& info) {
+    return info.hid.empty() || (only && *only != UsbNumbers{info.vendor, info.product});
+  });
   std::sort(devices.begin(), devices.end(), [](const auto& a, const auto& b) { return a.port < b.port; });
   std::vector<ListedUsbDevice> listed;
   for (const UsbDeviceInfo& info : devices) listed.push_back(listed_device(context, info));
