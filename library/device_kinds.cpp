@@ -48,6 +48,12 @@ Connections Connections::open() {
   return {std::get<std::shared_ptr<UsbContext>>(std::move(context)), {}};
 }
 
+std::string in_words(const PluggedIn& plugged) {
+  const std::string name = plugged.name.empty() ? "a device without a name" : plugged.name;
+  if (plugged.numbers.empty()) return name + " (" + plugged.port + ")";
+  return name + " (" + plugged.numbers + " at port " + plugged.port + ")";
+}
+
 std::span<const DeviceKind> device_kinds() { return kinds; }
 
 const DeviceKind* device_kind(std::string_view name) {

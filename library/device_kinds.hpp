@@ -32,6 +32,9 @@ struct PluggedIn {
   UsbDeviceInfo usb;     ///< of one on USB
 };
 
+/// "OpenFFBoard (1209:ffb0 at port 1-2)"
+std::string in_words(const PluggedIn& plugged);
+
 struct DeviceOptions {
   int priority = 0;  ///< SCHED_FIFO, of the threads that serve the device, where permitted; 0: ordinary
 };

@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::string_view simulated = "simulated";
 
-/// "OpenFFBoard (1209:ffb0 at port 1-2)"
-std::string called(const PluggedIn& plugged) {
-  const std::string name = plugged.name.empty() ? "a device without a name" : plugged.name;
-  return plugged.numbers.empty() ? fmt::format("{} ({})", name, plugged.port)
-                                 : fmt::format("{} ({} at port {})", name, plugged.numbers, plugged.port);
-}
-
 bool is_usable(const PluggedIn& plugged) { return !plugged.can.empty() && plugged.obstacle.empty(); }
 
 /// Something to feel on that is not, or may be: it can push, or its declaration says that its like can.
@@ -58,6 +51,7 @@ class Chooser {
       if (declared(name)) return simulated_as(name, "");
       return unknown(name, "simulated:");
     }
+    if (request_.only_simulated) return as_simulated();
     if (asked == "auto") return best_or_simulated();
     if (asked == "usb")
       return real([](const Candidate& each) { return !each.plugged->numbers.empty(); },
@@ -104,6 +98,16 @@ class Chooser {
     return chosen;
   }
 
+  /// What is asked for, where no real device will do.
+  std::variant<ChosenDevice, Refusal> as_simulated() const {
+    const std::string& asked = request_.spelling;
+    if (asked == "auto") return ChosenDevice{};
+    if (declared(asked)) return simulated_as(asked, "");
+    if (asked != "usb" && device_kind(asked) == nullptr && !read_usb_numbers(asked) && !is_port(asked))
+      return unknown(asked, "");
+    return Refusal{"a real device runs in real time, in a real hand: leave out --virtual-time and --hand", {}};
+  }
+
   Refusal unknown(const std::string& name, const std::string& prefix) const {
     std::vector<std::string> names;
     for (const DescribedDevice& each : known_) names.push_back(prefix + each.profile.name);
@@ -129,7 +133,7 @@ class Chooser {
     chosen.wiring = candidate.match.device->wiring;
     chosen.is_generic = candidate.match.is_generic;
     chosen.is_worth_saying = true;
-    chosen.said = fmt::format("feeling on {}, as {}", called(*candidate.plugged), chosen.profile);
+    chosen.said = fmt::format("feeling on {}, as {}", in_words(*candidate.plugged), chosen.profile);
     if (chosen.is_generic)
       chosen.said += fmt::format(
           ": no declaration is about it, so its figures are assumed; `wale devices --identify {}` prints one "
@@ -137,7 +141,7 @@ class Chooser {
           candidate.plugged->port);
     for (const Candidate& other : all_)
       if (other.plugged != candidate.plugged && is_usable(*other.plugged) && other.match.device != nullptr)
-        chosen.said += fmt::format("\n  also there: {}; --device {}", called(*other.plugged), other.plugged->port);
+        chosen.said += fmt::format("\n  also there: {}; --device {}", in_words(*other.plugged), other.plugged->port);
     return chosen;
   }
 
@@ -149,14 +153,14 @@ class Chooser {
       if (!is_meant(each)) continue;
       if (!is_usable(*each.plugged)) {
         if (!refusal)
-          refusal = {fmt::format("{} cannot be used: {}", called(*each.plugged), each.plugged->obstacle), {}};
+          refusal = {fmt::format("{} cannot be used: {}", in_words(*each.plugged), each.plugged->obstacle), {}};
       } else if (each.match.device == nullptr) {
-        refusal = {fmt::format("{} is no device that anything declares", called(*each.plugged)), {}};
+        refusal = {fmt::format("{} is no device that anything declares", in_words(*each.plugged)), {}};
       } else if (!fits(each)) {
         refusal = {
             fmt::format("the program is built for `{}`, and {} is taken for `{}`: build it for that "
                         "(`wale build FILE --device {} -o OUT.wpp`), or feel it simulated (`--device simulated`)",
-                        request_.built_for, called(*each.plugged), each.match.device->profile.name,
+                        request_.built_for, in_words(*each.plugged), each.match.device->profile.name,
                         each.match.device->profile.name),
             {}};
       } else {
@@ -175,9 +179,9 @@ class Chooser {
       if (is_usable(*each.plugged) && each.match.device != nullptr && fits(each)) return taken(each);
       chosen.is_worth_saying = true;
       if (!is_usable(*each.plugged))
-        chosen.said += fmt::format("{} cannot be used: {}\n", called(*each.plugged), each.plugged->obstacle);
+        chosen.said += fmt::format("{} cannot be used: {}\n", in_words(*each.plugged), each.plugged->obstacle);
       else if (each.match.device != nullptr)
-        chosen.said += fmt::format("{} is taken for {}, and the program is built for {}\n", called(*each.plugged),
+        chosen.said += fmt::format("{} is taken for {}, and the program is built for {}\n", in_words(*each.plugged),
                                    each.match.device->profile.name, request_.built_for);
     }
     chosen.said += chosen.is_worth_saying ? "so it is felt on a simulated device"

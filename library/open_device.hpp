@@ -27,7 +27,8 @@ struct DeviceRequest {
   /// `simulated`, `simulated:NAME`, `auto`, `usb`, a kind of device, a declared device, "1209:ffb0", or a port,
   /// "1-2.3".
   std::string spelling = "auto";
-  std::string built_for;  ///< the device that the program is for, where that is settled; else empty
+  std::string built_for;        ///< the device that the program is for, where that is settled; else empty
+  bool only_simulated = false;  ///< virtual time or a simulated hand's motion is asked for too
 };
 
 /// What it comes to.
