@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/record/tick_sink.hpp"
 #include "runtime/stage/acceleration_filter.hpp"
 #include "runtime/stage/exchange.hpp"
 #include "runtime/stage/front_most.hpp"
@@ -25,6 +26,7 @@ struct PlacedPatch {
   Bank bank;
   glm::vec2 position;
   std::shared_ptr<Memory> memory;
+  std::uint32_t number = 0;  ///< on the stage
 };
 
 /// All that lies on the workspace, as the control side hands it over. What does not change from one to the next they
@@ -32,6 +34,7 @@ struct PlacedPatch {
 struct PlacedPatches {
   std::vector<std::shared_ptr<PlacedPatch>> patches;
   std::shared_ptr<const FrontMost> front_most;  ///< of these, by their places in `patches`
+  std::uint32_t revision = 0;                   ///< counts what a run hands over, from 1 on
 
   PlacedPatches() : front_most(std::make_shared<FrontMost>()) {}
   /// One patch alone.
@@ -68,10 +71,10 @@ class AxisFilters {
 /// The real-time half of a stage: what one thread does at each beat. The device is without force once it is gone.
 class Player {
  public:
-  /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. `most_newton` is the largest
-  /// force that the user allows. Allocates.
+  /// `record` keeps the last `beats` beats, at least one, and `sink` gets each. All outlive the player. `most_newton`
+  /// is the largest force that the user allows. Allocates.
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
-         double most_newton = HUGE_VAL);
+         double most_newton = HUGE_VAL, TickSink* sink = nullptr);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -86,8 +89,9 @@ class Player {
 
   /// After the last beat.
   Lateness lateness() const { return lateness_.summary(); }
-  GuardCounts guards() const;
-  /// Cuts the record to the beats served.
+  GuardCounts guards() const noexcept;
+  long served() const { return static_cast<long>(served_); }
+  /// Brings the record into order, and cuts it to the beats served.
   void finish();
 
  private:
@@ -101,6 +105,7 @@ class Player {
   Device& device_;
   Exchange<PlacedPatches>& patches_;
   Record& record_;
+  TickSink* sink_;
   std::size_t served_ = 0;
   long missed_ = 0;
   double position_step_;  // m per count

@@ -12,13 +12,16 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
+#include "runtime/stage/recorded_run.hpp"
 #include "runtime/stage/scheduling.hpp"
 
 namespace wale {
 namespace {
 
 constexpr long longest_run = 1L << 24;
+constexpr double endless = 0x1p53;  // ticks: longer than anything lasts, and still exact
 constexpr double progress_seconds = 0.1;
 
 /// Six digits are enough to tell a person a value.
@@ -61,14 +64,22 @@ std::optional<Refusal> misfit(const PatchProgram& program, const DeviceProfile& 
                  (program.vibrates() ? " pushes" : " only vibrates") + ": build it for " + device.name};
 }
 
-/// How many ticks the run is to have, at least one.
-std::variant<long, Refusal> ticks_of(double seconds, double rate) {
-  if (!(seconds > 0)) return Refusal{"a run lasts longer than no time at all; asked for " + digits(seconds) + " s"};
-  if (seconds * rate > static_cast<double>(longest_run)) {
-    return Refusal{"a run lasts at most " + digits(static_cast<double>(longest_run) / rate) + " s at " + digits(rate) +
-                   " Hz; asked for " + digits(seconds) + " s"};
+struct RunLength {
+  long ticks = 0;  ///< that the run is to have, at least one
+  long kept = 0;   ///< that its record keeps, at least one
+};
+
+std::variant<RunLength, Refusal> length_of(const RunOptions& options, double rate) {
+  const auto asked = [](double seconds) { return "; asked for " + digits(seconds) + " s"; };
+  if (!(options.seconds > 0)) return Refusal{"a run lasts longer than no time at all" + asked(options.seconds)};
+  if (!(options.kept_seconds > 0)) return Refusal{"a run keeps some of its ticks" + asked(options.kept_seconds)};
+  const double kept = std::min(options.seconds, options.kept_seconds);
+  if (kept * rate > static_cast<double>(longest_run)) {
+    return Refusal{"a run " + std::string(kept < options.seconds ? "keeps" : "lasts") + " at most " +
+                   digits(static_cast<double>(longest_run) / rate) + " s at " + digits(rate) + " Hz" + asked(kept)};
   }
-  return std::max(1L, std::lround(seconds * rate));
+  return RunLength{std::max(1L, std::lround(std::min(options.seconds * rate, endless))),
+                   std::max(1L, std::lround(kept * rate))};
 }
 
 bool is_set(const std::atomic<bool>* flag) noexcept { return flag != nullptr && flag->load(std::memory_order_relaxed); }
@@ -121,7 +132,8 @@ struct Stage::Parts {
   bool resized = false;              // one of them may have another size since then
   bool finished = false;             // the real-time thread's last tick is done
   bool running = false;
-  PlacedPatches published;  // the thread's that publishes
+  PlacedPatches published;                 // the thread's that publishes
+  std::unique_ptr<RecordWriter> recorder;  // of the run under way; called with the mutex held
 
   explicit Parts(Device& stages) : device(stages) {}
 
@@ -149,12 +161,17 @@ struct Stage::Parts {
   void publish_change(Exchange<PlacedPatches>& patches) {
     std::unique_lock lock(mutex);
     if (changed.empty()) return;
-    if (std::exchange(cleared, false)) published = PlacedPatches();
+    if (std::exchange(cleared, false)) {
+      published.patches.clear();
+      published.front_most = std::make_shared<FrontMost>();
+    }
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     std::vector<std::pair<std::size_t, Placement>> copies;
     for (const std::size_t patch : changed) copies.emplace_back(patch, placements[patch]);
     changed.clear();
+    ++published.revision;
+    if (recorder) recorder->publish(published.revision);
     std::vector<float> layers;
     const bool rearranged = std::exchange(resized, false) || published.patches.size() != placements.size();
     for (Placement& placement : placements) placement.memory->forget_predecessor();
@@ -163,7 +180,8 @@ struct Stage::Parts {
     published.patches.resize(placements.size());
     lock.unlock();  // building may take long, and whoever turns the next knob should not wait for it
     for (const auto& [patch, copy] : copies)
-      published.patches[patch] = std::make_shared<PlacedPatch>(PlacedPatch{copy.bank(), copy.position, copy.memory});
+      published.patches[patch] = std::make_shared<PlacedPatch>(
+          PlacedPatch{copy.bank(), copy.position, copy.memory, static_cast<std::uint32_t>(patch)});
     if (rearranged) arrange(layers);
     patches.publish(published);
   }
@@ -178,12 +196,52 @@ struct Stage::Parts {
     published.front_most = std::make_shared<const FrontMost>(outlines);
   }
 
+  /// With the mutex held: what lies on the stage is what the recording begins with.
+  std::optional<Refusal> begin_recording(const RunOptions& options);
+  /// Why it is not whole, if so.
+  std::string end_recording();
+  TickSink* sink() { return recorder.get(); }
+
+  void play_recorded(Player& player, Exchange<PlacedPatches>& patches, RecordedRun& recorded, RunResult& result);
   void play_in_virtual_time(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
                             RunResult& result);
   std::optional<Refusal> play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                            const RunOptions& options, RunResult& result);
   void attend(const Player& player, Exchange<PlacedPatches>& patches, const RunOptions& options);
 };
+
+std::optional<Refusal> Stage::Parts::begin_recording(const RunOptions& options) {
+  if (!options.record_to) return std::nullopt;
+  try {
+    const RecordingHeader header{.device = device.profile(),
+                                 .most_newton = options.most_newton,
+                                 .virtual_time = options.virtual_time,
+                                 .hand = options.record_to->hand};
+    recorder = std::make_unique<RecordWriter>(options.record_to->file, header, options.virtual_time);
+  } catch (const Refusal& refusal) {
+    return refusal;
+  }
+  for (const Placement& placement : placements)
+    recorder->add(placement.program, placement.position, placement.size, placement.layer, placement.parameters);
+  return std::nullopt;
+}
+
+std::string Stage::Parts::end_recording() {
+  const std::lock_guard lock(mutex);
+  if (!recorder) return {};
+  recorder->end();
+  return recorder->ended_early();
+}
+
+void Stage::Parts::play_recorded(Player& player, Exchange<PlacedPatches>& patches, RecordedRun& recorded,
+                                 RunResult& result) {
+  result.scheduling = "replayed";
+  while (const auto beat = recorded.next()) {
+    publish_change(patches);
+    player.serve(*beat);
+    result.ticks_missed += beat->skipped;
+  }
+}
 
 void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                         const RunOptions& options, RunResult& result) {
@@ -263,6 +321,7 @@ void Stage::place(const Program& program, glm::vec2 position) { place(program, p
 void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
   Placement placement(program, position, size, 0);
   const std::lock_guard lock(parts_->mutex);
+  if (parts_->recorder) parts_->recorder->place(program, position, size);
   parts_->placements.clear();
   parts_->placements.push_back(std::move(placement));
   parts_->changed.clear();
@@ -273,6 +332,7 @@ void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
 std::size_t Stage::add(const Program& program, glm::vec2 position, PatchSize size, float layer) {
   Placement placement(program, position, size, layer);
   const std::lock_guard lock(parts_->mutex);
+  if (parts_->recorder) parts_->recorder->add(program, position, size, layer, placement.parameters);
   const std::size_t number = parts_->placements.size();
   parts_->placements.push_back(std::move(placement));
   parts_->note_change(number);
@@ -282,6 +342,7 @@ std::size_t Stage::add(const Program& program, glm::vec2 position, PatchSize siz
 std::optional<Refusal> Stage::replace(std::size_t patch, const Program& program) {
   const std::lock_guard lock(parts_->mutex);
   if (auto refusal = parts_->no_such(patch)) return refusal;
+  if (parts_->recorder) parts_->recorder->replace(patch, program);
   parts_->placements[patch] = Placement(parts_->placements[patch], program);
   parts_->resized = true;
   parts_->note_change(patch);
@@ -308,6 +369,7 @@ std::optional<Refusal> Stage::set(std::size_t patch, std::string_view parameter,
     return Refusal{range.name + " = " + shown(range, value) + " is not in its range " + shown(range, range.low) +
                    " .. " + shown(range, range.high)};
   }
+  if (parts_->recorder) parts_->recorder->set(patch, *index, value);
   placement.parameters[*index] = value;
   parts_->note_change(patch);
   return std::nullopt;
@@ -322,8 +384,9 @@ std::optional<Bank> Stage::bank(std::size_t patch) const {
 std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   const DeviceProfile& profile = parts_->device.profile();
   if (auto lack = lacks(profile)) return *lack;
-  const auto ticks = ticks_of(options.seconds, profile.rate);
-  if (auto* refusal = std::get_if<Refusal>(&ticks)) return *refusal;
+  const auto length = length_of(options, profile.rate);
+  if (auto* refusal = std::get_if<Refusal>(&length)) return *refusal;
+  const auto [ticks, kept] = std::get<RunLength>(length);
   if (!(options.most_newton > 0)) return Refusal{"the largest force allowed is more than nothing"};
   {
     const std::lock_guard lock(parts_->mutex);
@@ -331,7 +394,9 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
     if (parts_->running) return Refusal{"another run is under way on this stage"};
     for (const Placement& placement : parts_->placements)
       if (auto refusal = misfit(placement.program.description(), profile)) return *refusal;
+    if (auto refusal = parts_->begin_recording(options)) return *refusal;
     parts_->running = true;
+    parts_->published.revision = 0;
     parts_->cleared = true;  // every run begins with banks of its own, and with memories of its own
     parts_->changed.clear();
     for (std::size_t patch = 0; patch < parts_->placements.size(); ++patch) {
@@ -344,21 +409,25 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
     ~Ending() {
       const std::lock_guard lock(parts.mutex);
       parts.running = false;
+      parts.recorder.reset();
     }
   } ending{*parts_};
 
   RunResult result;
   Exchange<PlacedPatches> patches;
   parts_->publish_change(patches);
-  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(std::get<long>(ticks)),
-                options.most_newton);
-  if (options.virtual_time) {
-    parts_->play_in_virtual_time(player, patches, std::get<long>(ticks), options, result);
-  } else if (auto refusal = parts_->play_in_real_time(player, patches, std::get<long>(ticks), options, result)) {
+  TickSink* const sink = options.recorded != nullptr ? options.recorded : parts_->sink();
+  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(kept), options.most_newton, sink);
+  if (options.recorded != nullptr) {
+    parts_->play_recorded(player, patches, *options.recorded, result);
+  } else if (options.virtual_time) {
+    parts_->play_in_virtual_time(player, patches, ticks, options, result);
+  } else if (auto refusal = parts_->play_in_real_time(player, patches, ticks, options, result)) {
     return *refusal;
   }
   player.finish();
-  result.ticks_run = static_cast<long>(result.record.ticks.size());
+  result.ticks_run = player.served();
+  result.record_problem = parts_->end_recording();
   result.lateness = player.lateness();
   result.guards = player.guards();
   return result;

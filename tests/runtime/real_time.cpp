@@ -3,12 +3,15 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <new>
 #include <stdexcept>
 
+#include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/programs.hpp"
@@ -113,6 +116,33 @@ TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
     EXPECT_GT(entered, 0);
     EXPECT_GT(inside, 500);
   }
+}
+
+TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
+  std::string folder = "/tmp/wale-real-time-XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string file = folder + "/a.wrec";
+  constexpr long beats = 3 * static_cast<long>(recording_format::ticks_per_chunk);
+  {
+    SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
+    const Program program = bead(500);
+    Exchange<PlacedPatches> patches;
+    patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
+    RecordWriter writer(file, {.device = sandpaper(), .most_newton = 5}, false);
+    Record record;
+    Player player(joystick, patches, record, 100, 5, &writer);
+    for (long period = 0; period < beats; ++period) {
+      const long before = deeds();
+      player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
+      ASSERT_EQ(deeds(), before) << period;
+    }
+    EXPECT_EQ(writer.ended_early(), "");
+  }
+  const auto recording = Recording::open(file);
+  ASSERT_TRUE(std::holds_alternative<Recording>(recording)) << std::get<Refusal>(recording).reason;
+  EXPECT_EQ(std::get<Recording>(recording).ticks(), static_cast<std::size_t>(beats));
+  std::remove(file.c_str());
+  rmdir(folder.c_str());
 }
 
 }  // namespace

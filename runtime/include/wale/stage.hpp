@@ -25,6 +25,14 @@ struct Progress {
   bool inside = false;                 ///< the hand is within the patch
 };
 
+/// A recording to make of a run.
+struct RecordTo {
+  std::string file;  ///< that does not exist yet, by custom NAME.wrec
+  std::string hand;  ///< what moves the handle, to say so: "simulated, lateral"
+};
+
+class RecordedRun;
+
 struct RunOptions {
   double seconds = 0;             ///< how long; positive, may be fractional
   double most_newton = HUGE_VAL;  ///< the largest force that the user allows; positive
@@ -34,6 +42,14 @@ struct RunOptions {
   std::function<void(const Progress&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;
+  /// Records every tick, and all that is done to the stage meanwhile, in a file, for `Recording` and `replay`. It is
+  /// whole up to the last tick even if the process is killed.
+  std::optional<RecordTo> record_to = {};
+  /// s: of the run's end, that `RunResult::record` keeps. With less than everything a run may last as long as it likes,
+  /// an infinite time too.
+  double kept_seconds = HUGE_VAL;
+  /// Whose beats are served instead of a clock's; `replay`'s own.
+  RecordedRun* recorded = nullptr;
 };
 
 /// How late ticks began, in s after their deadlines. The percentiles come from a fixed histogram and are right within 3
@@ -63,6 +79,7 @@ struct RunResult {
   GuardCounts guards;
   std::string scheduling;  ///< one line: what priority and memory locking the loop got
   Record record;
+  std::string record_problem;  ///< why there is less in the file than was run; empty where there is not
 };
 
 /// Patches on a device's workspace, and the loop that makes the one in front under the hand felt.
@@ -105,9 +122,9 @@ class Stage {
   std::optional<Bank> bank(std::size_t patch = 0) const;
 
   /// Runs for `options.seconds` and leaves the device without force, whatever ends the run. Refused when the time is
-  /// not positive or longer than a record holds (2^24 ticks), when the largest force is not positive, when nothing is
-  /// placed, when the device's profile lacks what a loop needs, when a program pushes and the device only vibrates or the
-  /// other way round, or while another run is under way.
+  /// not positive or more of it is to be kept than a record holds (2^24 ticks), when the largest force is not positive,
+  /// when nothing is placed, when the device's profile lacks what a loop needs, when a program pushes and the device
+  /// only vibrates or the other way round, when it cannot be recorded, or while another run is under way.
   std::variant<RunResult, Refusal> run(const RunOptions& options);
 
  private:

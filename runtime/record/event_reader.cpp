@@ -1,0 +1,99 @@
+#include "runtime/record/event_reader.hpp"
+
+#include "runtime/record/profile_program.hpp"
+#include "schema/refuse.hpp"
+
+namespace wale {
+
+using namespace recording_format;
+
+void EventReader::read(const EventHeader& header, std::span<const std::byte> payload) {
+  const auto code = static_cast<EventCode>(header.kind);
+  Bytes in("an event", payload);
+  if ((code == EventCode::header) == has_header_) refuse("the header stands first, and once");
+  if (contents_.said_ticks) refuse("something comes after the end");
+  if (code == EventCode::header) {
+    read_header(in, payload);
+  } else if (code == EventCode::program) {
+    read_program(in, payload);
+  } else {
+    RecordedEvent event = read_event(code, in);
+    event.ticks = header.ticks;
+    in.finish();
+    contents_.events.push_back(std::move(event));
+  }
+}
+
+void EventReader::read_header(Bytes& in, std::span<const std::byte> payload) {
+  RecordingHeader& header = contents_.header;
+  header.most_newton = in.f64();
+  if (!(header.most_newton > 0)) refuse("a largest force of ", header.most_newton, " N is none");
+  header.virtual_time = in.boolean("virtual time");
+  header.hand = in.text("the hand");
+  const std::uint32_t size = in.u32();
+  if (size != in.remaining()) refuse("the device's profile should have ", size, " bytes and has ", in.remaining());
+  header.device = read_profile(payload.last(size));
+  has_header_ = true;
+}
+
+void EventReader::read_program(Bytes& in, std::span<const std::byte> payload) {
+  const std::uint64_t hash = in.u64();
+  const auto bytes = payload.last(in.remaining());
+  if (hash != hash_of(bytes)) refuse("its bytes are not those of its hash");
+  contents_.programs.push_back({hash, bytes});
+}
+
+std::uint32_t EventReader::program(Bytes& in) const {
+  const std::uint32_t number = in.u32();
+  if (number >= contents_.programs.size()) refuse("program ", number, " has not been recorded");
+  return number;
+}
+
+RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
+  RecordedEvent event;
+  const auto placement = [&] {
+    event.program = program(in);
+    for (int i = 0; i < 2; ++i) event.position[i] = in.f32();
+    for (float* figure : {&event.size.width, &event.size.height, &event.size.rim}) *figure = in.f32();
+  };
+  switch (code) {
+    case EventCode::place:
+      event.kind = RecordedEvent::Kind::place;
+      placement();
+      return event;
+    case EventCode::add:
+      event.kind = RecordedEvent::Kind::add;
+      placement();
+      event.layer = in.f32();
+      if (std::isnan(event.layer)) refuse("a layer is a number");
+      event.parameters.resize(in.count(sizeof(float), "parameters"));
+      for (float& value : event.parameters) value = in.f32();
+      return event;
+    case EventCode::replace:
+      event.kind = RecordedEvent::Kind::replace;
+      event.patch = in.u32();
+      event.program = program(in);
+      return event;
+    case EventCode::set:
+      event.kind = RecordedEvent::Kind::set;
+      event.patch = in.u32();
+      event.parameter = in.u32();
+      event.value = in.f32();
+      return event;
+    case EventCode::publish:
+      event.kind = RecordedEvent::Kind::publish;
+      event.revision = in.u32();
+      if (event.revision != revision_ + 1) refuse("revision ", event.revision, " comes after revision ", revision_);
+      revision_ = event.revision;
+      return event;
+    case EventCode::end:
+      event.kind = RecordedEvent::Kind::end;
+      contents_.said_ticks = in.u64();
+      return event;
+    case EventCode::header:
+    case EventCode::program: break;
+  }
+  refuse("kind ", static_cast<std::uint32_t>(code), " is not known");
+}
+
+}  // namespace wale

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "runtime/record/recording_contents.hpp"
+#include "schema/byte_reader.hpp"
+
+namespace wale {
+
+/// Reads one event after the other into what is known of a recording.
+class EventReader {
+ public:
+  explicit EventReader(RecordingContents& contents) : contents_(contents) {}
+
+  /// Throws a `Refusal` when it makes no sense where it stands. `payload` lies in `RecordingContents::events_bytes`.
+  void read(const recording_format::EventHeader& header, std::span<const std::byte> payload);
+
+  bool has_header() const { return has_header_; }
+  /// The last that was published.
+  std::uint32_t revision() const { return revision_; }
+
+ private:
+  using Bytes = patch_program_format::ByteReader;
+  void read_header(Bytes& in, std::span<const std::byte> payload);
+  void read_program(Bytes& in, std::span<const std::byte> payload);
+  RecordedEvent read_event(recording_format::EventCode code, Bytes& in);
+  std::uint32_t program(Bytes& in) const;
+
+  RecordingContents& contents_;
+  bool has_header_ = false;
+  std::uint32_t revision_ = 0;
+};
+
+}  // namespace wale

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/record/chunk_file.hpp"
+#include "runtime/record/format.hpp"
+
+namespace wale {
+
+/// The payload of an event, little-endian.
+class EventBytes {
+ public:
+  template <class Number>
+  requires std::is_arithmetic_v<Number> EventBytes& operator<<(Number number) {
+    return *this << std::as_bytes(std::span(&number, 1));
+  }
+  EventBytes& operator<<(std::span<const std::byte> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    return *this;
+  }
+  /// With its length before it.
+  EventBytes& operator<<(std::string_view text) {
+    return *this << static_cast<std::uint32_t>(text.size()) << std::as_bytes(std::span(text));
+  }
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// The events of a recording: frames one after the other across chunks of their own. One thread at a time.
+class EventStream {
+ public:
+  explicit EventStream(ChunkFile& file) : file_(file) {}
+  ~EventStream();
+  EventStream(const EventStream&) = delete;
+  EventStream& operator=(const EventStream&) = delete;
+
+  /// One more event, which is in the file as a whole or, should the process end meanwhile, not at all. Throws a
+  /// `Refusal` when the disk is full.
+  void append(recording_format::EventCode kind, std::uint64_t ticks, std::span<const std::byte> payload);
+
+ private:
+  void store(std::span<const std::byte> bytes);
+  void leave_all_but_last() noexcept;
+
+  ChunkFile& file_;
+  std::vector<std::byte*> chunks_;  // those that the event under way lies in
+  std::uint64_t made_ = 0;
+  std::size_t used_ = recording_format::events_per_chunk;  // of the last chunk
+};
+
+}  // namespace wale

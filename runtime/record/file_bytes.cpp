@@ -1,0 +1,42 @@
+#include "runtime/record/file_bytes.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace wale {
+
+std::variant<FileBytes, Refusal> FileBytes::map(const std::string& path) {
+  const auto refusal = [&](int error) {
+    return Refusal{"`" + path + "` cannot be read: " + std::generic_category().message(error), {}};
+  };
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return refusal(errno);
+  struct stat status {};
+  int error = fstat(file, &status) != 0  ? errno
+              : S_ISDIR(status.st_mode)  ? EISDIR
+              : !S_ISREG(status.st_mode) ? EINVAL
+                                         : 0;
+  FileBytes bytes;
+  if (error == 0 && status.st_size > 0) {
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* mapped = mmap(nullptr, size, PROT_READ, MAP_SHARED, file, 0);
+    if (mapped == MAP_FAILED)
+      error = errno;
+    else
+      bytes.mapped_ = {static_cast<const std::byte*>(mapped), size};
+  }
+  close(file);
+  if (error != 0) return refusal(error);
+  return bytes;
+}
+
+FileBytes::~FileBytes() {
+  if (mapped_.data() != nullptr) munmap(const_cast<std::byte*>(mapped_.data()), mapped_.size());
+}
+
+}  // namespace wale

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+#include "wale/recording.hpp"
+
+/// What the writer and the reader of recordings agree on; the prose is RECORDING.md.
+namespace wale::recording_format {
+
+static_assert(std::endian::native == std::endian::little, "recordings are stored as they lie in memory");
+
+/// As in PNG: a byte no text has, the name, and the line ends and end-of-file marks that a text-mode transfer mangles.
+inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
+inline constexpr std::uint32_t version = 1;
+
+/// Bytes before the first chunk, and of a chunk: wherever a chunk begins, a page does, of whatever size (4 to 64 KiB).
+inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;
+inline constexpr std::size_t chunk_header_size = 64;
+
+struct FileHeader {
+  std::array<std::uint8_t, 8> magic{};
+  std::uint32_t version = 0;
+  std::uint32_t first_chunk = 0, chunk_size = 0, tick_size = 0;
+  std::uint32_t reserved = 0;
+  std::uint32_t check = 0;  ///< of the bytes before
+};
+static_assert(sizeof(FileHeader) == 32);
+
+enum class ChunkKind : std::uint32_t { none = 0, ticks = 1, events = 2 };
+
+struct ChunkHeader {
+  ChunkKind kind = ChunkKind::none;
+  std::uint32_t check = 0;   ///< of the other fields
+  std::uint64_t number = 0;  ///< among those of its kind, from 0
+};
+static_assert(sizeof(ChunkHeader) == 16);
+
+/// A tick as it lies in a chunk. `sequence`, the tick's number and one, is stored last.
+struct TickEntry {
+  std::uint64_t sequence = 0;
+  std::int64_t period = 0;
+  std::int64_t lateness = 0;
+  std::array<std::int32_t, 2> counts{};
+  std::array<float, 2> velocity{}, wanted{}, commanded{}, force{}, interaction{};
+  std::uint32_t elapsed = 0, skipped = 0;
+  std::uint32_t revision = 0;
+  std::uint32_t patch = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t check = 0;  ///< of the other fields, with the sequence
+};
+static_assert(sizeof(TickEntry) == 96 && std::is_trivially_copyable_v<TickEntry>);
+
+inline constexpr std::size_t ticks_per_chunk = (chunk_size - chunk_header_size) / sizeof(TickEntry);
+inline constexpr std::size_t events_per_chunk = chunk_size - chunk_header_size;  ///< bytes
+
+/// Of `TickEntry::flags`: two bits of contact, the button, whether inside; the guards from bit 8 on.
+inline constexpr std::uint32_t contact_mask = 3, button_flag = 4, inside_flag = 8;
+inline constexpr int guards_shift = 8;
+
+/// Before each event's payload in the stream of events. `size` and `check` are stored last, together.
+struct EventHeader {
+  std::uint32_t size = 0;   ///< bytes of the payload, and one
+  std::uint32_t check = 0;  ///< of what follows
+  std::uint64_t ticks = 0;  ///< done when it came
+  std::uint32_t kind = 0;   ///< `EventCode`
+  std::uint32_t reserved = 0;
+};
+static_assert(sizeof(EventHeader) == 24);
+
+/// With the header the stream's first event and `program`, which brings a program's bytes before it is first named; the
+/// others are those of `RecordedEvent::Kind`.
+enum class EventCode : std::uint32_t {
+  header = 1,
+  program = 2,
+  place = 3,
+  add = 4,
+  replace = 5,
+  set = 6,
+  publish = 7,
+  end = 8
+};
+
+/// Events begin at multiples of this in their stream, so that no `size` and `check` lies across two chunks.
+inline constexpr std::size_t event_alignment = 8;
+constexpr std::size_t aligned(std::size_t size) {
+  return (size + event_alignment - 1) / event_alignment * event_alignment;
+}
+
+/// Tells a changed word for sure and anything else all but so. Each step is one-to-one in the sum so far and in the
+/// word. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+class Check {
+ public:
+  void add(std::uint64_t word) noexcept {
+    sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15u;
+    sum_ ^= sum_ >> 32;
+  }
+  void add(std::span<const std::byte> bytes) noexcept {
+    for (std::size_t i = 0; i < bytes.size(); i += 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
+      add(word);
+    }
+  }
+  std::uint32_t value() const noexcept { return static_cast<std::uint32_t>(sum_ ^ sum_ >> 32); }
+
+ private:
+  std::uint64_t sum_ = 0x57414c45;
+};
+
+inline std::uint32_t check_of(const FileHeader& header) noexcept {
+  Check check;
+  check.add(std::as_bytes(std::span(&header, 1)).first(sizeof header - 4));
+  return check.value();
+}
+
+inline std::uint32_t check_of(ChunkHeader header) noexcept {
+  header.check = 0;
+  Check check;
+  check.add(std::as_bytes(std::span(&header, 1)));
+  return check.value();
+}
+
+/// Real-time likewise.
+inline std::uint32_t check_of(const TickEntry& entry) noexcept {
+  Check check;
+  check.add(std::as_bytes(std::span(&entry, 1)).first(sizeof entry - 4));
+  return check.value();
+}
+
+/// The bytes after `check` in an event's header, and its payload.
+inline std::uint32_t check_of(const EventHeader& header, std::span<const std::byte> payload) noexcept {
+  Check check;
+  check.add(header.size);
+  check.add(std::as_bytes(std::span(&header, 1)).subspan(8));
+  check.add(payload);
+  return check.value();
+}
+
+/// Real-time likewise.
+TickEntry encode(const RecordedTick& tick, std::uint64_t number) noexcept;
+RecordedTick decode(const TickEntry& entry) noexcept;
+
+/// FNV-1a, 64 bits.
+std::uint64_t hash_of(std::span<const std::byte> bytes) noexcept;
+
+}  // namespace wale::recording_format

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "runtime/record/file_bytes.hpp"
+#include "runtime/record/format.hpp"
+
+namespace wale {
+
+/// What was read of a recording.
+struct RecordingContents {
+  FileBytes bytes;
+  std::vector<std::size_t> tick_chunks;  ///< bytes from the file's beginning
+  std::size_t ticks = 0;
+  std::vector<std::byte> events_bytes;  ///< all events one after the other
+  RecordingHeader header;
+  std::vector<RecordedEvent> events;
+  std::vector<RecordedProgram> programs;  ///< bytes of `events_bytes`
+  std::optional<std::uint64_t> said_ticks;
+
+  std::size_t offset(std::size_t tick) const {
+    using namespace recording_format;
+    return tick_chunks[tick / ticks_per_chunk] + chunk_header_size + tick % ticks_per_chunk * sizeof(TickEntry);
+  }
+  recording_format::TickEntry entry(std::size_t tick) const {
+    recording_format::TickEntry entry;
+    std::memcpy(&entry, bytes.span().data() + offset(tick), sizeof entry);
+    return entry;
+  }
+};
+
+struct Recording::Contents : RecordingContents {};
+
+}  // namespace wale
