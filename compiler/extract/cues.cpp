@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "compiler/extract/tolerances.hpp"
 
@@ -10,6 +11,20 @@ namespace {
 
 std::optional<double> unless_little(double value, double least) {
   return std::abs(value) < least ? std::nullopt : std::optional(value);
+}
+
+bool has_any(const Cues& cues, std::initializer_list<CueKind> kinds) {
+  return std::ranges::any_of(kinds, [&](CueKind kind) { return cues[kind].has_value(); });
+}
+
+/// N: what none of the cues reads of the force: on a hand at rest, or, where that is less, on one that moves and is
+/// held back along one way and pushed on along another.
+double unread_force(const Cues& cues, const Extraction& found) {
+  using enum CueKind;
+  const bool at_rest = has_any(cues, {amplitude, bump_amplitude, stiffness, wall_stiffness, friction});
+  const bool moving = at_rest || has_any(cues, {viscosity, mass, vibration});
+  const double still = at_rest ? 0 : found.force, under_way = moving ? 0 : found.opposing.scatter;
+  return std::abs(still) < under_way ? under_way : still;
 }
 
 PeriodBand band_of(const Declarations& declarations, std::string_view percept) {
@@ -34,6 +49,7 @@ const std::array<CueFacts, cue_count>& cue_table() {
       {CueKind::mass, "mass", "kg", "mass"},
       {CueKind::vibration, "vibration", "N", "vibration"},
       {CueKind::vibration_frequency, "vibration frequency", "Hz", "vibration_frequency"},
+      {CueKind::other_force, "other force", "N", "amplitude"},
   }};
   return table;
 }
@@ -65,6 +81,7 @@ Cues cues_of(const Bank& bank, const Extraction& found) {
   cues[CueKind::mass] = unless_little(found.inertia, least_mass);
   cues[CueKind::vibration] = unless_little(found.vibration.amplitude, least_force);
   if (cues[CueKind::vibration]) cues[CueKind::vibration_frequency] = found.vibration.frequency;
+  cues[CueKind::other_force] = unless_little(unread_force(cues, found), least_force);
   return cues;
 }
 

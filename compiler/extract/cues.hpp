@@ -25,8 +25,9 @@ enum class CueKind {
   mass,                 ///< kg
   vibration,            ///< N
   vibration_frequency,  ///< Hz
+  other_force,          ///< N, that none of these reads; below 0 what pushes away
 };
-inline constexpr std::size_t cue_count = 13;
+inline constexpr std::size_t cue_count = 14;
 
 struct CueFacts {
   CueKind kind;

@@ -9,8 +9,9 @@
 namespace wale {
 namespace {
 
-constexpr double alike = 0.15;        // of a stiffness, here and there
-constexpr double longest_bump = 0.4;  // of the patch
+constexpr double alike = 0.15;         // of a stiffness, here and there
+constexpr double longest_bump = 0.4;   // of the patch
+constexpr double least_outward = 0.1;  // of the whole force
 
 /// What draws the hand back, where it is the same in the middle as on the whole patch.
 double even_stiffness(const StaticForce& force) {
@@ -20,12 +21,19 @@ double even_stiffness(const StaticForce& force) {
   return std::abs(more) <= alike * std::abs(everywhere) ? everywhere : 0;
 }
 
+/// Whether what a plane says of the force is that it goes outward, and it says more than the ends of waves do.
+bool pushes_away(const StaticForce& force) {
+  const double half = 0.25 * (force.whole.extent().x + force.whole.extent().y);
+  return -force.slope.stiffness() * half > least_outward * force.largest;
+}
+
 }  // namespace
 
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps) {
   if (bank.program().description().vibrates()) return {};  // it has no force to read
   const StaticForce force(bank);
   Extraction found;
+  found.force = pushes_away(force) ? -force.largest : force.largest;
   found.texture = texture_force(bank, force, textures, least_of_field * force.largest);
   found.bumps = texture_force(bank, force, bumps, std::max(least_force, least_of_texture * found.texture.amplitude));
   // A face bends the force, unless it remembers and gave way to the hands that were set down behind it.

@@ -11,6 +11,9 @@ namespace wale {
 /// What a program's force is made of, whatever its text says: the carriers of percepts, each read from something of its
 /// own, so that none is taken for another.
 struct Extraction {
+  /// N: about the 99th percentile of the force on hands at rest; below 0 where on the whole it pushes them away from
+  /// the middle.
+  double force = 0;
   TextureForce texture, bumps;
   /// N/m: of what draws the hand back, alike over the whole patch and in its middle. What saturates, or is a wall, has
   /// no one stiffness, and 0 here.

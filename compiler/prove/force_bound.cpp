@@ -108,11 +108,12 @@ double ForceBound::ratio() const {
 ForceBound force_bound(const Program& program, const Domain& domain, long effort) {
   const ForceSlice slice = force_slice(program.description());
   ForceBound result;
-  result.found = largest_force(program, slice, domain);
-  const double good = result.found.newton * close_enough;
-
   Splitting splitting(program, slice);
   splitting.measure(domain);
+  const Part whole = splitting.evaluated(domain);
+  result.found = largest_force(program, slice, domain, whole.bound / close_enough);
+  const double good = result.found.newton * close_enough;
+
   const long most = std::max(effort / (slice.instructions() + evaluation_overhead), 1L);
   std::priority_queue<Part, std::vector<Part>, Lower> open;
   const auto settle = [&](const Part& part) {
@@ -126,7 +127,7 @@ ForceBound force_bound(const Program& program, const Domain& domain, long effort
     else
       open.push(std::move(part));
   };
-  add(splitting.evaluated(domain));
+  add(whole);
   while (!open.empty() && splitting.evaluations() < most) {
     const Part part = open.top();
     open.pop();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "runtime/machine/arithmetic.hpp"
+#include "wale/batch.hpp"
 #include "wale/memory.hpp"
 
 namespace wale {
@@ -58,8 +59,8 @@ struct Choice {
 
 class Search {
  public:
-  Search(const Program& program, const ForceSlice& slice, const Domain& domain)
-      : program_(program), description_(program.description()), domain_(domain) {
+  Search(const Program& program, const ForceSlice& slice, const Domain& domain, double enough)
+      : program_(program), description_(program.description()), domain_(domain), enough_(enough) {
     for (const Quantity& quantity : slice.quantities) {
       if (quantity.kind == Quantity::Kind::input) moving_.push_back(static_cast<Input>(quantity.index));
       if (quantity.kind == Quantity::Kind::parameter) live_.push_back(quantity.index);
@@ -72,7 +73,10 @@ class Search {
 
   LargestForce run() {
     std::vector<LargestForce> found;
-    for (const Choice& choice : choices()) found.push_back(best_of(choice));
+    for (const Choice& choice : choices()) {
+      found.push_back(best_of(choice));
+      if (enough(found.back())) return found.back();
+    }
     std::stable_sort(found.begin(), found.end(),
                      [](const LargestForce& a, const LargestForce& b) { return a.newton > b.newton; });
     found.resize(std::min(found.size(), refined));
@@ -84,6 +88,7 @@ class Search {
       const Bank bank(program_, each.parameters, each.size);
       refine(bank, each);
       consider(each);
+      if (enough(best)) return best;
       if (remembers_) consider(stroked({bank}));
     }
     // What was remembered under one setting of the parameters is felt under another.
@@ -207,14 +212,14 @@ class Search {
     return hands;
   }
 
+  bool enough(const LargestForce& found) const { return found.newton >= enough_; }
+
   static double size_of(const Force& force) {
     return std::sqrt(static_cast<double>(force.x) * force.x + static_cast<double>(force.y) * force.y);
   }
 
   /// Takes the hand that is pushed hardest, if harder than `best` is.
-  void look_at(const Bank& bank, const std::vector<Hand>& hands, LargestForce& best) const {
-    std::vector<Force> forces(hands.size());
-    tick_all(bank, hands, forces);
+  static void look_at(const std::vector<Hand>& hands, const std::vector<Force>& forces, LargestForce& best) {
     for (std::size_t i = 0; i < hands.size(); ++i) {
       const double newton = size_of(forces[i]);
       if (newton > best.newton) best.newton = newton, best.hand = hands[i];
@@ -224,16 +229,22 @@ class Search {
   LargestForce best_of(const Choice& choice) const {
     const Bank bank(program_, choice.parameters, choice.size);
     LargestForce best{0, {}, choice.parameters, choice.size};
-    look_at(bank, starting_hands(choice.size), best);
+    const std::vector<Hand> hands = starting_hands(choice.size);
+    std::vector<Force> forces(hands.size());
+    tick_all(bank, hands, forces);
+    look_at(hands, forces, best);
     return best;
   }
 
   void refine(const Bank& bank, LargestForce& best) const {
     if (moving_.empty()) return;
     Dice dice(3);
-    for (int step = 0; step < passes * steps; ++step) {
+    Batch batch(bank, neighbours);  // as tick_all, with one block to work in for all steps
+    std::vector<Hand> hands;
+    std::vector<Force> forces(neighbours);
+    for (int step = 0; step < passes * steps && !enough(best); ++step) {
       const double width = std::ldexp(0.25, -(step % steps));
-      std::vector<Hand> hands;
+      hands.clear();
       for (std::size_t i = 0; i < neighbours; ++i) {
         Hand near = best.hand;
         for (const Input input : moving_) {
@@ -248,7 +259,9 @@ class Search {
         }
         hands.push_back(near);
       }
-      look_at(bank, hands, best);
+      batch.enter(hands);
+      batch.tick(hands, forces);
+      look_at(hands, forces, best);
     }
   }
 
@@ -312,11 +325,11 @@ class Search {
           tried.parameters[i] = std::clamp(static_cast<float>(best.parameters[i] + step), range.low, range.high);
           if (tried.parameters[i] == best.parameters[i]) continue;
           --left;
-          const Bank bank(program_, tried.parameters, tried.size);
-          tried.newton = 0;
-          look_at(bank, {best.hand}, tried);
+          Bank bank(program_, tried.parameters, tried.size);
+          tried.newton = size_of(tick(bank, tried.hand));
           refine(bank, tried);
           if (tried.newton > best.newton) best = tried;
+          if (enough(best)) return best;
         }
       }
     }
@@ -326,6 +339,7 @@ class Search {
   const Program& program_;
   const PatchProgram& description_;
   const Domain& domain_;
+  double enough_;                  ///< N
   std::vector<Input> moving_;      ///< inputs that the force depends on
   std::vector<std::size_t> live_;  ///< parameters likewise
   bool remembers_ = false;
@@ -333,8 +347,8 @@ class Search {
 
 }  // namespace
 
-LargestForce largest_force(const Program& program, const ForceSlice& slice, const Domain& domain) {
-  return Search(program, slice, domain).run();
+LargestForce largest_force(const Program& program, const ForceSlice& slice, const Domain& domain, double enough) {
+  return Search(program, slice, domain, enough).run();
 }
 
 }  // namespace wale

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -118,15 +117,6 @@ void PerceptSolver::warn_of_range(const Told& told) {
            Advice("take it as a guess until somebody has seen the source").see(map.span, "the map"));
 }
 
-/// Solved percepts, what matters most first: the essential ones, then the others, each in the author's order.
-std::vector<std::size_t> PerceptSolver::by_priority() const {
-  std::vector<std::size_t> all;
-  for (const bool essential : {true, false})
-    for (std::size_t i = 0; i < told_.size(); ++i)
-      if (told_[i].solved && told_[i].asked->essential == essential) all.push_back(i);
-  return all;
-}
-
 double PerceptSolver::most_size(const Told& told) const { return std::max(told.size, told.law->carrier_of(1)); }
 
 /// Whether the forces of all that is told could come to more than the device gives, wherever the sliders stand.
@@ -141,42 +131,6 @@ bool PerceptSolver::may_exceed() const {
     sum += live ? HUGE_VAL : told.percept->exerts * (told.solved ? most_size(told) : told.size);
   }
   return count > 1 && !(sum <= device_.profile.most());
-}
-
-void PerceptSolver::reduce() {
-  const double limit = device_.profile.most();
-  const char* limited = device_.profile.shaker ? "m/s^2" : "N";
-  double used = 0;
-  int count = 0;
-  for (const Told& told : told_) {
-    count += exertion(told) > 0;
-    if (!told.solved && std::isfinite(told.size)) used += exertion(told) * told.size;
-  }
-  if (count < 2) return;
-  std::vector<std::string> before;
-  for (const std::size_t index : by_priority()) {
-    Told& told = told_[index];
-    if (told.percept->exerts == 0) continue;
-    const double left = std::max(0.0, (limit - used) / told.percept->exerts);
-    if (told.size > left && told.percept->exerts * told.size <= limit) {
-      const double level = told.law->level_of(left, coupled_sizes(told));
-      report(Code::reduced_percept, told.asked->span,
-             fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would come to {:.3g} {}, and `{}` gives "
-                         "{:.3g} {}",
-                         told.asked->name, told.asked->level, level, used + told.percept->exerts * told.size, limited,
-                         device_.profile.name, limit, limited),
-             Advice(before.empty() ? std::string("the forces that are fixed come first; weaken them")
-                                   : fmt::format("what stands above it comes first: {}; put it higher, mark it "
-                                                 "`essential`, or ask for less of the others",
-                                                 fmt::join(before, ", ")))
-                 .fact("asked", told.asked->level)
-                 .fact("reduced", level)
-                 .fact("most", limit, limited));
-    }
-    told.size = std::min(told.size, left);
-    used += told.percept->exerts * told.size;
-    before.push_back(told.asked->name);
-  }
 }
 
 // ---- expressions ----------------------------------------------------------------------------------------------------
@@ -196,31 +150,10 @@ std::map<std::uint32_t, TermId> PerceptSolver::sizes(SolvedMaterial& solved, Ter
       told.term = told.shares != none ? *told_[told.shares].term : copy((*carriers_)[told.carrier].size);
       continue;
     }
-    terms.attribute(told.asked->span);
-    told.term = *told.law->carrier(terms, level_term(told, terms, copy), coupled_terms(told, solved));
+    told.term = asked_size(told, solved, copy);
   }
-  if (may_exceed()) {
-    // What is left of the device's force for each, after what the author fixed and what matters more.
-    const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };
-    TermId left = terms.literal(device_.profile.most());
-    const auto take = [&](const Told& told) {
-      const TermId force = apply(Operation::multiply, terms.literal(told.percept->exerts), *told.term);
-      left = apply(Operation::maximum, apply(Operation::subtract, left, force), terms.literal(0));
-    };
-    for (const Told& told : told_)
-      if (!told.solved && exertion(told) > 0) take(told);
-    for (const std::size_t index : by_priority()) {
-      Told& told = told_[index];
-      if (told.percept->exerts == 0) continue;
-      terms.attribute(told.asked->span);
-      told.term =
-          apply(Operation::minimum, *told.term, apply(Operation::divide, left, terms.literal(told.percept->exerts)));
-      take(told);
-    }
-  }
+  if (may_exceed()) reduce(solved, copy);
   terms.attribute({});
-  for (Told& told : told_)
-    if (told.shares != none) told.term = told_[told.shares].term;  // perhaps reduced since
   std::map<std::uint32_t, TermId> sizes;
   for (const Told& told : told_)
     if (told.solved) sizes[(*terms_)[(*carriers_)[told.carrier].size].index] = *told.term;

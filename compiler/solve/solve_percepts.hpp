@@ -84,8 +84,18 @@ class PerceptSolver {
   bool order_from(std::size_t index, std::vector<int>& state);
   void work_out_sizes();
   void warn_of_range(const Told& told);
-  void reduce();
   std::vector<std::size_t> by_priority() const;
+  bool serves_out_of_order(const std::vector<std::size_t>& order) const;
+  /// Which turn each of `told_` has, by its index; 0 of those that are not served.
+  std::vector<double> turns(const std::vector<std::size_t>& order) const;
+  /// Sets all sizes as they are where serving has come so far; the force of all together, in the device's limit's unit.
+  double serve(const std::vector<std::size_t>& order, double served);
+  TermId serve(const std::vector<std::size_t>& order, TermId served, SolvedMaterial& solved, TermCopier& copy);
+  void serve_jointly(const std::vector<std::size_t>& order, SolvedMaterial& solved, TermCopier& copy);
+  void reduce();
+  void report_reduced(const Told& told, double used, const std::vector<std::string>& before);
+  void reduce(SolvedMaterial& solved, TermCopier& copy);
+  TermId asked_size(const Told& told, SolvedMaterial& solved, TermCopier& copy) const;
   bool may_exceed() const;
   double most_size(const Told& told) const;
   std::vector<double> coupled_sizes(const Told& told) const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -257,6 +258,47 @@ TEST(Couples, KeepTheLevelTrueWhileTheOtherMoves) {
   }
   EXPECT_NEAR(amplitude(Bank(declared.program("alone")), 0), 0.5, 1e-6);
   EXPECT_NEAR(amplitude(Bank(declared.program("fixed")), 0), 0.5 / 1.25, 1e-6);
+}
+
+/// A drag that matters more counts on a viscosity that matters less, of which the device's force leaves only a part:
+/// with v for the viscosity, the drag is s / (1 + v / 20), both come to what roughness and springiness leave of 10 N,
+/// and v is the positive root of a quadratic.
+TEST(Couples, CountOnWhatIsLeftOfTheOther) {
+  Declared declared(
+      "map stickiness from drag {\n  couples viscosity viscosity\n"
+      "  law magnitude = drag / 1 N * (1 + viscosity / 20 N s/m)\n  valid drag 0.1 N .. 3 N\n  scatter 0.1\n"
+      "  evidence slope estimated, anchor estimated, handle estimated\n  on sandpaper\n  source \"a test\"\n}\n"
+      "material m { perceptual { roughness 1; springiness 0.6; stickiness 0.5; viscosity 1 } }\n"
+      "material turned { perceptual { roughness 1; springiness 0.6; viscosity 1; stickiness 0.5 } }\n");
+  const Program program = declared.program("m");
+  EXPECT_EQ(declared.codes(), "W0421");
+  const auto at = [&](const Bank& bank, const std::string& name) {
+    return amplitude(bank, percept_index(program, name));
+  };
+  bool met_part = false, met_whole = false, met_none = false;
+  for (const double spring : {0.1, 0.5, 0.6, 0.7})
+    for (const double s : {0.1, 0.3, 0.5, 1.0})
+      for (const double full : {0.2, 1.0}) {
+        const Bank bank = bank_at(program, {{"springiness", spring}, {"stickiness", s}, {"viscosity", full}});
+        const double left = 10 - size_of("roughness", 1) - 0.04 * size_of("springiness", spring);
+        const double most = size_of("viscosity", full);
+        // 0.25 v + s / (1 + v / 20) = left
+        const double b = 0.25 - left / 20, root = (-b + std::sqrt(b * b - 4 * 0.0125 * (s - left))) / (2 * 0.0125);
+        const double v = s > left ? 0 : std::min(most, root);
+        (v == 0 ? met_none : v < most ? met_part : met_whole) = true;
+        const std::string where = testing::PrintToString(std::array{spring, s, full});
+        EXPECT_NEAR(at(bank, "viscosity"), v, 2e-5) << where;
+        EXPECT_NEAR(at(bank, "stickiness"), std::min(left, s / (1 + v / 20)), 2e-5) << where;
+        const std::size_t sticky = percept_index(program, "stickiness");
+        EXPECT_NEAR(predict(bank, sticky, amplitude(bank, sticky)).level, std::min(s, left), 2e-5) << where;
+      }
+  EXPECT_TRUE(met_part && met_whole && met_none);
+  // In the other order the viscosity comes first, and takes all that is left.
+  const Program turned = declared.program("turned");
+  const Bank bank(turned);
+  const double left = 10 - size_of("roughness", 1) - 0.04 * size_of("springiness", 0.6);
+  EXPECT_NEAR(amplitude(bank, percept_index(turned, "viscosity")), left / 0.25, 1e-4);
+  EXPECT_NEAR(amplitude(bank, percept_index(turned, "stickiness")), 0, 1e-5);
 }
 
 /// One just noticeable difference of a force, by those who tell the most apart (Pang, Tan and Durlach 1991): 7 % at

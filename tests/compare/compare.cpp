@@ -111,6 +111,35 @@ TEST(Compare, CuesAreWhatTheMaterialIsMadeOf) {
   EXPECT_FALSE(oil[CueKind::amplitude] || oil[CueKind::stiffness] || oil[CueKind::mass]);
 }
 
+TEST(Compare, AFieldThatNoOtherCueReadsIsComparedByItsForce) {
+  // |p|^1.5 1 N at 40 mm, as the thesis's Bowl, over 200 mm.
+  const std::string bowl = "let u = x / 40 mm\nlet v = y / 40 mm\npatch 200 mm, 200 mm\nforce = ";
+  const std::string outward = "1 N * vector(u * sqrt(abs(u)), v * sqrt(abs(v)))";
+  const Cues nothing = cues("force = vector(0 N, 0 N)"), dish = cues(bowl + "-" + outward), dome = cues(bowl + outward);
+  ASSERT_TRUE(dish[CueKind::other_force] && dome[CueKind::other_force]);
+  // Its largest: at the corners of the patch less its rim of 5 mm, of which a percentile leaves 1 % off.
+  const double corner = std::pow((100.0 - 5) / 40, 1.5) * std::sqrt(2.0);
+  EXPECT_GT(*dish[CueKind::other_force], 0.85 * corner);
+  EXPECT_LT(*dish[CueKind::other_force], corner);
+  EXPECT_NEAR(*dome[CueKind::other_force], -*dish[CueKind::other_force], 1e-6);
+  EXPECT_FALSE(nothing[CueKind::other_force]);
+  EXPECT_EQ(compare(nothing, dish).verdict, Verdict::apart);
+  EXPECT_EQ(compare(dish, dome).verdict, Verdict::apart);
+  EXPECT_EQ(compare(dish, dish).verdict, Verdict::alike);
+  const Cues constant = cues("force = vector(2 N, 0 N)");
+  EXPECT_NEAR(*constant[CueKind::other_force], 2, 1e-6);
+  EXPECT_EQ(compare(nothing, constant).verdict, Verdict::apart);
+  // Held back along x and pushed on along y by 4 N s/m: the mean over all strokes is none.
+  const Cues askew = cues("active 0.1 W\nforce = 4 N s/m * vector(-velocity.x, velocity.y)");
+  EXPECT_FALSE(askew[CueKind::viscosity]);
+  // Strokes of 0.05, 0.1 and 0.2 m/s along either axis: 4 N s/m times the root of the mean square of their speeds.
+  EXPECT_NEAR(*askew[CueKind::other_force], 4 * std::sqrt((0.0025 + 0.01 + 0.04) / 3), 1e-3);
+  EXPECT_EQ(compare(nothing, askew).verdict, Verdict::apart);
+  // What another cue reads is not counted twice.
+  for (const char* force : {"vector(1.2 N * sin(2 * pi * x / 2.5 mm), 0 N)", "-120 N/m * hand", "-7 N s/m * velocity"})
+    EXPECT_FALSE(cues(std::string("force = ") + force)[CueKind::other_force]) << force;
+}
+
 TEST(Compare, TheNearestPairIsTheOneThatIsToldApartTheLeast) {
   std::vector<Cues> materials;
   for (const double amplitude : {1.0, 3.0, 3.1, 6.0}) {
