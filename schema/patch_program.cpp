@@ -6,9 +6,7 @@ namespace wale {
 
 long cost_of(std::span<const Instruction> code) {
   long cost = 0;
-  for (const Instruction& instruction : code) {
-    if (const auto known = operation_facts(instruction.operation)) cost += known->cost;
-  }
+  for (const Instruction& instruction : code) cost += operation_table[instruction.operation].cost;
   return cost;
 }
 

@@ -16,6 +16,22 @@ namespace {
 constexpr std::uint32_t peak_points = 16384;  // 164 of them above the 99th percentile
 constexpr float peak_percentile = 0.99f;
 
+/// Of an operation, by number: what sections have to know of it.
+struct Shape {
+  std::uint8_t results = 0;
+  bool looks_up = false;  ///< in the table or grid that its third field numbers
+};
+
+constexpr auto shapes = [] {
+  std::array<Shape, operation_table.size()> all{};
+  for (std::size_t number = 0; number < all.size(); ++number) {
+    const OperationFacts& known = operation_table[number];
+    if (!known.name.empty())
+      all[number] = {static_cast<std::uint8_t>(known.results), known.fields[2] == 't' || known.fields[2] == 'g'};
+  }
+  return all;
+}();
+
 class Emitter {
  public:
   Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material)
@@ -138,14 +154,21 @@ class Emitter {
   std::size_t registers_needed() const { return first_temporary_ + most_temporaries_; }
 
  private:
+  static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
+
   /// What sections see of a node, each of them anew. A component is a register of its sample, which stands for it. What
   /// is no operand is result 0 of `nothing_`.
   struct Step {
     std::array<NodeId, 3> operands{};  ///< of a component its sample
     std::array<RegisterNumber, 3>
-        results{};           ///< which of that one's registers; of `nothing_` a table's number or a grid's
-    std::uint8_t width = 0;  ///< registers
+        results{};  ///< which of that one's registers; of `nothing_` a table's number or a grid's
     Operation operation = Operation::add;
+    std::uint8_t width = 0;  ///< registers
+    std::uint32_t location =
+        0;  ///< the first of them; there may be more than a program may have: `emit` refuses it then
+    /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
+    std::uint32_t wanted = not_needed;
+    std::uint8_t last_uses = 0;  ///< which operands nobody uses after it in that section, a bit each
   };
 
   /// Finds what is needed at all, then lays out constants, parameters and setup results.
@@ -158,7 +181,7 @@ class Emitter {
     };
     program_.constants.reserve(constant_nodes_.size() + 1);
     for (const NodeId id : constant_nodes_) {
-      registers_[id] = pooled(graph_[id].value);
+      steps_[id].location = pooled(graph_[id].value());
       if (graph_.is_constant(id, 0.0f)) zero_register_ = at(id);
     }
     if (!lowered_.relief && zero_register_ == 0) zero_register_ = static_cast<RegisterNumber>(pooled(0.0f));
@@ -166,25 +189,23 @@ class Emitter {
     const std::size_t first_parameter = first_constant + program_.constants.size();
     const std::size_t first_setup = first_parameter + program_.parameters.size();
     for (const NodeId id : parameter_nodes_)
-      registers_[id] = static_cast<std::uint32_t>(first_parameter + graph_[id].index);
+      steps_[id].location = static_cast<std::uint32_t>(first_parameter + graph_[id].index);
     std::size_t next = first_setup;
     for (auto each = setup_nodes_.rbegin(); each != setup_nodes_.rend(); ++each) {
-      const NodeId id = *each;
-      registers_[id] = static_cast<std::uint32_t>(next);
-      next += steps_[id].width;
+      Step& step = steps_[*each];
+      step.location = static_cast<std::uint32_t>(next);
+      next += step.width;
     }
     program_.setup_registers = static_cast<std::uint16_t>(std::min<std::size_t>(next - first_setup, register_limit));
-    for (const NodeId id : state_nodes_) registers_[id] = static_cast<std::uint32_t>(next + graph_[id].index);
+    for (const NodeId id : state_nodes_) steps_[id].location = static_cast<std::uint32_t>(next + graph_[id].index);
     first_temporary_ = next + lowered_.states.size();
   }
 
   /// Says what is needed, and what sections are to know of it.
   void find_needed() {
-    steps_.assign(graph_.size(), Step{.operands = {nothing_, nothing_, nothing_}});
-    registers_.resize(graph_.size() + 1);
-    last_uses_.resize(graph_.size());
-    wanted_.resize(graph_.size() + 1, not_needed);
-    const auto need = [&](NodeId id) { wanted_[id] = in_no_section; };
+    steps_.assign(graph_.size() + 1, Step{.operands = {nothing_, nothing_, nothing_}});
+    Step* const steps = steps_.data();
+    const auto need = [steps](NodeId id) { steps[id].wanted = in_no_section; };
     need(nothing_);
     for (const NodeId id : {lowered_.force[0], lowered_.force[1], lowered_.ceiling[0], lowered_.ceiling[1]}) need(id);
     if (lowered_.relief) need(*lowered_.relief);
@@ -195,28 +216,27 @@ class Emitter {
     for (const auto& percept : lowered_.percepts) need(percept.amplitude), need(percept.magnitude), need(percept.level);
 
     for (NodeId id = nothing_; id-- > 0;) {
-      if (wanted_[id] == not_needed) continue;
+      Step& step = steps[id];
+      if (step.wanted == not_needed) continue;
       const Node& node = graph_[id];
       switch (node.kind) {
         case Node::Kind::constant: constant_nodes_.push_back(id); break;
-        case Node::Kind::input: registers_[id] = node.index; break;
+        case Node::Kind::input: step.location = node.index; break;
         case Node::Kind::parameter: parameter_nodes_.push_back(id); break;
         case Node::Kind::state: state_nodes_.push_back(id); break;
         case Node::Kind::component: need(node.a); break;
         case Node::Kind::peak:
           need(node.a), need(node.b), need(node.c);
-          steps_[id].width = 1;
+          step.width = 1;
           setup_nodes_.push_back(id);
           break;
-        case Node::Kind::operation: {
-          Step& step = steps_[id];
+        case Node::Kind::operation:
           look_at(node, step);
           need(step.operands[0]), need(step.operands[1]), need(step.operands[2]);
           if (node.rate == Rate::tick)
-            wanted_[id] = 0;
+            step.wanted = 0;
           else
             setup_nodes_.push_back(id);
-        }
       }
     }
     std::ranges::reverse(constant_nodes_);
@@ -224,36 +244,35 @@ class Emitter {
 
   /// Fills in the step of an operation; there are no operands in it yet.
   void look_at(const Node& node, Step& step) const {
-    const OperationFacts& known = facts(node.operation);
-    step.width = static_cast<std::uint8_t>(known.results);
+    const Shape shape = shapes[static_cast<std::size_t>(node.operation)];
     step.operation = node.operation;
+    step.width = shape.results;
     const auto take = [&](std::size_t i, NodeId id) {
       const Node& operand = graph_[id];
-      const bool component = operand.kind == Node::Kind::component;
-      step.operands[i] = component ? operand.a : id;
-      step.results[i] = static_cast<RegisterNumber>(component ? operand.index : 0);
+      step.operands[i] = id;
+      if (operand.kind != Node::Kind::component) return;
+      step.operands[i] = operand.a;
+      step.results[i] = static_cast<RegisterNumber>(operand.index);
     };
-    if (known.operands > 0) take(0, node.a);
-    if (known.operands > 1) take(1, node.b);
-    if (known.operands > 2) take(2, node.c);
-    if (known.fields[2] == 't' || known.fields[2] == 'g') step.results[2] = static_cast<RegisterNumber>(node.index);
+    if (node.operands > 0) take(0, node.a);
+    if (node.operands > 1) take(1, node.b);
+    if (node.operands > 2) take(2, node.c);
+    if (shape.looks_up) step.results[2] = static_cast<RegisterNumber>(node.index);
   }
 
   /// Where a value is found.
   RegisterNumber at(NodeId id) const {
     const Node& node = graph_[id];
-    if (node.kind != Node::Kind::component) return static_cast<RegisterNumber>(registers_[id]);
-    return static_cast<RegisterNumber>(registers_[node.a] + node.index);
+    if (node.kind != Node::Kind::component) return static_cast<RegisterNumber>(steps_[id].location);
+    return static_cast<RegisterNumber>(steps_[node.a].location + node.index);
   }
 
-  Instruction instruction(NodeId id) const {
-    const Step& step = steps_[id];
-    const std::uint32_t* const registers = registers_.data();
-    const auto operand = [&](std::size_t i) {
-      return static_cast<RegisterNumber>(registers[step.operands[i]] + step.results[i]);
-    };
-    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(registers[id]), operand(0),
-            operand(1), operand(2)};
+  /// Of the step, whose operands are those.
+  static Instruction instruction(const Step& step, const Step& a, const Step& b, const Step& c) {
+    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(step.location),
+            static_cast<RegisterNumber>(a.location + step.results[0]),
+            static_cast<RegisterNumber>(b.location + step.results[1]),
+            static_cast<RegisterNumber>(c.location + step.results[2])};
   }
 
   void emit_setup() {
@@ -262,7 +281,9 @@ class Emitter {
       const NodeId id = *each;
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::operation) {
-        program_.setup.push_back(instruction(id));
+        const Step& step = steps_[id];
+        program_.setup.push_back(
+            instruction(step, steps_[step.operands[0]], steps_[step.operands[1]], steps_[step.operands[2]]));
         continue;
       }
       Peak peak;
@@ -280,57 +301,57 @@ class Emitter {
   }
 
   /// What a section has to work out for its roots, the last first. Values are asked for from the last to the first, so
-  /// whoever is first to ask for one is last to use it: `last_uses_` says of which operands, a bit each.
+  /// whoever is first to ask for one is last to use it: `last_uses` says of which operands.
   std::vector<NodeId> backwards_from(const std::vector<NodeId>& roots) {
     const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
-    std::uint32_t* const wanted = wanted_.data();
+    Step* const steps = steps_.data();
     std::size_t pending = 0;  // asked for and not looked at yet
-    const auto want = [&](NodeId id) -> unsigned {
-      if (wanted[id] >= section) return 0;
-      wanted[id] = section;
-      ++pending;
-      return 1;
-    };
     NodeId end = 0;
     for (const NodeId root : roots) {
       const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
-      want(id);
+      if (steps[id].wanted >= section) continue;
+      steps[id].wanted = section;
+      ++pending;
       end = std::max(end, id + 1);
     }
-    std::vector<NodeId> backwards;
-    if (pending > 0) backwards.reserve(end);
-    const Step* const steps = steps_.data();
-    std::uint8_t* const last_uses = last_uses_.data();
+    std::vector<NodeId> backwards(end);
+    NodeId* next = backwards.data();
     for (NodeId id = end; pending > 0;) {
-      if (wanted[--id] != section) continue;
+      Step& step = steps[--id];
+      if (step.wanted != section) continue;
       --pending;
-      backwards.push_back(id);
-      const auto& operands = steps[id].operands;
-      const unsigned a = want(operands[0]), b = want(operands[1]), c = want(operands[2]);
-      last_uses[id] = static_cast<std::uint8_t>(a | b << 1 | c << 2);
+      *next++ = id;
+      unsigned last_uses = 0;
+      for (unsigned i = 0; i < 3; ++i) {
+        Step& operand = steps[step.operands[i]];
+        if (operand.wanted >= section) continue;
+        operand.wanted = section;
+        ++pending;
+        last_uses |= 1u << i;
+      }
+      step.last_uses = static_cast<std::uint8_t>(last_uses);
     }
+    backwards.resize(static_cast<std::size_t>(next - backwards.data()));
     return backwards;
   }
 
-  /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `registers_` the
+  /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `steps_` the
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
     const std::vector<NodeId>& backwards = section_nodes_.emplace_back(backwards_from(roots));
     Temporaries temporaries;
     std::vector<Instruction> code(backwards.size());
     Instruction* next = code.data();
-    const Step* const steps = steps_.data();
-    std::uint32_t* const registers = registers_.data();
-    const auto first_temporary = static_cast<std::uint32_t>(first_temporary_);
-    for (std::size_t i = backwards.size(); i-- > 0;) {
-      const NodeId id = backwards[i];
-      const Step& step = steps[id];
-      registers[id] = first_temporary + static_cast<std::uint32_t>(temporaries.take(step.width));
-      *next++ = instruction(id);
-      for (unsigned last = last_uses_[id]; last != 0; last &= last - 1) {
-        const NodeId operand = step.operands[static_cast<std::size_t>(std::countr_zero(last))];
-        temporaries.give_back(registers[operand] - first_temporary, steps[operand].width);
-      }
+    Step* const steps = steps_.data();
+    const auto first = static_cast<std::uint32_t>(first_temporary_);
+    for (const NodeId *begin = backwards.data(), *each = begin + backwards.size(); each != begin;) {
+      Step& step = steps[*--each];
+      const Step &a = steps[step.operands[0]], &b = steps[step.operands[1]], &c = steps[step.operands[2]];
+      step.location = first + static_cast<std::uint32_t>(temporaries.take(step.width));
+      *next++ = instruction(step, a, b, c);
+      if ((step.last_uses & 1) != 0) temporaries.give_back(a.location - first, a.width);
+      if ((step.last_uses & 2) != 0) temporaries.give_back(b.location - first, b.width);
+      if ((step.last_uses & 4) != 0) temporaries.give_back(c.location - first, c.width);
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
     return code;
@@ -340,15 +361,10 @@ class Emitter {
   const LoweredMaterial& lowered_;
   const SolvedMaterial& material_;
   PatchProgram program_;
-  static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
 
   /// Stands for the operands that an operation does not have: register 0, which no section sets.
   const NodeId nothing_;
-  std::vector<Step> steps_;               ///< by node, like all that follows
-  std::vector<std::uint32_t> registers_;  ///< there may be more of them than a program may have: `emit` refuses it then
-  /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
-  std::vector<std::uint32_t> wanted_;
-  std::vector<std::uint8_t> last_uses_;  ///< which operands nobody uses after it in that section, a bit each
+  std::vector<Step> steps_;  ///< by node, and of `nothing_`
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
   RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program that has none

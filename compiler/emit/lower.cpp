@@ -1,21 +1,12 @@
 #include "compiler/emit/lower.hpp"
 
+#include <algorithm>
+
 #include "compiler/graph/term.hpp"
 
 namespace wale {
 
 namespace {
-
-/// Whether each term is needed to work out the roots; as char, since bits are slower to look at one by one.
-std::vector<char> reachable(const Terms& terms, const std::vector<TermId>& roots) {
-  std::vector<char> needed(terms.size(), false);
-  for (const TermId root : roots) needed[root] = true;
-  for (TermId id = static_cast<TermId>(terms.size()); id-- > 0;) {
-    if (!needed[id]) continue;
-    for (const TermId operand : operands(terms[id])) needed[operand] = true;
-  }
-  return needed;
-}
 
 /// Every term that a program computes.
 std::vector<TermId> roots_of(const SolvedMaterial& material) {
@@ -30,15 +21,55 @@ std::vector<TermId> roots_of(const SolvedMaterial& material) {
   return roots;
 }
 
+/// The terms that the roots are worked out from, in the order in which they become nodes: what was solved for as it was
+/// put together, then what each root needs besides. Operands stand before their users, here too.
+std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& terms, TermId solutions_end) {
+  enum class Mark : char { none, asked_for, entered };
+  std::vector<Mark> marks(terms.size(), Mark::none);
+  std::vector<TermId> order;
+  order.reserve(terms.size());
+  const auto enter = [&](TermId id) {
+    marks[id] = Mark::entered;
+    order.push_back(id);
+  };
+  for (const TermId root : roots) {
+    if (marks[root] != Mark::none) continue;
+    marks[root] = Mark::asked_for;
+    const auto first = static_cast<std::ptrdiff_t>(order.size());
+    std::size_t waiting = root >= solutions_end ? 1 : 0;  // of what is no solution
+    for (TermId id = root; waiting > 0; --id) {
+      if (marks[id] != Mark::asked_for) continue;
+      --waiting;
+      enter(id);
+      for (const TermId operand : operands(terms[id])) {
+        if (marks[operand] != Mark::none) continue;
+        marks[operand] = Mark::asked_for;
+        if (operand >= solutions_end) ++waiting;
+      }
+    }
+    std::reverse(order.begin() + first, order.end());
+  }
+  // By now it is known which of the solutions anybody needs.
+  const auto others = static_cast<std::ptrdiff_t>(order.size());
+  for (TermId id = solutions_end; id-- > 0;) {
+    if (marks[id] != Mark::asked_for) continue;
+    enter(id);
+    for (const TermId operand : operands(terms[id])) marks[operand] = Mark::asked_for;
+  }
+  std::reverse(order.begin() + others, order.end());
+  std::rotate(order.begin(), order.begin() + others, order.end());
+  return order;
+}
+
 }  // namespace
 
 LoweredMaterial lower(const SolvedMaterial& material) {
   const Terms& terms = material.terms;
-  const auto needed = reachable(terms, roots_of(material));
+  const std::vector<TermId> needed = needed_for(roots_of(material), terms, material.solutions_end);
 
   LoweredMaterial lowered;
   Graph& graph = lowered.graph;
-  graph.reserve(terms.size() + terms.size() / 4);  // about as many: gradients add some, constants fold
+  graph.reserve(needed.size() + needed.size() / 4);  // about as many: gradients add some, constants fold
   graph.attribute(material.span);
   // The patch less its rim: where peaks are taken.
   const NodeId rim = graph.input(Input::patch_rim);
@@ -47,8 +78,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
 
   std::vector<NodeId> nodes(terms.size(), 0);
   std::array derivative{Derivatives(graph, Derivatives::place(0)), Derivatives(graph, Derivatives::place(1))};
-  for (TermId id = 0; id < terms.size(); ++id) {
-    if (!needed[id]) continue;
+  for (const TermId id : needed) {
     const Term& term = terms[id];
     graph.attribute(term.span == Span{} ? material.span : term.span);
     switch (term.kind) {
@@ -59,6 +89,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
       case TermKind::operation:
         nodes[id] = graph.apply(term.operation, nodes[term.a], nodes[term.b], nodes[term.c], term.index, term.span);
         break;
+      case TermKind::settled: nodes[id] = nodes[term.a]; break;
       case TermKind::component: nodes[id] = graph.component(nodes[term.a], term.index, term.span); break;
       case TermKind::gradient: nodes[id] = derivative[term.index](nodes[term.a]); break;
       case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height, term.span); break;

@@ -69,7 +69,7 @@ LiftedField::LiftedField(const Graph& graph, std::span<const NodeId> roots, cons
   for (NodeId id = 0; id < graph.size(); ++id)
     if (layout.needed(id) && graph[id].kind == Node::Kind::constant) {
       constants[id] = needed_constants++;
-      layout_.constants.push_back(graph[id].value);
+      layout_.constants.push_back(graph[id].value());
     }
   layout_.states = described.states;
   if (first_constant + needed_constants + layout_.states.size() > register_limit) return;

@@ -14,7 +14,7 @@ struct Expression {
   Graph* graph;
   NodeId id;
 
-  bool zero() const { return graph->is_constant(id, 0.0f) || graph->is_constant(id, -0.0f); }
+  bool zero() const { return graph->is_zero(id); }
   bool one() const { return graph->is_constant(id, 1.0f); }
 };
 

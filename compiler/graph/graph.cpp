@@ -11,22 +11,17 @@ namespace wale {
 
 namespace {
 
-/// Whether they are one value. Where it came from and how often it is worked out do not make it what it is.
+/// Whether they are one value. Where it came from does not make it what it is, and the rate follows from the rest.
 bool same(const Node& a, const Node& b) {
-  return a.a == b.a && a.b == b.b && a.c == b.c && a.operation == b.operation && a.kind == b.kind &&
-         a.index == b.index && std::bit_cast<std::uint32_t>(a.value) == std::bit_cast<std::uint32_t>(b.value);
+  return a.a == b.a && a.b == b.b && a.c == b.c && a.index == b.index && a.operation == b.operation && a.kind == b.kind;
 }
 
-/// Of what `same` compares: each word times an odd number of its own; what is above goes into what is below.
+/// Of what `same` compares. Each multiplication carries what is below to what is above, which is what counts.
 inline std::uint32_t hash_of(const Node& node) {
-  const std::uint64_t what = static_cast<std::uint64_t>(node.kind) << 40 |
-                             static_cast<std::uint64_t>(node.operation) << 32 |
-                             std::bit_cast<std::uint32_t>(node.value);
-  const std::uint64_t a_and_b = std::uint64_t{node.a} << 32 | node.b;
-  const std::uint64_t c_and_index = std::uint64_t{node.c} << 32 | node.index;
-  const std::uint64_t hash =
-      what * 0x9e3779b97f4a7c15u ^ a_and_b * 0xbf58476d1ce4e5b9u ^ c_and_index * 0x94d049bb133111ebu;
-  return static_cast<std::uint32_t>(hash ^ hash >> 32);
+  std::uint64_t hash = (std::uint64_t{node.a} << 32 | node.b) * 0x9e3779b97f4a7c15u;
+  hash ^= std::uint64_t{node.c} << 32 | node.index;
+  hash += static_cast<std::uint64_t>(node.kind) << 8 | static_cast<std::uint64_t>(node.operation);
+  return static_cast<std::uint32_t>(hash * 0xbf58476d1ce4e5b9u >> 32);
 }
 
 /// How often the result of an operation is worked out at least, by number: a table is not there while the compiler
@@ -57,7 +52,7 @@ void Graph::enlarge_table(std::size_t slots) {
   }
 }
 
-[[gnu::always_inline]] inline NodeId Graph::add(const Node& node) {
+NodeId Graph::add(const Node& node) {
   if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
   const std::uint32_t hash = hash_of(node);
   Slot* const slots = table_.data();
@@ -73,23 +68,31 @@ void Graph::enlarge_table(std::size_t slots) {
   return added;
 }
 
-NodeId Graph::constant(float value) { return add({.kind = Node::Kind::constant, .value = value}); }
+NodeId Graph::constant(float value) {
+  return add({.kind = Node::Kind::constant, .index = std::bit_cast<std::uint32_t>(value)});
+}
 
 NodeId Graph::input(Input input, Span span) {
   const bool patch = input == Input::patch_half_width || input == Input::patch_half_height ||
                      input == Input::patch_rim || input == Input::seconds_per_tick;
   return add({.kind = Node::Kind::input,
-              .index = static_cast<std::uint32_t>(input),
               .rate = patch ? Rate::setup : Rate::tick,
+              .index = static_cast<std::uint32_t>(input),
               .span = span});
 }
 
 NodeId Graph::parameter(std::uint32_t index, Span span) {
-  return add({.kind = Node::Kind::parameter, .index = index, .rate = Rate::setup, .span = span});
+  return add({.kind = Node::Kind::parameter, .rate = Rate::setup, .index = index, .span = span});
 }
 
 NodeId Graph::state(std::uint32_t index, Span span) {
-  return add({.kind = Node::Kind::state, .index = index, .rate = Rate::tick, .span = span});
+  return add({.kind = Node::Kind::state, .rate = Rate::tick, .index = index, .span = span});
+}
+
+NodeId Graph::folded(Operation operation, NodeId a, NodeId b, NodeId c) {
+  const int count = facts(operation).operands;  // what it does not take may be no constant
+  return constant(result_of(operation, count > 0 ? nodes_[a].value() : 0, count > 1 ? nodes_[b].value() : 0,
+                            count > 2 ? nodes_[c].value() : 0));
 }
 
 NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, const Span& span) {
@@ -99,9 +102,7 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
   if (count > 0) rate = std::max(rate, nodes_[a].rate);
   if (count > 1) rate = std::max(rate, nodes_[b].rate);
   if (count > 2) rate = std::max(rate, nodes_[c].rate);
-  if (rate == Rate::constant)  // of what is worked out once, only constants are nodes
-    return constant(result_of(operation, count > 0 ? nodes_[a].value : 0, count > 1 ? nodes_[b].value : 0,
-                              count > 2 ? nodes_[c].value : 0));
+  if (rate == Rate::constant) return folded(operation, a, b, c);  // only constants are worked out once
 
   // Only what is exact for every float is simplified: the value must not depend on what the compiler knew.
   switch (operation) {
@@ -119,36 +120,48 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
       if (nodes_[a].kind == Node::Kind::operation && nodes_[a].operation == Operation::negate) return nodes_[a].a;
       break;
     case Operation::select:
-      if (nodes_[a].kind == Node::Kind::constant) return nodes_[a].value != 0 ? b : c;
+      if (nodes_[a].kind == Node::Kind::constant) return nodes_[a].value() != 0 ? b : c;
       break;
     default: break;
   }
   return add({.kind = Node::Kind::operation,
               .operation = operation,
+              .rate = rate,
+              .operands = static_cast<std::uint8_t>(count),
               .a = a,
               .b = count > 1 ? b : 0,
               .c = count > 2 ? c : 0,
               .index = table,
-              .rate = rate,
               .span = span});
 }
 
 NodeId Graph::component(NodeId sample, std::uint32_t index, Span span) {
-  return add({.kind = Node::Kind::component, .a = sample, .index = index, .rate = nodes_[sample].rate, .span = span});
+  return add({.kind = Node::Kind::component,
+              .rate = nodes_[sample].rate,
+              .operands = 1,
+              .a = sample,
+              .index = index,
+              .span = span});
 }
 
 NodeId Graph::peak(NodeId value, NodeId half_width, NodeId half_height, Span span) {
   if (nodes_[value].rate != Rate::tick) return value;  // the same everywhere on the patch
-  return add(
-      {.kind = Node::Kind::peak, .a = value, .b = half_width, .c = half_height, .rate = Rate::setup, .span = span});
+  return add({.kind = Node::Kind::peak,
+              .rate = Rate::setup,
+              .operands = 3,
+              .a = value,
+              .b = half_width,
+              .c = half_height,
+              .span = span});
 }
 
 NodeId Graph::output_limit(NodeId value, NodeId ceiling, Span span) {
   nodes_.push_back({.kind = Node::Kind::operation,
                     .operation = Operation::limit,
+                    .rate = Rate::tick,
+                    .operands = 2,
                     .a = value,
                     .b = ceiling,
-                    .rate = Rate::tick,
                     .span = span});
   return static_cast<NodeId>(nodes_.size() - 1);
 }

@@ -20,7 +20,7 @@ using NodeId = std::uint32_t;
 /// One value of a program in single assignment form, and where in the source it came from.
 struct Node {
   enum class Kind : std::uint8_t {
-    constant,   ///< `value`
+    constant,   ///< `value()`
     input,      ///< number `index`
     parameter,  ///< number `index`
     state,      ///< number `index`, as it was when the tick began
@@ -30,11 +30,14 @@ struct Node {
   };
   Kind kind = Kind::constant;
   Operation operation = Operation::add;
-  NodeId a = 0, b = 0, c = 0;
-  float value = 0;
-  std::uint32_t index = 0;
   Rate rate = Rate::constant;
+  std::uint8_t operands = 0;  ///< how many of a, b, c it is worked out from; those come first
+  NodeId a = 0, b = 0, c = 0;
+  std::uint32_t index = 0;  ///< of a constant the bits of its value
   Span span;
+
+  /// Of a constant.
+  float value() const { return std::bit_cast<float>(index); }
 };
 
 /// The nodes that a node is worked out from, at most three.
@@ -72,13 +75,18 @@ class Graph {
   NodeId output_limit(NodeId value, NodeId ceiling, Span span = {});
 
   bool is_constant(NodeId id, float value) const {
-    return nodes_[id].kind == Node::Kind::constant &&
-           std::bit_cast<std::uint32_t>(nodes_[id].value) == std::bit_cast<std::uint32_t>(value);
+    return nodes_[id].kind == Node::Kind::constant && nodes_[id].index == std::bit_cast<std::uint32_t>(value);
   }
-  Operands operands(NodeId id) const;
+  /// Whether it is the constant 0, of either sign.
+  bool is_zero(NodeId id) const { return nodes_[id].kind == Node::Kind::constant && nodes_[id].index << 1 == 0; }
+  Operands operands(NodeId id) const {
+    const Node& node = nodes_[id];
+    return {{node.a, node.b, node.c}, node.operands};
+  }
 
  private:
   NodeId add(const Node& node);
+  NodeId folded(Operation operation, NodeId a, NodeId b, NodeId c);
   void enlarge_table(std::size_t slots);
 
   static constexpr NodeId none = ~NodeId{0};
@@ -94,17 +102,6 @@ class Graph {
   std::size_t in_table_ = 0;
   Span place_;
 };
-
-inline Operands Graph::operands(NodeId id) const {
-  const Node& node = nodes_[id];
-  switch (node.kind) {
-    case Node::Kind::operation:
-      return {{node.a, node.b, node.c}, static_cast<std::size_t>(facts(node.operation).operands)};
-    case Node::Kind::component: return {{node.a}, 1};
-    case Node::Kind::peak: return {{node.a, node.b, node.c}, 3};
-    default: return {};
-  }
-}
 
 /// Derivatives of a graph's nodes by one of the quantities that they depend on, by the rules of the instruction table:
 /// exact but for rounding. What has been derived once is remembered: slopes of one height are asked for again and

@@ -86,6 +86,7 @@ inline void Terms::find_dependence(Term& term) const {
       if (count > 1) all |= dependence(term.b);
       if (count > 2) all |= dependence(term.c);
       term.dependence = all;
+      term.operands = static_cast<std::uint8_t>(count);
       // What the operation does not take is 0, which is some term too.
       if (all.known())
         term.value = result_in_double(term.operation, terms_[term.a].value, terms_[term.b].value, terms_[term.c].value);
@@ -95,8 +96,14 @@ inline void Terms::find_dependence(Term& term) const {
     case TermKind::gradient:
       term.dependence = dependence(term.a);
       term.dependence |= Dependence::table;
+      term.operands = 1;
+      return;
+    case TermKind::settled:
+      term.dependence = dependence(term.a);
+      term.operands = 1;
       return;
     case TermKind::peak:
+      term.operands = 1;
       // The patch's extents are setup inputs: the peak may change with them even if nothing else does.
       term.dependence = Dependence::parameter | (dependence(term.a).on(Dependence::open) ? Dependence::open : 0);
   }
@@ -139,6 +146,22 @@ TermId Terms::apply(Operation operation, TermId a, TermId b, Span span) {
 
 TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span) {
   return add({.kind = TermKind::operation, .operation = operation, .a = a, .b = b, .c = c, .span = span});
+}
+
+TermId Terms::append(const Terms& others) {
+  const auto first = static_cast<TermId>(terms_.size());
+  terms_.insert(terms_.end(), others.terms_.begin(), others.terms_.end());
+  // What a term does not take is 0, and may be any other number as well.
+  for (auto term = terms_.begin() + first; term != terms_.end(); ++term)
+    term->a += first, term->b += first, term->c += first;
+  return first;
+}
+
+void Terms::settle(TermId open, TermId solution) {
+  Term& term = terms_[open];
+  term.kind = TermKind::settled;
+  term.operands = 1;
+  term.a = solution;
 }
 
 }  // namespace wale

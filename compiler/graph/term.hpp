@@ -18,11 +18,12 @@ enum class TermKind : std::uint8_t {
   literal,    ///< `value`
   input,      ///< `input`
   parameter,  ///< parameter number `index`
-  open,       ///< a quantity left open, number `index`; `solve` replaces it
+  open,       ///< a quantity left open, number `index`; `solve` settles it
+  settled,    ///< what `a` is: what was open here
   magnitude,  ///< in a map's law: the perceived magnitude
   carrier,    ///< in a map's law: the size of the carrier
   state,      ///< state number `index` as it was when the tick began
-  cells,      ///< how many columns (index 2 g) or rows (2 g + 1) memory number g has; `solve` replaces it
+  cells,      ///< how many columns (index 2 g) or rows (2 g + 1) memory number g has; `solve` settles it
   operation,  ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`, `recall` and
               ///< `cell` grid number `index`
   component,  ///< result `index` of the sample or recall `a`
@@ -66,7 +67,8 @@ class Dependence {
 struct Term {
   TermKind kind = TermKind::literal;
   Operation operation = Operation::add;
-  Dependence dependence;  ///< what `Terms::add` finds
+  Dependence dependence;      ///< what `Terms::add` finds
+  std::uint8_t operands = 0;  ///< how many of a, b, c it is worked out from, which `Terms::add` finds too
   TermId a = 0, b = 0, c = 0;
   double value = 0;  ///< of a literal; of an operation that is `known` what it comes to, which `Terms::add` finds
   std::uint32_t index = 0;
@@ -93,6 +95,12 @@ class Terms {
   TermId apply(Operation operation, TermId a, TermId b, TermId c, Span span = {});
 
   Dependence dependence(TermId id) const { return terms_[id].dependence; }
+
+  /// Adds all of the others as they are; gives by how much their numbers have grown.
+  TermId append(const Terms& others);
+  /// What was open, or a number of cells, is what `solution` is, which stands before it. What depends on it is still
+  /// said to depend on something open.
+  void settle(TermId open, TermId solution);
 
   /// From now on, what is added from another file than `place`'s, or from nowhere, is said to come from `place`: what a
   /// function of another file does belongs where the author calls it. Nothing: each term keeps its own span.
@@ -121,15 +129,6 @@ struct TermOperands {
   const TermId* end() const { return terms.data() + count; }
 };
 
-inline TermOperands operands(const Term& term) {
-  switch (term.kind) {
-    case TermKind::operation:
-      return {{term.a, term.b, term.c}, static_cast<std::size_t>(facts(term.operation).operands)};
-    case TermKind::component:
-    case TermKind::gradient:
-    case TermKind::peak: return {{term.a}, 1};
-    default: return {};
-  }
-}
+inline TermOperands operands(const Term& term) { return {{term.a, term.b, term.c}, term.operands}; }
 
 }  // namespace wale

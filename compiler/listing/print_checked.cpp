@@ -120,6 +120,7 @@ class CheckedPrinter {
       case TermKind::input: return input_name(term.index);
       case TermKind::parameter: return material_.parameters[term.index].name;
       case TermKind::open: return fmt::format("?{}", term.index);
+      case TermKind::settled: return text(term.a);
       case TermKind::magnitude: return "magnitude";
       case TermKind::carrier: return "carrier";
       case TermKind::state: return material_.states[term.index].name;

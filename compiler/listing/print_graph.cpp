@@ -78,7 +78,7 @@ class GraphPrinter {
   std::string value_text(NodeId id) const {
     const Node& node = graph_[id];
     switch (node.kind) {
-      case Node::Kind::constant: return figure(node.value);
+      case Node::Kind::constant: return figure(node.value());
       case Node::Kind::input: return input_name(node.index);
       case Node::Kind::parameter: return "parameter " + material_.parameters[node.index].name;
       case Node::Kind::state: return "state " + material_.states[node.index].name;

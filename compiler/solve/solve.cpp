@@ -80,8 +80,7 @@ class Solver {
     size_memories();
     warn_of_fine_periods();
     if (diagnostics_.has_errors()) return std::move(solved_);
-    TermCopier copier(open_terms_, solved_.terms);
-    substitute(percepts, copier);
+    substitute(percepts);
     percepts.describe(solved_);
     tell_fates(percepts);
     return std::move(solved_);
@@ -306,36 +305,40 @@ class Solver {
     }
   }
 
-  /// Copies everything, the solved expressions in place of what was open.
-  void substitute(PerceptSolver& percepts, TermCopier& copier) {
-    solved_.terms.reserve(open_terms_.size());
+  /// Puts the solved expressions in place of what was open.
+  void substitute(PerceptSolver& percepts) {
+    Terms& terms = solved_.terms;
+    terms.reserve(open_terms_.size() + open_terms_.size() / 4);
+    TermCopier copier(open_terms_, terms);
     const std::map<std::uint32_t, TermId> sizes = percepts.sizes(solved_, copier);
-    for (TermId id = 0; id < open_terms_.size(); ++id)
-      if (const Term& term = open_terms_[id]; term.kind == TermKind::open && sizes.contains(term.index))
-        copier.replace(id, sizes.at(term.index));
-      else if (term.kind == TermKind::cells)
-        copier.replace(id, solved_.terms.literal(term.index % 2 == 0 ? solved_.memories[term.index / 2].columns
-                                                                     : solved_.memories[term.index / 2].rows));
-    solved_.force = {copier((*force_)[0]), copier((*force_)[1])};
-    if (relief_) solved_.relief = copier(*relief_);
-    if (material_.colour)
-      solved_.colour = {copier((*material_.colour)[0]), copier((*material_.colour)[1]), copier((*material_.colour)[2])};
-    for (const auto& state : states_) {
-      solved_.states.push_back(state);
-      solved_.states.back().initial = copier(state.initial);
-      solved_.states.back().next = copier(state.next);
-    }
-    for (std::size_t i = 0; i < material_.memories.size(); ++i)
-      if (const auto& next = material_.memories[i].next) {
-        solved_.writes.push_back(
-            {static_cast<std::uint16_t>(i), copier(next->u), copier(next->v), copier(next->value)});
+    std::vector<std::pair<TermId, TermId>> solutions;
+    for (TermId id = 0; id < open_terms_.size(); ++id) {
+      const Term& term = open_terms_[id];
+      if (term.kind == TermKind::open) {
+        if (const auto size = sizes.find(term.index); size != sizes.end()) solutions.emplace_back(id, size->second);
+      } else if (term.kind == TermKind::cells) {
+        const Grid& memory = solved_.memories[term.index / 2];
+        solutions.emplace_back(id, terms.literal(term.index % 2 == 0 ? memory.columns : memory.rows));
       }
-    for (const auto& mark : material_.marks) {
-      solved_.marks.push_back(mark);
-      for (auto& operand : solved_.marks.back().operands) operand = copier(operand);
     }
+    const TermId first = solved_.solutions_end = terms.append(open_terms_);
+    for (const auto& [open, solution] : solutions) terms.settle(first + open, solution);
+
+    solved_.force = {first + (*force_)[0], first + (*force_)[1]};
+    if (relief_) solved_.relief = first + *relief_;
+    if (const auto& colour = material_.colour)
+      solved_.colour = {first + (*colour)[0], first + (*colour)[1], first + (*colour)[2]};
+    solved_.states = std::move(states_);
+    for (auto& state : solved_.states) state.initial += first, state.next += first;
+    for (std::size_t i = 0; i < material_.memories.size(); ++i)
+      if (const auto& next = material_.memories[i].next)
+        solved_.writes.push_back(
+            {static_cast<std::uint16_t>(i), first + next->u, first + next->v, first + next->value});
+    solved_.marks = material_.marks;
+    for (auto& mark : solved_.marks)
+      for (auto& operand : mark.operands) operand += first;
     solved_.force_span = force_span_;
-    solved_.tables = tables_;
+    solved_.tables = std::move(tables_);
   }
 
   void report(Code code, Span span, std::string message, Advice advice) {

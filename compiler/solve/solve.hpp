@@ -29,7 +29,10 @@ struct SolvedWrite {
 struct SolvedMaterial {
   std::string name;
   Span span;
+  /// First what was solved for; from `solutions_end` on what the author wrote, as it was checked, then what the
+  /// percepts' maps tell.
   Terms terms;
+  TermId solutions_end = 0;
   std::vector<HeightTable> tables;
   std::vector<Parameter> parameters;  ///< the author's, then one for each solved percept
   std::array<TermId, 2> force{};      ///< N along x and y; on a device that vibrates its amplitude and its frequency

@@ -71,7 +71,7 @@ class Runner {
     for (std::size_t i = 0; i < program_.state_rules.size(); ++i) std::copy_n(states.now(i), lanes, state_row(i));
     {
       const FloatingPointMode mode;
-      block_.run(program_.tick, registers, shared_.cells.data());
+      block_.run(program_.tick.code(), registers, shared_.cells.data());
       remember(states);
     }
     block_.pairs(block_operand(program_.first_state, program_.force_x),

@@ -46,6 +46,13 @@ std::vector<Input> tick_inputs_of(const PatchProgram& program) {
 
 }  // namespace
 
+const BlockCode& BlockSection::code() const {
+  std::call_once(decoded_, [this] {
+    code_ = decode_block(program_.description, program_.splines, program_.grids, instructions_);
+  });
+  return code_;
+}
+
 DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(verified)), envelope(description.device) {
   for (HeightTable& table : description.tables) {
     maps.push_back(shared_map(table));
@@ -59,13 +66,7 @@ DecodedProgram::DecodedProgram(PatchProgram verified) : description(std::move(ve
   lane_enter = decode_threaded(description.enter);
   lane_tick = decode_threaded(description.tick);
   lane_frame = decode_threaded(description.picture.frame);
-  const auto block = [this](std::span<const Instruction> code) {
-    return decode_block(description, splines, grids, code);
-  };
-  enter = block(description.enter);
-  tick = block(description.tick);
-  picture = block(description.picture.code);
-  for (const Peak& peak : description.peaks) peaks.push_back(block(peak.code));
+  for (const Peak& peak : description.peaks) peaks.push_back(std::make_unique<const BlockSection>(*this, peak.code));
   first_state = description.first_state();
   for (const State& state : description.states) state_rules.emplace_back(state);
   for (const GridWrite& write : description.writes)

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <span>
 #include <vector>
 
 #include "runtime/machine/block_code.hpp"
@@ -15,10 +17,30 @@
 
 namespace wale {
 
+struct DecodedProgram;
+
+/// A section's code for blocks of lanes, decoded when it is first asked for: what runs at a device and nowhere else
+/// asks for peaks only.
+class BlockSection {
+ public:
+  /// Outlived by the program, of which `instructions` are a section.
+  BlockSection(const DecodedProgram& program, std::span<const Instruction> instructions)
+      : program_(program), instructions_(instructions) {}
+
+  /// Any thread may ask, but not the real-time one: whoever is first decodes, which allocates, and others wait for it.
+  const BlockCode& code() const;
+
+ private:
+  const DecodedProgram& program_;
+  std::span<const Instruction> instructions_;
+  mutable std::once_flag decoded_;
+  mutable BlockCode code_;
+};
+
 /// A verified program made ready: what `Program` points to.
 ///
-/// What runs at the device's rate is decoded twice, for one lane and for blocks of lanes; setup and predictions run
-/// `description`'s instructions as they are.
+/// What runs at the device's rate is decoded for one lane at once, and for blocks of lanes when a batch needs it; setup
+/// and predictions run `description`'s instructions as they are.
 struct DecodedProgram {
   explicit DecodedProgram(PatchProgram verified);
 
@@ -31,8 +53,8 @@ struct DecodedProgram {
   std::vector<Input> tick_inputs;  ///< that change from tick to tick and are read by tick, enter or what follows them
   HandReader hand_reader;          ///< of these
   ThreadedCode lane_enter, lane_tick, lane_frame;
-  BlockCode enter, tick, picture;
-  std::vector<BlockCode> peaks;
+  BlockSection enter{*this, description.enter}, tick{*this, description.tick}, picture{*this, description.picture.code};
+  std::vector<std::unique_ptr<const BlockSection>> peaks;
   RegisterNumber force_x = 0, force_y = 0;  ///< the output registers
   RegisterNumber first_state = 0;
   std::vector<StateRule> state_rules;

@@ -28,13 +28,14 @@ void place_lanes(float* x, float* y, std::uint32_t first, float half_width, floa
 float value_of_peak(const DecodedProgram& program, std::size_t index, std::span<const float> registers) {
   const Peak& peak = program.description.peaks[index];
   const BlockOperand value = block_operand(program.description, peak.value);
+  const BlockCode& code = program.peaks[index]->code();
   Block block(program.description);
   float* x = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::x)));
   float* y = block.row(block_operand(program.description, static_cast<RegisterNumber>(Input::y)));
   std::vector<float> values(peak.points);
   for (std::uint32_t first = 0; first < peak.points; first += lanes) {
     place_lanes(x, y, first, registers[peak.half_width], registers[peak.half_height]);
-    block.run(program.peaks[index], registers.data(), nullptr);
+    block.run(code, registers.data(), nullptr);
     const std::size_t count = std::min<std::size_t>(lanes, peak.points - first);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const float v = block.value(value, lane, registers.data());

@@ -67,7 +67,7 @@ void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::ve
     place_input(Input::x, std::span(hands).first(count), program.envelope, block.row(x));
     place_input(Input::y, std::span(hands).first(count), program.envelope, block.row(y));
     const FloatingPointMode mode;
-    block.run(program.picture, registers.data(), cells);
+    block.run(program.picture.code(), registers.data(), cells);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const auto value = [&](BlockOperand of) { return block.value(of, lane, registers.data()); };
       heights[first + lane] = value(relief);

@@ -15,7 +15,7 @@ void enter_lane(const DecodedProgram& program, float* registers) noexcept {
 __attribute__((noinline))  // see FloatingPointMode
 #endif
 void enter_block(const DecodedProgram& program, Block& block, const float* registers) {
-  block.run(program.enter, registers, nullptr);
+  block.run(program.enter.code(), registers, nullptr);
   RegisterNumber number = program.first_state;
   for (const StateRule& rule : program.state_rules) {
     float* row = block.row(block_operand(program.first_state, number++));

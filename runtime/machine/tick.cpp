@@ -57,7 +57,7 @@ void tick_some(const Bank& bank, std::span<const Hand> hands, std::span<Force> f
     }
     const FloatingPointMode mode;
     if (!description.states.empty()) enter_block(program, block, registers);
-    block.run(program.tick, registers, program.initial_cells.data());
+    block.run(program.tick.code(), registers, program.initial_cells.data());
     block.pairs(force_x, force_y, registers, forces.subspan(first, count));
   }
 }

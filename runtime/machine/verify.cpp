@@ -231,7 +231,8 @@ class Verifier {
     const Instruction& instruction = code[number];
     const LegalFields& legal = legal_fields[instruction.operation];
     const auto names = [&](Field field, RegisterNumber operand) {
-      return operand < ends_[static_cast<std::size_t>(field)] && (field != Field::reg || may_read(section, operand));
+      return operand < ends_[static_cast<std::size_t>(field)] &&
+             (field != Field::reg || readable_[operand] >= section.stamp);
     };
     const bool writes_its_own =
         instruction.destination >= section.first_destination &&
@@ -287,7 +288,7 @@ class Verifier {
 
   /// Whether the register has a meaning for the section at this point of its code.
   bool may_read(const Section& section, RegisterNumber number) const {
-    return number < register_count_ && (readable_[number] == always || readable_[number] == section.stamp);
+    return number < register_count_ && readable_[number] >= section.stamp;
   }
 
   /// The rest of a sentence about a register that may not be read.
@@ -453,16 +454,16 @@ class Verifier {
     return text;
   }
 
-  static constexpr std::uint32_t never = 0, always = 1;
+  static constexpr std::uint32_t never = 0, always = ~std::uint32_t{0};
 
   const PatchProgram& program_;
   const RegisterNumber first_setup_, first_state_, first_temporary_;
   const std::size_t register_count_;
   /// Who may read a register: `always` all, as constants and what setup wrote; else the section of that stamp. What a
-  /// section wrote means nothing to the next, whose stamp is another, so that nothing is cleared in between.
+  /// section wrote means nothing to the next, whose stamp is higher, so that nothing is cleared in between.
   std::vector<std::uint32_t> readable_;
   std::array<std::size_t, field_kinds> ends_{};  ///< by field: operands of the section at work are below
-  std::uint32_t stamp_ = always;
+  std::uint32_t stamp_ = never;
   std::vector<float> proved_;  ///< by setup register: what it is proved to lie below, 0 for nothing
 };
 

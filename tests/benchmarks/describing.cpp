@@ -13,7 +13,7 @@ namespace wale::benchmarks::describing_test {
 namespace {
 
 Program made(const std::string& statements) {
-  return compiled("wale 1\nmaterial m { physical {\n" + statements + "\n} }\n");
+  return loaded(compiled("wale 1\nmaterial m { physical {\n" + statements + "\n} }\n"));
 }
 
 /// A material of the library, with what it imports and its pictures.

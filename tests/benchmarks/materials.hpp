@@ -15,6 +15,7 @@
 #include "compiler/emit/emit.hpp"
 #include "compiler/emit/lower.hpp"
 #include "compiler/solve/solve.hpp"
+#include "runtime/machine/verify.hpp"
 
 namespace wale::benchmarks {
 
@@ -101,21 +102,34 @@ struct Desk {
   }
 };
 
-/// All stages but measuring.
-inline Program compiled(const CheckedMaterial& material, const CheckedModule& module, Desk& desk) {
+/// From a checked material to its patch program, which is still to be verified.
+inline PatchProgram emitted(const CheckedMaterial& material, const CheckedModule& module, Desk& desk) {
   const SolvedMaterial solved = solve(material, module, default_device, desk.sources, desk.resolver, desk.diagnostics);
   auto program = emit(lower(solved), solved, desk.diagnostics);
   desk.expect_no_errors();
-  auto loaded = Program::load(std::move(*program));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
-  return std::get<Program>(std::move(loaded));
+  return std::move(*program);
 }
 
-inline Program compiled(const std::string& text) {
+inline PatchProgram emitted(const std::string& text) {
   Desk desk;
   const CheckedModule module = check_source(desk.sources, desk.add(text), desk.resolver, desk.diagnostics);
   desk.expect_no_errors();
-  return compiled(module.materials.front(), module, desk);
+  return emitted(module.materials.front(), module, desk);
+}
+
+/// Text to patch program. That the machine takes it belongs to this: the compiler gives away no other, and tells the
+/// author what is refused. Making it ready to run does not: see `loaded`.
+inline PatchProgram compiled(const std::string& text) {
+  PatchProgram program = emitted(text);
+  if (const auto refusal = verify(program)) throw std::runtime_error(refusal->reason);
+  return program;
+}
+
+/// Verified and decoded: what measuring begins with, and the runtime.
+inline Program loaded(PatchProgram program) {
+  auto loaded = Program::load(std::move(program));
+  if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
+  return std::get<Program>(std::move(loaded));
 }
 
 /// Every Wale file that the project ships: path and text.

@@ -139,6 +139,7 @@ class FloatEvaluation {
                      .value = simulation_.states_[term.index],
                      .changes = Changes::with_hand,
                      .index = 32});
+      case TermKind::settled: return step(term.a);
       case TermKind::component: return component(step(term.a), term.index);
       case TermKind::gradient: return derivative(step(term.a), static_cast<int>(term.index));
       case TermKind::peak: return peak(term.a);
