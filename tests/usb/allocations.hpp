@@ -1,21 +1,8 @@
 #pragma once
 
-#include <cstdlib>
-#include <new>
-
 namespace wale::test {
 
-/// How often this thread has asked for memory, in a program one file of which includes this.
+/// How often this thread has asked for memory, in a program of which allocations.cpp is a part.
 inline thread_local long allocations = 0;
 
 }  // namespace wale::test
-
-// These replace the whole test program's, to see who allocates. Not inlined, or the compiler, knowing malloc and free
-// by their names, thinks that one of each pair is missing.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++wale::test::allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }

@@ -87,22 +87,21 @@ std::vector<std::uint8_t> PidModel::configuration_descriptor() const {
           static_cast<std::uint8_t>(length >> 8),
           7,
           5,
-          0x83,
+          pid_in_endpoint,
           3,
           64,
           0,
           1,  // interrupt IN, each millisecond
           7,
           5,
-          0x02,
+          pid_out_endpoint,
           3,
           64,
           0,
           1};  // interrupt OUT
 }
 
-std::optional<std::vector<std::uint8_t>> PidModel::control(const std::array<std::uint8_t, 8>& setup,
-                                                           const std::vector<std::uint8_t>& out) {
+std::optional<UsbModel::Bytes> PidModel::control(const SetUp& setup, const Bytes& out) {
   const std::uint8_t low = setup[2], high = setup[3];
   if (setup[0] == 0x81 && setup[1] == 6 && high == 0x22) {
     auto answer = descriptor;
@@ -156,6 +155,29 @@ std::vector<std::uint8_t> PidModel::block_load() {
   if (faults.short_load) return {family.load, last_created_};
   const bool is_loaded = last_created_ != 0 || faults.block_zero;
   return {family.load, last_created_, static_cast<std::uint8_t>(is_loaded ? 1 : 2), 0, 0x10};
+}
+
+std::optional<int> PidModel::control_frames(const SetUp& setup) const {
+  const bool is_poll = (setup[0] & 0x80) != 0 && setup[1] == 1 && setup[3] == 1;
+  if (faults.silent || (is_poll && faults.deaf_to_polls)) return std::nullopt;
+  return faults.late;
+}
+
+bool PidModel::listens(std::uint8_t) const {
+  if (is_deaf_to_outputs()) return false;
+  if (faults.late == 0) return true;
+  if (listens_at_ < 0) listens_at_ = now_ + faults.late;
+  if (now_ < listens_at_) return false;
+  listens_at_ = -1;
+  return true;
+}
+
+bool PidModel::take(std::uint8_t endpoint, const Bytes& packet) {
+  return endpoint == pid_out_endpoint && output(packet);
+}
+
+std::optional<UsbModel::Bytes> PidModel::give(std::uint8_t endpoint) {
+  return endpoint == pid_in_endpoint ? input() : std::nullopt;
 }
 
 bool PidModel::output(const std::vector<std::uint8_t>& report) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/usb/pid_descriptor.hpp"
+#include "tests/usb/usb_model.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale::test {
@@ -27,11 +28,14 @@ struct Faults {
   bool block_zero = false;  ///< gives out block 0
   bool short_load = false;  ///< answers Block Load with two bytes
   bool silent = false;      ///< answers nothing
+  int late = 0;             ///< frames that each control transfer and each output report takes
 };
+
+constexpr std::uint8_t pid_in_endpoint = 0x83, pid_out_endpoint = 0x02;
 
 /// A force-feedback joystick of USB's PID class, as far as its packets and its stick go. It reads and writes packets by
 /// its family's table alone. Time goes by `step`s of a millisecond, the frames of full-speed USB.
-class PidModel {
+class PidModel final : public UsbModel {
  public:
   struct Effect {
     bool exists = false, plays = false, by_direction = false, on_x = false, on_y = false;
@@ -44,18 +48,21 @@ class PidModel {
 
   explicit PidModel(PidFamily family, Faults faults = {});
 
-  std::vector<std::uint8_t> device_descriptor() const;
-  std::vector<std::uint8_t> configuration_descriptor() const;
+  std::string name() const override { return family.name; }
+  Bytes device_descriptor() const override;
+  Bytes configuration_descriptor() const override;
+  std::optional<Bytes> control(const SetUp& setup, const Bytes& out) override;
+  std::optional<int> control_frames(const SetUp& setup) const override;
+  bool listens(std::uint8_t endpoint) const override;
+  bool take(std::uint8_t endpoint, const Bytes& packet) override;
+  std::optional<Bytes> give(std::uint8_t endpoint) override;
+  void step() override;
 
-  /// A control transfer with its 8 bytes of set-up and what goes out; what comes in. Nothing: the endpoint stalls.
-  std::optional<std::vector<std::uint8_t>> control(const std::array<std::uint8_t, 8>& setup,
-                                                   const std::vector<std::uint8_t>& out);
   /// An output report on the interrupt endpoint; false: the endpoint stalls.
   bool output(const std::vector<std::uint8_t>& report);
   bool is_deaf_to_outputs() const { return faults.silent_outputs_after >= 0 && outputs >= faults.silent_outputs_after; }
   /// The input report of this frame, if it sends one.
   std::optional<std::vector<std::uint8_t>> input();
-  void step();
 
   /// The force that the motors exert, of full force along the axes of HID (y to the user).
   glm::dvec2 force() const;
@@ -80,7 +87,8 @@ class PidModel {
   std::vector<std::uint8_t> block_load();
 
   SimulatedJoystick stick_;
-  long long now_ = 0;  // ms
+  long long now_ = 0;                  // ms
+  mutable long long listens_at_ = -1;  // ms, when the report that waits is taken; -1: none waits
   int created_ = 0;
   std::uint8_t last_created_ = 0;
 };

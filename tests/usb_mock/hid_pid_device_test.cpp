@@ -16,7 +16,7 @@
 #include "runtime/device/usb/list_usb_devices.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/usb/allocations.hpp"
-#include "tests/usb_mock/usb_mock.hpp"
+#include "tests/usb_mock/usb_driver.hpp"
 #include "wale/stage.hpp"
 
 // Unmodified libusb and all of the driver, against devices that are not there. What is asserted is counts, order and
@@ -40,27 +40,10 @@ DeviceProfile profile() {
   return profile;
 }
 
-class UsbDriver : public testing::Test {
+class UsbDriver : public MockedUsb {
  protected:
-  UsbDriver() {
-    auto opened = UsbContext::open();
-    context_ = std::get<std::shared_ptr<UsbContext>>(opened);
-  }
-
-  std::shared_ptr<UsbContext> context() const { return context_; }
-
-  /// The device at a port, once libusb sees it.
-  UsbDeviceInfo found(int port) const {
-    while (true) {
-      for (const UsbDeviceInfo& info : context_->devices()) {
-        if (info.port == "1-" + std::to_string(port)) return info;
-      }
-      std::this_thread::sleep_for(1ms);
-    }
-  }
-
   std::unique_ptr<HidPidDevice> opened(int port, const HidPidOptions& options = {}) const {
-    auto result = HidPidDevice::open(context_, found(port), profile(), options);
+    auto result = HidPidDevice::open(context(), found(port), profile(), options);
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       ADD_FAILURE() << refusal->reason;
       return nullptr;
@@ -71,32 +54,11 @@ class UsbDriver : public testing::Test {
   std::string refusal(int port) const {
     HidPidOptions options;
     options.transport.set_up_timeout = 100;
-    auto result = HidPidDevice::open(context_, found(port), profile(), options);
+    auto result = HidPidDevice::open(context(), found(port), profile(), options);
     const auto* refusal = std::get_if<Refusal>(&result);
     return refusal == nullptr ? "opened" : refusal->reason;
   }
-
-  UsbMock mock_;
-
- private:
-  std::shared_ptr<UsbContext> context_;
 };
-
-/// Waits until `holds`.
-template <class Condition>
-void await(Condition holds) {
-  while (!holds()) std::this_thread::sleep_for(1ms);
-}
-
-/// Ticks as fast as the mock's frames come, as a loop of their rate would.
-template <class Serve>
-void run_ticks(UsbMock& mock, long ticks, Serve serve) {
-  for (long tick = 0; tick < ticks; ++tick) {
-    const long frame = mock.frames();
-    serve(tick);
-    while (mock.frames() == frame) std::this_thread::sleep_for(50us);
-  }
-}
 
 /// The Set Constant Force packets of OpenFFBoard in a log, as block and counts.
 struct Sent {

@@ -17,7 +17,7 @@ namespace wale::test {
 namespace {
 
 constexpr unsigned long disconnect_claim = 0x8108551b;  // USBDEVFS_DISCONNECT_CLAIM with its argument's size
-constexpr std::uint8_t in_endpoint = 0x83, out_endpoint = 0x02;
+constexpr std::uint8_t in_bit = 0x80;
 constexpr std::chrono::microseconds frame_time(300);  // the model takes it for a millisecond
 
 std::string in_hex(const std::vector<std::uint8_t>& bytes) {
@@ -46,12 +46,12 @@ usbdevfs_urb& urb_of(UMockdevIoctlData* data) { return *reinterpret_cast<usbdevf
 
 }  // namespace
 
-MockJoystick::MockJoystick(UMockdevTestbed* testbed, PidModel model, int port, int address)
+MockUsbDevice::MockUsbDevice(UMockdevTestbed* testbed, std::unique_ptr<UsbModel> model, int port, int address)
     : model_(std::move(model)), testbed_(testbed) {
   syspath_ = "/sys/devices/pci0000:00/0000:00:14.0/usb1/1-" + std::to_string(port);
   node_ = "/dev/bus/usb/001/" + digits(address, 3);
-  const auto device = model_.device_descriptor(), configuration = model_.configuration_descriptor();
-  const int vendor = model_.family.vendor, product = model_.family.product;
+  const auto device = model_->device_descriptor(), configuration = model_->configuration_descriptor();
+  const int vendor = device[8] | device[9] << 8, product = device[10] | device[11] << 8;
   const std::string text = "P: " + syspath_.substr(4) + "\nN: " + node_.substr(5) +
                            "\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: DEVNAME=" + node_ +
                            "\nE: BUSNUM=001\nE: DEVNUM=" + digits(address, 3) +
@@ -60,7 +60,7 @@ MockJoystick::MockJoystick(UMockdevTestbed* testbed, PidModel model, int port, i
                            "/100\nE: TYPE=0/0/0\nA: busnum=1\nA: devnum=" + std::to_string(address) +
                            "\nA: bConfigurationValue=1\nA: speed=12\nA: idVendor=" + hexadecimal(vendor, 4) +
                            "\nA: idProduct=" + hexadecimal(product, 4) +
-                           "\nA: bNumConfigurations=1\nA: maxchild=0\nA: product=" + model_.family.name +
+                           "\nA: bNumConfigurations=1\nA: maxchild=0\nA: product=" + model_->name() +
                            "\nH: descriptors=" + in_hex(device) + in_hex(configuration) + "\n\n";
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(testbed, text.c_str(), &error)) throw std::runtime_error(error->message);
@@ -80,21 +80,24 @@ MockJoystick::MockJoystick(UMockdevTestbed* testbed, PidModel model, int port, i
   show_whether_ready();
 }
 
-MockJoystick::~MockJoystick() {
+MockUsbDevice::~MockUsbDevice() {
   g_signal_handler_disconnect(handler_, connection_);
   umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
   g_object_unref(handler_);
-  for (auto* queue : {&in_, &out_, &late_, &done_}) {
-    for (const Urb& urb : *queue) {
+  const auto forget = [](const std::deque<Urb>& queue) {
+    for (const Urb& urb : queue) {
       g_object_unref(urb.urb);
       if (urb.buffer != nullptr) g_object_unref(urb.buffer);
     }
-  }
+  };
+  for (const auto& [endpoint, queue] : endpoints_) forget(queue);
+  forget(controls_);
+  forget(done_);
   close(fifo_);
 }
 
 /// Ready is what has something to reap.
-void MockJoystick::show_whether_ready() {
+void MockUsbDevice::show_whether_ready() {
   const bool is_ready = !done_.empty();
   if (is_ready == is_shown_ready_) return;
   is_shown_ready_ = is_ready;
@@ -103,58 +106,65 @@ void MockJoystick::show_whether_ready() {
   if (moved != 1) std::perror("usb_mock: fifo");
 }
 
-void MockJoystick::end(const Urb& urb, int status, int length) {
+void MockUsbDevice::end(const Urb& urb, int status, int length) {
   urb_of(urb.urb).status = status;
   urb_of(urb.urb).actual_length = length;
   done_.push_back(urb);
 }
 
-void MockJoystick::frame() {
+void MockUsbDevice::frame() {
   const std::lock_guard lock(mutex_);
   if (is_gone_) return;
-  model_.step();
-  if (!out_.empty() && !model_.is_deaf_to_outputs()) {
-    const Urb urb = out_.front();
-    out_.pop_front();
-    const auto& wanted = urb_of(urb.urb);
-    const bool is_taken = model_.output({urb.buffer->data, urb.buffer->data + wanted.buffer_length});
-    end(urb, is_taken ? 0 : -EPIPE, is_taken ? wanted.buffer_length : 0);
-  }
-  if (!in_.empty()) {
-    if (const auto report = model_.input()) {
-      const Urb urb = in_.front();
-      in_.pop_front();
-      const auto length =
-          std::min<std::size_t>(report->size(), static_cast<std::size_t>(urb_of(urb.urb).buffer_length));
+  ++frame_;
+  model_->step();
+  for (auto& [endpoint, queue] : endpoints_) {
+    if (queue.empty()) continue;
+    const Urb urb = queue.front();
+    const auto wanted = static_cast<std::size_t>(urb_of(urb.urb).buffer_length);
+    if ((endpoint & in_bit) == 0) {
+      if (!model_->listens(endpoint)) continue;
+      queue.pop_front();
+      const bool is_taken = model_->take(endpoint, {urb.buffer->data, urb.buffer->data + wanted});
+      end(urb, is_taken ? 0 : -EPIPE, is_taken ? static_cast<int>(wanted) : 0);
+    } else if (const auto report = model_->give(endpoint)) {
+      queue.pop_front();
+      const std::size_t length = std::min(report->size(), wanted);
       std::copy_n(report->begin(), length, urb.buffer->data);
       end(urb, 0, static_cast<int>(length));
     }
   }
+  while (!controls_.empty() && controls_.front().due >= 0 && controls_.front().due <= frame_) {
+    const Urb urb = controls_.front();
+    controls_.pop_front();
+    control(urb);
+  }
   show_whether_ready();
 }
 
-void MockJoystick::unplug() {
+void MockUsbDevice::unplug() {
   const std::lock_guard lock(mutex_);
   is_gone_ = true;
-  for (auto* queue : {&in_, &out_, &late_}) {
-    for (const Urb& urb : *queue) end(urb, -ESHUTDOWN, 0);
-    queue->clear();
-  }
+  const auto end_all = [&](std::deque<Urb>& queue) {
+    for (const Urb& urb : queue) end(urb, -ESHUTDOWN, 0);
+    queue.clear();
+  };
+  for (auto& [endpoint, queue] : endpoints_) end_all(queue);
+  end_all(controls_);
   show_whether_ready();
 }
 
-void MockJoystick::control(const Urb& urb) {
-  std::array<std::uint8_t, 8> setup{};
+UsbModel::SetUp MockUsbDevice::set_up(const Urb& urb) {
+  UsbModel::SetUp setup{};
   std::copy_n(urb.buffer->data, setup.size(), setup.begin());
+  return setup;
+}
+
+void MockUsbDevice::control(const Urb& urb) {
+  const UsbModel::SetUp setup = set_up(urb);
   const int length = setup[6] | setup[7] << 8;
-  const bool is_in = (setup[0] & 0x80) != 0;
-  const bool is_poll = is_in && setup[1] == 1 && setup[3] == 1;
-  if (model_.faults.silent || (is_poll && model_.faults.deaf_to_polls)) {
-    late_.push_back(urb);
-    return;
-  }
+  const bool is_in = (setup[0] & in_bit) != 0;
   const std::vector<std::uint8_t> out(urb.buffer->data + 8, urb.buffer->data + 8 + (is_in ? 0 : length));
-  const auto answer = model_.control(setup, out);
+  const auto answer = model_->control(setup, out);
   if (!answer) return end(urb, -EPIPE, 0);
   if (!is_in) return end(urb, 0, length);
   const auto given = std::min<std::size_t>(answer->size(), static_cast<std::size_t>(length));
@@ -162,61 +172,72 @@ void MockJoystick::control(const Urb& urb) {
   end(urb, 0, static_cast<int>(given));
 }
 
-int MockJoystick::submit(UMockdevIoctlData* argument) {
+int MockUsbDevice::submit(UMockdevIoctlData* argument) {
   Urb urb;
   urb.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
+  if (urb.urb == nullptr) return EFAULT;  // who asked has been killed since
   const usbdevfs_urb& wanted = urb_of(urb.urb);
   if (wanted.buffer_length > 0) {
     urb.buffer = umockdev_ioctl_data_resolve(urb.urb, offsetof(usbdevfs_urb, buffer),
                                              static_cast<gsize>(wanted.buffer_length), nullptr);
+    if (urb.buffer == nullptr) {
+      g_object_unref(urb.urb);
+      return EFAULT;
+    }
   }
   if (wanted.type == USBDEVFS_URB_TYPE_CONTROL) {
-    control(urb);
-  } else if (wanted.endpoint == in_endpoint) {
-    in_.push_back(urb);
-  } else if (wanted.endpoint == out_endpoint) {
-    out_.push_back(urb);
+    const auto frames = model_->control_frames(set_up(urb));
+    if (frames == 0) {
+      control(urb);
+    } else {
+      urb.due = frames ? frame_ + *frames : -1;
+      controls_.push_back(urb);
+    }
   } else {
-    return ENOENT;
+    endpoints_[wanted.endpoint].push_back(urb);
   }
   return 0;
 }
 
-int MockJoystick::discard(UMockdevIoctlData* argument) {
+int MockUsbDevice::discard(UMockdevIoctlData* argument) {
   gulong address = 0;
   std::memcpy(&address, argument->data, sizeof address);
-  for (auto* queue : {&in_, &out_, &late_}) {
+  const auto take_from = [&](std::deque<Urb>& queue) {
     const auto found =
-        std::find_if(queue->begin(), queue->end(), [&](const Urb& urb) { return urb.urb->client_addr == address; });
-    if (found == queue->end()) continue;
+        std::find_if(queue.begin(), queue.end(), [&](const Urb& urb) { return urb.urb->client_addr == address; });
+    if (found == queue.end()) return false;
     const Urb urb = *found;
-    queue->erase(found);
+    queue.erase(found);
     end(urb, -ENOENT, 0);
-    return 0;
+    return true;
+  };
+  if (take_from(controls_)) return 0;
+  for (auto& [endpoint, queue] : endpoints_) {
+    if (take_from(queue)) return 0;
   }
   return EINVAL;
 }
 
-int MockJoystick::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
+int MockUsbDevice::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
   if (done_.empty()) return is_gone_ ? ENODEV : EAGAIN;
   const Urb urb = done_.front();
   done_.pop_front();
   UMockdevIoctlData* pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
-  umockdev_ioctl_data_set_ptr(pointer, 0, urb.urb);
+  if (pointer != nullptr) umockdev_ioctl_data_set_ptr(pointer, 0, urb.urb);
   show_whether_ready();
   umockdev_ioctl_client_complete(client, 0, 0);
-  g_object_unref(pointer);
+  if (pointer != nullptr) g_object_unref(pointer);
   g_object_unref(urb.urb);
   if (urb.buffer != nullptr) g_object_unref(urb.buffer);
   return 0;
 }
 
-gboolean MockJoystick::when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
-  static_cast<MockJoystick*>(self)->answer(client);
+gboolean MockUsbDevice::when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+  static_cast<MockUsbDevice*>(self)->answer(client);
   return TRUE;
 }
 
-void MockJoystick::answer(UMockdevIoctlClient* client) {
+void MockUsbDevice::answer(UMockdevIoctlClient* client) {
   const std::lock_guard lock(mutex_);
   const gulong request = umockdev_ioctl_client_get_request(client);
   UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
@@ -231,9 +252,9 @@ void MockJoystick::answer(UMockdevIoctlClient* client) {
     UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, sizeof(std::uint32_t), nullptr);
     const std::uint32_t capabilities = USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
                                        USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
-    std::memcpy(data->data, &capabilities, sizeof capabilities);
+    if (data != nullptr) std::memcpy(data->data, &capabilities, sizeof capabilities);
     umockdev_ioctl_client_complete(client, 0, 0);
-    g_object_unref(data);
+    if (data != nullptr) g_object_unref(data);
     return;
   } else if (request == disconnect_claim || request == USBDEVFS_CLAIMINTERFACE) {
     if (is_claimed_elsewhere) {
@@ -267,7 +288,7 @@ UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
       next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up
       std::this_thread::sleep_until(next);
       const std::lock_guard lock(mutex_);
-      for (const auto& joystick : joysticks_) joystick->frame();
+      for (const auto& device : devices_) device->frame();
       ++frames_;
     }
   });
@@ -276,24 +297,22 @@ UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
 UsbMock::~UsbMock() {
   ends_ = true;
   thread_.join();
-  joysticks_.clear();
+  devices_.clear();
   g_object_unref(testbed_);
 }
 
-std::shared_ptr<MockJoystick> UsbMock::plug(PidModel model, int port) {
-  auto joystick = std::make_shared<MockJoystick>(testbed_, std::move(model), port, ++address_);
+void UsbMock::show(std::shared_ptr<MockUsbDevice> device) {
   const std::lock_guard lock(mutex_);
-  joysticks_.push_back(joystick);
-  umockdev_testbed_uevent(testbed_, joystick->syspath().c_str(), "add");
-  return joystick;
+  umockdev_testbed_uevent(testbed_, device->syspath().c_str(), "add");
+  devices_.push_back(std::move(device));
 }
 
-void UsbMock::unplug(const std::shared_ptr<MockJoystick>& joystick) {
-  joystick->unplug();
-  umockdev_testbed_uevent(testbed_, joystick->syspath().c_str(), "remove");
-  umockdev_testbed_remove_device(testbed_, joystick->syspath().c_str());
+void UsbMock::unplug(const std::shared_ptr<MockUsbDevice>& device) {
+  device->unplug();
+  umockdev_testbed_uevent(testbed_, device->syspath().c_str(), "remove");
+  umockdev_testbed_remove_device(testbed_, device->syspath().c_str());
   const std::lock_guard lock(mutex_);
-  std::erase(joysticks_, joystick);
+  std::erase(devices_, device);
 }
 
 }  // namespace wale::test

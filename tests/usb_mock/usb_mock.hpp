@@ -5,36 +5,32 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/usb/pid_model.hpp"
+#include "tests/usb/usb_model.hpp"
 
 namespace wale::test {
 
-/// A USB joystick as usbfs shows it to an unmodified libusb: its node answers the ioctls by which transfers are
-/// submitted and reaped, and a model of the device makes the packets. Runs under umockdev-wrapper only.
-class MockJoystick {
+/// A USB device as usbfs shows it to an unmodified libusb: its node answers the ioctls by which transfers are submitted
+/// and reaped, and a model of the device makes the packets. Runs under umockdev-wrapper only.
+class MockUsbDevice {
  public:
-  MockJoystick(UMockdevTestbed* testbed, PidModel model, int port, int address);
-  ~MockJoystick();
-  MockJoystick(const MockJoystick&) = delete;
-  MockJoystick& operator=(const MockJoystick&) = delete;
+  MockUsbDevice(UMockdevTestbed* testbed, std::unique_ptr<UsbModel> model, int port, int address);
+  virtual ~MockUsbDevice();
+  MockUsbDevice(const MockUsbDevice&) = delete;
+  MockUsbDevice& operator=(const MockUsbDevice&) = delete;
 
   /// One frame: at most one packet for each endpoint.
   void frame();
   /// Whatever is on its way ends, and nothing is taken any more.
   void unplug();
-
-  /// Calls `look` with the model while nobody else uses it.
-  template <class Look>
-  auto with_model(Look look) {
-    const std::lock_guard lock(mutex_);
-    return look(model_);
-  }
 
   const std::string& syspath() const { return syspath_; }
   const std::string& node() const { return node_; }
@@ -42,11 +38,16 @@ class MockJoystick {
   std::atomic<bool> is_claimed_elsewhere{false};
   std::atomic<int> claims{0}, releases{0}, drivers_back{0}, unknown_ioctls{0};
 
+ protected:
+  std::mutex mutex_;
+  std::unique_ptr<UsbModel> model_;
+
  private:
   /// A transfer of usbfs: the caller's `usbdevfs_urb` and its buffer.
   struct Urb {
     UMockdevIoctlData* urb = nullptr;
     UMockdevIoctlData* buffer = nullptr;
+    long due = 0;  // of a control transfer: the frame in which it ends
   };
 
   static gboolean when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
@@ -55,37 +56,61 @@ class MockJoystick {
   int discard(UMockdevIoctlData* argument);
   int reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   void end(const Urb& urb, int status, int length);
+  static UsbModel::SetUp set_up(const Urb& urb);
   void control(const Urb& urb);
   void show_whether_ready();
 
-  std::mutex mutex_;
-  PidModel model_;
   std::string syspath_, node_;
   UMockdevTestbed* testbed_;
   UMockdevIoctlBase* handler_ = nullptr;
   gulong connection_ = 0;
-  std::deque<Urb> in_, out_, late_, done_;
+  std::map<std::uint8_t, std::deque<Urb>> endpoints_;
+  std::deque<Urb> controls_, done_;
+  long frame_ = 0;
   int fifo_ = -1;
   bool is_shown_ready_ = true, is_gone_ = false;
 };
 
-/// A testbed with joysticks, and the thread whose frames move them.
+/// One that a model of this kind makes.
+template <class Model>
+class MockDevice final : public MockUsbDevice {
+ public:
+  MockDevice(UMockdevTestbed* testbed, Model model, int port, int address)
+      : MockUsbDevice(testbed, std::make_unique<Model>(std::move(model)), port, address) {}
+
+  /// Calls `look` with the model while nobody else uses it.
+  template <class Look>
+  auto with_model(Look look) {
+    const std::lock_guard lock(mutex_);
+    return look(static_cast<Model&>(*model_));
+  }
+};
+using MockJoystick = MockDevice<PidModel>;
+
+/// A testbed with devices, and the thread whose frames move them.
 class UsbMock {
  public:
   UsbMock();
   ~UsbMock();
 
   /// Plugs one in at a port, 1 .. 9, under a new address each time.
-  std::shared_ptr<MockJoystick> plug(PidModel model, int port);
-  void unplug(const std::shared_ptr<MockJoystick>& joystick);
+  template <class Model>
+  std::shared_ptr<MockDevice<Model>> plug(Model model, int port) {
+    auto device = std::make_shared<MockDevice<Model>>(testbed_, std::move(model), port, ++address_);
+    show(device);
+    return device;
+  }
+  void unplug(const std::shared_ptr<MockUsbDevice>& device);
 
   /// Frames since the beginning.
   long frames() const { return frames_.load(); }
 
  private:
+  void show(std::shared_ptr<MockUsbDevice> device);
+
   UMockdevTestbed* testbed_;
   std::mutex mutex_;
-  std::vector<std::shared_ptr<MockJoystick>> joysticks_;
+  std::vector<std::shared_ptr<MockUsbDevice>> devices_;
   int address_ = 1;
   std::atomic<bool> ends_{false};
   std::atomic<long> frames_{0};

@@ -10,6 +10,7 @@
 
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
+#include "runtime/device/outcome.hpp"
 
 namespace wale::hid {
 
@@ -45,8 +46,7 @@ struct Transfer {
   Packet data;
 };
 
-/// How a transfer ended.
-enum class Outcome : std::uint8_t { done, stalled, timed_out, failed, gone };
+using wale::Outcome;
 
 /// How two axes share the device's effects.
 enum class Arrangement : std::uint8_t {

@@ -11,6 +11,7 @@
 
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
+#include "runtime/device/usb/falcon_device.hpp"
 
 namespace wale {
 namespace {
@@ -86,6 +87,14 @@ ListedUsbDevice listed_device(const UsbContext& context, const UsbDeviceInfo& in
   libusb_device_handle* handle = nullptr;
   const int error = libusb_open(device, &handle);
   libusb_unref_device(device);
+  if (is_falcon(info)) {
+    listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
+                 " steps of torque to each side";
+    const auto firmware = read_falcon_firmware(falcon_firmware_path());
+    if (const auto* refusal = std::get_if<Refusal>(&firmware)) {
+      listed.obstacle = "unless it has been used since it got its power, it lacks its firmware: " + refusal->reason;
+    }
+  }
   for (const UsbHidInterface& interface : info.hid) {
     if (const auto known = descriptor_from_kernel(info, interface)) {
       read_descriptor(*known, listed);
@@ -111,7 +120,7 @@ ListedUsbDevice listed_device(const UsbContext& context, const UsbDeviceInfo& in
 std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context, const std::optional<UsbNumbers>& only) {
   std::vector<UsbDeviceInfo> devices = context.devices();
   std::erase_if(devices, [&](const UsbDeviceInfo& info) {
-    return info.hid.empty() || (only && *only != UsbNumbers{info.vendor, info.product});
+    return (info.hid.empty() && !is_falcon(info)) || (only && *only != UsbNumbers{info.vendor, info.product});
   });
   std::sort(devices.begin(), devices.end(), [](const auto& a, const auto& b) { return a.port < b.port; });
   std::vector<ListedUsbDevice> listed;

@@ -9,32 +9,14 @@
 #include <bit>
 #include <chrono>
 
+#include "runtime/device/usb/usb_transfers.hpp"
+
 namespace wale {
 namespace {
 
 constexpr int inputs_under_way = 4, controls = 2;
 constexpr std::size_t most_control_bytes = hid::most_descriptor_bytes;
 constexpr int seen_bits = 28;
-
-std::int64_t microseconds_now() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000;
-}
-
-hid::Outcome outcome_of(libusb_transfer_status status) noexcept {
-  switch (status) {
-    case LIBUSB_TRANSFER_COMPLETED: return hid::Outcome::done;
-    case LIBUSB_TRANSFER_STALL: return hid::Outcome::stalled;
-    case LIBUSB_TRANSFER_TIMED_OUT: return hid::Outcome::timed_out;
-    case LIBUSB_TRANSFER_NO_DEVICE: return hid::Outcome::gone;
-    default: return hid::Outcome::failed;
-  }
-}
-
-hid::Outcome outcome_of_submitting(int error) noexcept {
-  return error == LIBUSB_ERROR_NO_DEVICE ? hid::Outcome::gone : hid::Outcome::failed;
-}
 
 }  // namespace
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "runtime/device/falcon/falcon_kinematics.hpp"
+
+namespace wale::falcon {
+
+// What a Falcon with Novint's firmware is told and says: 16 characters each way, `<`, four nibbles for each of three
+// numbers, least significant first, a status, a filler, `>`; nibbles and status have 0x41 added to them. libnifalcon,
+// include/falcon/firmware/FalconFirmwareNovintSDK.h and src/firmware/FalconFirmwareNovintSDK.cpp.
+//
+// All of it is real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+
+constexpr std::size_t packet_bytes = 16;
+using Packet = std::array<std::uint8_t, packet_bytes>;
+
+/// Steps of a motor's torque, each within `-most_torque .. most_torque`; positive ones fold the arms in.
+using Torques = std::array<std::int16_t, 3>;
+constexpr std::int16_t most_torque = 4096;
+
+enum class Light : std::uint8_t { none = 0, red = 2, green = 4, blue = 8 };
+
+struct Command {
+  Torques torques{};         ///< held within what the motors take
+  bool keeps_homing = true;  ///< the encoders find their zeros, and say that they have
+  Light light = Light::none;
+};
+Packet encode(const Command& command) noexcept;
+
+struct Answer {
+  Encoders encoders{};
+  std::uint8_t buttons = 0;  ///< bits: right, forward, middle, left
+  std::uint8_t homed = 0;    ///< bits: top, right, left encoder has found its zero
+
+  bool is_homed() const noexcept { return homed == 7; }
+  friend bool operator==(const Answer&, const Answer&) = default;
+};
+
+/// Finds answers in what comes in, however it is cut; what belongs to none is skipped and counted.
+class AnswerReader {
+ public:
+  /// The answer that `byte` ends, if it does.
+  std::optional<Answer> take(std::uint8_t byte) noexcept;
+
+  long skipped() const noexcept { return skipped_; }  ///< bytes
+
+ private:
+  Packet bytes_{};
+  std::size_t size_ = 0;
+  long skipped_ = 0;
+};
+
+/// What the serial line brought, of a packet from the USB chip: all but its two bytes of line status.
+std::span<const std::uint8_t> payload(std::span<const std::uint8_t> usb_packet) noexcept;
+
+}  // namespace wale::falcon

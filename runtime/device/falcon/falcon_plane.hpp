@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "runtime/device/falcon/falcon_packets.hpp"
+
+namespace wale::falcon {
+
+/// How the handle is kept in the plane: a spring and a damper along the third axis, never stronger than `most`. It
+/// takes only the torque that the force in the plane leaves, comes in gradually, and is passive: in a sampled loop a
+/// spring of k N/m gives what a damper of k times half a period and the delay takes, which for 400 N/m at 900 Hz with a
+/// millisecond's delay is 0.6 N s/m, less than such an arm loses by itself.
+struct HoldInPlane {
+  double stiffness = 400;  ///< N/m; 0: the handle is free to leave the plane
+  double damping = 1;      ///< N s/m
+  double most = 3;         ///< N
+  double coming_in = 0.5;  ///< s, from nothing to all of it, whenever pushing begins
+};
+
+/// A Falcon as a joystick of two axes: the upright plane across its middle, x to the right, y up (which is "away from
+/// the user", as on a screen), where all directions are alike; in and out of the device the handle is held. Real-time
+/// throughout: allocates nothing, takes no lock, makes no system call, does not throw.
+class FalconPlane {
+ public:
+  /// `full_newton`: the force at the workspace's middle, in the direction where it is least, that all of a motor's
+  /// torque gives; nobody publishes the motors' own figures, so the device's profile tells them.
+  explicit FalconPlane(double full_newton, const HoldInPlane& hold = {});
+
+  /// Takes what the encoders say. False: no place of the handle fits, and the one before is kept.
+  bool see(const Encoders& encoders, std::int64_t now) noexcept;
+
+  /// m from the workspace's middle.
+  glm::dvec2 position() const noexcept { return {place_.x - workspace_centre.x, place_.y - workspace_centre.y}; }
+  double out_of_plane() const noexcept { return place_.z - workspace_centre.z; }  ///< m, towards the user
+
+  struct Push {
+    Torques torques{};
+    glm::dvec2 force{0};  ///< N, what these torques exert in the plane
+    double hold = 0;      ///< N, and across it
+  };
+  /// The torques for a force (N) in the plane where the handle was last seen. Beyond what the motors can do it is made
+  /// smaller in its direction; not-a-number is none.
+  Push push(glm::dvec2 force, std::int64_t now) noexcept;
+
+  /// From now on nothing is pushed, until the next `push`.
+  void let_go() noexcept { pushed_ = -1; }
+
+ private:
+  double steps_per_newton_metre_;
+  HoldInPlane hold_;
+  glm::dvec3 place_ = workspace_centre;
+  glm::dmat3 turning_{0};
+  bool is_known_ = false;
+  double speed_out_ = 0;                  // m/s, filtered
+  std::int64_t seen_ = -1, pushed_ = -1;  // when; -1: not yet
+  double held_ = 0;                       // 0 .. 1, how far the hold has come in
+};
+
+}  // namespace wale::falcon

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/device/falcon/falcon_packets.hpp"
+#include "runtime/device/outcome.hpp"
+
+namespace wale::falcon {
+
+/// The chip between USB and the Falcon's serial line.
+constexpr std::uint16_t vendor = 0x0403, product = 0xcb48;
+constexpr std::uint8_t out_endpoint = 0x02, in_endpoint = 0x81;
+/// A packet of the chip's; more must not be asked for at once.
+constexpr std::size_t most_usb_bytes = 64;
+
+/// A transfer that the session wants made.
+struct Transfer {
+  enum class Kind : std::uint8_t {
+    control,  ///< request type 0x40 (vendor, out), index 0, no data
+    write,    ///< bulk, to `out_endpoint`
+    read      ///< bulk, `most_usb_bytes` at most from `in_endpoint`
+  };
+
+  Kind kind = Kind::control;
+  std::uint8_t request = 0;
+  std::uint16_t value = 0;
+  std::array<std::uint8_t, most_usb_bytes> bytes{};
+  std::uint8_t size = 0;
+
+  std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
+};
+
+struct FalconSessionOptions {
+  /// What is loaded where the device runs none: the user's own file. Empty: there is none.
+  std::vector<std::uint8_t> firmware;
+  double command_silence = 0.1;  ///< s without a command after which the motors are let go
+  double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
+  int most_silences = 10;        ///< one after another; then the device is lost
+};
+
+/// What a session has done since it was made.
+struct FalconSessionCounts {
+  long commands_sent = 0;     ///< packets with torques, homing included
+  long answers = 0;           ///< good ones
+  long skipped_bytes = 0;     ///< that belong to no answer
+  long silences = 0;          ///< times that no answer came
+  long overwritten = 0;       ///< commands that a newer one replaced before it was sent
+  long command_silences = 0;  ///< times that no command came
+  long firmware_chunks = 0;   ///< sent and echoed
+};
+
+/// The life of a Novint Falcon, without USB: it says which transfers come next and takes how they went. The device runs
+/// the firmware it has, or is given it; then its encoders find their zeros, for which a person moves the handle through
+/// all of its workspace; then it is told torques and tells encoder counts, strictly in turns. Torques are none before
+/// all three encoders are homed, while nobody commands, and in the last packets that it gets.
+///
+/// The protocol knows no durations, so a Falcon whose process is killed outright may go on pushing until it is opened
+/// again or loses its power: the first packet that it gets here is without torque.
+///
+/// One thread at a time. Times are microseconds of any steady clock.
+class FalconSession {
+ public:
+  enum class State : std::uint8_t {
+    setting_up,
+    homing,  ///< it answers, and waits for somebody to move the handle
+    running,
+    leaving,  ///< lets the motors go
+    over      ///< nothing more to do: `was_lost` and `reason` say why
+  };
+
+  explicit FalconSession(FalconSessionOptions options = {});
+
+  State state() const noexcept { return state_; }
+  /// Whether it ended, or is ending, without `stop`.
+  bool was_lost() const noexcept { return lost_; }
+  /// Why it was lost; empty otherwise. A literal.
+  std::string_view reason() const noexcept { return reason_; }
+  /// It was lost because the device runs no firmware and none was given.
+  bool wants_firmware() const noexcept { return wants_firmware_; }
+
+  const FalconSessionCounts& counts() const noexcept { return counts_; }
+  const std::optional<Answer>& answer() const noexcept { return answer_; }  ///< the newest
+  std::int64_t heard() const noexcept { return heard_; }                    ///< when that came
+
+  /// The transfer to make now, if any; each is given to `finish` once it has ended. There is never more than one write
+  /// and one read under way. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  std::optional<Transfer> next(std::int64_t now) noexcept;
+
+  /// `came_in` is what a read brought, the chip's two bytes of status included. Real-time.
+  void finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> came_in,
+              std::int64_t now) noexcept;
+
+  /// The torques from now on. Ignored unless running. Real-time.
+  void command(const Torques& torques, std::int64_t now) noexcept;
+
+  /// No torque, then the session is over. Real-time.
+  void stop() noexcept;
+
+ private:
+  enum class Step : std::uint8_t {
+    normal_mode,    // the serial line as the firmware wants it
+    probe,          // does any firmware answer?
+    firmware_mode,  // the line as the loader wants it
+    hello,
+    fast_mode,
+    letter,
+    chunk,
+    normal_again,
+    probe_again,
+    loop,
+    leave,
+    none
+  };
+
+  std::span<const std::uint8_t> expected() const noexcept;
+  bool is_loading() const noexcept { return step_ == Step::hello || step_ == Step::letter || step_ == Step::chunk; }
+  bool take_echo(std::span<const std::uint8_t> bytes) noexcept;
+  bool take_answers(std::span<const std::uint8_t> bytes, std::int64_t now) noexcept;
+  Transfer written(std::int64_t now) noexcept;
+  void answered(std::int64_t now) noexcept;
+  void unanswered() noexcept;
+  void go_to(Step step) noexcept;
+  void lose(std::string_view reason, Outcome outcome) noexcept;
+
+  FalconSessionOptions options_;
+  State state_ = State::setting_up;
+  Step step_ = Step::normal_mode;
+  std::size_t at_ = 0;       // of the step's control requests, or of the firmware's bytes
+  std::size_t matched_ = 0;  // bytes of what is expected
+  bool control_under_way_ = false, write_under_way_ = false, read_under_way_ = false, expects_ = false;
+  bool lost_ = false, wants_firmware_ = false, garbage_ = false;
+  int silences_ = 0, farewells_ = 0;
+  std::string_view reason_;
+
+  Torques torques_{};
+  bool pending_ = false, silent_ = true;
+  std::int64_t commanded_ = 0, asked_ = 0, heard_ = 0;
+  AnswerReader reader_;
+  std::optional<Answer> answer_;
+  FalconSessionCounts counts_;
+};
+
+}  // namespace wale::falcon

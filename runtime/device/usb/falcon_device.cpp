@@ -1,0 +1,73 @@
+#include "runtime/device/usb/falcon_device.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "runtime/device/usb/usb_transfers.hpp"
+
+namespace wale {
+
+bool is_falcon(const UsbDeviceInfo& info) { return info.vendor == falcon::vendor && info.product == falcon::product; }
+
+std::variant<std::unique_ptr<FalconDevice>, Refusal> FalconDevice::open(std::shared_ptr<UsbContext> context,
+                                                                        const UsbDeviceInfo& info,
+                                                                        DeviceProfile profile,
+                                                                        const FalconOptions& options) {
+  const auto refused = [&](const std::string& reason) {
+    return Refusal{in_words(info.vendor, info.product) + ": " + reason, {}};
+  };
+  FalconTransport::Options wanted;
+  wanted.session.command_silence = options.command_silence;
+  auto firmware = read_falcon_firmware(options.firmware);
+  if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&firmware)) wanted.session.firmware = std::move(*bytes);
+
+  auto opened = FalconTransport::open(std::move(context), info, std::move(wanted));
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  auto& transport = std::get<std::unique_ptr<FalconTransport>>(opened);
+  if (transport->wants_firmware()) return refused("it runs no firmware: " + std::get<Refusal>(firmware).reason);
+  constexpr double at_once = 0.2;  // s, in which one that was homed before says so
+  if (!transport->was_lost() && !transport->wait_until_homed(at_once) && !transport->was_lost()) {
+    if (options.ask) options.ask("push the Falcon's handle all the way in, then pull it all the way out");
+    transport->wait_until_homed(options.homing_patience);
+  }
+  if (transport->was_lost()) return refused(transport->reason());
+  if (!transport->seen().is_running) {
+    return refused(
+        "its encoders have not found their zeros: push the handle all the way in and pull it all the way out");
+  }
+  return std::unique_ptr<FalconDevice>(new FalconDevice(std::move(transport), std::move(profile), options));
+}
+
+FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, DeviceProfile profile,
+                           const FalconOptions& options)
+    : transport_(std::move(transport)),
+      profile_(std::move(profile)),
+      plane_(profile_.force_newton, options.hold),
+      stale_after_(static_cast<std::int64_t>(options.stale_after * 1e6)) {}
+
+Reading FalconDevice::sample() noexcept {
+  const FalconTransport::Seen seen = transport_->seen();
+  const bool is_lost = transport_->was_lost();
+  is_good_ = !is_lost && seen.is_running && microseconds_now() - seen.heard <= stale_after_ &&
+             plane_.see(seen.encoders, seen.heard);
+  Reading reading;
+  const glm::dvec2 counts = plane_.position() / profile_.position_step();
+  reading.counts = {static_cast<int>(std::lround(counts.x)), static_cast<int>(std::lround(counts.y))};
+  reading.button = seen.buttons != 0;
+  reading.contact = is_lost ? Contact::lost : is_good_ ? Contact::good : Contact::stale;
+  return reading;
+}
+
+Force FalconDevice::command(Force force) noexcept {
+  if (transport_->was_lost()) return Force(0);
+  if (!is_good_) {
+    plane_.let_go();
+    transport_->command({});
+    return Force(0);
+  }
+  const falcon::FalconPlane::Push push = plane_.push(force, microseconds_now());
+  transport_->command(push.torques);
+  return {static_cast<float>(push.force.x), static_cast<float>(push.force.y)};
+}
+
+}  // namespace wale

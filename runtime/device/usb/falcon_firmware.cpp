@@ -1,0 +1,44 @@
+#include "runtime/device/usb/falcon_firmware.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace wale {
+namespace {
+
+constexpr std::size_t most_firmware_bytes = 65536;  // known ones have less than 10 000
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+std::filesystem::path falcon_firmware_path() {
+  if (const auto named = variable("WALE_FALCON_FIRMWARE"); !named.empty()) return named;
+  const auto data = variable("XDG_DATA_HOME");
+  const auto folder =
+      data.empty() ? std::filesystem::path(variable("HOME")) / ".local/share" : std::filesystem::path(data);
+  return folder / "wale/falcon_firmware.bin";
+}
+
+std::variant<std::vector<std::uint8_t>, Refusal> read_falcon_firmware(const std::filesystem::path& path) {
+  const std::string mend =
+      "; it is Novint's and not shipped with Wale: take the one of the driver that came with the device, or "
+      "firmware/nvent_firmware.bin of libnifalcon (github.com/libnifalcon/libnifalcon), and put it there, or name it "
+      "by "
+      "WALE_FALCON_FIRMWARE=FILE";
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    return Refusal{"there is no firmware at " + path.string() + mend, {}};
+  std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
+  if (bytes.empty() || bytes.size() > most_firmware_bytes)
+    return Refusal{
+        "what is at " + path.string() + " is no firmware: it has " + std::to_string(bytes.size()) + " bytes" + mend,
+        {}};
+  return bytes;
+}
+
+}  // namespace wale

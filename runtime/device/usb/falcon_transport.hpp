@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <variant>
+
+#include "runtime/device/falcon/falcon_session.hpp"
+#include "runtime/device/usb/usb_context.hpp"
+
+struct libusb_device_handle;
+struct libusb_transfer;
+
+namespace wale {
+
+/// A session with a Novint Falcon over libusb. All of it goes on on the context's event thread, as fast as the device
+/// answers; commanding and reading do not touch it.
+class FalconTransport {
+ public:
+  struct Options {
+    falcon::FalconSessionOptions session;
+    unsigned timeout = 50;           ///< ms, of each packet
+    unsigned set_up_timeout = 1000;  ///< ms, of each control request
+  };
+
+  /// Claims the device and sets it up as far as homing: without firmware of its own that takes some seconds. A refusal
+  /// says why the device cannot be used, and has left it without force.
+  static std::variant<std::unique_ptr<FalconTransport>, Refusal> open(std::shared_ptr<UsbContext> context,
+                                                                      const UsbDeviceInfo& info, Options options);
+  /// Lets the motors go, waits for what is on its way, gives the interface back.
+  ~FalconTransport();
+  FalconTransport(const FalconTransport&) = delete;
+  FalconTransport& operator=(const FalconTransport&) = delete;
+
+  /// Whether the encoders have found their zeros; waits for that, at most so many seconds, while somebody moves the
+  /// handle.
+  bool wait_until_homed(double seconds);
+
+  /// The torques from now on; newer ones replace them. Ignored before it is homed. Real-time: one atomic store.
+  void command(const falcon::Torques& torques) noexcept;
+
+  struct Seen {
+    falcon::Encoders encoders{};
+    std::uint8_t buttons = 0;
+    bool is_running = false;  ///< homed, so that the encoders mean a place
+    std::int64_t heard = 0;   ///< microseconds of a steady clock
+  };
+  /// The newest answer. Real-time: two atomic loads.
+  Seen seen() const noexcept;
+
+  /// The device is gone or has failed; nothing is felt any more. Real-time: one atomic load.
+  bool was_lost() const noexcept { return lost_.load(std::memory_order_acquire); }
+
+  /// Why it was lost; empty otherwise.
+  std::string reason() const;
+  bool wants_firmware() const;
+  falcon::FalconSessionCounts counts() const;
+
+ private:
+  /// A libusb transfer of our own with its buffer, one for each kind.
+  struct Slot {
+    FalconTransport* owner = nullptr;
+    libusb_transfer* usb = nullptr;
+    std::array<std::uint8_t, 8 + falcon::most_usb_bytes> buffer{};
+    falcon::Transfer wanted;
+    bool is_busy = false;
+  };
+
+  FalconTransport(std::shared_ptr<UsbContext> context, libusb_device_handle* handle, Options options);
+  void wait_until_set_up();
+  void pump();
+  void submit(const falcon::Transfer& transfer);
+  void ended(Slot& slot);
+  void publish();
+  bool is_idle() const;
+
+  std::shared_ptr<UsbContext> context_;
+  libusb_device_handle* handle_;
+  unsigned timeout_, set_up_timeout_;
+
+  mutable std::mutex mutex_;  // of all below that is not atomic; never taken by the real-time thread
+  std::condition_variable changed_;
+  falcon::FalconSession session_;
+  std::array<Slot, 3> slots_;
+  bool closes_ = false;
+  std::uint16_t taken_ = 0;  // the number of the command that the session has
+
+  std::atomic<std::uint64_t> wanted_{0};  // three torques and the command's number, 16 bits each
+  std::atomic<std::uint64_t> seen_{0};    // three encoders of 16 bits, four buttons, whether it runs
+  std::atomic<std::int64_t> heard_{0};
+  std::atomic<bool> lost_{false};
+};
+
+}  // namespace wale

@@ -1,0 +1,291 @@
+#include "runtime/device/usb/falcon_device.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include "runtime/device/usb/list_usb_devices.hpp"
+#include "tests/runtime/programs.hpp"
+#include "tests/usb/allocations.hpp"
+#include "tests/usb/falcon_model.hpp"
+#include "tests/usb_mock/usb_driver.hpp"
+#include "wale/stage.hpp"
+
+// Unmodified libusb and all of the Falcon's driver, against one that is not there: counts, order and bytes.
+
+namespace wale::test::falcon_device {
+namespace {
+
+constexpr std::size_t firmware_bytes = 5000;
+
+/// A file that is no firmware, but as long as one.
+std::filesystem::path firmware_file() {
+  static const std::filesystem::path path = [] {
+    char folder[] = "/tmp/wale_falcon_XXXXXX";
+    const std::filesystem::path file = std::filesystem::path(mkdtemp(folder)) / "firmware.bin";
+    std::ofstream out(file, std::ios::binary);
+    for (std::size_t i = 0; i < firmware_bytes; ++i) out.put(static_cast<char>(i * 31 >> 3));
+    return file;
+  }();
+  return path;
+}
+
+DeviceProfile falcon_profile() {
+  DeviceProfile profile;
+  profile.name = "falcon";
+  profile.workspace_diameter = 0.1;
+  profile.position_counts = 1667;
+  profile.force_newton = FalconModel::full_newton;
+  profile.force_counts = 4096;
+  profile.rate = 1000;
+  return profile;
+}
+
+class FalconDriver : public MockedUsb {
+ protected:
+  std::variant<std::unique_ptr<FalconDevice>, Refusal> open(int port, FalconOptions options = {}) {
+    if (options.firmware.empty() || options.firmware == falcon_firmware_path()) options.firmware = firmware_file();
+    return FalconDevice::open(context(), found(port), falcon_profile(), options);
+  }
+
+  std::unique_ptr<FalconDevice> opened(int port, const FalconOptions& options = {}) {
+    auto result = open(port, options);
+    if (const auto* refusal = std::get_if<Refusal>(&result)) {
+      ADD_FAILURE() << refusal->reason;
+      return nullptr;
+    }
+    return std::move(std::get<std::unique_ptr<FalconDevice>>(result));
+  }
+
+  std::string refusal(int port, const FalconOptions& options = {}) {
+    auto result = open(port, options);
+    const auto* refusal = std::get_if<Refusal>(&result);
+    return refusal == nullptr ? "opened" : refusal->reason;
+  }
+};
+
+template <class Mock>
+glm::ivec3 torques(Mock& mock) {
+  return mock->with_model([](FalconModel& model) { return model.torques; });
+}
+
+TEST_F(FalconDriver, AWholeLife) {
+  const auto mock = mock_.plug(FalconModel(), 1);
+  EXPECT_TRUE(is_falcon(found(1)));
+  auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  EXPECT_EQ(device->counts().firmware_chunks, static_cast<long>((firmware_bytes + 61) / 62));
+  mock->with_model([](FalconModel& model) {
+    EXPECT_EQ(model.firmware.size(), firmware_bytes);
+    EXPECT_EQ(model.firmware[1000], static_cast<std::uint8_t>(1000 * 31 >> 3));
+    EXPECT_TRUE(model.is_homed);
+    model.hand = {0.01, -0.02, 0.125};
+    model.logs = false;
+  });
+
+  constexpr long ticks = 4000;
+  long good = 0;
+  run_ticks(mock_, ticks, [&](long tick) {
+    const long before = allocations;
+    device->elapse(1);
+    good += device->sample().contact == Contact::good;
+    const Force exerted = device->command({0.5f + static_cast<float>(tick) / ticks, -1});
+    ASSERT_EQ(allocations, before);
+    ASSERT_LT(glm::length(exerted), 2);
+  });
+  EXPECT_GT(good, ticks / 2);
+  const auto counts = device->counts();
+  EXPECT_GT(counts.answers, 300);
+  EXPECT_LE(std::abs(counts.answers - counts.commands_sent), 6) << "in turns; five of probing";
+  EXPECT_EQ(counts.skipped_bytes, 0);
+
+  // The handle is where the device says, in the plane, and the hand is pushed the way that was asked for.
+  await([&] {
+    device->command({1.5f, -1});
+    const Reading reading = device->sample();
+    const glm::dvec3 place = mock->with_model([](FalconModel& model) { return model.place; });
+    const glm::dvec3 force = mock->with_model([](FalconModel& model) { return model.force(); });
+    const double step = falcon_profile().position_step();
+    return std::abs(reading.counts.x * step - place.x) < 2e-4 && std::abs(reading.counts.y * step - place.y) < 2e-4 &&
+           std::abs(force.x - 1.5) < 0.02 && std::abs(force.y + 1) < 0.02 && std::abs(place.z - 0.12) < 0.002;
+  });
+
+  device.reset();
+  mock->with_model([](FalconModel& model) {
+    EXPECT_EQ(model.torques, glm::ivec3(0));
+    EXPECT_EQ(model.wrong_packets, 0);
+    EXPECT_EQ(model.torques_before_home, 0);
+    EXPECT_EQ(model.lights, 0);
+  });
+  EXPECT_EQ(mock->claims, 1);
+  EXPECT_EQ(mock->releases, 1);
+  EXPECT_EQ(mock->drivers_back, 1) << "the kernel's driver";
+  EXPECT_EQ(mock->unknown_ioctls, 0);
+}
+
+TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
+  FalconModel model({}, true);
+  model.homes_after = -1;
+  const auto mock = mock_.plug(std::move(model), 1);
+  FalconOptions options;
+  std::string asked;
+  options.ask = [&](const std::string& what) {
+    asked = what;
+    EXPECT_EQ(torques(mock), glm::ivec3(0));
+    mock->with_model([](FalconModel& each) { each.homes_after = 0; });
+  };
+  EXPECT_NE(opened(1, options), nullptr);
+  EXPECT_EQ(asked, "push the Falcon's handle all the way in, then pull it all the way out");
+  mock->with_model([](FalconModel& each) {
+    each.homes_after = -1;
+    each.is_homed = false;
+  });
+  options.ask = {};
+  options.homing_patience = 0.05;
+  EXPECT_EQ(
+      refusal(1, options),
+      "0403:cb48: its encoders have not found their zeros: push the handle all the way in and pull it all the way "
+      "out");
+}
+
+TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
+  mock_.plug(FalconModel(), 1);
+  FalconOptions options;
+  options.firmware = "/nowhere/falcon.bin";
+  const std::string reason = refusal(1, options);
+  for (const char* part : {"0403:cb48: it runs no firmware", "/nowhere/falcon.bin", "libnifalcon",
+                           "WALE_FALCON_FIRMWARE=FILE", "not shipped"}) {
+    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+  }
+  const auto running = mock_.plug(FalconModel({}, true), 2);
+  EXPECT_NE(opened(2, options), nullptr) << "one that has its firmware needs no file";
+}
+
+TEST(FalconFirmware, IsLookedForWhereTheEnvironmentSays) {
+  const std::string home = getenv("HOME") == nullptr ? "" : getenv("HOME");
+  unsetenv("XDG_DATA_HOME");
+  setenv("HOME", "/home/ada", 1);
+  EXPECT_EQ(falcon_firmware_path(), "/home/ada/.local/share/wale/falcon_firmware.bin");
+  setenv("XDG_DATA_HOME", "/data", 1);
+  EXPECT_EQ(falcon_firmware_path(), "/data/wale/falcon_firmware.bin");
+  setenv("WALE_FALCON_FIRMWARE", "/mine.bin", 1);
+  EXPECT_EQ(falcon_firmware_path(), "/mine.bin");
+  unsetenv("XDG_DATA_HOME");
+  unsetenv("WALE_FALCON_FIRMWARE");
+  setenv("HOME", home.c_str(), 1);
+}
+
+TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
+  std::atomic<int> arrived{0}, left{0};
+  ASSERT_TRUE(context()->watch([&](const UsbEvent& event) { ++(event.arrived ? arrived : left); }));
+  const auto mock = mock_.plug(FalconModel({}, true), 1);
+  await([&] { return arrived == 1; });
+  const auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  run_ticks(mock_, 300, [&](long) {
+    device->sample();
+    device->command({2, 1});
+  });
+  mock_.unplug(mock);
+  await([&] { return device->was_lost(); });
+  EXPECT_EQ(device->reason(), "it was unplugged");
+  EXPECT_EQ(device->sample().contact, Contact::lost);
+  EXPECT_EQ(device->command({2, 1}), Force(0));
+  await([&] { return left == 1; });
+
+  const auto again = mock_.plug(FalconModel(), 1);  // it was without power, and so without firmware
+  await([&] { return arrived == 2; });
+  const auto second = opened(1);
+  ASSERT_NE(second, nullptr);
+  await([&] {
+    second->sample();
+    second->command({2, 0});
+    return std::abs(again->with_model([](FalconModel& model) { return model.force(); }).x - 2) < 0.02;
+  });
+}
+
+TEST_F(FalconDriver, AStageIsFeltOnIt) {
+  const auto mock = mock_.plug(FalconModel({}, true), 1);
+  DeviceProfile profile = sandpaper();
+  auto result = FalconDevice::open(context(), found(1), profile);
+  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<FalconDevice>>(result));
+  const auto device = std::move(std::get<std::unique_ptr<FalconDevice>>(result));
+  mock->with_model([](FalconModel& model) { model.hand = {0.02, 0, 0.12}; });
+  Stage stage(*device);
+  stage.place(spring(50));
+  const auto ran = stage.run({.seconds = 0.6});
+  ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
+  const auto& ticks = std::get<RunResult>(ran).record.ticks;
+  double hardest = 0;
+  for (const auto& tick : ticks) hardest = std::min<double>(hardest, tick.force.x);
+  EXPECT_LT(hardest, -0.3) << "50 N/m against a hand of 100 N/m at 20 mm";
+  await([&] { return torques(mock) == glm::ivec3(0); });
+}
+
+TEST_F(FalconDriver, FaultsEndInNoForce) {
+  struct Case {
+    FalconFaults faults;
+    const char* reason;
+  };
+  const Case cases[] = {{{.mute_after = 200}, "it does not answer in time"},
+                        {{.nonsense_after = 200}, "what it answers is nonsense"},
+                        {{.unhomed_after = 200}, "its encoders have lost their zeros"},
+                        {{.stall_after = 200}, "it takes no packets"}};
+  int port = 0;
+  for (const Case& fault : cases) {
+    const auto mock = mock_.plug(FalconModel(fault.faults, true), ++port);
+    auto device = opened(port);
+    ASSERT_NE(device, nullptr) << fault.reason;
+    await([&] {
+      device->sample();
+      device->command({2, 1});
+      return device->was_lost();
+    });
+    EXPECT_EQ(device->reason(), fault.reason);
+    device.reset();
+    if (fault.faults.stall_after < 0) {
+      EXPECT_EQ(torques(mock), glm::ivec3(0)) << fault.reason;
+    }
+    EXPECT_EQ(mock->releases, 1);
+  }
+}
+
+TEST_F(FalconDriver, PlacesThatNoHandleHasAreNotPushedAt) {
+  const auto mock = mock_.plug(FalconModel({.wild_after = 300}, true), 1);
+  auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  await([&] {
+    const Contact contact = device->sample().contact;
+    device->command({2, 1});
+    return contact == Contact::stale && mock->with_model([](FalconModel& model) { return model.answers > 320; });
+  });
+  EXPECT_EQ(device->command({2, 1}), Force(0));
+  await([&] { return torques(mock) == glm::ivec3(0); });
+  EXPECT_FALSE(device->was_lost());
+}
+
+TEST_F(FalconDriver, IsListedWithWhatItNeeds) {
+  const auto mock = mock_.plug(FalconModel(), 1);
+  found(1);
+  setenv("WALE_FALCON_FIRMWARE", "/nowhere/falcon.bin", 1);
+  auto listed = list_usb_devices(*context());
+  ASSERT_EQ(listed.size(), 1u);
+  EXPECT_EQ(listed[0].name, "Novint Falcon");
+  EXPECT_EQ(listed[0].can, "three motors, used as two axes in a plane, 4096 steps of torque to each side");
+  EXPECT_EQ(listed[0].obstacle.find("unless it has been used since it got its power, it lacks its firmware: there is "
+                                    "no firmware at /nowhere/falcon.bin"),
+            0u)
+      << listed[0].obstacle;
+  setenv("WALE_FALCON_FIRMWARE", firmware_file().c_str(), 1);
+  EXPECT_EQ(list_usb_devices(*context())[0].obstacle, "");
+  unsetenv("WALE_FALCON_FIRMWARE");
+  EXPECT_TRUE(mock->with_model([](FalconModel& model) { return model.log.empty(); }));
+}
+
+}  // namespace
+}  // namespace wale::test::falcon_device
