@@ -267,12 +267,13 @@ class Emitter {
     return static_cast<RegisterNumber>(steps_[node.a].location + node.index);
   }
 
-  /// Of the step, whose operands are those.
-  static Instruction instruction(const Step& step, const Step& a, const Step& b, const Step& c) {
-    return {static_cast<std::uint8_t>(step.operation), static_cast<RegisterNumber>(step.location),
-            static_cast<RegisterNumber>(a.location + step.results[0]),
-            static_cast<RegisterNumber>(b.location + step.results[1]),
-            static_cast<RegisterNumber>(c.location + step.results[2])};
+  /// Writes the instruction of a step whose operands are those.
+  static void write(Instruction& instruction, const Step& step, const Step& a, const Step& b, const Step& c) {
+    instruction.operation = static_cast<std::uint8_t>(step.operation);
+    instruction.destination = static_cast<RegisterNumber>(step.location);
+    instruction.a = static_cast<RegisterNumber>(a.location + step.results[0]);
+    instruction.b = static_cast<RegisterNumber>(b.location + step.results[1]);
+    instruction.c = static_cast<RegisterNumber>(c.location + step.results[2]);
   }
 
   void emit_setup() {
@@ -282,8 +283,8 @@ class Emitter {
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::operation) {
         const Step& step = steps_[id];
-        program_.setup.push_back(
-            instruction(step, steps_[step.operands[0]], steps_[step.operands[1]], steps_[step.operands[2]]));
+        write(program_.setup.emplace_back(), step, steps_[step.operands[0]], steps_[step.operands[1]],
+              steps_[step.operands[2]]);
         continue;
       }
       Peak peak;
@@ -306,13 +307,16 @@ class Emitter {
     const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
     Step* const steps = steps_.data();
     std::size_t pending = 0;  // asked for and not looked at yet
+    const auto want = [&](NodeId id) -> unsigned {
+      if (steps[id].wanted >= section) return 0;
+      steps[id].wanted = section;
+      ++pending;
+      return 1;
+    };
     NodeId end = 0;
     for (const NodeId root : roots) {
       const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
-      if (steps[id].wanted >= section) continue;
-      steps[id].wanted = section;
-      ++pending;
-      end = std::max(end, id + 1);
+      if (want(id) != 0) end = std::max(end, id + 1);
     }
     std::vector<NodeId> backwards(end);
     NodeId* next = backwards.data();
@@ -321,15 +325,8 @@ class Emitter {
       if (step.wanted != section) continue;
       --pending;
       *next++ = id;
-      unsigned last_uses = 0;
-      for (unsigned i = 0; i < 3; ++i) {
-        Step& operand = steps[step.operands[i]];
-        if (operand.wanted >= section) continue;
-        operand.wanted = section;
-        ++pending;
-        last_uses |= 1u << i;
-      }
-      step.last_uses = static_cast<std::uint8_t>(last_uses);
+      const unsigned a = want(step.operands[0]), b = want(step.operands[1]), c = want(step.operands[2]);
+      step.last_uses = static_cast<std::uint8_t>(a | b << 1 | c << 2);
     }
     backwards.resize(static_cast<std::size_t>(next - backwards.data()));
     return backwards;
@@ -348,7 +345,7 @@ class Emitter {
       Step& step = steps[*--each];
       const Step &a = steps[step.operands[0]], &b = steps[step.operands[1]], &c = steps[step.operands[2]];
       step.location = first + static_cast<std::uint32_t>(temporaries.take(step.width));
-      *next++ = instruction(step, a, b, c);
+      write(*next++, step, a, b, c);
       if ((step.last_uses & 1) != 0) temporaries.give_back(a.location - first, a.width);
       if ((step.last_uses & 2) != 0) temporaries.give_back(b.location - first, b.width);
       if ((step.last_uses & 4) != 0) temporaries.give_back(c.location - first, c.width);

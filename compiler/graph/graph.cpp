@@ -17,11 +17,11 @@ bool same(const Node& a, const Node& b) {
 }
 
 /// Of what `same` compares. Each multiplication carries what is below to what is above, which is what counts.
-inline std::uint32_t hash_of(const Node& node) {
+inline std::size_t hash_of(const Node& node) {
   std::uint64_t hash = (std::uint64_t{node.a} << 32 | node.b) * 0x9e3779b97f4a7c15u;
   hash ^= std::uint64_t{node.c} << 32 | node.index;
-  hash += static_cast<std::uint64_t>(node.kind) << 8 | static_cast<std::uint64_t>(node.operation);
-  return static_cast<std::uint32_t>(hash * 0xbf58476d1ce4e5b9u >> 32);
+  hash += static_cast<std::uint64_t>(node.operation) << 8 | static_cast<std::uint64_t>(node.kind);
+  return hash * 0xbf58476d1ce4e5b9u >> 32;
 }
 
 /// How often the result of an operation is worked out at least, by number: a table is not there while the compiler
@@ -37,35 +37,38 @@ constexpr auto least_rate = [] {
 }  // namespace
 
 void Graph::reserve(std::size_t nodes) {
-  nodes_.reserve(nodes);
-  if (2 * nodes > table_.size()) enlarge_table(std::bit_ceil(2 * nodes));
-}
-
-void Graph::enlarge_table(std::size_t slots) {
-  const std::vector<Slot> entries = std::move(table_);
-  table_.assign(slots, {});
-  for (const Slot& entry : entries) {
-    if (entry.node == none) continue;
-    std::size_t at = entry.hash & (table_.size() - 1);
-    while (table_[at].node != none) at = (at + 1) & (table_.size() - 1);
-    table_[at] = entry;
+  if (nodes <= nodes_.size()) return;
+  nodes_.resize(std::bit_ceil(nodes));
+  const std::vector<NodeId> shared = std::move(table_);
+  table_.assign(2 * nodes_.size(), none);
+  const std::size_t last = table_.size() - 1;
+  for (const NodeId id : shared) {
+    if (id == none) continue;
+    std::size_t at = hash_of(nodes_[id]) & last;
+    while (table_[at] != none) at = (at + 1) & last;
+    table_[at] = id;
   }
 }
 
 NodeId Graph::add(const Node& node) {
-  if (2 * (in_table_ + 1) > table_.size()) enlarge_table(std::max<std::size_t>(256, 2 * table_.size()));
-  const std::uint32_t hash = hash_of(node);
-  Slot* const slots = table_.data();
+  if (size_ == nodes_.size()) [[unlikely]]
+    return add_with_more_room(node);
+  NodeId* const slots = table_.data();
   const std::size_t last = table_.size() - 1;
-  std::size_t at = hash & last;
-  for (; slots[at].node != none; at = (at + 1) & last)
-    if (slots[at].hash == hash && same(nodes_[slots[at].node], node)) return slots[at].node;
-  const auto added = static_cast<NodeId>(nodes_.size());
-  slots[at] = {hash, added};
-  ++in_table_;
-  Node& entered = nodes_.emplace_back(node);
+  std::size_t at = hash_of(node) & last;
+  for (; slots[at] != none; at = (at + 1) & last)
+    if (same(nodes_[slots[at]], node)) return slots[at];
+  const auto added = static_cast<NodeId>(size_++);
+  slots[at] = added;
+  Node& entered = nodes_[added];
+  entered = node;
   if (node.span == Span{}) entered.span = place_;
   return added;
+}
+
+NodeId Graph::add_with_more_room(const Node& node) {
+  reserve(std::max<std::size_t>(128, 2 * size_));
+  return add(node);
 }
 
 NodeId Graph::constant(float value) {
@@ -156,14 +159,15 @@ NodeId Graph::peak(NodeId value, NodeId half_width, NodeId half_height, Span spa
 }
 
 NodeId Graph::output_limit(NodeId value, NodeId ceiling, Span span) {
-  nodes_.push_back({.kind = Node::Kind::operation,
-                    .operation = Operation::limit,
-                    .rate = Rate::tick,
-                    .operands = 2,
-                    .a = value,
-                    .b = ceiling,
-                    .span = span});
-  return static_cast<NodeId>(nodes_.size() - 1);
+  if (size_ == nodes_.size()) reserve(2 * size_);
+  nodes_[size_] = {.kind = Node::Kind::operation,
+                   .operation = Operation::limit,
+                   .rate = Rate::tick,
+                   .operands = 2,
+                   .a = value,
+                   .b = ceiling,
+                   .span = span};
+  return static_cast<NodeId>(size_++);
 }
 
 }  // namespace wale

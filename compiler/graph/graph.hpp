@@ -56,7 +56,7 @@ struct Operands {
 class Graph {
  public:
   const Node& operator[](NodeId id) const { return nodes_[id]; }
-  std::size_t size() const { return nodes_.size(); }
+  std::size_t size() const { return size_; }
   /// Makes room for so many nodes; there may be more.
   void reserve(std::size_t nodes);
 
@@ -86,20 +86,16 @@ class Graph {
 
  private:
   NodeId add(const Node& node);
+  NodeId add_with_more_room(const Node& node);
   NodeId folded(Operation operation, NodeId a, NodeId b, NodeId c);
-  void enlarge_table(std::size_t slots);
 
   static constexpr NodeId none = ~NodeId{0};
 
-  std::vector<Node> nodes_;
-  /// Finds equal nodes: a power of two of slots, each a node or `none`. A node stands in the first free slot from the
-  /// one that its hash names.
-  struct Slot {
-    std::uint32_t hash = 0;
-    NodeId node = none;
-  };
-  std::vector<Slot> table_;
-  std::size_t in_table_ = 0;
+  std::vector<Node> nodes_;  ///< the first `size_` of these: the rest is room for more
+  std::size_t size_ = 0;
+  /// Finds equal nodes: two slots for each that there is room for, a power of two, each a node or `none`. A node stands
+  /// in the first free slot from the one that its hash names.
+  std::vector<NodeId> table_;
   Span place_;
 };
 

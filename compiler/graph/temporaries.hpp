@@ -15,7 +15,7 @@ class Temporaries {
   std::size_t take() {
     std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
     while (free_[word] == 0)
-      if (++word == free_.size()) free_.push_back(~std::uint64_t{0});
+      if (++word == free_.size()) add_word();
     std::uint64_t& free = free_[word];
     const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free));
     free &= free - 1;
@@ -23,21 +23,9 @@ class Temporaries {
     return first;
   }
   /// `count` neighbouring registers, the lowest that are free.
-  std::size_t take(std::size_t count) {
-    if (count == 1) return take();
-    std::size_t first = 0;
-    for (std::size_t run = 0, i = 0; run < count; ++i) {
-      if (i / word_bits == free_.size()) free_.push_back(~std::uint64_t{0});
-      run = (free_[i / word_bits] & bit(i)) != 0 ? run + 1 : 0;
-      first = i + 1 - run;
-    }
-    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] &= ~bit(i);
-    most_ = std::max(most_, first + count);
-    return first;
-  }
+  std::size_t take(std::size_t count) { return count == 1 ? take() : take_neighbours(count); }
   void give_back(std::size_t first, std::size_t count) {
-    free_[first / word_bits] |= bit(first);
-    for (std::size_t i = first + 1; i < first + count; ++i) free_[i / word_bits] |= bit(i);
+    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
   }
   std::size_t most() const { return most_; }
 
@@ -45,6 +33,21 @@ class Temporaries {
   static constexpr std::size_t word_bits = 64;
 
   static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % word_bits; }
+
+  // Apart from `take`, which is called for every instruction.
+
+  [[gnu::noinline]] void add_word() { free_.push_back(~std::uint64_t{0}); }
+  [[gnu::noinline]] std::size_t take_neighbours(std::size_t count) {
+    std::size_t first = 0;
+    for (std::size_t run = 0, i = 0; run < count; ++i) {
+      if (i / word_bits == free_.size()) add_word();
+      run = (free_[i / word_bits] & bit(i)) != 0 ? run + 1 : 0;
+      first = i + 1 - run;
+    }
+    for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] &= ~bit(i);
+    most_ = std::max(most_, first + count);
+    return first;
+  }
 
   std::vector<std::uint64_t> free_{~std::uint64_t{0}};  ///< a bit for each register
   std::size_t most_ = 0;

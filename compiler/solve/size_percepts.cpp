@@ -236,6 +236,7 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
 }
 
 void PerceptSolver::describe(SolvedMaterial& solved) {
+  solved.percepts.reserve(told_.size());
   for (Told& told : told_) {
     const Law& law = *told.law;
     SolvedPercept each;

@@ -308,7 +308,7 @@ class Solver {
   /// Puts the solved expressions in place of what was open.
   void substitute(PerceptSolver& percepts) {
     Terms& terms = solved_.terms;
-    terms.reserve(open_terms_.size() + open_terms_.size() / 4);
+    terms.reserve(open_terms_.size() + open_terms_.size() / 4 + 128);  // and what is solved
     TermCopier copier(open_terms_, terms);
     const std::map<std::uint32_t, TermId> sizes = percepts.sizes(solved_, copier);
     std::vector<std::pair<TermId, TermId>> solutions;
