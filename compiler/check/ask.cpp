@@ -13,7 +13,7 @@ namespace {
 std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const PerceptStatement& node, double level) {
   if (!node.value || !(level > 1 && level <= 100)) return {};
   const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
-  if (!literal || !literal->suffix.empty()) return {};
+  if (!literal || literal->suffix.count > 0) return {};
   return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
 }
 

@@ -46,7 +46,7 @@ class Assembler {
     }
     for (const auto& setting : node.representative) {
       if (setting.key.text == "like") good = take_over(declared, setting, *result) && good;
-      if (setting.key.text == "kind") result->kind = setting, result->kind_tree = declared.tree;
+      if (setting.key.text == "kind") result->kind = &setting, result->kind_tree = declared.tree;
     }
     for (const auto& percept : node.perceptual) ask(declared, percept, surroundings_, result->percepts);
     override_statements(declared, result->statements);
@@ -117,8 +117,8 @@ class Assembler {
     if (!base) return nullptr;
     auto result = std::make_shared<AssembledMaterial>(*base);
     bool good = true;
-    std::map<std::string, Span> given;
-    for (const auto& argument : call.arguments) {
+    std::map<std::string_view, Span> given;
+    for (const auto& argument : from.tree->arguments(call)) {
       const Span span = from.tree->span(argument.value);
       if (!argument.name) {
         report(Code::unknown_argument, span, fmt::format("the parameters of `{}` are given by name", call.callee.text),
@@ -168,7 +168,8 @@ class Assembler {
   static std::vector<std::string> parameters(const AssembledMaterial& material) {
     std::vector<std::string> all;
     for (const auto& assembled : material.statements)
-      if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what)) all.push_back(param->name.text);
+      if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what))
+        all.emplace_back(param->name.text);
     for (const auto& component : material.components) {
       all.push_back(component.weight_name);
       for (auto& name : parameters(*component.material)) all.push_back(std::move(name));
@@ -182,7 +183,7 @@ class Assembler {
   }
 
   /// Gives a parameter another default, in a blend in every component that has it.
-  static bool set(AssembledMaterial& material, const std::string& name, const Mixture& value) {
+  static bool set(AssembledMaterial& material, std::string_view name, const Mixture& value) {
     bool found = false;
     for (auto& assembled : material.statements)
       if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what);
@@ -198,7 +199,7 @@ class Assembler {
   /// What turns a blend: the weight of a component, or the level of a percept that a component asks for.
   enum class Dial { none, weight, level };
 
-  static Dial dial_named(const AssembledMaterial& material, const std::string& name) {
+  static Dial dial_named(const AssembledMaterial& material, std::string_view name) {
     for (const auto& component : material.components) {
       if (component.weight_name == name) return Dial::weight;
       for (const auto& asked : component.material->percepts)
@@ -208,7 +209,7 @@ class Assembler {
     return Dial::none;
   }
 
-  static void turn(AssembledMaterial& material, const std::string& name, double value) {
+  static void turn(AssembledMaterial& material, std::string_view name, double value) {
     for (auto& component : material.components) {
       if (component.weight_name == name) component.weight = value;
       auto copy = std::make_shared<AssembledMaterial>(*component.material);
@@ -238,16 +239,17 @@ class Assembler {
   /// `between(fine, wide, 0.3)`: one structure, every parameter and every level on the way from one to the other.
   std::shared_ptr<const AssembledMaterial> between(const Declared<MaterialDecl>& from, ExprId expr, const Call& call) {
     const Span span = from.tree->span(expr);
-    if (call.arguments.size() != 3 || std::ranges::any_of(call.arguments, [](auto& each) { return bool(each.name); })) {
+    const auto arguments = from.tree->arguments(call);
+    if (arguments.size() != 3 || std::ranges::any_of(arguments, [](auto& each) { return bool(each.name); })) {
       report(Code::missing_argument, span, "`between` takes two materials and how far the way from one to the other is",
              "write, for example, `between(fine_corduroy, wide_corduroy, 0.3)`");
       return nullptr;
     }
-    const auto first = made_from(from, call.arguments[0].value), second = made_from(from, call.arguments[1].value);
-    const auto way = plain_constant(from, call.arguments[2].value, surroundings_);
+    const auto first = made_from(from, arguments[0].value), second = made_from(from, arguments[1].value);
+    const auto way = plain_constant(from, arguments[2].value, surroundings_);
     if (!first || !second || !way) return nullptr;
     if (!(*way >= 0 && *way <= 1)) {
-      report(Code::value_out_of_range, from.tree->span(call.arguments[2].value),
+      report(Code::value_out_of_range, from.tree->span(arguments[2].value),
              fmt::format("{:.4g} of the way is not between the two", *way), "give a number from 0 to 1");
       return nullptr;
     }
@@ -368,18 +370,18 @@ class Assembler {
     std::string name;
     double weight = 1;
     if (const auto* number = std::get_if<NumberLiteral>(&node)) {  // 0.3 denim
+      const auto suffix = from.tree->suffix(*number);
       double scale = 1;
       std::size_t next = 0;
-      for (; next + 1 < number->suffix.size(); ++next) {  // 30 % denim
-        const Unit* unit = from.home->units.find(number->suffix[next].name.text);
+      for (; next + 1 < suffix.size(); ++next) {  // 30 % denim
+        const Unit* unit = from.home->units.find(suffix[next].name.text);
         if (!unit || !unit->dimension.plain()) break;
         scale *= unit->factor;
       }
-      if (next + 1 != number->suffix.size() || number->suffix[next].divides || number->suffix[next].exponent != 1)
-        return no_component(span);
+      if (next + 1 != suffix.size() || suffix[next].divides || suffix[next].exponent != 1) return no_component(span);
       weight = number->value * scale;
-      name = number->suffix[next].name.text;
-      const auto* other = find(number->suffix[next].name, *from.home);
+      name = suffix[next].name.text;
+      const auto* other = find(suffix[next].name, *from.home);
       material = other ? assemble(*other) : nullptr;
     } else if (const auto* product = std::get_if<Binary>(&node);
                product && product->op == BinaryOperator::multiply) {  // 0.3 * denim(weave: 1 mm)
@@ -401,8 +403,8 @@ class Assembler {
   }
 
   static std::string name_of(const Declared<MaterialDecl>& from, ExprId expr) {
-    if (const auto* use = std::get_if<NameUse>(&from.tree->expr(expr))) return use->name;
-    if (const auto* call = std::get_if<Call>(&from.tree->expr(expr))) return call->callee.text;
+    if (const auto* use = std::get_if<NameUse>(&from.tree->expr(expr))) return std::string(use->name);
+    if (const auto* call = std::get_if<Call>(&from.tree->expr(expr))) return std::string(call->callee.text);
     return "part";
   }
 

@@ -41,7 +41,7 @@ struct AssembledMaterial {
   std::vector<AssembledStatement> statements;
   std::vector<AskedPercept> percepts;
   std::vector<Component> components;  ///< of a blend; its own statements come on top
-  std::optional<Setting> kind;        ///< `kind fabric.woven`, when taken over
+  const Setting* kind = nullptr;      ///< `kind fabric.woven`, its own or taken over
   const SyntaxTree* kind_tree = nullptr;
   bool derived = false;  ///< something is taken over
 };

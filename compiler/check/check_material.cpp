@@ -129,9 +129,9 @@ class MaterialChecker {
     for (const auto& item : setting.items) {
       const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
       if (kind && item.words.size() == 1 && !item.value)
-        texts.push_back(item.words[0].text);
+        texts.emplace_back(item.words[0].text);
       else if (!kind && literal)
-        texts.push_back(literal->text);
+        texts.emplace_back(literal->text);
       else
         report(Code::wrong_type, item.span,
                fmt::format("`{}` takes {}", setting.key.text, kind ? "a word" : "texts in quotes"),

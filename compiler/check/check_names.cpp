@@ -12,7 +12,7 @@ namespace wale {
 
 namespace {
 
-std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
+std::string_view before_dot(std::string_view name) { return name.substr(0, name.find('.')); }
 
 /// Follows one function's body and holds each name against what it may see.
 class BodyReader {
@@ -23,7 +23,7 @@ class BodyReader {
   void read(ExprId expr) {
     std::visit(Overloaded{
                    [&](const NumberLiteral& node) {
-                     for (const auto& part : node.suffix)
+                     for (const auto& part : tree_.suffix(node))
                        if (!names_.units.contains(part.name.text) && !has_meaning(part.name.text))
                          unknown_unit(part.name);
                    },
@@ -41,7 +41,7 @@ class BodyReader {
                      if (!names_.functions.contains(name) && !is_builtin_function(name) && !is_argument(name) &&
                          !names_.constants.contains(name))
                        unknown_function(node.callee);
-                     for (const auto& argument : node.arguments) read(argument.value);
+                     for (const auto& argument : tree_.arguments(node)) read(argument.value);
                    },
                    [&](const Conditional& node) {
                      read(node.condition);
@@ -54,11 +54,11 @@ class BodyReader {
   }
 
  private:
-  bool is_argument(const std::string& name) const {
+  bool is_argument(std::string_view name) const {
     return std::ranges::any_of(function_.parameters, [&](const auto& formal) { return formal.name.text == name; });
   }
-  bool has_meaning(const std::string& name) const {
-    const std::string whole = before_dot(name);
+  bool has_meaning(std::string_view name) const {
+    const std::string_view whole = before_dot(name);
     return is_argument(whole) || names_.constants.contains(whole) || names_hand_or_patch(whole);
   }
 
@@ -73,7 +73,7 @@ class BodyReader {
                     fmt::format("write `{}(…)`", word.text));
     if (surroundings_.diagnostics.is_full()) return;
     std::vector<std::string> known = names_.constants.spellings();
-    for (const auto& formal : function_.parameters) known.push_back(formal.name.text);
+    for (const auto& formal : function_.parameters) known.emplace_back(formal.name.text);
     known.insert(known.end(), {"hand", "velocity", "acceleration", "time", "button"});
     report(word, Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),
            did_you_mean(word.span, word.text, known,
@@ -109,7 +109,7 @@ class UsedNames {
     for (const auto& expr : tree.exprs)
       std::visit(Overloaded{
                      [&](const NumberLiteral& node) {
-                       for (const auto& part : node.suffix) add(part.name.text);
+                       for (const auto& part : tree.suffix(node)) add(part.name.text);
                      },
                      [&](const NameUse& node) { add(node.name); },
                      [&](const Call& node) { add(node.callee.text); },
@@ -141,10 +141,10 @@ class UsedNames {
           declaration);
   }
 
-  bool contains(const std::string& name) const { return names_.contains(name); }
+  bool contains(std::string_view name) const { return names_.contains(name); }
 
  private:
-  void add(const std::string& name) {
+  void add(std::string_view name) {
     names_.insert(name);
     names_.insert(before_dot(name));
   }
@@ -157,7 +157,7 @@ class UsedNames {
       for (const auto& word : item.words) add(word.text);
   }
 
-  std::set<std::string> names_;
+  std::set<std::string_view> names_;  ///< parts of the tree
 };
 
 /// Whether a file has anything that could go unused: most have materials only.

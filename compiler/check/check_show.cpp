@@ -81,7 +81,7 @@ void ShowChecker::mark(const SyntaxTree& tree, ExprId expr, const Call& call, co
   for (const auto& argument : shape.arguments) names.emplace_back(argument.name);
   names.emplace_back("colour");
   const std::string taken = fmt::format("it takes: {}", fmt::join(names, ", "));
-  for (const auto& argument : call.arguments) {
+  for (const auto& argument : tree.arguments(call)) {
     std::size_t index = argument.name
                             ? static_cast<std::size_t>(std::ranges::find(names, argument.name->text) - names.begin())
                             : position++;
@@ -124,10 +124,10 @@ void ShowChecker::mark(const SyntaxTree& tree, ExprId expr, const Call& call, co
 
 /// `show relief(height)`: the surface as it looks, whatever pushes.
 void ShowChecker::relief(const SyntaxTree& tree, const Call& call) {
-  if (call.arguments.size() != 1)
+  if (tree.arguments(call).size() != 1)
     return report(Code::missing_argument, call.callee.span, "`relief` shows one height",
                   "write, for example, `show relief(ribs)`");
-  const ExprId expr = call.arguments[0].value;
+  const ExprId expr = tree.arguments(call)[0].value;
   const Value value = checker_.check(tree, expr, scope_);
   if (value.failed()) return;
   const bool length = value.dimension == checker_.declarations().dimension("length");
@@ -141,12 +141,13 @@ void ShowChecker::relief(const SyntaxTree& tree, const Call& call) {
 
 /// `show colour(0.8, 0.5, 0.2)`: red, green and blue, which may change from place to place.
 void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
-  if (call.arguments.size() != 3)
+  const auto arguments = tree.arguments(call);
+  if (arguments.size() != 3)
     return report(Code::missing_argument, call.callee.span, "a colour is red, green and blue, each from 0 to 1",
                   "write, for example, `show colour(0.8, 0.5, 0.2)`");
   std::array<TermId, 3> parts{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Value value = checker_.check_as(tree, call.arguments[i].value, scope_, Value::Type::number, Dimension{});
+    const Value value = checker_.check_as(tree, arguments[i].value, scope_, Value::Type::number, Dimension{});
     if (value.failed() || !is_of_place(value)) return;
     parts[i] = value.x;
   }
@@ -169,7 +170,7 @@ std::optional<std::uint32_t> ShowChecker::colour_code(const SyntaxTree& tree, Ex
   const auto digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); };
   if (literal && literal->text.size() == 7 && literal->text[0] == '#' &&
       std::ranges::all_of(literal->text.substr(1), digit))
-    return static_cast<std::uint32_t>(std::stoul(literal->text.substr(1), nullptr, 16));
+    return static_cast<std::uint32_t>(std::stoul(std::string(literal->text.substr(1)), nullptr, 16));
   report(Code::wrong_type, tree.span(expr), "a shape's colour is a text of a # and six digits from 0 to f",
          "write, for example, `colour: \"#c04020\"`");
   return std::nullopt;

@@ -88,7 +88,7 @@ void StatementChecker::operator()(const StateStatement& node) {
     }
   Value value = initial;
   value.span = node.name.span;
-  const std::string name = free_name(node.name.text, [&](const std::string& taken) {
+  const std::string name = free_name(std::string(node.name.text), [&](const std::string& taken) {
     return std::ranges::any_of(checker_.states(),
                                [&](const auto& other) { return other.name == taken || other.name == taken + ".x"; });
   });
@@ -136,7 +136,7 @@ void StatementChecker::operator()(const MemoryStatement& node) {
     return declare_failed(node.name);
   }
   const auto index = static_cast<std::uint32_t>(material_.memories.size());
-  const std::string name = free_name(node.name.text, [&](const std::string& taken) {
+  const std::string name = free_name(std::string(node.name.text), [&](const std::string& taken) {
     return std::ranges::find(material_.memories, taken, &CheckedMemory::name) != material_.memories.end();
   });
   material_.memories.push_back({.name = name,
@@ -176,8 +176,8 @@ void StatementChecker::operator()(const UpdateStatement& node) {
 /// The names of what changes from tick to tick.
 std::vector<std::string> StatementChecker::remembered() const {
   std::vector<std::string> names;
-  for (const auto& [name, state] : states_) names.push_back(name);
-  for (const auto& [name, memory] : memories_) names.push_back(name);
+  for (const auto& [name, state] : states_) names.emplace_back(name);
+  for (const auto& [name, memory] : memories_) names.emplace_back(name);
   return names;
 }
 

@@ -163,8 +163,8 @@ void StatementChecker::operator()(const ParamStatement& node) {
   }
   const auto number = parameter_value(node, value);
   if (!number) return declare_failed(node.name);
-  Parameter parameter{.name = node.name.text,
-                      .description = node.description.empty() ? node.documentation : node.description};
+  Parameter parameter{.name = std::string(node.name.text),
+                      .description = std::string(node.description.empty() ? node.documentation : node.description)};
   parameter.value = static_cast<float>(*number);
   double low = *number, high = *number;
   const Span default_span = statement_->value
@@ -293,16 +293,15 @@ bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& v
 /// The unit that the author wrote for a parameter, and its size in SI.
 std::pair<std::string, double> StatementChecker::written_unit(const ParamStatement& node,
                                                               const Dimension& dimension) const {
-  std::vector<ExprId> written{node.value};
-  if (node.range) written.insert(written.end(), {node.range->low, node.range->high});
-  for (ExprId expr : written) {
+  const Range range = node.range.value_or(Range{node.value, node.value});
+  for (ExprId expr : {node.value, range.low, range.high}) {
     while (const auto* unary = std::get_if<Unary>(&tree().expr(expr))) expr = unary->operand;
     const auto* literal = std::get_if<NumberLiteral>(&tree().expr(expr));
-    if (!literal || literal->suffix.empty()) continue;
+    if (!literal || literal->suffix.count == 0) continue;
     double factor = 1;
     std::string text;
     bool known = true;
-    for (const auto& part : literal->suffix) {
+    for (const auto& part : tree().suffix(*literal)) {
       const Unit* found = declarations().units.find(part.name.text);
       if (!found) {
         known = false;
@@ -310,7 +309,8 @@ std::pair<std::string, double> StatementChecker::written_unit(const ParamStateme
       }
       const int exponent = part.divides ? -part.exponent : part.exponent;
       factor *= exponent == 1 ? found->factor : std::pow(found->factor, exponent);
-      text += (text.empty() ? (part.divides ? "1/" : "") : part.divides ? "/" : " ") + part.name.text;
+      text += text.empty() ? (part.divides ? "1/" : "") : part.divides ? "/" : " ";
+      text += part.name.text;
       if (part.exponent != 1) text += fmt::format("^{}", part.exponent);
     }
     if (known) return {text, factor};
@@ -354,7 +354,8 @@ void StatementChecker::warn_of_unused_names(Span own) const {
   for (const auto& binding : scope_.bindings()) {
     const bool written_here =
         binding.declared.source == own.source && binding.declared.begin >= own.begin && binding.declared.end <= own.end;
-    if (written_here && !binding.used && !binding.value.failed()) unused.emplace_back(binding.name, binding.declared);
+    if (written_here && !binding.used && !binding.value.failed())
+      unused.emplace_back(binding.key.name, binding.declared);
   }
   std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
   for (const auto& [name, span] : unused) {

@@ -89,8 +89,8 @@ class StatementChecker {
     Value updated;             ///< what later updates read; failed before the first
     std::optional<Span> next;  ///< where its update stands
   };
-  std::map<std::string, KnownState> states_;
-  std::map<std::string, KnownMemory> memories_;
+  std::map<std::string_view, KnownState> states_;
+  std::map<std::string_view, KnownMemory> memories_;
 };
 
 /// What `show` shows: a shape or the look of the surface. Fills in the material's picture.

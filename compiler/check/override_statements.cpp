@@ -1,5 +1,7 @@
 #include "compiler/check/override_statements.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "compiler/parse/overloaded.hpp"
@@ -11,19 +13,16 @@ namespace {
 /// What a statement declares, by which a later one replaces it: the name of a parameter, a value or a layer of force;
 /// "x'" for the update of x; "force", "patch" and "active" for those themselves; empty for a mark of the picture.
 std::string replaced_by(const PhysicalStatement& statement) {
-  return std::visit(Overloaded{
-                        [](const ParamStatement& node) { return node.name.text; },
-                        [](const LetStatement& node) { return node.name.text; },
-                        [](const HeightStatement& node) { return node.name.text; },
-                        [](const ForceStatement& node) { return node.name ? node.name->text : std::string("force ="); },
-                        [](const PatchStatement&) { return std::string("patch ="); },
-                        [](const ActiveStatement&) { return std::string("active ="); },
-                        [](const StateStatement& node) { return node.name.text; },
-                        [](const MemoryStatement& node) { return node.name.text; },
-                        [](const UpdateStatement& node) { return node.name.text + "'"; },
-                        [](const ShowStatement&) { return std::string(); },
-                    },
-                    statement.what);
+  return std::visit(
+      Overloaded{
+          [](const ForceStatement& node) { return node.name ? std::string(node.name->text) : std::string("force ="); },
+          [](const PatchStatement&) { return std::string("patch ="); },
+          [](const ActiveStatement&) { return std::string("active ="); },
+          [](const UpdateStatement& node) { return fmt::format("{}'", node.name.text); },
+          [](const ShowStatement&) { return std::string(); },
+          [](const auto& node) { return std::string(node.name.text); },
+      },
+      statement.what);
 }
 
 template <typename Statement>
@@ -39,8 +38,12 @@ void erase(std::vector<AssembledStatement>& all, std::vector<bool>& own, std::si
 }  // namespace
 
 void override_statements(const Declared<MaterialDecl>& declared, std::vector<AssembledStatement>& all) {
-  const std::size_t inherited = all.size();
-  std::vector<bool> own(inherited, false);
+  if (all.empty()) {  // as nearly always: there is nothing to take the place of
+    all.reserve(declared.node->physical.size());
+    for (const auto& statement : declared.node->physical) all.push_back({&statement, declared.tree, declared.home, {}});
+    return;
+  }
+  std::vector<bool> own(all.size(), false);
   std::vector<AssembledStatement> fresh;
   bool shows_cleared = false;
   for (const auto& statement : declared.node->physical) {

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "compiler/declarations/dimension.hpp"
 #include "compiler/declarations/percepts.hpp"
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
+#include "compiler/text/name_index.hpp"
 #include "schema/device_profile.hpp"
 #include "schema/device_wiring.hpp"
 #include "schema/patch_program.hpp"
@@ -47,28 +46,29 @@ class Names {
   /// What is found when nothing here has the name.
   void stand_on(const Names& common) { common_ = &common; }
 
-  const Entry* entry(std::string_view name) const {
-    const auto found = index_.find(name);
-    if (found != index_.end()) return found->second;
-    return common_ ? common_->entry(name) : nullptr;
+  const Entry* entry(const NameKey& name) const {
+    for (const Names* names = this; names; names = names->common_)
+      if (const auto* found = names->index_.find(name)) return *found;
+    return nullptr;
   }
-  const T* find(std::string_view name) const {
+  const T* find(const NameKey& name) const {
     const Entry* found = entry(name);
     return found ? &found->what : nullptr;
   }
-  bool contains(std::string_view name) const { return entry(name) != nullptr; }
+  bool contains(const NameKey& name) const { return entry(name) != nullptr; }
 
   /// Enters a name that is not there yet.
-  void add(const std::string& name, Entry entry) {
+  void add(std::string_view name, Entry entry) {
     const auto [added, is_new] = own_.emplace(name, std::move(entry));
-    if (is_new) index_.emplace(added->first, &added->second);
+    if (is_new) index_.add(added->first, &added->second);
   }
 
   /// What the file itself has or imports, by name.
   const std::map<std::string, Entry>& own() const { return own_; }
 
   /// Everything, what every file knows first.
-  void each(const std::function<void(const std::string&, const T&)>& visit) const {
+  template <typename Visit>
+  void each(const Visit& visit) const {
     if (common_) common_->each(visit);
     for (const auto& [name, entry] : own_) visit(name, entry.what);
   }
@@ -80,7 +80,7 @@ class Names {
 
  private:
   std::map<std::string, Entry> own_;
-  std::unordered_map<std::string_view, const Entry*> index_;  ///< into `own_`: every word of a text is looked up
+  NameIndex<const Entry*> index_;  ///< into `own_`: every word of a text is looked up
   const Names* common_ = nullptr;
 };
 
@@ -170,7 +170,7 @@ struct Declarations {
   Names<HandDeclaration> hands;
   Names<Declared<MaterialDecl>> materials;
   /// What imported files keep to themselves, and where: to tell it from what is unknown.
-  std::map<std::string, Span> private_names;
+  std::map<std::string, Span, std::less<>> private_names;
   std::vector<Map> own_maps;
   std::vector<Threshold> own_thresholds;
   std::vector<Rule> own_rules;
@@ -202,7 +202,7 @@ struct Declarations {
   std::vector<std::string> percept_spellings() const;
 
   /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
-  Dimension dimension(std::string_view name) const {
+  Dimension dimension(const NameKey& name) const {
     const auto* found = dimensions.find(name);
     return found ? *found : Dimension{};
   }

@@ -32,7 +32,7 @@ std::string unit_documentation(const CheckedModule& module, const Span& declared
   if (module.modules.modules.empty()) return {};
   for (const auto& declaration : module.modules.modules.back()->tree.declarations)
     if (const auto* unit = std::get_if<UnitDecl>(&declaration); unit && unit->name.span == declared)
-      return unit->documentation;
+      return std::string(unit->documentation);
   return {};
 }
 
@@ -55,18 +55,18 @@ ModuleDescription describe_module(const CheckedModule& module, const SourceSet& 
   description.file = sources[module.modules.source].name;
   for (const auto& [name, entry] : offered(declarations.functions, module)) {
     const auto& [tree, node, home] = entry->what;
-    DescribedFunction function{.name = name, .arguments = {}, .documentation = node->documentation};
+    DescribedFunction function{.name = name, .arguments = {}, .documentation = std::string(node->documentation)};
     for (const auto& parameter : node->parameters)
       function.arguments.push_back(
-          {.name = parameter.name.text,
-           .dimension = parameter.dimension ? parameter.dimension->text : "",
+          {.name = std::string(parameter.name.text),
+           .dimension = std::string(parameter.dimension ? parameter.dimension->text : ""),
            .default_value = parameter.default_value ? written(*tree, *parameter.default_value, sources) : ""});
     description.functions.push_back(std::move(function));
   }
   for (const auto& [name, entry] : offered(declarations.constants, module))
     description.constants.push_back({.name = name,
                                      .value = written(*entry->what.tree, entry->what.node->value, sources),
-                                     .documentation = entry->what.node->documentation});
+                                     .documentation = std::string(entry->what.node->documentation)});
   for (const auto& [name, entry] : offered(declarations.units, module))
     description.units.push_back({.name = name,
                                  .dimension = names.words(entry->what.dimension),

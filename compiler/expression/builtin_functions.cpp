@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace wale {
 
@@ -63,17 +62,17 @@ const std::vector<Builtin>& builtins() {
   return table;
 }
 
-const Builtin* builtin_named(std::string_view name) {
-  static const auto table = [] {
-    std::unordered_map<std::string_view, const Builtin*> by_name;
-    for (const Builtin& each : builtins()) by_name.emplace(each.name, &each);
+const Builtin* builtin_named(const NameKey& name) {
+  static const auto index = [] {
+    NameIndex<const Builtin*> by_name;
+    for (const Builtin& each : builtins()) by_name.add(each.name, &each);
     return by_name;
   }();
-  const auto found = table.find(name);
-  return found == table.end() ? nullptr : found->second;
+  const auto* found = index.find(name);
+  return found ? *found : nullptr;
 }
 
-bool is_builtin_function(std::string_view name) { return name == "curve" || builtin_named(name) != nullptr; }
+bool is_builtin_function(const NameKey& name) { return name.name == "curve" || builtin_named(name) != nullptr; }
 
 bool BuiltinFunctions::number(std::size_t i) const {
   if (value(i).type == Value::Type::number) return true;

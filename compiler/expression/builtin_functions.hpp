@@ -22,7 +22,7 @@ struct Builtin {
 /// All but `curve`, which takes any number of arguments.
 const std::vector<Builtin>& builtins();
 /// The one of that name, or null.
-const Builtin* builtin_named(std::string_view name);
+const Builtin* builtin_named(const NameKey& name);
 
 /// The meaning of each function that the compiler knows; a member a function, so that each reads on its own.
 struct BuiltinFunctions {

@@ -47,7 +47,7 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
   actuals.assign(formals.size(), {});
   bool good = true;
   std::size_t position = 0;
-  for (const auto& argument : call.arguments) {
+  for (const auto& argument : tree.arguments(call)) {
     const Span span = tree.span(argument.value);
     const Value value = check(tree, argument.value, scope);
     std::size_t index = position;
@@ -87,13 +87,14 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
 
 Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
-  auto* binding = scope.find(call.callee.text);
+  const NameKey callee = call.callee.text;
+  auto* binding = scope.find(callee);
   if (binding && binding->value.type == Value::Type::field) {
     binding->used = true;
     return call_field(tree, expr, call, binding->value, scope);
   }
-  const Builtin* builtin = builtin_named(call.callee.text);
-  const auto* function = builtin ? nullptr : declarations_->functions.find(call.callee.text);  // no name is both
+  const Builtin* builtin = builtin_named(callee);
+  const auto* function = builtin ? nullptr : declarations_->functions.find(callee);  // no name is both
   if (binding && !function && binding->value.failed()) {
     binding->used = true;
     return failed(span);  // reported where it was declared
@@ -106,11 +107,12 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
       if (constant.failed()) return constant;
       if (constant.type == Value::Type::field) return call_field(tree, expr, call, constant, scope);
     }
-    for (const auto& argument : call.arguments) check(tree, argument.value, scope);  // they have errors of their own
+    for (const auto& argument : tree.arguments(call))
+      check(tree, argument.value, scope);  // they have errors of their own
     return unknown_function(call, scope);
   }
-  Arguments arguments(*this);
-  std::vector<Actual>& actuals = arguments.actuals;
+  const OpenFrame open(*this);
+  std::vector<Actual>& actuals = (*open).actuals;
   if (!bind_arguments(tree, call, builtin->formals, scope, actuals)) return failed(span);
   for (std::size_t i = 0; i < builtin->needed; ++i)
     if (!actuals[i].given)
@@ -129,7 +131,7 @@ Value ExpressionChecker::call(const SyntaxTree& tree, ExprId expr, const Call& c
 }
 
 Value ExpressionChecker::unknown_function(const Call& call, Scope& scope) {
-  const std::string& name = call.callee.text;
+  const std::string_view name = call.callee.text;
   if (scope.find(name) || declarations_->constants.contains(name) || names_hand_or_patch(name))
     return report(Code::wrong_type, call.callee.span, fmt::format("`{}` is no function", name), "",
                   fmt::format("to multiply, write `{} * (…)`", name));
@@ -166,12 +168,13 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   const Span span = tree.span(expr);
   if (!may_expand(call.callee.text, call.callee.span, span)) return failed(span);
   const auto& parameters = function.node->parameters;
-  std::vector<std::string_view> formals;
-  formals.reserve(parameters.size());
+  const OpenFrame open(*this);
+  Frame& frame = *open;
+  auto& formals = frame.formals;
+  const auto& actuals = frame.actuals;
+  formals.clear();
   for (const auto& parameter : parameters) formals.push_back(parameter.name.text);
-  Arguments arguments(*this);
-  std::vector<Actual>& actuals = arguments.actuals;
-  const bool bound = bind_arguments(tree, call, formals, scope, actuals);
+  const bool bound = bind_arguments(tree, call, formals, scope, frame.actuals);
   bool good = bound;
   for (std::size_t i = 0; i < formals.size(); ++i) {
     if (!actuals[i].given && !parameters[i].default_value && bound) {
@@ -183,13 +186,13 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
     const Value& value = actuals[i].value;
     const bool measurable = value.type == Value::Type::number || value.type == Value::Type::vector;
     if (!actuals[i].given || !dimension || !measurable || value.dimension == *dimension) continue;
-    for (const auto& argument : call.arguments)
+    for (const auto& argument : tree.arguments(call))
       if (tree.span(argument.value) == actuals[i].span)
         report_dimension(tree, argument.value, scope, value, *dimension);
     good = false;
   }
   if (!good) return failed(span);
-  return expanded(function, actuals, scope, span);
+  return expanded(function, frame, scope, span);
 }
 
 std::optional<Dimension> ExpressionChecker::dimension_of(const FormalParameter& formal,
@@ -200,16 +203,19 @@ std::optional<Dimension> ExpressionChecker::dimension_of(const FormalParameter& 
 
 Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
                                    const Scope& scope, Span span) {
-  actuals.resize(function.node->parameters.size());
-  return expanded(function, actuals, scope, span);
+  const OpenFrame open(*this);
+  (*open).actuals = std::move(actuals);
+  (*open).actuals.resize(function.node->parameters.size());
+  return expanded(function, *open, scope, span);
 }
 
-Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals,
-                                  const Scope& scope, Span span) {
+/// The function's body with the frame's actual arguments.
+Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, Frame& frame, const Scope& scope, Span span) {
   const auto& declaration = *function.node;
-  Scope inner;
+  const std::vector<Actual>& actuals = frame.actuals;
+  Scope& inner = frame.names;
+  inner.clear();
   inner.hand = scope.hand;
-  inner.reserve(actuals.size());
   bool good = true;
   const auto* outside_names = std::exchange(declarations_, function.home);
   for (std::size_t i = 0; i < actuals.size(); ++i) {
@@ -250,16 +256,21 @@ Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, const 
 }
 
 void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span) {
+  if (result.type != Value::Type::vector) return;
   // A function with an argument that may be left open renders a percept: that argument is the carrier's size.
   for (const auto& formal : function.parameters) {
-    if (!formal.default_value || result.type != Value::Type::vector) continue;
-    const Value& size = formals.at(formal.name.text).value;
-    const std::string name = function.name.text + " " + formal.name.text;
+    if (!formal.default_value) continue;
+    const std::string_view words[] = {function.name.text, formal.name.text};
+    const auto is_carrier = [&](std::string_view carrier) {
+      return carrier.size() == words[0].size() + 1 + words[1].size() && carrier.starts_with(words[0]) &&
+             carrier[words[0].size()] == ' ' && carrier.ends_with(words[1]);
+    };
     bool renders = false;
     surroundings_.declarations.percepts.each(
-        [&](const std::string&, const Percept& percept) { renders = renders || percept.carrier == name; });
+        [&](const std::string&, const Percept& percept) { renders = renders || is_carrier(percept.carrier); });
     if (!renders) continue;
-    Carrier carrier{.name = name,
+    const Value& size = formals.at(formal.name.text).value;
+    Carrier carrier{.name = fmt::format("{} {}", words[0], words[1]),
                     .size = size.x,
                     .open = terms_[size.x].kind == TermKind::open,
                     .dimension = size.dimension,

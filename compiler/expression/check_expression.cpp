@@ -85,7 +85,7 @@ Value ExpressionChecker::check(const SyntaxTree& tree, ExprId expr, Scope& scope
                                },
                                [&](const NameUse& use) {
                                  auto* binding = scope.find(use.name);
-                                 return binding ? bound(*binding, span, scope) : name({use.name, span}, scope);
+                                 return binding ? bound(*binding, span, scope) : free_name({use.name, span}, scope);
                                },
                                [&](const Unary& node) { return unary(tree, expr, node, scope); },
                                [&](const Binary& node) { return binary(tree, expr, node, scope); },
@@ -103,13 +103,15 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
   const Span span = tree.span(expr);
   double factor = 1;
   Dimension dimension;
+  const auto suffix = tree.suffix(literal);
   std::size_t next = 0;
-  for (; next < literal.suffix.size(); ++next) {
-    const auto& part = literal.suffix[next];
-    const Unit* found = unit(part.name.text);
+  for (; next < suffix.size(); ++next) {
+    const auto& part = suffix[next];
+    const NameKey key = part.name.text;
+    const Unit* found = unit(key);
     if (!found) break;
-    if (const auto* binding = scope.find(part.name.text)) return ambiguous_unit(part.name, binding->declared);
-    if (const auto* constant = declarations_->constants.entry(part.name.text))
+    if (const auto* binding = scope.find(key)) return ambiguous_unit(part.name, binding->declared);
+    if (const auto* constant = declarations_->constants.entry(key))
       return ambiguous_unit(part.name, constant->declared);
     const int exponent = part.divides ? -part.exponent : part.exponent;
     if (exponent == 1) {  // as nearly always
@@ -131,8 +133,8 @@ Value ExpressionChecker::number(const SyntaxTree& tree, ExprId expr, const Numbe
   Value value{.type = Value::Type::number, .x = terms_.literal(scaled, span), .dimension = dimension, .span = span};
 
   // What follows the units is a product or quotient with names: 0.3 denim, 5 N / mass.
-  for (; next < literal.suffix.size(); ++next) {
-    const auto& part = literal.suffix[next];
+  for (; next < suffix.size(); ++next) {
+    const auto& part = suffix[next];
     if (!has_meaning(part.name.text, scope)) {
       if (const auto hidden = private_name(part.name)) return *hidden;
       return report(Code::unknown_unit, part.name.span, fmt::format("nothing declares a unit `{}`", part.name.text), "",

@@ -87,24 +87,33 @@ class ExpressionChecker {
     friend bool operator==(const Callee&, const Callee&) = default;
   };
 
-  /// Room for the arguments of a call, used again for later ones: nearly everything in an expression is a call.
-  struct Arguments {
-    ExpressionChecker& checker;
+  /// What a call works with: its arguments, what the function calls them, and the names that its body sees.
+  struct Frame {
+    std::vector<std::string_view> formals;
     std::vector<Actual> actuals;
-
-    explicit Arguments(ExpressionChecker& of) : checker(of) {
-      if (checker.rooms_.empty()) return;
-      actuals = std::move(checker.rooms_.back());
-      checker.rooms_.pop_back();
+    Scope names;
+  };
+  /// A frame while a call is read. It is used again for later calls: nearly everything in an expression is a call.
+  class OpenFrame {
+   public:
+    explicit OpenFrame(ExpressionChecker& of) : checker_(of) {
+      if (checker_.open_frames_ == checker_.frames_.size()) checker_.frames_.push_back(std::make_unique<Frame>());
+      frame_ = checker_.frames_[checker_.open_frames_++].get();
     }
-    ~Arguments() { checker.rooms_.push_back(std::move(actuals)); }
-    Arguments(const Arguments&) = delete;
-    Arguments& operator=(const Arguments&) = delete;
+    ~OpenFrame() { --checker_.open_frames_; }
+    OpenFrame(const OpenFrame&) = delete;
+    OpenFrame& operator=(const OpenFrame&) = delete;
+    Frame& operator*() const { return *frame_; }
+
+   private:
+    ExpressionChecker& checker_;
+    Frame* frame_;
   };
 
   Value number(const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal, Scope& scope);
   Value bound(Scope::Binding& binding, Span span, Scope& scope);
   Value name(const Word& word, Scope& scope);
+  Value free_name(const Word& word, Scope& scope);
   Value unary(const SyntaxTree& tree, ExprId expr, const Unary& unary, Scope& scope);
   Value binary(const SyntaxTree& tree, ExprId expr, const Binary& binary, Scope& scope);
   Value conditional(const SyntaxTree& tree, ExprId expr, const Conditional& conditional, Scope& scope);
@@ -124,8 +133,7 @@ class ExpressionChecker {
   bool has_meaning(std::string_view name, const Scope& scope) const;
   bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string_view>& formals,
                       Scope& scope, std::vector<Actual>& actuals);
-  Value expanded(const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals, const Scope& scope,
-                 Span span);
+  Value expanded(const Declared<FunctionDecl>& function, Frame& frame, const Scope& scope, Span span);
   void record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span);
 
   Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
@@ -164,7 +172,7 @@ class ExpressionChecker {
   std::string inside(Span span) const;       ///< " (inside `grating`)", where the place does not say so
   std::string called_from(Span span) const;  ///< "called on line 12", for a place inside a function of the same file
   const DimensionNames& names() const { return declarations_->names(); }
-  const Unit* unit(std::string_view name) const { return declarations_->units.find(name); }
+  const Unit* unit(const NameKey& name) const { return declarations_->units.find(name); }
 
   Surroundings surroundings_;
   const Declarations* declarations_ = &surroundings_.declarations;  ///< changes inside functions of other files
@@ -183,7 +191,8 @@ class ExpressionChecker {
   std::optional<Span> outside_;  ///< what terms were attributed to before the outermost call
   std::vector<Callee> callees_;
   std::vector<std::unique_ptr<const Field>> fields_;  ///< that values point to
-  std::vector<std::vector<Actual>> rooms_;            ///< of `Arguments` that are done with
+  std::vector<std::unique_ptr<Frame>> frames_;
+  std::size_t open_frames_ = 0;  ///< the first of `frames_`
 };
 
 /// What makes a value change while the hand rests, in words.
@@ -193,11 +202,11 @@ std::string what_changes(const Dependence& dependence);
 inline constexpr std::size_t deepest_call = 64;
 
 /// Whether the compiler itself defines a function of that name.
-bool is_builtin_function(std::string_view name);
+bool is_builtin_function(const NameKey& name);
 
 /// Whether the language itself gives this name a meaning on a patch: the hand's place and motion, the patch's extents,
 /// time.
-bool names_hand_or_patch(std::string_view name);
+bool names_hand_or_patch(const NameKey& name);
 
 /// The value of a term that depends on nothing, in double precision, or nothing. With `parameters` it may depend on
 /// those too.

@@ -88,12 +88,12 @@ Value ExpressionChecker::call_field(const SyntaxTree& tree, ExprId expr, const C
                                     Scope& scope) {
   const Span span = tree.span(expr);
   std::vector<Value> arguments;
-  for (const auto& argument : call.arguments) arguments.push_back(check(tree, argument.value, scope));
+  for (const auto& argument : tree.arguments(call)) arguments.push_back(check(tree, argument.value, scope));
   for (const auto& argument : arguments)
     if (argument.failed()) return failed(span);
   const bool of_place = field.field->kind == Field::Kind::relief || field.field->kind == Field::Kind::memory;
   const auto due = of_place ? Value::Type::vector : Value::Type::number;
-  if (arguments.size() != 1 || call.arguments[0].name)
+  if (arguments.size() != 1 || tree.arguments(call)[0].name)
     return report(
         Code::missing_argument, span,
         fmt::format("`{}` is asked at one place, and {} {} given", call.callee.text, arguments.size(),
@@ -105,7 +105,7 @@ Value ExpressionChecker::call_field(const SyntaxTree& tree, ExprId expr, const C
                   fmt::format("{} is due here, not {}", type_words(due), type_words(arguments[0].type)), "",
                   of_place ? "give a place, such as `hand` or `vector(x, 0 mm)`" : "give a number, such as `x`");
   if (arguments[0].dimension != field.field->from) {
-    report_dimension(tree, call.arguments[0].value, scope, arguments[0], field.field->from);
+    report_dimension(tree, tree.arguments(call)[0].value, scope, arguments[0], field.field->from);
     return failed(span);
   }
   return at(*field.field, arguments[0], span);
@@ -116,7 +116,7 @@ Value ExpressionChecker::curve(const SyntaxTree& tree, ExprId expr, const Call& 
   const Span span = tree.span(expr);
   std::vector<Value> values;
   bool good = true;
-  for (const auto& argument : call.arguments) {
+  for (const auto& argument : tree.arguments(call)) {
     if (argument.name) {
       report(Code::unknown_argument, argument.name->span, "the arguments of `curve` have no names", "",
              "give places and values by turns, as in `curve(0 mm, 0 N, 2 mm, 1 N)`");
@@ -139,7 +139,7 @@ Value ExpressionChecker::curve(const SyntaxTree& tree, ExprId expr, const Call& 
                     "make a curve for each part of a vector");
     const Dimension& due = i % 2 == 0 ? field.from : field.to;
     if (values[i].dimension != due) {
-      report_dimension(tree, call.arguments[i].value, scope, values[i], due);
+      report_dimension(tree, tree.arguments(call)[i].value, scope, values[i], due);
       return failed(span);
     }
     if (terms_.dependence(values[i].x).in_tick())

@@ -22,7 +22,8 @@ struct ProductName {
 /// The names that a chain of products and quotients is made of; other factors are passed over.
 void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vector<ProductName>& names) {
   const Expr& node = tree.expr(expr);
-  if (const auto* use = std::get_if<NameUse>(&node)) names.push_back({use->name, tree.span(expr), divides});
+  if (const auto* use = std::get_if<NameUse>(&node))
+    names.push_back({std::string(use->name), tree.span(expr), divides});
   if (const auto* unary = std::get_if<Unary>(&node)) collect_names(tree, unary->operand, divides, names);
   if (const auto* binary = std::get_if<Binary>(&node)) {
     if (binary->op == BinaryOperator::multiply || binary->op == BinaryOperator::divide) {
@@ -63,7 +64,7 @@ std::string surplus(const DimensionNames& names, const Dimension& ratio) {
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources) {
   const auto* literal = std::get_if<NumberLiteral>(&tree.expr(bare(tree, expr)));
   // 1/m cannot follow a number, and a number with a unit such as % is not bare.
-  if (!literal || !literal->suffix.empty() || unit.empty() || !begins_name(unit.front())) return {};
+  if (!literal || literal->suffix.count > 0 || unit.empty() || !begins_name(unit.front())) return {};
   const Span span = tree.span(expr);
   return {insert_after(span, " " + unit, fmt::format("write `{} {}`", sources.text(span), unit), false)};
 }

@@ -37,11 +37,19 @@ constexpr InputName input_names[] = {
     {"patch_rim", Input::patch_rim, {}, "length"},
 };
 
+const InputName* input_named(const NameKey& name) {
+  static const auto index = [] {
+    NameIndex<const InputName*> by_name;
+    for (const InputName& each : input_names) by_name.add(each.name, &each);
+    return by_name;
+  }();
+  const auto* found = index.find(name);
+  return found ? *found : nullptr;
+}
+
 }  // namespace
 
-bool names_hand_or_patch(std::string_view name) {
-  return std::ranges::find(input_names, name, &InputName::name) != std::end(input_names);
-}
+bool names_hand_or_patch(const NameKey& name) { return input_named(name) != nullptr; }
 
 bool ExpressionChecker::has_meaning(std::string_view name, const Scope& scope) const {
   const std::string_view whole = name.substr(0, name.find('.'));
@@ -49,8 +57,8 @@ bool ExpressionChecker::has_meaning(std::string_view name, const Scope& scope) c
 }
 
 std::optional<Value> ExpressionChecker::input(const Word& word, const Scope& scope) {
-  const auto found = std::ranges::find(input_names, word.text, &InputName::name);
-  if (found == std::end(input_names) || !scope.hand) return std::nullopt;
+  const InputName* found = scope.hand ? input_named(word.text) : nullptr;
+  if (!found) return std::nullopt;
   if (word.text.starts_with("raw_") && callees_.empty())
     surroundings_.diagnostics.report(
         {.code = Code::raw_signal,
@@ -102,8 +110,8 @@ std::optional<Value> ExpressionChecker::constant_named(const Word& word) {
 /// `hand.x`, `p.y`: one part of a vector.
 std::optional<Value> ExpressionChecker::part_of_vector(const Word& word, Scope& scope) {
   const auto dot = word.text.rfind('.');
-  if (dot == std::string::npos) return std::nullopt;
-  const std::string whole = word.text.substr(0, dot), part = word.text.substr(dot + 1);
+  if (dot == std::string_view::npos) return std::nullopt;
+  const std::string_view whole = word.text.substr(0, dot), part = word.text.substr(dot + 1);
   if (!has_meaning(whole, scope)) return std::nullopt;
   Value value = name({whole, word.span}, scope);
   if (value.failed()) return value;
@@ -142,7 +150,12 @@ Value ExpressionChecker::bound(Scope::Binding& binding, Span span, Scope& scope)
 }
 
 Value ExpressionChecker::name(const Word& word, Scope& scope) {
-  if (auto* binding = scope.find(word.text)) return bound(*binding, word.span, scope);
+  auto* binding = scope.find(word.text);
+  return binding ? bound(*binding, word.span, scope) : free_name(word, scope);
+}
+
+/// The value of a name that the scope does not declare.
+Value ExpressionChecker::free_name(const Word& word, Scope& scope) {
   if (const auto filled_in = input(word, scope)) return *filled_in;
   if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
   if (const auto constant = constant_named(word)) return *constant;

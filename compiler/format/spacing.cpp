@@ -8,7 +8,7 @@ namespace {
 
 void add_units(const SyntaxTree& tree, std::set<std::string>& units) {
   for (const Declaration& declaration : tree.declarations)
-    if (const auto* unit = std::get_if<UnitDecl>(&declaration)) units.insert(unit->name.text);
+    if (const auto* unit = std::get_if<UnitDecl>(&declaration)) units.emplace(unit->name.text);
 }
 
 std::set<std::string> units_of_every_file() {
@@ -61,7 +61,7 @@ Roles roles_of(const SyntaxTree& tree) {
     if (std::holds_alternative<Unary>(tree.exprs[i])) roles.signs.insert(tree.expr_spans[i].begin);
     if (const auto* call = std::get_if<Call>(&tree.exprs[i])) roles.called.insert(call->callee.span.begin);
     if (const auto* number = std::get_if<NumberLiteral>(&tree.exprs[i]))
-      for (const SuffixFactor& factor : number->suffix)
+      for (const SuffixFactor& factor : tree.suffix(*number))
         if (factor.divides) roles.divisors.insert(factor.name.span.begin);
   }
   for (const Declaration& declaration : tree.declarations) {

@@ -32,11 +32,11 @@ class Declarer {
                       fmt::format("more than {} base dimensions", Dimension::capacity),
                       "define it by others, as in `dimension area = length^2`");
       dimension.twelfths[names.base_units.size()] = Dimension::unit_exponent;
-      names.base_units.push_back(node.name.text);  // until its unit is declared
+      names.base_units.emplace_back(node.name.text);  // until its unit is declared
     }
     enter(declarations_.dimensions, node, dimension);
     enter(declarations_.dimension_bounds, node, DimensionBounds{&tree_, node.range});
-    names.dimensions.push_back({node.name.text, dimension});
+    names.dimensions.push_back({std::string(node.name.text), dimension});
   }
 
   void operator()(const UnitDecl& node) {
@@ -66,7 +66,7 @@ class Declarer {
     }
     enter(declarations_.units, node, unit);
     if (unit.factor == 1 && !unit.dimension.plain())
-      declarations_.shared_names->own().units.push_back({node.name.text, unit.dimension});
+      declarations_.shared_names->own().units.push_back({std::string(node.name.text), unit.dimension});
   }
 
   void operator()(const Constant& node) {
@@ -158,7 +158,7 @@ class Declarer {
 
   std::optional<Dimension> suffix_of(const NumberLiteral& number) {
     Dimension dimension;
-    for (const auto& part : number.suffix) {
+    for (const auto& part : tree_.suffix(number)) {
       const auto* found = declarations_.dimensions.find(part.name.text);
       const auto raised =
           found ? power(*found, part.divides ? -part.exponent : part.exponent) : std::optional<Dimension>();
@@ -217,7 +217,7 @@ class Declarer {
 /// One kind of names from one file to another.
 template <typename T>
 void import_kind(const Names<T>& from, const Import& import, Names<T>& into, const char* kind,
-                 std::map<std::string, Span>& hidden, const SourceSet& sources, Diagnostics& diagnostics) {
+                 std::map<std::string, Span, std::less<>>& hidden, const SourceSet& sources, Diagnostics& diagnostics) {
   for (const auto& [name, entry] : from.own()) {
     if (entry.imported) continue;
     if (!entry.exported) {

@@ -13,9 +13,9 @@ void read_workspace(RecordReader& reader, DeviceProfile& profile) {
   if (!workspace || workspace->items.empty()) return;
   const auto* call =
       workspace->items[0].value ? std::get_if<Call>(&reader.tree.expr(*workspace->items[0].value)) : nullptr;
-  if (call && call->callee.text == "disc" && call->arguments.size() == 1)
+  if (call && call->callee.text == "disc" && call->arguments.count == 1)
     profile.workspace_diameter =
-        reader.value(call->arguments[0].value, reader.declarations.dimension("length")).value_or(0);
+        reader.value(reader.tree.arguments(*call)[0].value, reader.declarations.dimension("length")).value_or(0);
   if (!(profile.workspace_diameter > 0))
     reader.report(Code::wrong_type, workspace->span, "a workspace is a disc of some diameter",
                   "write, for example, `workspace disc(228.6 mm)`");
@@ -131,7 +131,7 @@ void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::
 
 void declare_device(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  DeviceDeclaration device{.documentation = record.documentation, .span = record.name.span};
+  DeviceDeclaration device{.documentation = std::string(record.documentation), .span = record.name.span};
   DeviceProfile& profile = device.profile;
   profile.name = record.name.text;
   if (const auto* other = declarations.devices.entry(profile.name))
@@ -176,7 +176,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed") && (device.assumed.empty() || device.assumed.back() != setting.key.text))
-        device.assumed.push_back(setting.key.text);
+        device.assumed.emplace_back(setting.key.text);
   const auto known = [&](const char* key) {
     return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end() &&
            std::ranges::find(device.unknown, key) == device.unknown.end();

@@ -34,7 +34,7 @@ std::string grade_words() {
 
 /// `on sandpaper`: where something was measured; empty where the setting says nothing.
 std::string measured_on(const Setting& on) {
-  return on.on ? on.on->text : on.items.empty() ? "" : words_of(on.items[0]);
+  return on.on ? std::string(on.on->text) : on.items.empty() ? "" : words_of(on.items[0]);
 }
 
 /// `evidence slope published, handle transferred`: the grade of each part goes where the list says. What is no grade is
@@ -69,7 +69,7 @@ int whole_number(RecordReader& reader, const char* key) {
 /// `period 0.7 mm .. 10 mm`, `amplitude above 1.1 N`, `period below 2.5 mm`.
 std::optional<Map::Condition> condition_of(RecordReader& reader, const SettingItem& item) {
   if (item.words.empty() || !item.value) return std::nullopt;
-  Map::Condition condition{.quantity = item.words[0].text};
+  Map::Condition condition{.quantity = std::string(item.words[0].text)};
   const auto first = reader.constant(*item.value);
   if (!first) return condition;
   condition.dimension = first->dimension;
@@ -104,7 +104,8 @@ class MapReader {
 
   Map read() {
     const RecordDecl& record = reader_.record;
-    map_ = {.percept = percept_.name, .from = record.from ? record.from->text : "", .span = record.name.span};
+    map_ = {
+        .percept = percept_.name, .from = std::string(record.from ? record.from->text : ""), .span = record.name.span};
     map_.exported = record.exported;
     if (const auto* name = reader_.setting("name"); name && !name->items.empty()) map_.name = words_of(name->items[0]);
     map_.source = reader_.text("source");
@@ -195,7 +196,7 @@ class MapReader {
                          "write the percept and its carrier's argument, as in `couples stickiness drag`");
           continue;
         }
-        map_.couples.push_back({other->name, item.words[1].text});
+        map_.couples.push_back({other->name, std::string(item.words[1].text)});
       }
   }
 
@@ -320,7 +321,7 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
 
 void declare_threshold(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  Threshold threshold{.cue = record.name.text, .span = record.name.span, .exported = record.exported};
+  Threshold threshold{.cue = std::string(record.name.text), .span = record.name.span, .exported = record.exported};
   if (const auto* quantity = reader.required("quantity", "force"); quantity && !quantity->items.empty()) {
     const std::string name = words_of(quantity->items[0]);
     if (const auto* known = declarations.dimensions.find(name))
@@ -372,12 +373,12 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
 
 void declare_rule(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  Rule rule{.name = record.name.text, .span = record.name.span, .exported = record.exported};
+  Rule rule{.name = std::string(record.name.text), .span = record.name.span, .exported = record.exported};
   for (const Setting* setting : reader.settings("case")) {
     Rule::Case each{.span = setting->span};
     for (const auto& item : setting->items) {
       const auto* label = item.value ? std::get_if<TextLiteral>(&reader.tree.expr(*item.value)) : nullptr;
-      const std::string first = item.words.empty() ? "" : item.words[0].text;
+      const std::string_view first = item.words.empty() ? "" : item.words[0].text;
       if (label && &item == &setting->items.front()) {
         each.label = label->text;
       } else if (first == "kind" && item.words.size() == 2) {

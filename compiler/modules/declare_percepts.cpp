@@ -103,7 +103,9 @@ void read_exertion(RecordReader& reader, Percept& percept) {
 
 void declare_percept(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  Percept percept{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
+  Percept percept{.name = std::string(record.name.text),
+                  .documentation = std::string(record.documentation),
+                  .span = record.name.span};
   if (const auto* other = declarations.percepts.entry(percept.name))
     return reader.reject(Code::declared_twice, record.name.span,
                          fmt::format("a percept `{}` is declared already", percept.name),
@@ -145,7 +147,7 @@ void read_realisations(RecordReader& reader, const Declarations& declarations, c
     bool good = item.words.size() == 1 && item.equals;
     for (std::size_t i = 1; i < setting->items.size(); ++i) {
       const SettingItem& further = setting->items[i];
-      const std::string word = further.words.empty() ? "" : further.words[0].text;
+      const std::string_view word = further.words.empty() ? "" : further.words[0].text;
       good = good && ((word == "by" && further.words.size() == 2) || (word == "active" && further.value) ||
                       (word == "rate" && further.equals) || (word == "period" && further.value));
       if (good && word == "by") realisation.by = further.words[1].text;
@@ -163,7 +165,7 @@ void read_realisations(RecordReader& reader, const Declarations& declarations, c
       continue;
     }
     realisation.force = *item.equals;
-    const std::string& name = item.words[0].text;
+    const std::string name(item.words[0].text);
     if (!declarations.percepts.contains(name))
       reader.report(Code::unknown_name, item.words[0].span, fmt::format("nothing declares a percept `{}`", name),
                     did_you_mean(item.words[0].span, name, declarations.percepts.spellings(),
@@ -174,7 +176,9 @@ void read_realisations(RecordReader& reader, const Declarations& declarations, c
 
 void declare_class(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  DeviceClass of_devices{.name = record.name.text, .documentation = record.documentation, .span = record.name.span};
+  DeviceClass of_devices{.name = std::string(record.name.text),
+                         .documentation = std::string(record.documentation),
+                         .span = record.name.span};
   if (const auto* other = declarations.classes.entry(of_devices.name))
     return reader.reject(Code::declared_twice, record.name.span,
                          fmt::format("a class of devices `{}` is declared already", of_devices.name),

@@ -10,7 +10,7 @@ namespace wale {
 
 std::string words_of(const SettingItem& item) {
   std::string text;
-  for (const auto& word : item.words) text += (text.empty() ? "" : " ") + word.text;
+  for (const auto& word : item.words) text += fmt::format("{}{}", text.empty() ? "" : " ", word.text);
   return text;
 }
 
@@ -96,7 +96,8 @@ std::string RecordReader::text(const std::string& key) {
   const Setting* found = setting(key);
   if (!found) return {};
   if (found->items.size() == 1 && found->items[0].value)
-    if (const auto* literal = std::get_if<TextLiteral>(&tree.expr(*found->items[0].value))) return literal->text;
+    if (const auto* literal = std::get_if<TextLiteral>(&tree.expr(*found->items[0].value)))
+      return std::string(literal->text);
   report(Code::wrong_type, found->span, fmt::format("`{}` is a text", key), fmt::format("write `{} \"…\"`", key));
   return {};
 }
@@ -122,7 +123,7 @@ std::vector<std::string> RecordReader::texts(const Setting& setting) {
   for (const auto& item : setting.items) {
     const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
     if (literal)
-      found.push_back(literal->text);
+      found.emplace_back(literal->text);
     else
       report(Code::wrong_type, item.span, fmt::format("`{}` takes texts in quotes", setting.key.text),
              fmt::format("write `{} \"…\"`", setting.key.text));
@@ -147,14 +148,14 @@ void RecordReader::report_unknown_settings() {
 }
 
 void declare_levels(RecordReader& reader, Declarations& declarations) {
-  Levels levels{.percept = reader.record.name.text, .levels = {}, .span = reader.record.name.span};
+  Levels levels{.percept = std::string(reader.record.name.text), .levels = {}, .span = reader.record.name.span};
   levels.exported = reader.record.exported;
   if (!declarations.percepts.contains(levels.percept))
     reader.report(Code::unknown_name, levels.span, fmt::format("nothing declares a percept `{}`", levels.percept),
                   did_you_mean(levels.span, levels.percept, declarations.percepts.spellings(),
                                "declare it, as in schema/percepts.wale"));
   for (const auto& setting : reader.record.settings) {
-    reader.setting(setting.key.text);  // every key is a name of the author's
+    reader.setting(std::string(setting.key.text));  // every key is a name of the author's
     const auto value = reader.quantity(setting, 0, "number");
     if (!value) continue;
     if (!(*value >= 0 && *value <= 1))
@@ -162,14 +163,14 @@ void declare_levels(RecordReader& reader, Declarations& declarations) {
                     fmt::format("the level `{}` is outside 0 .. 1", setting.key.text),
                     Advice("1 is the percept's reference stimulus").fact("low", 0).fact("high", 1));
     else
-      levels.levels.push_back({setting.key.text, *value, setting.key.span});
+      levels.levels.push_back({std::string(setting.key.text), *value, setting.key.span});
   }
   declarations.own_levels.push_back(std::move(levels));
 }
 
 void declare_hand(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  HandDeclaration hand{.name = record.name.text, .span = record.name.span};
+  HandDeclaration hand{.name = std::string(record.name.text), .span = record.name.span};
   if (const auto* other = declarations.hands.entry(hand.name))
     return reader.reject(Code::declared_twice, record.name.span,
                          fmt::format("a hand `{}` is declared already", hand.name), another_name(other->declared));

@@ -68,7 +68,7 @@ class ModuleLoader {
  private:
   std::shared_ptr<const Module> follow(const Import& import, const std::string& from) {
     const Word& module = import.module;
-    auto resolved = resolver_.module(module.text, from);
+    auto resolved = resolver_.module(std::string(module.text), from);
     if (const auto* problem = std::get_if<ResolveProblem>(&resolved)) {
       if (auto embedded = embedded_module(module)) return *embedded;
       diagnostics_.report({.code = Code::unknown_import,
@@ -86,7 +86,7 @@ class ModuleLoader {
 
   /// A module that is part of the binary, `std.friction`, unless the file asking is that module.
   std::optional<std::shared_ptr<const Module>> embedded_module(const Word& word) {
-    std::string name = "library/" + word.text;
+    std::string name = fmt::format("library/{}", word.text);
     std::replace(name.begin(), name.end(), '.', '/');
     name += ".wale";
     for (std::size_t i = 0; i < embedded_files().size(); ++i) {

@@ -70,13 +70,35 @@ constexpr auto first_spelling = [] {
   return first;
 }();
 
-/// A name of ASCII letters and Greek ones, which become `u`.
-std::string with_u(std::string_view name) {
-  std::string ascii;
-  for (std::size_t at = 0; at < name.size(); at += decode(name, at).bytes)
-    ascii += is_micro(decode(name, at).code) ? 'u' : name[at];
-  return ascii;
+/// By first byte: whether a reserved word begins with it.
+constexpr auto begins_reserved_word = [] {
+  std::array<bool, 256> table{};
+  for (const Spelling& each : reserved_words) table[static_cast<unsigned char>(each.text.front())] = true;
+  return table;
+}();
+
+TokenKind kind_of_word(std::string_view word) {
+  if (word.size() > longest_reserved_word || !begins_reserved_word[static_cast<unsigned char>(word.front())])
+    return TokenKind::name;
+  const auto found = std::ranges::find(reserved_words, word, &Spelling::text);
+  return found == std::end(reserved_words) ? TokenKind::name : found->kind;
 }
+
+bool is_bracket(TokenKind kind) { return kind >= TokenKind::left_parenthesis && kind <= TokenKind::right_brace; }
+
+/// What a token can be that begins with a byte, so that each byte is asked about once.
+enum class Beginning : std::uint8_t { other, newline, name, number, slash, quote };
+constexpr auto beginnings = [] {
+  std::array<Beginning, 256> table{};
+  for (int c = 0; c < 128; ++c) {
+    if (begins_name(static_cast<char>(c))) table[c] = Beginning::name;
+    if (is_digit(static_cast<char>(c))) table[c] = Beginning::number;
+  }
+  table['\n'] = Beginning::newline;
+  table['/'] = Beginning::slash;
+  table['"'] = Beginning::quote;
+  return table;
+}();
 
 }  // namespace
 
@@ -129,32 +151,32 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
 }
 
 void Lexer::next() {
-  const char c = text_[at_], after = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
-  if (c == ' ') {
-    while (++at_ < text_.size() && text_[at_] == ' ') {
-    }
-  } else if (c == '\n') {
-    starts_line_ = true;
-    ++at_;
-  } else if (begins_name(c)) {
-    name();
-  } else if (is_digit(c) || (c == '.' && is_digit(after))) {
-    number();
-  } else if (c == '/' && after == '/') {
-    line_comment();
-  } else if (c == '/' && after == '*') {
-    block_comment();
-  } else if (c == '"') {
-    text(1);
-  } else if (may_be_lookalike() || !symbol()) {
-    const Character character = decode(text_, at_);
-    if (is_blank(character.code)) {
-      at_ += character.bytes;
-    } else if (is_foreign_letter(character.code)) {
-      name();
-    } else if (!(may_be_lookalike() && (quote() || lookalike())) && !symbol()) {
-      unknown(character);
-    }
+  while (here() == ' ') ++at_;
+  if (at_ == text_.size()) return;
+  switch (beginnings[static_cast<unsigned char>(here())]) {
+    case Beginning::newline:
+      starts_line_ = true;
+      ++at_;
+      return;
+    case Beginning::name: return name();
+    case Beginning::number: return number();
+    case Beginning::quote: return text(1);
+    case Beginning::slash:
+      if (after() == '/') return line_comment();
+      if (after() == '*') return block_comment();
+      break;
+    case Beginning::other:
+      if (here() == '.' && is_digit(after())) return number();
+      break;
+  }
+  if (!may_be_lookalike() && symbol()) return;
+  const Character character = decode(text_, at_);
+  if (is_blank(character.code)) {
+    at_ += character.bytes;
+  } else if (is_foreign_letter(character.code)) {
+    foreign_name();
+  } else if (!(may_be_lookalike() && (quote() || lookalike())) && !symbol()) {
+    unknown(character);
   }
 }
 
@@ -228,57 +250,35 @@ void Lexer::exponent() {
 
 void Lexer::name() {
   const std::size_t begin = at_;
-  bool micro = false, foreign = false;
-  for (;;) {
-    const auto end = std::find_if_not(text_.begin() + at_, text_.end(), continues_name);
-    at_ = static_cast<std::size_t>(end - text_.begin());
-    if (end == text_.end()) break;
-    if (is_dot_in_name()) {
-      ++at_;
-      continue;
-    }
-    if (*end > 0) break;  // another ASCII character
-    const Character character = decode(text_, at_);
-    if (is_micro(character.code)) {
-      micro = true;
-    } else if (is_foreign_letter(character.code)) {
-      foreign = true;
-    } else {
-      break;
-    }
-    at_ += character.bytes;
+  do {
+    ++at_;
+    while (continues_name(here())) ++at_;
+  } while (is_dot_in_name());
+  if (here() < 0 && is_foreign_letter(decode(text_, at_).code)) {
+    at_ = begin;
+    return foreign_name();
   }
-  const std::string_view word = text_.substr(begin, at_ - begin);
-  if (foreign) {
-    // A name may be used many times; once is enough to say what is wrong with it.
-    if (reported_names_.emplace(word).second) {
-      report(Code::unexpected_character, begin, at_,
-             fmt::format("names are written in the letters a to z; `{}` is not", word),
-             "rename it with a-z, A-Z, 0-9 and `_`; texts in quotes may hold any letter");
-    }
-  } else if (micro) {
-    const std::string ascii = with_u(word);
-    report(Code::unexpected_character, begin, at_, fmt::format("`{}` is written without the Greek letter", word),
-           fmt::format("write `{}`", ascii), {replace(span(begin, at_), ascii)});
-    result_.texts.push_back(ascii);
-    return add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
-  }
-  if (word.size() <= longest_reserved_word)
-    for (const Spelling& reserved : reserved_words)
-      if (word.front() == reserved.text.front() && word == reserved.text) return add(reserved.kind, begin);
-  add(TokenKind::name, begin);
+  add(kind_of_word(text_.substr(begin, at_ - begin)), begin);
 }
 
 /// A text whose opening quote is `quote_bytes` long; one that opens typographically may close so.
 void Lexer::text(std::size_t quote_bytes) {
-  const std::size_t begin = at_;
+  const std::size_t begin = at_, inside = at_ + quote_bytes;
   const bool typographic = quote_bytes > 1;
-  std::string value;
-  at_ += quote_bytes;
+  at_ = inside;
+  while (!typographic && here() != '"' && here() != '\\' && here() != '\n' && at_ < text_.size()) ++at_;
+  if (typographic || here() != '"') return rewritten_text(begin, inside, typographic);
+  ++at_;
+  add_text(begin, text_.substr(inside, at_ - 1 - inside));  // as nearly always: what stands there
+}
+
+/// The rest of a text that is not what stands between its quotes.
+void Lexer::rewritten_text(std::size_t begin, std::size_t inside, bool typographic) {
+  std::string value(text_.substr(inside, at_ - inside));
   while (at_ < text_.size() && text_[at_] != '\n') {
     if (text_[at_] == '"') {
       ++at_;
-      return add_text(begin, std::move(value));
+      return add_text(begin, result_.rewrite(std::move(value)));
     }
     if (text_[at_] == '\\') {
       value += escape();
@@ -288,18 +288,16 @@ void Lexer::text(std::size_t quote_bytes) {
       for (const std::string_view mark : typographic_quotes) {
         if (!starts(mark)) continue;
         at_ += mark.size();
-        return add_text(begin, std::move(value));
+        return add_text(begin, result_.rewrite(std::move(value)));
       }
     }
-    const std::size_t plain = at_++;
-    while (!typographic && at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\\' && text_[at_] != '\n') ++at_;
-    value.append(text_, plain, at_ - plain);
+    value += text_[at_++];
   }
   if (at_ > begin && text_[at_ - 1] == '\r') --at_;
   if (!typographic) {
     report(Code::unterminated_text, begin, at_, "this text does not end", "close it with `\"` on the same line");
   }
-  add_text(begin, std::move(value));
+  add_text(begin, result_.rewrite(std::move(value)));
 }
 
 char Lexer::escape() {
@@ -325,13 +323,13 @@ bool Lexer::symbol() {
   for (std::size_t i = first_spelling[static_cast<unsigned char>(first)]; i < std::size(punctuation); ++i) {
     const Spelling& each = punctuation[i];
     if (each.text.front() != first) break;
-    if (!starts(each.text)) continue;
+    if (each.text.size() > 1 && !starts(each.text)) continue;
     if ((each.kind == TokenKind::part_x || each.kind == TokenKind::part_y) && !is_part()) continue;
     const std::size_t begin = at_;
     at_ += each.text.size();
     const auto index = static_cast<std::uint32_t>(result_.tokens.size());
     add(each.kind, begin);
-    match_brackets(each.kind, index);
+    if (is_bracket(each.kind)) match_brackets(each.kind, index);
     return true;
   }
   return false;
@@ -372,20 +370,14 @@ void Lexer::match_brackets(TokenKind kind, std::uint32_t index) {
   }
 }
 
-void Lexer::add_text(std::size_t begin, std::string value) {
-  result_.texts.push_back(std::move(value));
+void Lexer::add_text(std::size_t begin, std::string_view value) {
+  result_.texts.push_back(value);
   add(TokenKind::text, begin, static_cast<std::uint32_t>(result_.texts.size() - 1));
 }
 
 std::uint32_t Lexer::add_number(double value) {
   result_.numbers.push_back(value);
   return static_cast<std::uint32_t>(result_.numbers.size() - 1);
-}
-
-void Lexer::add(TokenKind kind, std::size_t begin, std::uint32_t value) {
-  result_.tokens.push_back(
-      {kind, starts_line_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_), value});
-  starts_line_ = false;
 }
 
 void Lexer::report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
@@ -400,7 +392,7 @@ void Lexer::report(Code code, std::size_t begin, std::size_t end, std::string me
 }
 
 Tokens lex(const SourceSet& sources, SourceId source, Diagnostics& diagnostics) {
-  return Lexer(sources[source].text, source, diagnostics).run();
+  return Lexer(sources, source, diagnostics).run();
 }
 
 }  // namespace wale

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <forward_list>
 #include <map>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.hpp"
@@ -61,12 +64,20 @@ struct Token {
   std::uint32_t value = 0;
 };
 
-/// A file as tokens; the last one is always `end`.
+/// A file as tokens; the last one is always `end`. Texts are parts of `source` or of `rewritten`.
 struct Tokens {
   std::vector<Token> tokens;
   std::vector<double> numbers;
-  std::vector<std::string> texts;
+  std::vector<std::string_view> texts;
   std::map<std::size_t, std::string> documentation;  ///< text of the `///` comments before a token
+  std::shared_ptr<const Source> source;
+  std::shared_ptr<std::forward_list<std::string>> rewritten;  ///< null while nothing is
+
+  /// Keeps what the file says in other letters: a text with escapes, a corrected name.
+  std::string_view rewrite(std::string text) {
+    if (!rewritten) rewritten = std::make_shared<std::forward_list<std::string>>();
+    return rewritten->emplace_front(std::move(text));
+  }
 };
 
 /// Reading a file stops after this many errors in it.

@@ -19,6 +19,14 @@ std::string quoted_token(std::string_view text) {
   return std::string(text.substr(begin, text.find('`', begin) - begin));
 }
 
+/// A name of ASCII letters and Greek ones, which become `u`.
+std::string with_u(std::string_view name) {
+  std::string ascii;
+  for (std::size_t at = 0; at < name.size(); at += decode(name, at).bytes)
+    ascii += is_micro(decode(name, at).code) ? 'u' : name[at];
+  return ascii;
+}
+
 std::string help_for(char c, bool visible) {
   switch (c) {
     case '#': return "comments begin with `//`";
@@ -59,6 +67,43 @@ void Lexer::hexadecimal() {
   add(TokenKind::number, begin, add_number(value));
 }
 
+/// A name in which letters of other alphabets stand.
+void Lexer::foreign_name() {
+  const std::size_t begin = at_;
+  bool micro = false, foreign = false;
+  for (;;) {
+    while (continues_name(here())) ++at_;
+    if (is_dot_in_name()) {
+      ++at_;
+      continue;
+    }
+    const Character character = decode(text_, at_);
+    if (is_micro(character.code)) {
+      micro = true;
+    } else if (is_foreign_letter(character.code)) {
+      foreign = true;
+    } else {
+      break;
+    }
+    at_ += character.bytes;
+  }
+  const std::string_view word = text_.substr(begin, at_ - begin);
+  if (foreign) {
+    // A name may be used many times; once is enough to say what is wrong with it.
+    if (reported_names_.emplace(word).second) {
+      report(Code::unexpected_character, begin, at_,
+             fmt::format("names are written in the letters a to z; `{}` is not", word),
+             "rename it with a-z, A-Z, 0-9 and `_`; texts in quotes may hold any letter");
+    }
+  } else if (micro) {
+    const std::string ascii = with_u(word);
+    report(Code::unexpected_character, begin, at_, fmt::format("`{}` is written without the Greek letter", word),
+           fmt::format("write `{}`", ascii), {replace(span(begin, at_), ascii)});
+    return add_corrected(ascii, begin);
+  }
+  add(TokenKind::name, begin);
+}
+
 /// By first byte: whether a lookalike may begin with it, as with any that is not ASCII.
 constexpr auto begins_lookalike = [] {
   std::array<bool, 256> table{};
@@ -71,8 +116,8 @@ constexpr auto begins_lookalike = [] {
 bool Lexer::may_be_lookalike() const {
   const auto c = static_cast<unsigned char>(text_[at_]);
   if (!begins_lookalike[c]) return false;
-  const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
-  return c >= 0x80 || next == text_[at_] || (c == '!' && next == '=');
+  if (c == '.') return starts("...");
+  return c >= 0x80 || after() == here() || (c == '!' && after() == '=');
 }
 
 bool Lexer::quote() {
@@ -122,12 +167,17 @@ bool Lexer::lookalike() {
       add(TokenKind::caret, begin);
       add(TokenKind::number, begin, add_number(each.meant[1] - '0'));
     } else {
-      result_.texts.emplace_back(each.meant);
-      add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
+      add_corrected(std::string(each.meant), begin);
     }
     return true;
   }
   return false;
+}
+
+/// A name that is read in another spelling than it has.
+void Lexer::add_corrected(std::string name, std::size_t begin) {
+  result_.texts.push_back(result_.rewrite(std::move(name)));
+  add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
 }
 
 /// One that may mean several things is left to its author.

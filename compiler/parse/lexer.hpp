@@ -18,8 +18,11 @@ namespace wale {
 /// Cuts the text of one file into tokens; `lex.hpp` is the way in.
 class Lexer {
  public:
-  Lexer(std::string_view text, SourceId source, Diagnostics& diagnostics)
-      : text_(text), source_(source), diagnostics_(diagnostics) {}
+  Lexer(const SourceSet& sources, SourceId source, Diagnostics& diagnostics)
+      : source_(source), diagnostics_(diagnostics) {
+    result_.source = sources.kept(source);
+    text_ = result_.source->text;
+  }
 
   Tokens run();
 
@@ -35,20 +38,27 @@ class Lexer {
   void exponent();
   void name();
   /// `fabric.denim` is one name; the dots of `low..high` are none of it.
-  bool is_dot_in_name() const { return text_[at_] == '.' && at_ + 1 < text_.size() && begins_name(text_[at_ + 1]); }
+  bool is_dot_in_name() const { return here() == '.' && begins_name(after()); }
   void text(std::size_t quote_bytes);
+  void rewritten_text(std::size_t begin, std::size_t inside, bool typographic);
   char escape();
   bool symbol();
   bool is_part() const;
   void match_brackets(TokenKind kind, std::uint32_t index);
-  void add_text(std::size_t begin, std::string value);
+  void add_text(std::size_t begin, std::string_view value);
   std::uint32_t add_number(double value);
-  void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0);
+  void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
+    result_.tokens.push_back(
+        {kind, starts_line_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_), value});
+    starts_line_ = false;
+  }
 
   // lex_mend.cpp: what is no token, and what was evidently meant
   std::vector<Fix> leading_zero(std::size_t begin) const;
   void out_of_range(std::size_t begin, std::string_view digits);
   void hexadecimal();
+  void foreign_name();
+  void add_corrected(std::string name, std::size_t begin);
   bool may_be_lookalike() const;
   bool quote();
   std::vector<Fix> quote_fixes(std::size_t begin, std::size_t inside) const;
@@ -57,6 +67,9 @@ class Lexer {
   void unknown(const Character& character);
   std::vector<Fix> unknown_fixes(std::size_t begin, bool visible) const;
 
+  /// The byte where the lexer stands, and the one behind it: a NUL at the end of the text and nowhere else.
+  char here() const { return text_.data()[at_]; }
+  char after() const { return at_ < text_.size() ? text_.data()[at_ + 1] : '\0'; }
   bool starts(std::string_view spelling) const {
     // Tables of short spellings are tried one by one: most differ in their first byte.
     if (text_.size() - at_ < spelling.size()) return false;
@@ -70,7 +83,7 @@ class Lexer {
   void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
               std::vector<Fix> fixes = {}, std::vector<Fact> facts = {}, std::string rule = {});
 
-  std::string_view text_;
+  std::string_view text_;  ///< of `result_.source`
   SourceId source_;
   Diagnostics& diagnostics_;
   Tokens result_;

@@ -18,15 +18,15 @@ constexpr int known_version = 1;
 const std::vector<std::string> record_words = {"percept", "map",    "threshold", "rule",
                                                "class",   "device", "levels",    "hand"};
 
-const std::vector<std::string> declaration_words = {"material", "percept", "map",  "threshold", "rule",
-                                                    "class",    "device",  "levels", "hand", "function",
+const std::vector<std::string> declaration_words = {"material", "percept", "map",       "threshold", "rule",
+                                                    "class",    "device",  "levels",    "hand",      "function",
                                                     "let",      "unit",    "dimension", "import"};
 
 bool holds(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool is_record(const std::string& word) { return holds(record_words, word); }
+bool is_record(std::string_view word) { return holds(record_words, word); }
 
 /// Hands over what lexer and parser found, in the order of the text.
 void report_in_order(const Diagnostics& found, Diagnostics& diagnostics) {
@@ -56,13 +56,15 @@ SyntaxTree parse(const SourceSet& sources, SourceId source, Diagnostics& diagnos
   SyntaxTree tree;
   tree.source = source;
   Diagnostics found;
-  const Tokens tokens = lex(sources, source, found);
+  Tokens tokens = lex(sources, source, found);
   const bool is_text = std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic& each) {
     return each.code == Code::invalid_encoding || each.code == Code::too_long;
   });
   tree.exprs.reserve(tokens.tokens.size() / 2);  // about as many as there are
   tree.expr_spans.reserve(tokens.tokens.size() / 2);
   if (is_text && found.all().size() < error_limit) Parser(sources, tokens, tree, found).file();
+  tree.text = tokens.source;
+  tree.rewritten = tokens.rewritten;
   report_in_order(found, diagnostics);
   return tree;
 }
@@ -72,9 +74,11 @@ std::vector<ExprId> parse_expressions(const SourceSet& sources, SourceId source,
   tree = SyntaxTree{};
   tree.source = source;
   Diagnostics found;
-  const Tokens tokens = lex(sources, source, found);
+  Tokens tokens = lex(sources, source, found);
   std::vector<ExprId> expressions;
   if (!found.has_errors()) expressions = Parser(sources, tokens, tree, found).expression_list();
+  tree.text = tokens.source;
+  tree.rewritten = tokens.rewritten;
   if (found.has_errors()) expressions.clear();
   report_in_order(found, diagnostics);
   return expressions;
@@ -170,7 +174,7 @@ void Parser::declaration() {
                   "", "`export`", material ? "leave `export` out" : "let whoever needs it import it too");
     }
   }
-  std::string keyword(here().kind == TokenKind::name ? spelling(here()) : "");
+  std::string_view keyword = here().kind == TokenKind::name ? spelling(here()) : "";
   const auto known = [&] { return holds(declaration_words, keyword); };
   if (!known()) {
     const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;
@@ -181,17 +185,17 @@ void Parser::declaration() {
       if (keyword == word) help = fmt::format("`{}` stands in the `physical {{ … }}` of a material", word);
     }
     if (keyword == "wale") help = "the version is stated once, in the first line";
-    complain_at(
-        Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
-        "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, `class`, `device`, `levels` or `hand`",
-        shown(here()), std::move(help),
-        meant                            ? respell_here(declaration_words)
-        : help.starts_with("write `let") ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
-                                         : std::vector<Fix>{},
-        {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
+    complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
+                "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
+                "`class`, `device`, `levels` or `hand`",
+                shown(here()), std::move(help),
+                meant                            ? respell_here(declaration_words)
+                : help.starts_with("write `let") ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
+                                                 : std::vector<Fix>{},
+                {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
     lost_ = lost_ || !meant;
     if (lost_ || keyword == "wale") throw Abandon{};
-    keyword = *meant;
+    keyword = input_.rewrite(*meant);
   }
   if (keyword == "material") return material();
   if (is_record(keyword)) return record(exported);
@@ -302,7 +306,8 @@ void Parser::record(bool exported) {
   record.documentation = documentation_here();
   record.keyword = take_word();
   if (!is_record(record.keyword.text))
-    if (const auto meant = nearest_spelling(record.keyword.text, record_words)) record.keyword.text = *meant;
+    if (const auto meant = nearest_spelling(record.keyword.text, record_words))
+      record.keyword.text = input_.rewrite(*meant);
   record.name = declared_name(record.keyword.text);
   if (record.keyword.text == "map") {
     if (!take(TokenKind::word_from))

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/parser.hpp"
 #include "compiler/text/spelling.hpp"
@@ -10,9 +12,15 @@ namespace {
 constexpr std::string_view sections[] = {"representative", "perceptual", "physical"};
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
-/// What begins a physical statement; `x' = …` has no word of its own.
+/// What begins a physical statement, in the order of `PhysicalKeyword`; `x' = …` has no word of its own.
 const std::vector<std::string> physical_words = {"param",  "let",   "height", "force", "patch",
                                                  "active", "state", "memory", "next",  "show"};
+
+std::optional<PhysicalKeyword> physical_keyword_named(std::string_view word) {
+  const auto found = std::ranges::find(physical_words, word);
+  if (found == physical_words.end()) return std::nullopt;
+  return static_cast<PhysicalKeyword>(found - physical_words.begin());
+}
 
 template <class List>
 bool holds(const List& list, std::string_view word) {
@@ -102,15 +110,15 @@ bool Parser::has_sections_below() const {
 
 /// `representative { … }`, `perceptual { … }` or `physical { … }`.
 void Parser::material_section(MaterialDecl& material, bool& misplaced) {
-  std::string section(spelling(here()));
+  std::string_view section = spelling(here());
   const bool opens = kind(at_ + 1) == TokenKind::left_brace;
   if (here().kind != TokenKind::name || !holds(sections, section)) {
-    const auto meant = opens ? nearest_spelling(section, section_names) : std::nullopt;
+    const auto meant = opens ? nearest_spelling(std::string(section), section_names) : std::nullopt;
     if (!meant) return stray_statement(material, misplaced);
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("a material has no `{}`", section),
-                "`representative`, `perceptual` or `physical`", "`" + section + "`",
+                "`representative`, `perceptual` or `physical`", fmt::format("`{}`", section),
                 fmt::format("did you mean `{}`?", *meant), respell_here(section_names), {}, {{"meant", *meant}});
-    section = *meant;
+    section = *std::ranges::find(sections, *meant);
   }
   if ((section == "perceptual" && material.perceptual_span) || (section == "physical" && material.physical_span))
     complain_at(Code::declared_twice, span_of(here()), fmt::format("a material has one `{}` block", section), "", "",
@@ -174,7 +182,8 @@ PerceptStatement Parser::percept_statement() {
              fmt::format("write `{} {}`", percept.name.text, spelling(next)), drop_here());
     advance();
   }
-  const bool alone = ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus || kind(at_ + 1) == TokenKind::comma;
+  const bool alone =
+      ends_statement(at_ + 1) || kind(at_ + 1) == TokenKind::plus_minus || kind(at_ + 1) == TokenKind::comma;
   if (at(TokenKind::name) && alone) {
     percept.level_name = take_word();
   } else if (ends_statement(at_)) {
@@ -203,32 +212,26 @@ PerceptStatement Parser::percept_statement() {
 }
 
 /// Which statement stands here, by its first word; a misspelt one is reported and read as what it was meant to be.
-std::string_view Parser::physical_keyword() {
-  const auto word_of_table = [](std::string_view word) -> std::string_view {
-    for (const std::string& each : physical_words) {
-      if (each == word) return each;
-    }
-    return {};
-  };
+PhysicalKeyword Parser::physical_keyword() {
   if (here().kind == TokenKind::name) {
-    const std::string word(spelling(here()));
+    if (followed_by(TokenKind::prime)) return PhysicalKeyword::prime;
+    const std::string_view word = spelling(here());
+    if (const auto known = physical_keyword_named(word)) return *known;
     const bool defines = followed_by(TokenKind::equals);
-    if (followed_by(TokenKind::prime)) return "'";
-    if (const auto known = word_of_table(word); !known.empty()) return known;
     const std::vector<std::string> candidates = defines ? std::vector<std::string>{"force"} : physical_words;
-    const auto meant = nearest_spelling(word, candidates);
+    const auto meant = nearest_spelling(std::string(word), candidates);
     const bool plausible = meant && (defines || followed_by(TokenKind::name) || *meant == "patch");
     if (plausible) {
       complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with `{}`", word),
-                  "`" + *meant + "`", "`" + word + "`", fmt::format("did you mean `{}`?", *meant),
+                  "`" + *meant + "`", fmt::format("`{}`", word), fmt::format("did you mean `{}`?", *meant),
                   respell_here(candidates), {}, {{"meant", *meant}});
-      return word_of_table(*meant);
+      return *physical_keyword_named(*meant);
     }
     if (defines) {
       complain_at(Code::unexpected_token, span_of(here()), fmt::format("`{}` is defined without saying as what", word),
-                  "`let`, `param`, `height` or `state`", "`" + word + "`", fmt::format("write `let {} = …`", word),
-                  {insert_before(span_of(here()), "let ", {}, false)});
-      return "=";
+                  "`let`, `param`, `height` or `state`", fmt::format("`{}`", word),
+                  fmt::format("write `let {} = …`", word), {insert_before(span_of(here()), "let ", {}, false)});
+      return PhysicalKeyword::equals;
     }
   }
   const bool operation = here().kind >= TokenKind::plus && here().kind <= TokenKind::greater_equal;
@@ -241,40 +244,44 @@ std::string_view Parser::physical_keyword() {
 
 PhysicalStatement Parser::physical_statement() {
   const std::size_t begin = at_;
-  const std::string_view keyword = physical_keyword();
   PhysicalStatement result;
-  if (keyword == "'" || keyword == "next") {
-    result.what = update();
-  } else if (keyword == "param") {
-    result.what = param();
-  } else if (keyword == "state") {
-    result.what = state();
-  } else if (keyword == "memory") {
-    result.what = memory();
-  } else if (keyword == "patch") {
-    result.what = patch();
-  } else if (keyword == "active") {
-    result.what = active();
-  } else if (keyword == "show") {
-    advance();
-    result.what = ShowStatement{expression()};
-  } else if (keyword == "force") {
-    result.what = force();
-  } else {
-    if (keyword != "=") advance();
-    Word name = keyword == "=" ? take_word() : declared_name(keyword == "height" ? "height" : "value");
-    if (!take(TokenKind::equals))
-      missing("`=`", fmt::format("write `{} {} = …`", keyword == "height" ? "height" : "let", name.text),
-              insert_equals());
-    const ExprId value = expression();
-    if (keyword == "height") {
-      result.what = HeightStatement{std::move(name), value};
-    } else {
-      result.what = LetStatement{std::move(name), value};
+  switch (const PhysicalKeyword keyword = physical_keyword()) {
+    case PhysicalKeyword::prime:
+    case PhysicalKeyword::next: result.what = update(); break;
+    case PhysicalKeyword::param: result.what = param(); break;
+    case PhysicalKeyword::state: result.what = state(); break;
+    case PhysicalKeyword::memory: result.what = memory(); break;
+    case PhysicalKeyword::patch: result.what = patch(); break;
+    case PhysicalKeyword::active: result.what = active(); break;
+    case PhysicalKeyword::force: result.what = force(); break;
+    case PhysicalKeyword::show:
+      advance();
+      result.what = ShowStatement{expression()};
+      break;
+    case PhysicalKeyword::height: {
+      const auto [name, value] = definition(keyword);
+      result.what = HeightStatement{name, value};
+      break;
+    }
+    case PhysicalKeyword::let:
+    case PhysicalKeyword::equals: {
+      const auto [name, value] = definition(keyword);
+      result.what = LetStatement{name, value};
+      break;
     }
   }
   result.span = since(begin);
   return result;
+}
+
+/// `let reach = …`, `height ribs = …`: a name and its value.
+std::pair<Word, ExprId> Parser::definition(PhysicalKeyword keyword) {
+  const bool is_height = keyword == PhysicalKeyword::height, has_keyword = keyword != PhysicalKeyword::equals;
+  if (has_keyword) advance();
+  const Word name = has_keyword ? declared_name(is_height ? "height" : "value") : take_word();
+  if (!take(TokenKind::equals))
+    missing("`=`", fmt::format("write `{} {} = …`", is_height ? "height" : "let", name.text), insert_equals());
+  return {name, expression()};
 }
 
 /// `force drag = viscous(2 N s/m) limit 3 N`.

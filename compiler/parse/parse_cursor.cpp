@@ -46,13 +46,10 @@ bool Parser::is_word(std::size_t index, std::string_view word) const {
          text_.substr(candidate.begin, word.size()) == word;
 }
 
-bool Parser::ends_statement(std::size_t index) const {
-  const Token& next = token(index);
-  if (next.kind == TokenKind::end || next.kind == TokenKind::semicolon || next.kind == TokenKind::right_brace)
-    return true;
-  if (!next.starts_line || !open_parentheses_.empty()) return false;
+/// Whether the line that begins with the token is not the rest of the one above.
+bool Parser::line_ends_statement(std::size_t index) const {
   // No statement begins with these, so they may also begin the second line of a long conditional.
-  if (next.kind == TokenKind::word_then || next.kind == TokenKind::word_else) return false;
+  if (kind(index) == TokenKind::word_then || kind(index) == TokenKind::word_else) return false;
   return index > 0 && !continues(kind(index - 1));
 }
 
@@ -94,7 +91,7 @@ bool Parser::begins_declaration(std::size_t index) const {
 }
 
 Word Parser::take_word() {
-  Word word{std::string(spelling(here())), span_of(here())};
+  const Word word{spelling(here()), span_of(here())};
   advance();
   return word;
 }
@@ -114,10 +111,11 @@ Word Parser::declared_name(std::string_view declares) {
     fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help),
          unquote(false));
   }
-  Word name = take_word();
-  if (name.text.find('.') != std::string::npos) {
+  const Word name = take_word();
+  if (name.text.find('.') != std::string_view::npos) {
     complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} has no dots", declares),
-                "a plain name", "`" + name.text + "`", "dots lead to what another module declares; write `_` instead");
+                "a plain name", fmt::format("`{}`", name.text),
+                "dots lead to what another module declares; write `_` instead");
   }
   return name;
 }
@@ -160,12 +158,12 @@ std::string Parser::found_here() const {
 
 std::string Parser::after_previous() const { return at_ == 0 ? "" : " after " + shown(token(at_ - 1)); }
 
-std::string Parser::documentation_here() const {
+std::string_view Parser::documentation_here() {
   auto found = input_.documentation.find(at_);
   // What is exported has its comment above the word `export`.
   if (found == input_.documentation.end() && at_ > 0 && is_word(at_ - 1, "export"))
     found = input_.documentation.find(at_ - 1);
-  return found == input_.documentation.end() ? std::string() : found->second;
+  return found == input_.documentation.end() ? std::string_view() : input_.rewrite(found->second);
 }
 
 void Parser::complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes,

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compiler/diagnostics/fix.hpp"
@@ -32,10 +33,18 @@ constexpr InfixOperator infix_operators[] = {
     {TokenKind::slash, BinaryOperator::divide, product_precedence},
 };
 
+/// By kind of token: where in `infix_operators` it is, or its size.
+constexpr auto infix_places = [] {
+  std::array<std::uint8_t, static_cast<std::size_t>(TokenKind::unreadable) + 1> places{};
+  places.fill(std::size(infix_operators));
+  for (std::size_t i = 0; i < std::size(infix_operators); ++i)
+    places[static_cast<std::size_t>(infix_operators[i].token)] = static_cast<std::uint8_t>(i);
+  return places;
+}();
+
 const InfixOperator* infix(TokenKind kind) {
-  const auto found = std::find_if(std::begin(infix_operators), std::end(infix_operators),
-                                  [&](const InfixOperator& each) { return each.token == kind; });
-  return found == std::end(infix_operators) ? nullptr : found;
+  const std::size_t place = infix_places[static_cast<std::size_t>(kind)];
+  return place == std::size(infix_operators) ? nullptr : &infix_operators[place];
 }
 
 /// How well a number is known, where a declaration says so: these words are no units.
@@ -172,11 +181,10 @@ ExprId Parser::operand() {
 
 ExprId Parser::number() {
   const std::size_t begin = at_;
-  NumberLiteral literal{input_.numbers[here().value], {}};
+  NumberLiteral literal{input_.numbers[here().value], {static_cast<std::uint32_t>(tree_.suffix_factors.size()), 0}};
   advance();
-  while (suffix_factor(literal.suffix)) {
-  }
-  return add(std::move(literal), since(begin));
+  while (suffix_factor()) ++literal.suffix.count;
+  return add(literal, since(begin));
 }
 
 /// Whether the token may be a unit behind a number. Whether it is one, `check` decides.
@@ -193,11 +201,11 @@ bool Parser::is_suffix_name(std::size_t index) const {
 }
 
 /// One of the names behind a number: `N`, `/ s`, `m^2`, `s^-1`. `/ x^2.5` is an ordinary division and left alone.
-bool Parser::suffix_factor(std::vector<SuffixFactor>& suffix) {
+bool Parser::suffix_factor() {
   const bool divides = at(TokenKind::slash);
   const std::size_t name = at_ + (divides ? 1 : 0);
   if (!is_suffix_name(name)) return false;
-  SuffixFactor factor{{std::string(spelling(token(name))), span_of(token(name))}, divides, 1};
+  SuffixFactor factor{{spelling(token(name)), span_of(token(name))}, divides, 1};
   std::size_t next = name + 1;
   if (kind(next) == TokenKind::caret && !ends_statement(next)) {
     const bool negative = kind(next + 1) == TokenKind::minus;
@@ -214,27 +222,26 @@ bool Parser::suffix_factor(std::vector<SuffixFactor>& suffix) {
     factor.exponent = static_cast<int>(negative ? -exponent : exponent);
     next += negative ? 3 : 2;
   }
-  if (suffix.empty()) suffix.reserve(3);  // few units have more factors than `N s/m`
-  suffix.push_back(std::move(factor));
+  tree_.suffix_factors.push_back(factor);
   at_ = next;
   return true;
 }
 
 ExprId Parser::text() {
   const std::size_t begin = at_;
-  TextLiteral literal{input_.texts[here().value]};
+  const TextLiteral literal{input_.texts[here().value]};
   advance();
-  return add(std::move(literal), since(begin));
+  return add(literal, since(begin));
 }
 
 ExprId Parser::name_or_call() {
   const std::size_t begin = at_;
   if (!followed_by(TokenKind::left_parenthesis)) {
-    Word name = take_word();
-    return add(NameUse{std::move(name.text)}, name.span);
+    const Word name = take_word();
+    return add(NameUse{name.text}, name.span);
   }
   Call call{take_word(), {}};
-  call.arguments.reserve(4);  // few calls have more
+  const std::size_t first_argument = open_arguments_.size();
   open_parentheses_.push_back(at_);
   advance();
   std::size_t highest = 0;
@@ -242,8 +249,8 @@ ExprId Parser::name_or_call() {
   bool named = false;
   while (!at(TokenKind::right_parenthesis)) {
     const std::size_t argument_begin = at_;
-    call.arguments.push_back(argument());
-    const Argument& last = call.arguments.back();
+    const Argument last = argument();
+    open_arguments_.push_back(last);
     if (named && !last.name) {
       const std::size_t after = at_;
       at_ = argument_begin - 1;  // the comma, for it may have been meant as a decimal point
@@ -255,22 +262,26 @@ ExprId Parser::name_or_call() {
       throw Abandon{};
     }
     named = named || last.name;
-    const ExprId value = call.arguments.back().value;
-    if (heights_[value] > highest) highest = heights_[value], highest_argument = value;
+    if (heights_[last.value] > highest) highest = heights_[last.value], highest_argument = last.value;
     if (!at(TokenKind::comma)) break;
     advance();
   }
   close_parenthesis("`,` or `)`");
+  const auto arguments = open_arguments_.begin() + static_cast<std::ptrdiff_t>(first_argument);
+  call.arguments = {static_cast<std::uint32_t>(tree_.call_arguments.size()),
+                    static_cast<std::uint32_t>(open_arguments_.end() - arguments)};
+  tree_.call_arguments.insert(tree_.call_arguments.end(), arguments, open_arguments_.end());
+  open_arguments_.erase(arguments, open_arguments_.end());
   const Span span = since(begin);
-  if (highest == 0) return add(std::move(call), span);
-  return add(std::move(call), span, {highest_argument});
+  if (highest == 0) return add(call, span);
+  return add(call, span, {highest_argument});
 }
 
 Argument Parser::argument() {
   if (!at(TokenKind::name) || !followed_by(TokenKind::colon)) return {std::nullopt, operation(0)};
-  Word name = take_word();
+  const Word name = take_word();
   advance();
-  return {std::move(name), operation(0)};
+  return {name, operation(0)};
 }
 
 ExprId Parser::parenthesised() {
@@ -335,7 +346,7 @@ ExprId Parser::conditional() {
   return add(Conditional{condition, yes, no}, since(begin), {condition, yes, no});
 }
 
-ExprId Parser::add(Expr expr, Span span, std::initializer_list<ExprId> children) {
+ExprId Parser::add(const Expr& expr, Span span, std::initializer_list<ExprId> children) {
   std::uint32_t height = 1;
   for (const ExprId child : children) height = std::max(height, heights_[child] + 1);
   if (height > highest_expression) {
@@ -344,7 +355,7 @@ ExprId Parser::add(Expr expr, Span span, std::initializer_list<ExprId> children)
                 "name parts of it with `let`", {}, {}, limit_fact(highest_expression));
     throw Abandon{};
   }
-  tree_.exprs.push_back(std::move(expr));
+  tree_.exprs.push_back(expr);
   tree_.expr_spans.push_back(span);
   heights_.push_back(height);
   return static_cast<ExprId>(tree_.exprs.size() - 1);

@@ -125,7 +125,7 @@ std::vector<Fix> Parser::insert_brace(std::size_t open) const {
 /// A name that stands in quotes; a module's may be a path.
 std::vector<Fix> Parser::unquote(bool is_module) const {
   if (!at(TokenKind::text)) return {};
-  std::string name = input_.texts[here().value];
+  std::string name(input_.texts[here().value]);
   if (is_module) {
     constexpr std::string_view extension = ".wale";
     if (name.ends_with(extension)) name.resize(name.size() - extension.size());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/parse/lex.hpp"
@@ -25,14 +26,17 @@ constexpr std::size_t highest_expression = 1000;
 /// Statements of one file. People write hundreds; later stages compare each name with all others.
 constexpr std::size_t most_statements = 12000;
 
+/// What a physical statement begins with: its keyword, the prime of `x' = …`, or a `=` where a keyword is missing.
+enum class PhysicalKeyword { param, let, height, force, patch, active, state, memory, next, show, prime, equals };
+
 /// Recursive descent over the tokens of one file; `parse.hpp` is the way in, schema/wale.grammar the authority.
 ///
 /// At most one error is reported for a statement, since what follows the first is guesswork.
 class Parser {
  public:
-  Parser(const SourceSet& sources, const Tokens& input, SyntaxTree& tree, Diagnostics& diagnostics)
+  Parser(const SourceSet& sources, Tokens& input, SyntaxTree& tree, Diagnostics& diagnostics)
       : sources_(sources),
-        text_(sources[tree.source].text),
+        text_(input.source->text),
         input_(input),
         tokens_(input.tokens),
         tree_(tree),
@@ -66,7 +70,8 @@ class Parser {
   void stray_statement(MaterialDecl& material, bool& misplaced);
   PerceptStatement percept_statement();
   PhysicalStatement physical_statement();
-  std::string_view physical_keyword();
+  PhysicalKeyword physical_keyword();
+  std::pair<Word, ExprId> definition(PhysicalKeyword keyword);
   ForceStatement force();
   ParamStatement param();
   StateStatement state();
@@ -97,11 +102,11 @@ class Parser {
   Argument argument();
   ExprId parenthesised();
   ExprId conditional();
-  bool suffix_factor(std::vector<SuffixFactor>& suffix);
+  bool suffix_factor();
   bool is_suffix_name(std::size_t index) const;
   void close_parenthesis(std::string_view expected);
   std::string unclosed_parenthesis() const;
-  ExprId add(Expr expr, Span span, std::initializer_list<ExprId> children = {});
+  ExprId add(const Expr& expr, Span span, std::initializer_list<ExprId> children = {});
 
   // parse_mend.cpp: what a program can mend of it
   std::vector<Fix> fixes_here() const;
@@ -123,7 +128,13 @@ class Parser {
   bool at(TokenKind kind) const { return here().kind == kind && !ends_statement(at_); }
   bool followed_by(TokenKind next) const { return kind(at_ + 1) == next && !ends_statement(at_ + 1); }
   bool is_word(std::size_t index, std::string_view word) const;
-  bool ends_statement(std::size_t index) const;
+  bool ends_statement(std::size_t index) const {
+    const Token& next = token(index);
+    if (next.kind == TokenKind::end || next.kind == TokenKind::semicolon || next.kind == TokenKind::right_brace)
+      return true;
+    return next.starts_line && open_parentheses_.empty() && line_ends_statement(index);
+  }
+  bool line_ends_statement(std::size_t index) const;
   bool begins_statement(std::size_t index) const;
   bool begins_declaration(std::size_t index) const;
   void advance() { at_ += at_ + 1 < tokens_.size() ? 1 : 0; }
@@ -146,7 +157,7 @@ class Parser {
   std::string shown(const Token& token) const;
   std::string found_here() const;
   std::string after_previous() const;
-  std::string documentation_here() const;
+  std::string_view documentation_here();
 
   /// Reports what stands here, or the place just after the last token when the statement has ended.
   void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
@@ -169,11 +180,12 @@ class Parser {
 
   const SourceSet& sources_;
   std::string_view text_;  ///< of the file
-  const Tokens& input_;
+  Tokens& input_;
   const std::vector<Token>& tokens_;
   SyntaxTree& tree_;
   Diagnostics& diagnostics_;
   std::vector<std::uint32_t> heights_;         ///< of the tree below every expression
+  std::vector<Argument> open_arguments_;       ///< of calls that are being read, the innermost at the end
   std::vector<std::size_t> open_parentheses_;  ///< tokens; newlines inside are white space
   std::size_t at_ = 0;
   std::size_t statement_begin_ = 0;
@@ -194,6 +206,7 @@ void Parser::statement(Body body) {
   reported_ = in_setting_ = in_force_ = false;
   last_expression_.reset();
   open_parentheses_.clear();
+  open_arguments_.clear();
   nesting_ = 0;
   try {
     count_statement();

@@ -5,6 +5,8 @@
 namespace wale {
 namespace {
 
+std::string text_of(const Word& word) { return std::string(word.text); }
+
 std::string quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -37,16 +39,17 @@ struct ExpressionPrinter {
   std::string print(ExprId id) const { return std::visit(*this, tree.expr(id)); }
 
   std::string operator()(const NumberLiteral& number) const {
-    if (number.suffix.empty()) return fmt::format("{}", number.value);
+    if (number.suffix.count == 0) return fmt::format("{}", number.value);
     std::string suffix;
-    for (const SuffixFactor& factor : number.suffix) {
-      suffix += (factor.divides ? "/" : " ") + factor.name.text;
+    for (const SuffixFactor& factor : tree.suffix(number)) {
+      suffix += factor.divides ? '/' : ' ';
+      suffix += factor.name.text;
       if (factor.exponent != 1) suffix += fmt::format("^{}", factor.exponent);
     }
     return fmt::format("[{}{}]", number.value, suffix);
   }
   std::string operator()(const TextLiteral& text) const { return quoted(text.text); }
-  std::string operator()(const NameUse& name) const { return name.name; }
+  std::string operator()(const NameUse& name) const { return std::string(name.name); }
   std::string operator()(const Unary& unary) const {
     const char* op = unary.op == UnaryOperator::negate ? "-" : unary.op == UnaryOperator::plus ? "+" : "not";
     return fmt::format("({} {})", op, print(unary.operand));
@@ -55,10 +58,10 @@ struct ExpressionPrinter {
     return fmt::format("({} {} {})", spelled(binary.op), print(binary.left), print(binary.right));
   }
   std::string operator()(const Call& call) const {
-    std::string result = "(" + call.callee.text;
-    for (const Argument& argument : call.arguments) {
+    std::string result = "(" + text_of(call.callee);
+    for (const Argument& argument : tree.arguments(call)) {
       result += ' ';
-      if (argument.name) result += argument.name->text + ": ";
+      if (argument.name) result += text_of(*argument.name) + ": ";
       result += print(argument.value);
     }
     return result + ")";
@@ -83,35 +86,35 @@ class TreePrinter {
     return std::move(result_);
   }
 
-  void operator()(const Import& import) { line(0, "(import " + import.module.text + ")"); }
+  void operator()(const Import& import) { line(0, "(import " + text_of(import.module) + ")"); }
   void operator()(const DimensionDecl& dimension) {
-    line(0, exported(dimension) + "(dimension " + dimension.name.text + optional(dimension.definition) +
+    line(0, exported(dimension) + "(dimension " + text_of(dimension.name) + optional(dimension.definition) +
                 range(dimension.range) + ")");
   }
   void operator()(const UnitDecl& unit) {
-    line(0, documented(unit.documentation) + exported(unit) + "(unit " + unit.name.text + typed(unit.dimension) +
+    line(0, documented(unit.documentation) + exported(unit) + "(unit " + text_of(unit.name) + typed(unit.dimension) +
                 optional(unit.definition) + ")");
   }
   void operator()(const Constant& constant) {
-    line(0, documented(constant.documentation) + exported(constant) + "(let " + constant.name.text + " " +
+    line(0, documented(constant.documentation) + exported(constant) + "(let " + text_of(constant.name) + " " +
                 expr(constant.value) + ")");
   }
   void operator()(const FunctionDecl& function) {
-    std::string text = documented(function.documentation) + exported(function) + "(function (" + function.name.text;
+    std::string text = documented(function.documentation) + exported(function) + "(function (" + text_of(function.name);
     for (const FormalParameter& parameter : function.parameters) {
-      text += " " + parameter.name.text + typed(parameter.dimension);
+      text += " " + text_of(parameter.name) + typed(parameter.dimension);
       if (parameter.default_value) text += " = " + expr(*parameter.default_value);
     }
     line(0, text + ") " + expr(function.body) + ")");
   }
   void operator()(const RecordDecl& record) {
-    line(0, documented(record.documentation) + exported(record) + "(" + record.keyword.text + " " + record.name.text +
-                (record.from ? " from " + record.from->text : ""));
+    line(0, documented(record.documentation) + exported(record) + "(" + text_of(record.keyword) + " " +
+                text_of(record.name) + (record.from ? " from " + text_of(*record.from) : ""));
     settings(1, record.settings);
     result_ += ")";
   }
   void operator()(const MaterialDecl& material) {
-    line(0, documented(material.documentation) + "(material " + material.name.text);
+    line(0, documented(material.documentation) + "(material " + text_of(material.name));
     if (material.derived_from) result_ += " = " + expr(*material.derived_from);
     if (!material.representative.empty()) {
       line(1, "(representative");
@@ -145,8 +148,10 @@ class TreePrinter {
   static std::string exported(const Node& node) {
     return node.exported ? "export " : "";
   }
-  static std::string typed(const std::optional<Word>& dimension) { return dimension ? " : " + dimension->text : ""; }
-  static std::string documented(const std::string& documentation) {
+  static std::string typed(const std::optional<Word>& dimension) {
+    return dimension ? " : " + text_of(*dimension) : "";
+  }
+  static std::string documented(std::string_view documentation) {
     return documentation.empty() ? "" : "(documented " + quoted(documentation) + ") ";
   }
   std::string range(const std::optional<Range>& range) const {
@@ -155,9 +160,9 @@ class TreePrinter {
 
   void settings(int depth, const std::vector<Setting>& settings) {
     for (const Setting& setting : settings) {
-      std::string text = "(" + setting.key.text;
+      std::string text = "(" + text_of(setting.key);
       for (const SettingItem& item : setting.items) text += " " + item_text(item);
-      if (setting.on) text += " on " + setting.on->text;
+      if (setting.on) text += " on " + text_of(*setting.on);
       line(depth, text + ")");
     }
   }
@@ -166,11 +171,11 @@ class TreePrinter {
   std::string item_text(const SettingItem& item) const {
     std::string text;
     const auto append = [&](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
-    for (const Word& word : item.words) append(word.text);
+    for (const Word& word : item.words) append(text_of(word));
     if (item.value) append(expr(*item.value));
     if (item.range_end) append(".. " + expr(*item.range_end));
     if (item.equals) append("= " + expr(*item.equals));
-    for (const Word& word : item.trailing) append(word.text);
+    for (const Word& word : item.trailing) append(text_of(word));
     const std::size_t parts = item.words.size() + item.trailing.size() + item.value.has_value() +
                               item.equals.has_value() + item.range_end.has_value();
     return parts == 1 ? text : "{" + text + "}";
@@ -178,29 +183,29 @@ class TreePrinter {
 
   std::string percept_text(const PerceptStatement& percept) const {
     std::string text = percept.essential ? "(essential " : "(";
-    text += percept.name.text + optional(percept.value);
-    if (percept.level_name) text += " '" + percept.level_name->text;
+    text += text_of(percept.name) + optional(percept.value);
+    if (percept.level_name) text += " '" + text_of(*percept.level_name);
     if (percept.tolerance) text += " ± " + expr(*percept.tolerance);
-    if (percept.by) text += " by " + percept.by->text;
+    if (percept.by) text += " by " + text_of(*percept.by);
     return text + ")";
   }
 
   std::string statement_text(const ParamStatement& param) const {
-    std::string text =
-        documented(param.documentation) + "(param " + param.name.text + " " + expr(param.value) + range(param.range);
+    std::string text = documented(param.documentation) + "(param " + text_of(param.name) + " " + expr(param.value) +
+                       range(param.range);
     if (param.soft_range)
       text += fmt::format(" (soft {} {})", expr(param.soft_range->low), expr(param.soft_range->high));
     if (!param.description.empty()) text += " " + quoted(param.description);
     return text + ")";
   }
   std::string statement_text(const LetStatement& let) const {
-    return "(let " + let.name.text + " " + expr(let.value) + ")";
+    return "(let " + text_of(let.name) + " " + expr(let.value) + ")";
   }
   std::string statement_text(const HeightStatement& height) const {
-    return "(height " + height.name.text + " " + expr(height.value) + ")";
+    return "(height " + text_of(height.name) + " " + expr(height.value) + ")";
   }
   std::string statement_text(const ForceStatement& force) const {
-    return "(force " + (force.name ? force.name->text + " " : "") + expr(force.value) +
+    return "(force " + (force.name ? text_of(*force.name) + " " : "") + expr(force.value) +
            (force.limit ? " (limit " + expr(*force.limit) + ")" : "") + ")";
   }
   std::string statement_text(const PatchStatement& patch) const {
@@ -210,14 +215,15 @@ class TreePrinter {
   }
   std::string statement_text(const ActiveStatement& active) const { return "(active " + expr(active.power) + ")"; }
   std::string statement_text(const StateStatement& state) const {
-    return "(state " + state.name.text + typed(state.dimension) + " " + expr(state.value) + range(state.range) + ")";
+    return "(state " + text_of(state.name) + typed(state.dimension) + " " + expr(state.value) + range(state.range) +
+           ")";
   }
   std::string statement_text(const MemoryStatement& memory) const {
-    return "(memory " + memory.name.text + typed(memory.dimension) + " " + expr(memory.value) + range(memory.range) +
-           " (cell " + expr(memory.cell) + "))";
+    return "(memory " + text_of(memory.name) + typed(memory.dimension) + " " + expr(memory.value) +
+           range(memory.range) + " (cell " + expr(memory.cell) + "))";
   }
   std::string statement_text(const UpdateStatement& update) const {
-    return (update.derivative ? "(derivative " : "(next ") + update.name.text + " " + expr(update.value) + ")";
+    return (update.derivative ? "(derivative " : "(next ") + text_of(update.name) + " " + expr(update.value) + ")";
   }
   std::string statement_text(const ShowStatement& show) const { return "(show " + expr(show.value) + ")"; }
 

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <forward_list>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -10,9 +14,10 @@
 
 namespace wale {
 
-/// A word of the text and where it stands. Dotted names ("fabric.woven") are one word.
+/// A word of the text and where it stands. Dotted names ("fabric.woven") are one word. Words and texts are parts of the
+/// file that was read, which the tree keeps.
 struct Word {
-  std::string text;
+  std::string_view text;
   Span span;
 };
 
@@ -26,15 +31,20 @@ struct SuffixFactor {
   int exponent = 1;
 };
 
+/// Things that stand in a row in one of the tree's lists: `SyntaxTree::suffix` and `SyntaxTree::arguments` give them.
+struct Row {
+  std::uint32_t first = 0, count = 0;
+};
+
 struct NumberLiteral {
   double value = 0;
-  std::vector<SuffixFactor> suffix;
+  Row suffix;
 };
 struct TextLiteral {
-  std::string text;
+  std::string_view text;
 };
 struct NameUse {
-  std::string name;
+  std::string_view name;
 };
 
 enum class UnaryOperator { negate, plus, complement };  // complement: `not`
@@ -66,7 +76,7 @@ struct Argument {
 };
 struct Call {
   Word callee;
-  std::vector<Argument> arguments;
+  Row arguments;
 };
 struct Conditional {
   ExprId condition, yes, no;
@@ -112,7 +122,7 @@ struct RecordDecl {
   Word name;
   std::optional<Word> from;  ///< `map roughness from amplitude`
   std::vector<Setting> settings;
-  std::string documentation;
+  std::string_view documentation;
   Span span;
   bool exported = false;
 };
@@ -132,13 +142,13 @@ struct UnitDecl {
   Word name;
   std::optional<Word> dimension;
   std::optional<ExprId> definition;
-  std::string documentation;
+  std::string_view documentation;
   bool exported = false;
 };
 struct Constant {
   Word name;
   ExprId value;
-  std::string documentation;
+  std::string_view documentation;
   bool exported = false;
 };  ///< `let` outside a material
 struct FormalParameter {
@@ -150,7 +160,7 @@ struct FunctionDecl {
   Word name;
   std::vector<FormalParameter> parameters;
   ExprId body;
-  std::string documentation;
+  std::string_view documentation;
   bool exported = false;
 };
 
@@ -170,8 +180,8 @@ struct ParamStatement {
   ExprId value;
   std::optional<Range> range;
   std::optional<Range> soft_range;
-  std::string description;
-  std::string documentation;
+  std::string_view description;
+  std::string_view documentation;
 };
 struct LetStatement {
   Word name;
@@ -233,7 +243,7 @@ struct MaterialDecl {
   std::vector<PerceptStatement> perceptual;
   std::vector<PhysicalStatement> physical;
   std::optional<Span> perceptual_span, physical_span;  ///< the blocks with their braces, absent when not written
-  std::string documentation;
+  std::string_view documentation;
   Span span;
 };
 
@@ -244,7 +254,18 @@ struct SyntaxTree {
   SourceId source = 0;
   std::vector<Expr> exprs;
   std::vector<Span> expr_spans;
+  std::vector<SuffixFactor> suffix_factors;  ///< of one number after the other
+  std::vector<Argument> call_arguments;      ///< of one call after the other
   std::vector<Declaration> declarations;
+  std::shared_ptr<const Source> text;                               ///< what words and texts are parts of ...
+  std::shared_ptr<const std::forward_list<std::string>> rewritten;  ///< ... or else of these: see `Tokens`
+
+  std::span<const SuffixFactor> suffix(const NumberLiteral& number) const {
+    return std::span(suffix_factors).subspan(number.suffix.first, number.suffix.count);
+  }
+  std::span<const Argument> arguments(const Call& call) const {
+    return std::span(call_arguments).subspan(call.arguments.first, call.arguments.count);
+  }
 
   const Expr& expr(ExprId id) const { return exprs[id]; }
   Span span(ExprId id) const { return expr_spans[id]; }

@@ -7,13 +7,16 @@
 namespace wale {
 
 SourceSet::Entry SourceSet::measured(std::string name, std::string text) {
-  std::vector<std::uint32_t> starts = {0};
+  constexpr std::size_t bytes_of_a_line = 32;  // or thereabouts
+  std::vector<std::uint32_t> starts;
+  starts.reserve(std::min(text.size(), largest_source) / bytes_of_a_line + 1);
+  starts.push_back(0);
   // Nobody points into a file that is refused for its size; the lines of 100 MB are not worth remembering.
   const bool is_read = text.size() <= largest_source;
   for (std::size_t at = text.find('\n'); is_read && at != std::string::npos; at = text.find('\n', at + 1)) {
     starts.push_back(static_cast<std::uint32_t>(at + 1));
   }
-  return {{std::move(name), std::move(text)}, std::move(starts)};
+  return {std::make_shared<const Source>(Source{std::move(name), std::move(text)}), std::move(starts)};
 }
 
 const std::vector<SourceSet::Entry>& SourceSet::embedded() {
@@ -31,7 +34,7 @@ SourceId SourceSet::add(std::string name, std::string text) {
 }
 
 std::string_view SourceSet::text(Span span) const {
-  const std::string_view text = entry(span.source).source.text;
+  const std::string_view text = entry(span.source).source->text;
   const std::size_t begin = std::min<std::size_t>(span.begin, text.size());
   const std::size_t end = std::clamp<std::size_t>(span.end, begin, text.size());
   return text.substr(begin, end - begin);
@@ -43,7 +46,7 @@ std::size_t SourceSet::line_index(Span span) const {
 }
 
 Place SourceSet::place(Span span) const {
-  const std::string_view text = entry(span.source).source.text;
+  const std::string_view text = entry(span.source).source->text;
   const std::size_t line = line_index(span);
   const std::size_t end = std::min<std::size_t>(span.begin, text.size());
   Place place{static_cast<unsigned>(line + 1), 1};
@@ -55,7 +58,7 @@ Place SourceSet::place(Span span) const {
 }
 
 std::string_view SourceSet::line(Span span) const {
-  std::string_view text = entry(span.source).source.text;
+  std::string_view text = entry(span.source).source->text;
   text.remove_prefix(entry(span.source).line_starts[line_index(span)]);
   text = text.substr(0, text.find('\n'));
   if (text.ends_with('\r')) text.remove_suffix(1);

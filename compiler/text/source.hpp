@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,7 +42,9 @@ inline constexpr SourceId first_embedded_source = 1u << 31;
 class SourceSet {
  public:
   SourceId add(std::string name, std::string text);
-  const Source& operator[](SourceId id) const { return entry(id).source; }
+  const Source& operator[](SourceId id) const { return *entry(id).source; }
+  /// The same, to be kept for as long as something points into the text.
+  std::shared_ptr<const Source> kept(SourceId id) const { return entry(id).source; }
   std::size_t size() const { return sources_.size(); }
 
   std::string_view text(Span span) const;
@@ -50,7 +53,7 @@ class SourceSet {
 
  private:
   struct Entry {
-    Source source;
+    std::shared_ptr<const Source> source;
     std::vector<std::uint32_t> line_starts;  ///< the byte at which each line begins
   };
   static Entry measured(std::string name, std::string text);

@@ -68,7 +68,7 @@ TEST(Lexing, DottedNamesAreOneToken) {
 TEST(Lexing, TextsAreUnescaped) {
   const Cut cut(R"("a \"b\" \\ c\nd" "µm")");
   ASSERT_EQ(cut.kinds(), (Kinds{text, text, end}));
-  EXPECT_EQ(cut.tokens.texts, (std::vector<std::string>{"a \"b\" \\ c\nd", "µm"}));
+  EXPECT_EQ(cut.tokens.texts, (std::vector<std::string_view>{"a \"b\" \\ c\nd", "µm"}));
   EXPECT_FALSE(cut.diagnostics.has_errors());
 }
 

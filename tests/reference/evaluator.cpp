@@ -52,6 +52,8 @@ const std::map<std::string, Unit> units{
 
 using Names = std::map<std::string, Quantity>;
 
+std::string text_of(const Word& word) { return std::string(word.text); }
+
 Quantity number(double value, Dimension dimension = {}, double error = -1) {
   return {Quantity::Type::number, {value, 0}, {error < 0 ? std::abs(value) * rounding : error, 0}, dimension};
 }
@@ -89,9 +91,9 @@ class Evaluator {
   Quantity operator()(const NumberLiteral& node, const Names& names) {
     Quantity result = number(node.value);
     double size = 1;
-    for (const auto& factor : node.suffix) {
+    for (const auto& factor : tree_.suffix(node)) {
       const double exponent = factor.divides ? -factor.exponent : factor.exponent;
-      if (const auto unit = units.find(factor.name.text); unit != units.end()) {
+      if (const auto unit = units.find(text_of(factor.name)); unit != units.end()) {
         size *= std::pow(unit->second.size, exponent);
         result.dimension = sum(result.dimension, unit->second.dimension, exponent);
         continue;
@@ -99,12 +101,12 @@ class Evaluator {
       require(factor.exponent == 1, "a power of a name behind a number");
       result = number(result.value[0] * size, result.dimension);
       size = 1;
-      result = product(result, lookup(factor.name.text, names), factor.divides);
+      result = product(result, lookup(text_of(factor.name), names), factor.divides);
     }
     return size == 1 ? result : number(result.value[0] * size, result.dimension);
   }
 
-  Quantity operator()(const NameUse& node, const Names& names) { return lookup(node.name, names); }
+  Quantity operator()(const NameUse& node, const Names& names) { return lookup(std::string(node.name), names); }
 
   Quantity operator()(const Unary& node, const Names& names) {
     Quantity result = evaluate(node.operand, names);
@@ -150,18 +152,19 @@ class Evaluator {
           function && function->name.text == node.callee.text) {
         Names inner;
         std::size_t position = 0;
-        for (const auto& argument : node.arguments) {
+        for (const auto& argument : tree_.arguments(node)) {
           const std::string formal =
-              argument.name ? argument.name->text : function->parameters.at(position++).name.text;
+              std::string(argument.name ? argument.name->text : function->parameters.at(position++).name.text);
           inner[formal] = evaluate(argument.value, names);
         }
         for (const auto& formal : function->parameters)
-          if (!inner.contains(formal.name.text)) inner[formal.name.text] = evaluate(formal.default_value.value(), {});
+          if (!inner.contains(text_of(formal.name)))
+            inner[text_of(formal.name)] = evaluate(formal.default_value.value(), {});
         return evaluate(function->body, inner);
       }
     std::vector<Quantity> arguments;
-    for (const auto& argument : node.arguments) arguments.push_back(evaluate(argument.value, names));
-    return built_in(node.callee.text, arguments);
+    for (const auto& argument : tree_.arguments(node)) arguments.push_back(evaluate(argument.value, names));
+    return built_in(text_of(node.callee), arguments);
   }
 
   Quantity operator()(const Part& node, const Names& names) {
@@ -407,21 +410,22 @@ Quantity Simulation::tick(const HandState& hand, bool entering) {
     if (const auto* param = std::get_if<ParamStatement>(&statement.what)) {
       Quantity value = evaluator.evaluate(param->value, names);
       // What is set is a float already.
-      if (const auto set = parameters_.find(param->name.text); set != parameters_.end())
+      if (const auto set = parameters_.find(text_of(param->name)); set != parameters_.end())
         value = number(set->second, value.dimension, 0);
-      names[param->name.text] = value;
+      names[text_of(param->name)] = value;
     }
     if (const auto* let = std::get_if<LetStatement>(&statement.what))
-      names[let->name.text] = evaluator.evaluate(let->value, names);
+      names[text_of(let->name)] = evaluator.evaluate(let->value, names);
     if (const auto* state = std::get_if<StateStatement>(&statement.what)) {
-      if (entering) states_[state->name.text] = held(evaluator.evaluate(state->value, names), evaluator, *state, names);
-      names[state->name.text] = states_.at(state->name.text);
+      if (entering)
+        states_[text_of(state->name)] = held(evaluator.evaluate(state->value, names), evaluator, *state, names);
+      names[text_of(state->name)] = states_.at(text_of(state->name));
     }
     if (const auto* force = std::get_if<ForceStatement>(&statement.what)) {
       Quantity term = evaluator.evaluate(force->value, names);
       if (force->limit) term = evaluator.limited(term, evaluator.evaluate(*force->limit, names));
       require(term.type == Quantity::Type::vector && term.dimension == Dimension{1, 1, -2}, "no force");
-      if (force->name) names[force->name->text] = term;
+      if (force->name) names[text_of(*force->name)] = term;
       if (sum)
         for (int i = 0; i < 2; ++i) {
           const Component added = add(part(*sum, i), part(term, i));
@@ -437,7 +441,7 @@ Quantity Simulation::tick(const HandState& hand, bool entering) {
   Names updating = names;
   for (const auto& statement : statements)
     if (const auto* update = std::get_if<UpdateStatement>(&statement.what)) {
-      const Quantity before = names.at(update->name.text), change = evaluator.evaluate(update->value, updating);
+      const Quantity before = names.at(text_of(update->name)), change = evaluator.evaluate(update->value, updating);
       Quantity after = change;
       for (int i = 0; i < (before.type == Quantity::Type::vector ? 2 : 1); ++i) {
         Component next = part(change, i);
@@ -449,9 +453,9 @@ Quantity Simulation::tick(const HandState& hand, bool entering) {
       after.dimension = before.dimension;
       for (const auto& other : statements)
         if (const auto* state = std::get_if<StateStatement>(&other.what);
-            state && state->name.text == update->name.text)
+            state && text_of(state->name) == text_of(update->name))
           after = held(after, evaluator, *state, names);
-      updating[update->name.text] = states_[update->name.text] = after;
+      updating[text_of(update->name)] = states_[text_of(update->name)] = after;
     }
   require(sum.has_value(), "no material with a force");
   return *sum;
