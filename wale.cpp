@@ -24,9 +24,12 @@
 #include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/open_file.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/text/spelling.hpp"
 #include "library/device_report.hpp"
+#include "library/devices_known.hpp"
+#include "library/open_device.hpp"
 #include "library/plugged_report.hpp"
 #include "wale/library.hpp"
 #include "wale/simulated_pad.hpp"
@@ -103,7 +106,10 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
 struct FeelOptions {
   Choice choice;
   std::vector<std::string> settings;
-  std::string device = "simulated", hand = "lateral", record;
+  std::string device;               ///< empty: `auto`
+  std::string built_for;            ///< empty: whatever suits the device
+  std::optional<std::string> hand;  ///< the simulated one's motion
+  std::string record;
   std::optional<double> seconds;
   bool virtual_time = false, json = false;
   std::string max_force;
@@ -113,41 +119,69 @@ struct FeelOptions {
   std::optional<std::uint64_t> seed;
 };
 
-/// A declared device is simulated, and built for.
-bool is_declared(const std::string& device) {
-  return std::ranges::any_of(Library().devices(), [&](const auto& one) { return one.profile.name == device; });
-}
+/// The device that is to be felt on, and the one to build for.
+struct DeviceToFeel {
+  Connections connections;  ///< open while something plugged in is used
+  ChosenDevice chosen;
 
-/// What to build, and for what: the device that is to be felt on, where one is named.
-Choice choice_to_feel(const FeelOptions& options, const Choice& choice) {
-  Choice built = choice;
-  if (is_declared(options.device)) built.device = options.device;
-  return built;
-}
-
-/// A joystick or pad in a hand that moves as asked; null when what is wrong has been printed.
-std::unique_ptr<Device> device_for(const FeelOptions& options, const PatchProgram& program) {
-  const DeviceProfile& profile = program.device;
-  if (options.device != "simulated" && !is_declared(options.device)) {
-    refuse(fmt::format(
-        "there is no device `{}`; this version drives: simulated, and every device that materials are built "
-        "for, simulated (see `wale devices`)",
-        options.device));
-    return nullptr;
+  /// What to build, and for what.
+  Choice built(Choice choice) const {
+    if (!chosen.profile.empty()) choice.device = chosen.profile;
+    return choice;
   }
-  if (options.device != "simulated" && profile.name != options.device) {
+};
+
+/// Chooses among what is plugged in and what is declared, and says so; nothing when what is wrong has been printed.
+std::optional<DeviceToFeel> device_to_feel(const FeelOptions& options) {
+  const OpenedFile file = open_file(options.choice.request());  // what is wrong with it is said when it is built
+  const std::vector<DescribedDevice> known = file.module ? devices_known(*file.module) : Library().devices();
+  DeviceRequest request{.spelling = options.device.empty() ? "auto" : options.device,
+                        .built_for = file.program ? file.program->description().device.name : options.built_for,
+                        .only_simulated = options.virtual_time || options.hand};
+  DeviceToFeel device;
+  std::vector<PluggedIn> plugged;
+  if (!request.only_simulated && !request.spelling.starts_with("simulated")) {
+    device.connections = Connections::open();
+    plugged = plugged_in(device.connections);
+  }
+  auto chosen = choose_device(request, known, plugged);
+  if (const auto* refusal = std::get_if<Refusal>(&chosen)) {
+    refuse(refusal->reason);
+    return std::nullopt;
+  }
+  device.chosen = std::get<ChosenDevice>(std::move(chosen));
+  if (!device.chosen.said.empty() && (!options.device.empty() || device.chosen.is_worth_saying))
+    fmt::print(stderr, "wale: {}\n", device.chosen.said);
+  return device;
+}
+
+/// What was chosen, opened, or simulated in a hand that moves as asked; null when what is wrong has been printed.
+std::unique_ptr<Device> device_for(const FeelOptions& options, const DeviceToFeel& device,
+                                   const PatchProgram& program) {
+  const DeviceProfile& profile = program.device;
+  if (device.chosen.plugged) {
+    auto opened = open_device(device.connections, device.chosen, profile,
+                              [](const std::string& what) { fmt::print(stderr, "wale: {}\n", what); });
+    if (const auto* refusal = std::get_if<Refusal>(&opened)) {
+      refuse(refusal->reason);
+      return nullptr;
+    }
+    return std::get<std::unique_ptr<HotPluggedDevice>>(std::move(opened));
+  }
+  if (!device.chosen.profile.empty() && profile.name != device.chosen.profile) {
     refuse(fmt::format("`{}` is built for `{}`; feel it there, or build it for `{}`", program.material, profile.name,
-                       options.device));
+                       device.chosen.profile));
     return nullptr;
   }
   const auto person = std::get<SimulatedPerson>(Library().person());
   Motion motion = person.lateral;
-  if (options.hand == "circular")
+  const std::string hand = options.hand.value_or("lateral");
+  if (hand == "circular")
     motion = person.circular;
-  else if (options.hand == "rest")
+  else if (hand == "rest")
     motion = Rest{};
-  else if (options.hand != "lateral") {
-    auto trace = load_trace(options.hand);
+  else if (hand != "lateral") {
+    auto trace = load_trace(hand);
     if (!trace) return nullptr;
     motion = *std::move(trace);
   }
@@ -173,10 +207,12 @@ std::optional<BlindMaterial> material_to_feel(const Choice& choice, const std::v
 }
 
 int feel(const FeelOptions& options) {
-  const auto material = material_to_feel(choice_to_feel(options, options.choice), options.settings);
+  const auto on = device_to_feel(options);
+  if (!on) return refused;
+  const auto material = material_to_feel(on->built(options.choice), options.settings);
   if (!material) return refused;
   const PatchProgram& program = material->program.description();
-  const auto device = device_for(options, program);
+  const auto device = device_for(options, *on, program);
   if (!device) return refused;
   Stage stage(*device);
   stage.place(material->program);
@@ -218,8 +254,10 @@ int feel(const FeelOptions& options) {
     write_csv(csv, done.record);
     if (const auto problem = command::write_file(options.record, csv.str())) return refuse(*problem);
   }
-  const FeltReport report =
-      felt_report(*stage.bank(), done, program.device, {"simulated", options.hand, options.virtual_time});
+  RunManner manner{"simulated", options.hand.value_or("lateral"), options.virtual_time, std::nullopt};
+  if (const auto* plugged = dynamic_cast<const HotPluggedDevice*>(device.get()))
+    manner = {in_words(*on->chosen.plugged), "yours", false, plugged->report()};
+  const FeltReport report = felt_report(*stage.bank(), done, program.device, std::move(manner));
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
   return 0;
 }
@@ -229,15 +267,17 @@ int feel_blind(const FeelOptions& options) {
   Choice against = options.choice;
   const NamedMaterial named = named_material(options.against);
   against.file = named.file, against.material = named.material;
-  const auto a = material_to_feel(choice_to_feel(options, options.choice), options.settings),
-             b = material_to_feel(choice_to_feel(options, against), {});
+  const auto on = device_to_feel(options);
+  if (!on) return refused;
+  const auto a = material_to_feel(on->built(options.choice), options.settings),
+             b = material_to_feel(on->built(against), {});
   if (!a || !b) return refused;
   const DeviceProfile& device = a->program.description().device;
   if (b->program.description().device.name != device.name)
     return refuse(fmt::format("A is built for `{}` and B for `{}`: both are felt on one device", device.name,
                               b->program.description().device.name));
   if (device.shaker) return refuse(fmt::format("`{}` only vibrates: what is compared blindly are forces", device.name));
-  const auto joystick = device_for(options, a->program.description());
+  const auto joystick = device_for(options, *on, a->program.description());
   if (!joystick) return refused;
 
   const std::shared_ptr<const CommonModules> common = common_modules();
@@ -384,7 +424,10 @@ int main(int argc, char** argv) {
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
   offer(*verb, feeling.choice, "--built-for");
   with_settings(verb, feeling.settings);
-  verb->add_option("--device", feeling.device, "the joystick or pad (default: simulated; see `wale devices`)");
+  verb->add_option(
+      "--device", feeling.device,
+      "auto (default): the best one plugged in, else simulated; simulated; a name from `wale devices`: the "
+      "real one where it is plugged in; simulated:NAME; usb; 1209:ffb0; a port, 1-2");
   verb->add_option("--hand", feeling.hand,
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   verb->add_option("--seconds", feeling.seconds, "how long (default: 5; with --blind 3 for each of the two)");
@@ -404,7 +447,10 @@ int main(int argc, char** argv) {
   verb->add_option("--seed", feeling.seed, "of the random order (default: another each time)")->needs(blind);
   verb->add_flag("--json", feeling.json, "the report as a JSON object");
   verb->footer("for example: wale feel library/fabric/velvet.wale --against library/fabric/denim.wale --blind");
-  verb->callback([&] { status = feeling.blind ? feel_blind(feeling) : feel(feeling); });
+  verb->callback([&, built_for = verb->get_option("--built-for")] {
+    if (built_for->count() > 0) feeling.built_for = feeling.choice.device;
+    status = feeling.blind ? feel_blind(feeling) : feel(feeling);
+  });
 
   verb = app.add_subcommand("sample", "the program's force at given hands, open loop; outside the patch it is zero");
   offer(*verb, choice);

@@ -62,6 +62,37 @@ nlohmann::ordered_json force_json(const ForceSize& size) {
   return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
 }
 
+/// "forces_sent_x" as a person reads it.
+std::string spaced(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+/// What became of a real device, with what it has done as so many a second.
+std::string plugged_text(const HotPlugReport& plugged, double seconds) {
+  std::string text = "  driven       " + plugged.manner + "\n", counts;
+  for (const auto& [name, count] : plugged.tally)
+    if (count > 0)
+      counts += fmt::format("{}{} {} ({:.0f} a second)", counts.empty() ? "" : ", ", spaced(name), count,
+                            static_cast<double>(count) / seconds);
+  if (!counts.empty()) text += "  packets      " + counts + "\n";
+  const auto times = [](long count) { return fmt::format("{} time{}", count, count == 1 ? "" : "s"); };
+  if (plugged.losses > 0)
+    text += fmt::format("  lost         {} ({}), set up anew {}{}\n", times(plugged.losses), plugged.reason,
+                        times(plugged.returns), plugged.refusal.empty() ? "" : "; not again: " + plugged.refusal);
+  return text;
+}
+
+nlohmann::ordered_json plugged_json(const HotPlugReport& plugged) {
+  nlohmann::ordered_json json = {{"manner", plugged.manner},
+                                 {"losses", plugged.losses},
+                                 {"returns", plugged.returns},
+                                 {"reason", plugged.reason},
+                                 {"refusal", plugged.refusal}};
+  for (const auto& [name, count] : plugged.tally) json["tally"][name] = count;
+  return json;
+}
+
 }  // namespace
 
 FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner) {
@@ -88,9 +119,12 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
 
 std::string felt_text(const FeltReport& report) {
   const Felt& felt = report.felt;
-  std::string text =
-      fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device, report.device.name,
-                  report.manner.hand, report.seconds, report.manner.virtual_time ? " of virtual time" : "");
+  std::string text = report.manner.plugged
+                         ? fmt::format("{} on {}, as {}, in your hand, {:.4g} s\n", report.material,
+                                       report.manner.device, report.device.name, report.seconds)
+                         : fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
+                                       report.device.name, report.manner.hand, report.seconds,
+                                       report.manner.virtual_time ? " of virtual time" : "");
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed,
                       report.device.rate);
   if (report.manner.virtual_time)
@@ -99,6 +133,7 @@ std::string felt_text(const FeltReport& report) {
     text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50,
                         1e6 * report.lateness.p99, 1e6 * report.lateness.maximum);
   if (!report.scheduling.empty()) text += fmt::format("  scheduling   {}\n", report.scheduling);
+  if (report.manner.plugged) text += plugged_text(*report.manner.plugged, report.seconds);
   if (felt.vibration)
     text += vibration_text(*felt.vibration);
   else
@@ -150,6 +185,7 @@ std::string felt_json(const FeltReport& report) {
   json["lateness"] = {
       {"p50_s", report.lateness.p50}, {"p99_s", report.lateness.p99}, {"max_s", report.lateness.maximum}};
   json["scheduling"] = report.scheduling;
+  if (report.manner.plugged) json["plugged"] = plugged_json(*report.manner.plugged);
   if (felt.vibration) {
     json["vibration"] = vibration_json(*felt.vibration);
     json["predicted_amplitude_m_per_s2"] = report.predicted_amplitude;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/device/hot_plugged_device.hpp"
 #include "wale/felt.hpp"
 #include "wale/stage.hpp"
 
@@ -13,6 +15,7 @@ struct RunManner {
   std::string device;  ///< "simulated"
   std::string hand;    ///< "lateral", or the trace's file
   bool virtual_time = false;
+  std::optional<HotPlugReport> plugged;  ///< of a real device
 };
 
 /// What came out of the handle, beside what the program aimed at.

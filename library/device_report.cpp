@@ -54,7 +54,8 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
       "  a device to build for, by its name: the same\n"
       "\nto build for (wale build --device NAME)\n";
-  for (const auto& [profile, source, assumed] : devices) {
+  for (const DescribedDevice& device : devices) {
+    const DeviceProfile& profile = device.profile;
     if (profile.shaker) {
       const Shaker& shaker = *profile.shaker;
       text += fmt::format(
@@ -72,8 +73,9 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
                           profile.damping, profile.friction);
     }
-    if (!assumed.empty()) text += fmt::format("  {:<12} assumed, not measured: {}\n", "", fmt::join(assumed, ", "));
-    if (!source.empty()) text += fmt::format("  {:<12} {}\n", "", source);
+    if (!device.assumed.empty())
+      text += fmt::format("  {:<12} assumed, not measured: {}\n", "", fmt::join(device.assumed, ", "));
+    if (!device.source.empty()) text += fmt::format("  {:<12} {}\n", "", device.source);
   }
   return text;
 }
@@ -86,7 +88,7 @@ std::string devices_json(const std::vector<DescribedDevice>& devices) {
       json.push_back(shaker_json(device));
       continue;
     }
-    const auto& [profile, source, assumed] = device;
+    const DeviceProfile& profile = device.profile;
     json.push_back({{"name", profile.name},
                     {"feel", true},
                     {"build", true},
@@ -99,8 +101,8 @@ std::string devices_json(const std::vector<DescribedDevice>& devices) {
                     {"mass_kg", profile.mass},
                     {"damping_newton_second_per_m", profile.damping},
                     {"friction_newton", profile.friction},
-                    {"assumed", assumed},
-                    {"source", source}});
+                    {"assumed", device.assumed},
+                    {"source", device.source}});
   }
   return json.dump(2) + "\n";
 }

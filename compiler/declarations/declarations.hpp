@@ -14,6 +14,7 @@
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
 #include "schema/device_profile.hpp"
+#include "schema/device_wiring.hpp"
 #include "schema/patch_program.hpp"
 
 namespace wale {
@@ -98,7 +99,9 @@ struct DeviceDeclaration {
   DeviceProfile profile;
   std::string source;
   std::string documentation;
+  DeviceWiring wiring;
   std::vector<std::string> assumed;            ///< settings that nobody measured
+  std::vector<std::string> unknown;            ///< figures of the handle that nobody knows
   std::string of_class;                        ///< the name of its `class`; may be empty
   std::map<std::string, Realisation> realise;  ///< by percept: its own, and what its class says besides
   Span span;

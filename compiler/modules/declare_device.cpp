@@ -99,23 +99,29 @@ Shaker read_vibration(RecordReader& reader) {
   return vibration;
 }
 
-/// What moves and how it resists, beneath what it pushes with.
-void read_handle(RecordReader& reader, DeviceProfile& profile) {
+/// What moves and how it resists, beneath what it pushes with. What is left out, or said to be, is unknown.
+void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::string>& unknown) {
+  const auto known = [&](const char* key) {
+    const auto* found = reader.setting(key);
+    if (found != nullptr && !is_unknown(*found)) return found;
+    unknown.emplace_back(key);
+    return static_cast<const Setting*>(nullptr);
+  };
   const auto optional = [&](const char* key, const char* dimension, double& figure) {
-    if (const auto* found = reader.setting(key)) figure = reader.quantity(*found, 0, dimension).value_or(0);
+    if (const auto* found = known(key)) figure = reader.quantity(*found, 0, dimension).value_or(0);
   };
   optional("mass", "mass", profile.mass);
   optional("damping", "viscosity", profile.damping);
   optional("friction", "force", profile.friction);
   // One value for both axes, or one for each.
   const auto per_axis = [&](const char* key, const char* dimension, double& x, double& y) {
-    const auto* found = reader.setting(key);
+    const auto* found = known(key);
     if (found == nullptr) return;
     x = reader.quantity(*found, 0, dimension).value_or(0);
     y = found->items.size() > 1 ? reader.quantity(*found, 1, dimension).value_or(0) : x;
     if (x < 0 || y < 0)
       reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` is not less than nothing", key),
-                    fmt::format("leave out the `-`, or `{}` where nobody knows it", key));
+                    fmt::format("leave out the `-`, or write `{} unknown`", key));
   };
   per_axis("delay", "time", profile.delay_x, profile.delay_y);
   per_axis("bandwidth", "frequency", profile.bandwidth_x, profile.bandwidth_y);
@@ -165,14 +171,16 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     profile.patch_height = reader.quantity(*patch, 1, "length").value_or(0);
     profile.patch_rim = reader.quantity(*patch, 2, "length").value_or(0);
   }
-  if (!vibrates) read_handle(reader, profile);
+  if (!vibrates) read_handle(reader, profile, device.unknown);
+  read_wiring(reader, profile, device.wiring);
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed") &&
           (device.assumed.empty() || device.assumed.back() != setting.key.text || setting.key.text != "acceleration"))
         device.assumed.push_back(setting.key.text);
   const auto known = [&](const char* key) {
-    return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end();
+    return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end() &&
+           std::ranges::find(device.unknown, key) == device.unknown.end();
   };
   profile.damping_known = !vibrates && known("damping");
   profile.friction_known = !vibrates && known("friction");

@@ -14,6 +14,10 @@ std::string words_of(const SettingItem& item) {
   return text;
 }
 
+bool is_unknown(const Setting& setting) {
+  return setting.items.size() == 1 && !setting.items[0].value && words_of(setting.items[0]) == "unknown";
+}
+
 bool has_word(const SettingItem& item, std::string_view word) {
   return std::ranges::find(item.words, word, &Word::text) != item.words.end() ||
          std::ranges::find(item.trailing, word, &Word::text) != item.trailing.end();

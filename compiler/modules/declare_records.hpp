@@ -53,6 +53,8 @@ class RecordReader {
 
 /// "lateral amplitude" of `lateral amplitude 194 pu`.
 std::string words_of(const SettingItem& item);
+/// Whether a setting says of its figure only that nobody knows it: `damping unknown`.
+bool is_unknown(const Setting& setting);
 /// Whether an item holds a word, before its value or behind it.
 bool has_word(const SettingItem& item, std::string_view word);
 /// What to do about a name that is declared already, there.
@@ -61,6 +63,9 @@ Advice another_name(Span declared);
 /// `realise roughness = lateral(…), by minsky1995.figure19`: each entered by its percept.
 void read_realisations(RecordReader& reader, const Declarations& declarations, const std::string& owner,
                        std::map<std::string, Realisation>& realise);
+
+/// `usb`, `axes`, `motors` and `gain` of a device: which ones it is about, and how they lie on the desk.
+void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring);
 
 /// Each enters one record of its kind.
 void declare_percept(RecordReader& reader, Declarations& declarations);

@@ -11,9 +11,6 @@
 namespace wale {
 namespace {
 
-/// Above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs and migration threads (99).
-constexpr int priority = 80;
-
 constexpr std::size_t stack_bytes = 64 * 1024;
 
 void touch_stack() {
@@ -27,9 +24,9 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 RealTimeClaim::RealTimeClaim() {
   sched_param wanted{};
-  wanted.sched_priority = priority;
+  wanted.sched_priority = loop_priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
-  status_ = error == 0 ? "SCHED_FIFO priority " + std::to_string(priority)
+  status_ = error == 0 ? "SCHED_FIFO priority " + std::to_string(loop_priority)
                        : "ordinary priority (SCHED_FIFO: " + reason(error) + ")";
 
   // Not MCL_FUTURE: under a small limit it would make later allocations of the control thread fail.

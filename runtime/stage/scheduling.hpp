@@ -4,6 +4,10 @@
 
 namespace wale {
 
+/// SCHED_FIFO, of the loop: above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs and migration
+/// threads (99). The threads that serve a device are best just below it.
+inline constexpr int loop_priority = 80;
+
 /// Makes the calling thread as punctual as the system permits: SCHED_FIFO, the process's memory locked (what is mapped
 /// now), its stack touched. Unlocks the memory when it goes, and says in one line what it got.
 class RealTimeClaim {

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "schema/device_wiring.hpp"
 #include "wale/program.hpp"
 #include "wale/simulated.hpp"
 
@@ -28,6 +29,9 @@ struct DescribedDevice {
   DeviceProfile profile;
   std::string source;                ///< where the figures come from
   std::vector<std::string> assumed;  ///< those that nobody measured
+  std::vector<std::string> unknown;  ///< figures of the handle that nobody knows
+  DeviceWiring wiring;               ///< which devices it is about, and how they lie on the desk
+  std::string of_class;              ///< the class of devices that it belongs to; may be empty
 };
 
 /// Materials and levels by name, compiled for a device.

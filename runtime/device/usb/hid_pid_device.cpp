@@ -63,4 +63,12 @@ Force HidPidDevice::command(Force force) noexcept {
   return exerted;
 }
 
+std::vector<std::pair<std::string, long>> HidPidDevice::tally() const {
+  const hid::PidSessionCounts done = counts();
+  return {{"forces_sent_x", done.forces_sent[0]},    {"forces_sent_y", done.forces_sent[1]},
+          {"directions_sent", done.directions_sent}, {"forces_overwritten", done.overwritten},
+          {"effects_refreshed", done.refreshes},     {"positions_received", done.inputs},
+          {"positions_asked_for", done.polls},       {"bad_reports", done.bad_inputs}};
+}
+
 }  // namespace wale

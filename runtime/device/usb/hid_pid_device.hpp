@@ -2,11 +2,13 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
+#include "runtime/device/plugged_device.hpp"
 #include "runtime/device/usb/pid_transport.hpp"
 #include "runtime/device/usb/usb_context.hpp"
-#include "wale/device.hpp"
 
 namespace wale {
 
@@ -27,7 +29,7 @@ struct HidPidOptions {
 ///
 /// Where two axes have an effect each, each packet carries one axis: they alternate when both change, which halves the
 /// rate of each. A device that is lost (`was_lost`) pushes no more and stays where it was last seen.
-class HidPidDevice final : public Device {
+class HidPidDevice final : public PluggedDevice {
  public:
   /// Takes the first interface of the device that can push. The profile's counts and force are positive. The refusal
   /// says what is in the way: permissions and the rule that gives them, another program, that it is no force device, or
@@ -43,8 +45,9 @@ class HidPidDevice final : public Device {
 
   /// Real-time: one atomic load.
   bool was_lost() const noexcept { return transport_->was_lost(); }
-  /// Why it was lost; empty otherwise.
-  std::string reason() const { return transport_->reason(); }
+  std::string reason() const override { return transport_->reason(); }
+  std::vector<std::pair<std::string, long>> tally() const override;
+  std::string manner() const override { return std::string(hid::in_words(arrangement())); }
   hid::Arrangement arrangement() const { return transport_->arrangement(); }
   hid::PidSessionCounts counts() const { return transport_->counts(); }
   const hid::PidLayout& layout() const { return transport_->layout(); }

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "compiler/modules/declare_records.hpp"
+
+namespace wale {
+
+namespace {
+
+/// `x`, `-y`; a word of evidence may stand before it.
+std::optional<SignedAxis> signed_axis(const SyntaxTree& tree, const SettingItem& item) {
+  SignedAxis axis;
+  std::string name = item.words.empty() ? "" : item.words.back().text;
+  if (item.range_end || item.equals) return std::nullopt;
+  if (item.value) {
+    const auto* turned = std::get_if<Unary>(&tree.expr(*item.value));
+    if (!turned || turned->op == UnaryOperator::complement) return std::nullopt;
+    const auto* of = std::get_if<NameUse>(&tree.expr(turned->operand));
+    if (!of) return std::nullopt;
+    axis.sign = turned->op == UnaryOperator::negate ? -1 : 1;
+    name = of->name;
+  }
+  if (name != "x" && name != "y") return std::nullopt;
+  axis.axis = name == "x" ? 0 : 1;
+  return axis;
+}
+
+/// `axes y, -x`: two different axes of the device.
+void read_axes(RecordReader& reader, const char* key, std::array<SignedAxis, 2>& axes) {
+  const auto* found = reader.setting(key);
+  if (!found) return;
+  std::array<std::optional<SignedAxis>, 2> read;
+  if (found->items.size() == 2)
+    for (std::size_t i = 0; i < 2; ++i) read[i] = signed_axis(reader.tree, found->items[i]);
+  if (read[0] && read[1] && read[0]->axis != read[1]->axis)
+    axes = {*read[0], *read[1]};
+  else
+    reader.report(
+        Code::wrong_type, found->span,
+        fmt::format("`{}` names the device's two axes, the one to the right first, each perhaps with a `-`", key),
+        fmt::format("write, for example, `{} x, y` or `{} -y, x`", key, key));
+}
+
+/// `usb "1209:ffb0", "1209:ffb1"`, or `usb any`.
+void read_usb(RecordReader& reader, DeviceWiring& wiring) {
+  const auto* found = reader.setting("usb");
+  if (!found) return;
+  if (found->items.size() == 1 && !found->items[0].value && words_of(found->items[0]) == "any") {
+    wiring.is_generic = true;
+    return;
+  }
+  for (const std::string& text : reader.texts(*found)) {
+    const auto numbers = read_usb_numbers(text);
+    if (!numbers)
+      reader.report(Code::wrong_type, found->span,
+                    fmt::format("\"{}\" is no vendor and product of USB: four hexadecimal digits each", text),
+                    "write what `wale devices` says of it, as in `usb \"1209:ffb0\"`, or `usb any`");
+    else if (std::ranges::find(wiring.usb, *numbers) != wiring.usb.end())
+      reader.report(Code::declared_twice, found->span, fmt::format("\"{}\" stands here twice", text),
+                    "keep one of them");
+    else
+      wiring.usb.push_back(*numbers);
+  }
+}
+
+}  // namespace
+
+void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring) {
+  read_usb(reader, wiring);
+  if (profile.has_position()) read_axes(reader, "axes", wiring.axes);
+  if (profile.shaker) return;
+  read_axes(reader, "motors", wiring.motors);
+  const auto* gain = reader.setting("gain");
+  if (!gain || is_unknown(*gain)) return;
+  wiring.gain[0] = reader.quantity(*gain, 0, "number").value_or(1);
+  wiring.gain[1] = gain->items.size() > 1 ? reader.quantity(*gain, 1, "number").value_or(1) : wiring.gain[0];
+  constexpr double least = 0.1, most = 10;
+  for (double& each : wiring.gain)
+    if (!(each >= least && each <= most)) {
+      each = 1;
+      reader.report(
+          Code::value_out_of_range, gain->span,
+          fmt::format("a gain is from {} to {}: what comes out at the handle of 1 N", least, most),
+          "write, for example, `gain 0.95, 1.05`; where a motor pulls the wrong way, turn it: `motors -x, y`");
+      return;
+    }
+}
+
+}  // namespace wale

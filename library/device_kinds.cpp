@@ -1,0 +1,93 @@
+#include "library/device_kinds.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "runtime/device/usb/falcon_device.hpp"
+#include "runtime/device/usb/hid_pid_device.hpp"
+#include "runtime/device/usb/list_usb_devices.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::string_view hid_pid = "hid-pid";
+
+/// Joysticks of USB's PID class, and all other HID devices, with the reason why they are none.
+std::vector<PluggedIn> find_hid_pid(const Connections& connections, const PluggedIn* like) {
+  std::vector<PluggedIn> found;
+  if (!connections.usb) return found;
+  const auto numbers = like != nullptr ? read_usb_numbers(like->numbers) : std::nullopt;
+  if (like != nullptr && !numbers) return found;
+  for (ListedUsbDevice& device : list_usb_devices(*connections.usb, numbers)) {
+    found.push_back({.kind = std::string(hid_pid),
+                     .numbers = in_words(device.usb.vendor, device.usb.product),
+                     .port = device.usb.port,
+                     .name = std::move(device.name),
+                     .can = std::move(device.can),
+                     .obstacle = std::move(device.obstacle),
+                     .usb = std::move(device.usb)});
+  }
+  return found;
+}
+
+OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+                          const DeviceOptions& options) {
+  HidPidOptions hid;
+  hid.transport.priority = options.priority;
+  auto opened = HidPidDevice::open(connections.usb, plugged.usb, profile, hid);
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  return std::move(std::get<std::unique_ptr<HidPidDevice>>(opened));
+}
+
+constexpr std::string_view novint_falcon = "novint-falcon";
+
+std::vector<PluggedIn> find_falcon(const Connections& connections, const PluggedIn*) {
+  std::vector<PluggedIn> found;
+  if (!connections.usb) return found;
+  for (ListedUsbDevice& device : list_falcons(*connections.usb)) {
+    found.push_back({.kind = std::string(novint_falcon),
+                     .numbers = in_words(device.usb.vendor, device.usb.product),
+                     .port = device.usb.port,
+                     .name = std::move(device.name),
+                     .can = std::move(device.can),
+                     .obstacle = std::move(device.obstacle),
+                     .profile = {},
+                     .usb = std::move(device.usb)});
+  }
+  return found;
+}
+
+OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+                         const DeviceOptions& options) {
+  FalconOptions falcon;
+  falcon.ask = options.ask;
+  auto opened = FalconDevice::open(connections.usb, plugged.usb, profile, falcon);
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  return std::move(std::get<std::unique_ptr<FalconDevice>>(opened));
+}
+
+constexpr std::array<DeviceKind, 2> kinds{
+    {{hid_pid, true, find_hid_pid, open_hid_pid}, {novint_falcon, true, find_falcon, open_falcon}}};
+
+}  // namespace
+
+Connections Connections::open() {
+  auto context = UsbContext::open();
+  if (auto* refusal = std::get_if<Refusal>(&context)) return {nullptr, std::move(refusal->reason)};
+  return {std::get<std::shared_ptr<UsbContext>>(std::move(context)), {}};
+}
+
+std::string in_words(const PluggedIn& plugged) {
+  const std::string name = plugged.name.empty() ? "a device without a name" : plugged.name;
+  if (plugged.numbers.empty()) return name + " (" + plugged.port + ")";
+  return name + " (" + plugged.numbers + " at port " + plugged.port + ")";
+}
+
+std::span<const DeviceKind> device_kinds() { return kinds; }
+
+const DeviceKind* device_kind(std::string_view name) {
+  const auto found = std::ranges::find(kinds, name, &DeviceKind::name);
+  return found != kinds.end() ? found : nullptr;
+}
+
+}  // namespace wale

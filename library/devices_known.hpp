@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "compiler/check/check.hpp"
+#include "wale/library.hpp"
+
+namespace wale {
+
+/// The devices that a file may name: its own and those that it imports, and then those that every file knows.
+std::vector<DescribedDevice> devices_known(const CheckedModule& module);
+std::vector<DescribedDevice> devices_known(const Declarations& declarations);
+
+}  // namespace wale
