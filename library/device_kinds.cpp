@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/device/pointer/pointer_device.hpp"
 #include "runtime/device/usb/falcon_device.hpp"
 #include "runtime/device/usb/hid_pid_device.hpp"
 #include "runtime/device/usb/list_usb_devices.hpp"
@@ -66,8 +67,29 @@ OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugge
   return std::move(std::get<std::unique_ptr<FalconDevice>>(opened));
 }
 
-constexpr std::array<DeviceKind, 2> kinds{
-    {{hid_pid, true, find_hid_pid, open_hid_pid}, {novint_falcon, true, find_falcon, open_falcon}}};
+constexpr std::string_view pointer_kind = "pointer";  // and the name of what declares it
+
+/// The mouse in this terminal, which is always there, or would be.
+std::vector<PluggedIn> find_pointer(const Connections&, const PluggedIn*) {
+  return {{.kind = std::string(pointer_kind),
+           .numbers = {},
+           .port = std::string(pointer_kind),
+           .name = "the mouse in this terminal",
+           .can = "two axes; forces are drawn, not felt",
+           .obstacle = pointer::why_no_terminal(),
+           .profile = std::string(pointer_kind),
+           .usb = {}}};
+}
+
+OpenedDevice open_pointer(const Connections&, const PluggedIn&, const DeviceProfile& profile, const DeviceOptions&) {
+  auto opened = PointerDevice::open(profile);
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  return std::move(std::get<std::unique_ptr<PointerDevice>>(opened));
+}
+
+constexpr std::array<DeviceKind, 3> kinds{{{hid_pid, true, find_hid_pid, open_hid_pid},
+                                           {novint_falcon, true, find_falcon, open_falcon},
+                                           {pointer_kind, false, find_pointer, open_pointer}}};
 
 }  // namespace
 
