@@ -161,7 +161,8 @@ std::unique_ptr<Device> device_for(const FeelOptions& options, const DeviceToFee
                                    const PatchProgram& program) {
   const DeviceProfile& profile = program.device;
   if (device.chosen.plugged) {
-    auto opened = open_device(device.connections, device.chosen, profile);
+    auto opened = open_device(device.connections, device.chosen, profile,
+                              [](const std::string& what) { fmt::print(stderr, "wale: {}\n", what); });
     if (const auto* refusal = std::get_if<Refusal>(&opened)) {
       refuse(refusal->reason);
       return nullptr;
@@ -212,7 +213,7 @@ int feel(const FeelOptions& options) {
   const auto material = material_to_feel(on->built(options.choice), options.settings);
   if (!material) return refused;
   const PatchProgram& program = material->program.description();
-  const auto device = device_for(options, *on, program);
+  auto device = device_for(options, *on, program);
   if (!device) return refused;
   Stage stage(*device);
   stage.place(material->program);
@@ -258,6 +259,7 @@ int feel(const FeelOptions& options) {
   if (const auto* plugged = dynamic_cast<const HotPluggedDevice*>(device.get()))
     manner = {in_words(*on->chosen.plugged), "yours", false, plugged->report()};
   const FeltReport report = felt_report(*stage.bank(), done, program.device, std::move(manner));
+  device.reset();  // one that draws gives the terminal back
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
   return 0;
 }
@@ -277,6 +279,8 @@ int feel_blind(const FeelOptions& options) {
     return refuse(fmt::format("A is built for `{}` and B for `{}`: both are felt on one device", device.name,
                               b->program.description().device.name));
   if (device.shaker) return refuse(fmt::format("`{}` only vibrates: what is compared blindly are forces", device.name));
+  if (on->chosen.plugged && on->chosen.plugged->kind == "pointer")
+    return refuse("nothing is felt on the pointer, so there is nothing to compare");
   const auto joystick = device_for(options, *on, a->program.description());
   if (!joystick) return refused;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "runtime/device/pointer/pointer_device.hpp"
+#include "runtime/device/usb/falcon_device.hpp"
 #include "runtime/device/usb/hid_pid_device.hpp"
 #include "runtime/device/usb/list_usb_devices.hpp"
 
@@ -38,7 +40,56 @@ OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugg
   return std::move(std::get<std::unique_ptr<HidPidDevice>>(opened));
 }
 
-constexpr std::array<DeviceKind, 1> kinds{{{hid_pid, true, find_hid_pid, open_hid_pid}}};
+constexpr std::string_view novint_falcon = "novint-falcon";
+
+std::vector<PluggedIn> find_falcon(const Connections& connections, const PluggedIn*) {
+  std::vector<PluggedIn> found;
+  if (!connections.usb) return found;
+  for (ListedUsbDevice& device : list_falcons(*connections.usb)) {
+    found.push_back({.kind = std::string(novint_falcon),
+                     .numbers = in_words(device.usb.vendor, device.usb.product),
+                     .port = device.usb.port,
+                     .name = std::move(device.name),
+                     .can = std::move(device.can),
+                     .obstacle = std::move(device.obstacle),
+                     .profile = {},
+                     .usb = std::move(device.usb)});
+  }
+  return found;
+}
+
+OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+                         const DeviceOptions& options) {
+  FalconOptions falcon;
+  falcon.ask = options.ask;
+  auto opened = FalconDevice::open(connections.usb, plugged.usb, profile, falcon);
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  return std::move(std::get<std::unique_ptr<FalconDevice>>(opened));
+}
+
+constexpr std::string_view pointer_kind = "pointer";  // and the name of what declares it
+
+/// The mouse in this terminal, which is always there, or would be.
+std::vector<PluggedIn> find_pointer(const Connections&, const PluggedIn*) {
+  return {{.kind = std::string(pointer_kind),
+           .numbers = {},
+           .port = std::string(pointer_kind),
+           .name = "the mouse in this terminal",
+           .can = "two axes; forces are drawn, not felt",
+           .obstacle = pointer::why_no_terminal(),
+           .profile = std::string(pointer_kind),
+           .usb = {}}};
+}
+
+OpenedDevice open_pointer(const Connections&, const PluggedIn&, const DeviceProfile& profile, const DeviceOptions&) {
+  auto opened = PointerDevice::open(profile);
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  return std::move(std::get<std::unique_ptr<PointerDevice>>(opened));
+}
+
+constexpr std::array<DeviceKind, 3> kinds{{{hid_pid, true, find_hid_pid, open_hid_pid},
+                                           {novint_falcon, true, find_falcon, open_falcon},
+                                           {pointer_kind, false, find_pointer, open_pointer}}};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,9 +52,10 @@ std::variant<ChosenDevice, Refusal> choose_device(const DeviceRequest& request,
 
 /// Opens a chosen device that is plugged in, by the profile of the program, with threads just below the real-time
 /// loop's priority where that is permitted. It is found again when it comes back after it was unplugged: at its port,
-/// or at another one where none like it was.
+/// or at another one where none like it was. `ask` is told what the person is to do meanwhile, from whatever thread.
 std::variant<std::unique_ptr<HotPluggedDevice>, Refusal> open_device(const Connections& connections,
                                                                      const ChosenDevice& chosen,
-                                                                     const DeviceProfile& profile);
+                                                                     const DeviceProfile& profile,
+                                                                     std::function<void(const std::string&)> ask = {});
 
 }  // namespace wale

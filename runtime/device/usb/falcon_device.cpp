@@ -43,6 +43,7 @@ FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, DevicePro
     : transport_(std::move(transport)),
       profile_(std::move(profile)),
       plane_(profile_.force_newton, options.hold),
+      is_held_(options.hold.stiffness > 0),
       stale_after_(static_cast<std::int64_t>(options.stale_after * 1e6)) {}
 
 Reading FalconDevice::sample() noexcept {
@@ -68,6 +69,20 @@ Force FalconDevice::command(Force force) noexcept {
   const falcon::FalconPlane::Push push = plane_.push(force, microseconds_now());
   transport_->command(push.torques);
   return {static_cast<float>(push.force.x), static_cast<float>(push.force.y)};
+}
+
+std::vector<std::pair<std::string, long>> FalconDevice::tally() const {
+  const falcon::FalconSessionCounts done = counts();
+  return {{"forces_sent", done.commands_sent},
+          {"forces_overwritten", done.overwritten},
+          {"positions_received", done.answers},
+          {"answers_missing", done.silences},
+          {"bytes_of_no_answer", done.skipped_bytes}};
+}
+
+std::string FalconDevice::manner() const {
+  return is_held_ ? "three motors; the handle is held in an upright plane"
+                  : "three motors; the handle may leave its plane";
 }
 
 }  // namespace wale

@@ -4,13 +4,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "runtime/device/falcon/falcon_plane.hpp"
+#include "runtime/device/plugged_device.hpp"
 #include "runtime/device/usb/falcon_firmware.hpp"
 #include "runtime/device/usb/falcon_transport.hpp"
 #include "runtime/device/usb/usb_context.hpp"
-#include "wale/device.hpp"
 
 namespace wale {
 
@@ -37,7 +39,7 @@ struct FalconOptions {
 ///
 /// It pushes only while somebody commands, and never before its encoders are homed. One that is lost (`was_lost`) stays
 /// where it was last seen.
-class FalconDevice final : public Device {
+class FalconDevice final : public PluggedDevice {
  public:
   /// Loads the firmware where the device runs none, and waits until it is homed. The profile's counts and force are
   /// positive. The refusal says what is in the way: permissions and the rule that gives them, another program, missing
@@ -53,8 +55,9 @@ class FalconDevice final : public Device {
 
   /// Real-time: one atomic load.
   bool was_lost() const noexcept { return transport_->was_lost(); }
-  /// Why it was lost; empty otherwise.
-  std::string reason() const { return transport_->reason(); }
+  std::string reason() const override { return transport_->reason(); }
+  std::vector<std::pair<std::string, long>> tally() const override;
+  std::string manner() const override;
   falcon::FalconSessionCounts counts() const { return transport_->counts(); }
   double out_of_plane() const noexcept { return plane_.out_of_plane(); }  ///< m, towards the user
 
@@ -64,6 +67,7 @@ class FalconDevice final : public Device {
   std::unique_ptr<FalconTransport> transport_;
   DeviceProfile profile_;
   falcon::FalconPlane plane_;
+  bool is_held_;
   std::int64_t stale_after_;
   bool is_good_ = false;
 };

@@ -91,9 +91,7 @@ ListedUsbDevice listed_device(const UsbContext& context, const UsbDeviceInfo& in
     listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
                  " steps of torque to each side";
     const auto firmware = read_falcon_firmware(falcon_firmware_path());
-    if (const auto* refusal = std::get_if<Refusal>(&firmware)) {
-      listed.obstacle = "unless it has been used since it got its power, it lacks its firmware: " + refusal->reason;
-    }
+    if (const auto* refusal = std::get_if<Refusal>(&firmware)) listed.obstacle = refusal->reason;
   }
   for (const UsbHidInterface& interface : info.hid) {
     if (const auto known = descriptor_from_kernel(info, interface)) {
@@ -115,17 +113,24 @@ ListedUsbDevice listed_device(const UsbContext& context, const UsbDeviceInfo& in
   return listed;
 }
 
-}  // namespace
-
-std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context, const std::optional<UsbNumbers>& only) {
+template <class IsMeant>
+std::vector<ListedUsbDevice> listed_devices(const UsbContext& context, IsMeant is_meant) {
   std::vector<UsbDeviceInfo> devices = context.devices();
-  std::erase_if(devices, [&](const UsbDeviceInfo& info) {
-    return (info.hid.empty() && !is_falcon(info)) || (only && *only != UsbNumbers{info.vendor, info.product});
-  });
+  std::erase_if(devices, [&](const UsbDeviceInfo& info) { return !is_meant(info); });
   std::sort(devices.begin(), devices.end(), [](const auto& a, const auto& b) { return a.port < b.port; });
   std::vector<ListedUsbDevice> listed;
   for (const UsbDeviceInfo& info : devices) listed.push_back(listed_device(context, info));
   return listed;
 }
+
+}  // namespace
+
+std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context, const std::optional<UsbNumbers>& only) {
+  return listed_devices(context, [&](const UsbDeviceInfo& info) {
+    return !info.hid.empty() && (!only || *only == UsbNumbers{info.vendor, info.product});
+  });
+}
+
+std::vector<ListedUsbDevice> list_falcons(const UsbContext& context) { return listed_devices(context, is_falcon); }
 
 }  // namespace wale

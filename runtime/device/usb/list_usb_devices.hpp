@@ -17,10 +17,13 @@ struct ListedUsbDevice {
   std::string obstacle;  ///< why it cannot be used; empty: nothing is known to be in the way
 };
 
-/// All devices of the HID class that are plugged in, and Falcons, in the order of their ports; with `only`, those with
-/// these numbers. Asks no device for anything but its descriptors, and takes none from the kernel's driver or from
-/// another program.
+/// All devices of the HID class that are plugged in, in the order of their ports; with `only`, those with these
+/// numbers. Asks no device for anything but its descriptors, and takes none from the kernel's driver or from another
+/// program.
 std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context,
                                               const std::optional<UsbNumbers>& only = std::nullopt);
+/// All Novint Falcons that are plugged in, in the order of their ports. Whether one has its firmware only a
+/// conversation with it would tell, so a missing file is in the way.
+std::vector<ListedUsbDevice> list_falcons(const UsbContext& context);
 
 }  // namespace wale

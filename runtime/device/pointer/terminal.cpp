@@ -1,0 +1,208 @@
+#include "runtime/device/pointer/terminal.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace wale::pointer {
+namespace {
+
+// Another screen, no cursor, any movement of the mouse told in SGR's form; is the form with pixels known, and how many
+// are there?
+constexpr char take_it[] = "\033[?1049h\033[2J\033[?25l\033[?1003h\033[?1006h";
+constexpr char ask[] = "\033[?1016$p\033[14t";
+constexpr char pixels[] = "\033[?1016h";
+constexpr char give_back[] = "\033[?1016l\033[?1006l\033[?1003l\033[?25h\033[?1049l";
+
+// What a signal handler needs to know.
+std::atomic<int> taken{-1};  // the terminal's descriptor
+std::atomic<bool> in_pixels{false}, taken_again{false};
+std::atomic<bool> shows{false};       // pictures may be written
+std::atomic<bool> is_written{false};  // one is, now
+termios before{}, meanwhile{};
+
+constexpr int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE};
+std::array<bool, std::size(ends)> is_ours{};
+bool stop_is_ours = false;
+
+/// As much as goes at once: a signal handler waits for nobody.
+void put(int descriptor, const char* text, std::size_t size) noexcept {
+  [[maybe_unused]] const auto written = ::write(descriptor, text, size);
+}
+
+/// May be called in a signal handler.
+void show_picture(int descriptor) noexcept {
+  tcsetattr(descriptor, TCSANOW, &meanwhile);
+  put(descriptor, take_it, sizeof take_it - 1);
+  if (in_pixels.load()) put(descriptor, pixels, sizeof pixels - 1);
+  shows.store(true);
+}
+
+/// May be called in a signal handler.
+void show_text(int descriptor) noexcept {
+  shows.store(false);
+  // A picture that is under way would come after the text; that of this very thread never ends.
+  constexpr int most_waits = 50;
+  for (int i = 0; i < most_waits && is_written.load(); ++i) {
+    const timespec millisecond{0, 1'000'000};
+    nanosleep(&millisecond, nullptr);
+  }
+  put(descriptor, give_back, sizeof give_back - 1);
+  tcsetattr(descriptor, TCSANOW, &before);
+}
+
+void when_ended(int signal) {
+  if (const int descriptor = taken.exchange(-1); descriptor >= 0) show_text(descriptor);
+  raise(signal);  // which does by itself now what it does to programs: SA_RESETHAND
+}
+
+void when_stopped(int) {
+  const int error = errno;
+  const int descriptor = taken.load();
+  if (descriptor >= 0) show_text(descriptor);
+  raise(SIGSTOP);
+  // and, some time later, on:
+  if (descriptor >= 0) show_picture(descriptor);
+  taken_again.store(true);
+  errno = error;
+}
+
+void when_exited() {
+  if (const int descriptor = taken.exchange(-1); descriptor >= 0) show_text(descriptor);
+}
+
+bool takes_signal(int signal, void (*handler)(int), int flags) {
+  struct sigaction old {};
+  if (sigaction(signal, nullptr, &old) != 0 || (old.sa_flags & SA_SIGINFO) != 0 || old.sa_handler != SIG_DFL) {
+    return false;
+  }
+  struct sigaction ours {};
+  ours.sa_handler = handler;
+  ours.sa_flags = flags;
+  return sigaction(signal, &ours, nullptr) == 0;
+}
+
+void gives_signal_back(int signal, void (*handler)(int)) {
+  struct sigaction now {};
+  if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == handler) ::signal(signal, SIG_DFL);
+}
+
+/// The terminal's descriptor, or why it cannot be used.
+std::variant<int, Refusal> opened_terminal(const std::string& path, termios& settings) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) return Refusal{"there is no terminal: " + path + ": " + std::strerror(errno), {}};
+  if (tcgetattr(descriptor, &settings) != 0) {
+    close(descriptor);
+    return Refusal{path + " is no terminal", {}};
+  }
+  if (const pid_t foreground = tcgetpgrp(descriptor); foreground >= 0 && foreground != getpgrp()) {
+    close(descriptor);
+    return Refusal{"this program is in the terminal's background", {}};
+  }
+  return descriptor;
+}
+
+}  // namespace
+
+std::string why_no_terminal(const std::string& path) {
+  termios settings{};
+  const auto opened = opened_terminal(path, settings);
+  if (const auto* refusal = std::get_if<Refusal>(&opened)) return refusal->reason;
+  close(std::get<int>(opened));
+  return "";
+}
+
+std::variant<Terminal, Refusal> Terminal::open(const std::string& path) {
+  if (taken.load() >= 0) return Refusal{"the terminal is in use already", {}};
+  auto opened = opened_terminal(path, before);
+  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
+  return Terminal(std::get<int>(opened));
+}
+
+void Terminal::take() const {
+  meanwhile = before;
+  meanwhile.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // signals stay: Ctrl-C ends the program
+  meanwhile.c_cc[VMIN] = 0;
+  meanwhile.c_cc[VTIME] = 0;
+  in_pixels.store(false);
+  taken_again.store(false);
+  static const bool at_exit = std::atexit(when_exited) == 0;
+  static_cast<void>(at_exit);
+  for (std::size_t i = 0; i < std::size(ends); ++i) {
+    is_ours[i] = takes_signal(ends[i], when_ended, static_cast<int>(SA_RESETHAND));
+  }
+  stop_is_ours = takes_signal(SIGTSTP, when_stopped, SA_RESTART);
+  taken.store(descriptor_);
+  show_picture(descriptor_);
+  write(ask);
+}
+
+Terminal::Terminal(Terminal&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
+
+Terminal::~Terminal() {
+  if (descriptor_ < 0) return;
+  int own = descriptor_;
+  if (!taken.compare_exchange_strong(own, -1)) {  // never taken, or given back already
+    close(descriptor_);
+    return;
+  }
+  show_text(descriptor_);
+  for (std::size_t i = 0; i < std::size(ends); ++i) {
+    if (is_ours[i]) gives_signal_back(ends[i], when_ended);
+  }
+  if (stop_is_ours) gives_signal_back(SIGTSTP, when_stopped);
+  tcflush(descriptor_, TCIFLUSH);  // movements that are still being told are nothing typed
+  close(descriptor_);
+}
+
+Terminal::Size Terminal::size() const {
+  Size size;
+  winsize window{};
+  if (ioctl(descriptor_, TIOCGWINSZ, &window) != 0) return size;
+  if (window.ws_col > 0 && window.ws_row > 0) size.columns = window.ws_col, size.rows = window.ws_row;
+  size.width = window.ws_xpixel;
+  size.height = window.ws_ypixel;
+  return size;
+}
+
+bool Terminal::write(std::string_view text) const {
+  while (!text.empty()) {
+    // A terminal that takes nothing for a second is skipped: what it shows next is newer.
+    pollfd room{descriptor_, POLLOUT, 0};
+    constexpr int patience = 1000;  // ms
+    const int ready = poll(&room, 1, patience);
+    if (ready == 0) return true;
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready < 0 || (room.revents & POLLOUT) == 0) return false;
+    is_written.store(true);
+    if (!shows.load()) {
+      is_written.store(false);
+      return true;  // nobody looks
+    }
+    const ssize_t written = ::write(descriptor_, text.data(), text.size());
+    is_written.store(false);
+    if (written < 0 && errno != EINTR && errno != EAGAIN) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+void Terminal::tell_pixels() const {
+  in_pixels.store(true);
+  write(pixels);
+}
+
+bool Terminal::was_taken_again() const { return taken_again.exchange(false); }
+
+}  // namespace wale::pointer

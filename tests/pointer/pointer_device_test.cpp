@@ -1,0 +1,280 @@
+#include "runtime/device/pointer/pointer_device.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <thread>
+
+// On a terminal of its own (a pty), whose other end the test holds: what is asked of it and told by it is bytes.
+
+namespace wale::test::pointer_device {
+namespace {
+
+constexpr char taken[] = "\033[?1049h\033[2J\033[?25l\033[?1003h\033[?1006h";
+constexpr char given_back[] = "\033[?1016l\033[?1006l\033[?1003l\033[?25h\033[?1049l";
+
+DeviceProfile profile() {
+  DeviceProfile profile;
+  profile.name = "pointer";
+  profile.workspace_diameter = 0.2;
+  profile.position_counts = 1000;
+  profile.force_newton = 10;
+  profile.force_counts = 2048;
+  profile.rate = 900;
+  profile.patch_width = profile.patch_height = 0.12;
+  return profile;
+}
+
+/// A terminal of 80 by 24 cells.
+class Pty {
+ public:
+  Pty() : master_(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    grantpt(master_);
+    unlockpt(master_);
+    path = ptsname(master_);
+    slave_ = open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    resize(0, 0);
+    tcgetattr(slave_, &before_);
+  }
+  ~Pty() {
+    close(slave_);
+    hang_up();
+  }
+
+  void resize(unsigned short width, unsigned short height) const {
+    const winsize window{24, 80, width, height};
+    ioctl(master_, TIOCSWINSZ, &window);
+  }
+  void type(const std::string& text) const {
+    ASSERT_EQ(write(master_, text.data(), text.size()), ssize_t(text.size()));
+  }
+  void hang_up() {
+    if (master_ >= 0) close(master_);
+    master_ = -1;
+  }
+
+  /// Everything so far, after waiting until `part` is in it.
+  const std::string& screen_with(const std::string& part) {
+    while (screen_.find(part) == std::string::npos) read_some(-1);
+    return screen_;
+  }
+  const std::string& screen() {
+    while (read_some(0)) {
+    }
+    return screen_;
+  }
+  bool is_as_before() const {
+    termios now{};
+    tcgetattr(slave_, &now);
+    return now.c_lflag == before_.c_lflag && std::memcmp(now.c_cc, before_.c_cc, sizeof now.c_cc) == 0;
+  }
+
+  std::string path;
+
+ private:
+  bool read_some(int patience) {
+    pollfd waited{master_, POLLIN, 0};
+    if (poll(&waited, 1, patience) <= 0) return false;
+    char bytes[4096];
+    const ssize_t got = read(master_, bytes, sizeof bytes);
+    if (got <= 0) return false;
+    screen_.append(bytes, static_cast<std::size_t>(got));
+    return true;
+  }
+
+  int master_, slave_ = -1;
+  termios before_{};
+  std::string screen_;
+};
+
+/// One that has the terminal, as it has from the first command on.
+std::unique_ptr<PointerDevice> opened(const Pty& pty) {
+  auto result = PointerDevice::open(profile(), {pty.path, 100});
+  if (const auto* refusal = std::get_if<Refusal>(&result)) {
+    ADD_FAILURE() << refusal->reason;
+    return nullptr;
+  }
+  auto device = std::move(std::get<std::unique_ptr<PointerDevice>>(result));
+  EXPECT_TRUE(pty.is_as_before()) << "messages can be read until it is used";
+  device->command({0, 0});
+  while (pty.is_as_before()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return device;
+}
+
+template <class Condition>
+void await(Condition holds) {
+  while (!holds()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+TEST(PointerDevice, TakesTheTerminalAndGivesItBack) {
+  Pty pty;
+  auto device = opened(pty);
+  ASSERT_NE(device, nullptr);
+  EXPECT_FALSE(pty.is_as_before());
+  EXPECT_EQ(pty.screen_with("\033[14t").find(std::string(taken) + "\033[?1016$p\033[14t"), 0u);
+  device.reset();
+  EXPECT_TRUE(ends_with(pty.screen(), given_back));
+  EXPECT_TRUE(pty.is_as_before());
+  auto unused = PointerDevice::open(profile(), {pty.path});
+  const std::size_t so_far = pty.screen().size();
+  unused = Refusal{};
+  EXPECT_EQ(pty.screen().size(), so_far) << "one that was never commanded changes nothing";
+}
+
+TEST(PointerDevice, LettersMoveTheHandByLetters) {
+  Pty pty;
+  const auto device = opened(pty);
+  EXPECT_EQ(device->sample().counts, glm::ivec2(0)) << "until something is told";
+  // 23 rows twice as high as wide, 46 widths are 200 mm: 5 counts are a millimetre. The middle of column 63 is 22.5
+  // widths to the right, that of row 1 is 11 rows up.
+  pty.type("\033[<35;63;1M");
+  await([&] { return device->sample().counts != glm::ivec2(0); });
+  const Reading reading = device->sample();
+  EXPECT_EQ(reading.counts, glm::ivec2(std::lround(22.5 / 46 * 1000), std::lround(22.0 / 46 * 1000)));
+  EXPECT_FALSE(reading.button);
+  EXPECT_EQ(reading.contact, Contact::good);
+  EXPECT_TRUE(std::isnan(reading.interaction.x)) << "nobody knows what a hand does to a mouse";
+  pty.type("\033[<0;63;1M");
+  await([&] { return device->sample().button; });
+  EXPECT_EQ(device->manner(), "the mouse by the letter; forces are drawn, not felt");
+}
+
+TEST(PointerDevice, PixelsAreUsedWhereTheTerminalKnowsThem) {
+  Pty pty;
+  pty.resize(800, 480);
+  const auto device = opened(pty);
+  pty.screen_with("\033[14t");
+  pty.type("\033[?1016;2$y");
+  pty.screen_with("\033[?1016h");
+  // Cells of 10 by 20 pixels; the workspace is 460 pixels, its middle at (400, 230).
+  pty.type("\033[<35;516;116M");
+  await([&] { return device->sample().counts != glm::ivec2(0); });
+  EXPECT_EQ(device->sample().counts, glm::ivec2(std::lround(115.5 / 460 * 1000), std::lround(114.5 / 460 * 1000)));
+  EXPECT_EQ(device->manner(), "the mouse by the pixel; forces are drawn, not felt");
+}
+
+TEST(PointerDevice, PixelsOfATerminalThatTellsItsSizeWhenAsked) {
+  Pty pty;
+  const auto device = opened(pty);
+  pty.type("\033[?1016;1$y\033[<35;516;116M\033[4;480;800t");
+  pty.screen_with("\033[?1016h");
+  pty.type("\033[<35;516;116M");
+  await([&] { return device->sample().counts != glm::ivec2(0); });
+  EXPECT_EQ(device->sample().counts, glm::ivec2(std::lround(115.5 / 460 * 1000), std::lround(114.5 / 460 * 1000)))
+      << "and not the one whose size was unknown";
+}
+
+TEST(PointerDevice, ForcesAreDrawn) {
+  Pty pty;
+  const auto device = opened(pty);
+  EXPECT_EQ(device->command({1.5f, -2}), Force(1.5f, -2));
+  pty.screen_with("1.50 N to the right, -2.00 N away: drawn, not felt");
+  EXPECT_EQ(device->command({99, std::nanf("")}), Force(10, 0)) << "the profile's peak";
+  pty.screen_with("10.00 N to the right, 0.00 N away");
+  EXPECT_GT(device->tally()[1].second, 0);
+}
+
+TEST(PointerDevice, AClosedTerminalIsADeviceThatIsLost) {
+  Pty pty;
+  const auto device = opened(pty);
+  pty.hang_up();
+  await([&] { return device->sample().contact == Contact::lost; });
+  EXPECT_EQ(device->reason(), "the terminal was closed");
+  EXPECT_EQ(device->command({1, 1}), Force(0));
+}
+
+TEST(PointerDevice, IsRefusedWhereThereIsNoTerminal) {
+  const auto none = PointerDevice::open(profile(), {"/nowhere/tty"});
+  EXPECT_EQ(std::get<Refusal>(none).reason, "there is no terminal: /nowhere/tty: No such file or directory");
+  const auto file = PointerDevice::open(profile(), {"/dev/null"});
+  EXPECT_EQ(std::get<Refusal>(file).reason, "/dev/null is no terminal");
+  Pty pty;
+  const auto device = opened(pty);
+  const auto second = PointerDevice::open(profile(), {pty.path});
+  EXPECT_EQ(std::get<Refusal>(second).reason, "the terminal is in use already");
+}
+
+TEST(PointerDevice, HoweverTheProcessEndsTheTerminalIsAsBefore) {
+  constexpr int leaves_by_exit = 0;
+  for (const int signal : {leaves_by_exit, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGABRT, SIGFPE}) {
+    Pty pty;
+    const pid_t child = fork();
+    if (child == 0) {
+      const auto device = opened(pty);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // anywhere in its life
+      if (signal == leaves_by_exit) exit(0);
+      if (signal == SIGABRT) abort();
+      raise(signal);
+      _exit(9);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (signal != leaves_by_exit) {
+      EXPECT_TRUE(WIFSIGNALED(status)) << signal;
+      EXPECT_EQ(WTERMSIG(status), signal) << "it dies of what it was sent";
+    }
+    EXPECT_TRUE(ends_with(pty.screen(), given_back)) << signal;
+    EXPECT_TRUE(pty.is_as_before()) << signal;
+  }
+}
+
+TEST(PointerDevice, ASignalThatTheProgramHandlesStaysItsOwn) {
+  static volatile sig_atomic_t handled = 0;
+  struct sigaction own {
+  }, before{};
+  own.sa_handler = [](int) { handled = 1; };
+  sigaction(SIGINT, &own, &before);
+  {
+    Pty pty;
+    const auto device = opened(pty);
+    raise(SIGINT);
+    EXPECT_EQ(handled, 1);
+    EXPECT_FALSE(pty.is_as_before());
+  }
+  struct sigaction now {};
+  sigaction(SIGINT, &before, &now);
+  EXPECT_EQ(now.sa_handler, own.sa_handler);
+  sigaction(SIGTERM, nullptr, &now);
+  EXPECT_EQ(now.sa_handler, SIG_DFL) << "and what was taken is given back";
+}
+
+TEST(PointerDevice, StoppedItGivesTheTerminalBackUntilItGoesOn) {
+  Pty pty;
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto device = opened(pty);
+    raise(SIGTSTP);
+    pause();
+    _exit(9);
+  }
+  int status = 0;
+  waitpid(child, &status, WUNTRACED);
+  ASSERT_TRUE(WIFSTOPPED(status));
+  EXPECT_TRUE(pty.screen().find(given_back) != std::string::npos);
+  EXPECT_TRUE(pty.is_as_before());
+  const std::size_t so_far = pty.screen().size();
+  kill(child, SIGCONT);
+  await([&] { return pty.screen().find(taken, so_far) != std::string::npos; });
+  EXPECT_FALSE(pty.is_as_before());
+  kill(child, SIGTERM);
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(pty.is_as_before());
+}
+
+}  // namespace
+}  // namespace wale::test::pointer_device
