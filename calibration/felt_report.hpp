@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct FeltReport {
   double seconds = 0;
   long ticks_run = 0, ticks_missed = 0;
   Lateness lateness;
+  std::optional<TickCosts> costs;  ///< nothing in virtual time
   GuardCounts guards;
   std::string scheduling;
   Felt felt;

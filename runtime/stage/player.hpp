@@ -3,15 +3,17 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/stage/acceleration_filter.hpp"
+#include "runtime/stage/cost_meter.hpp"
 #include "runtime/stage/exchange.hpp"
 #include "runtime/stage/front_most.hpp"
 #include "runtime/stage/guards.hpp"
-#include "runtime/stage/lateness.hpp"
 #include "runtime/stage/latest.hpp"
 #include "runtime/stage/loop.hpp"
+#include "runtime/stage/time_histogram.hpp"
 #include "runtime/stage/velocity_filter.hpp"
 #include "wale/memory.hpp"
 #include "wale/stage.hpp"
@@ -25,24 +27,53 @@ struct PlacedPatch {
   Bank bank;
   glm::vec2 position;
   std::shared_ptr<Memory> memory;
+  float layer = 0;
+};
+
+/// Where a patch is that has been moved.
+struct MovedPatch {
+  std::size_t number = 0;
+  glm::vec2 position{0};  ///< m from the workspace's centre
 };
 
 /// All that lies on the workspace, as the control side hands it over. What does not change from one to the next they
-/// share: the real-time thread alone touches the patches, and lets the last one go to the control side.
-struct PlacedPatches {
-  std::vector<std::shared_ptr<PlacedPatch>> patches;
-  std::shared_ptr<const FrontMost> front_most;  ///< of these, by their places in `patches`
+/// share: the real-time thread alone touches the patches, and lets the last one go to the control side. Patches that
+/// have been moved are found apart from those that stay, so that moving one takes no time among many others.
+class PlacedPatches {
+ public:
+  using Patches = std::vector<std::shared_ptr<PlacedPatch>>;
 
-  PlacedPatches() : front_most(std::make_shared<FrontMost>()) {}
+  /// None.
+  PlacedPatches();
   /// One patch alone.
   explicit PlacedPatches(PlacedPatch patch);
 
-  /// The front-most patch under a point (m from the workspace's centre), or null.
+  const Patches& patches() const noexcept { return *patches_; }
+
+  /// Takes others in their place, by their numbers. What lies where is as it was until `arrange`: where a patch is new,
+  /// or has another size, that is called before the next look.
+  void take(Patches patches) { patches_ = std::make_shared<const Patches>(std::move(patches)); }
+  /// Finds out what is in front where, but for those in `moving`, in time proportional to the number of patches.
+  /// Those that move stand in the order of their numbers.
+  void arrange(std::span<const MovedPatch> moving);
+  /// The same for those that move alone, which are the same as at the last `arrange`.
+  void move(std::span<const MovedPatch> moving);
+
+  /// The front-most patch under a point (m from the workspace's centre) and where it is, or null.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-  PlacedPatch* at(glm::dvec2 point) const noexcept {
-    const std::uint32_t number = front_most->at(point);
-    return number != FrontMost::none ? patches[number].get() : nullptr;
-  }
+  struct Found {
+    PlacedPatch* patch = nullptr;
+    glm::vec2 position{0};
+
+    friend bool operator==(const Found&, const Found&) = default;
+  };
+  Found at(glm::dvec2 point) const noexcept;
+
+ private:
+  std::shared_ptr<const Patches> patches_;
+  std::shared_ptr<const FrontMost> staying_;  // by their places in `patches_`
+  std::vector<MovedPatch> moved_;
+  std::shared_ptr<const FrontMost> moving_;  // by their places in `moved_`; null where there are none
 };
 
 /// What one axis tells of the hand, in counts and ticks.
@@ -69,9 +100,9 @@ class AxisFilters {
 class Player {
  public:
   /// `record` gets a tick for each beat and has room for `beats`. All outlive the player. `most_newton` is the largest
-  /// force that the user allows. Allocates.
+  /// force that the user allows; `real_time` says that time passes by itself, so that costs can be measured. Allocates.
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
-         double most_newton = HUGE_VAL);
+         double most_newton = HUGE_VAL, bool real_time = false);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -86,6 +117,7 @@ class Player {
 
   /// After the last beat.
   Lateness lateness() const { return lateness_.summary(); }
+  std::optional<TickCosts> costs() const { return costs_.summary(); }
   GuardCounts guards() const;
   /// Cuts the record to the beats served.
   void finish();
@@ -97,6 +129,8 @@ class Player {
   std::optional<Guards::Reason> reason_to_cut(const Reading& reading, const Beat& beat) const noexcept;
   /// The program's force, with the hand within the patch.
   Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
+  /// Enters the beat in the record, and lets it be seen.
+  void note(const Beat& beat, const Reading& reading, const Hand& hand, Force force) noexcept;
 
   Device& device_;
   Exchange<PlacedPatches>& patches_;
@@ -107,8 +141,10 @@ class Player {
   AxisFilters filters_x_, filters_y_;
   Guards guards_;
   const Memory* inside_ = nullptr;  // the memory of the patch that the hand was on at the last beat
+  PlacedPatches::Found felt_;       // that patch, where it was
   long restored_ = 0;
-  LatenessHistogram lateness_;
+  TimeHistogram lateness_;
+  CostMeter costs_;
   Latest<Progress> latest_;
 };
 
