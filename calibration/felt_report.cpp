@@ -22,6 +22,7 @@ std::vector<std::pair<std::string, long>> named(const GuardCounts& counts) {
   return {{"slew", counts.slew},
           {"device_limit", counts.device_limit},
           {"user_limit", counts.user_limit},
+          {"heat", counts.heat},
           {"energy", counts.energy},
           {"passivity", counts.passivity},
           {"not_a_number", counts.not_a_number},
@@ -47,6 +48,26 @@ std::string vibration_text(const FeltVibration& vibration) {
   if (vibration.highest > 0)
     text += fmt::format("  frequency    {:.1f} .. {:.1f} Hz where it shakes\n", vibration.lowest, vibration.highest);
   return text;
+}
+
+/// Every step by its name.
+std::vector<std::pair<std::string, Times>> named(const TickCosts& costs) {
+  std::vector<std::pair<std::string, Times>> all;
+  for (std::size_t step = 0; step < TickCosts::steps; ++step)
+    all.emplace_back(name_of(static_cast<TickCosts::Step>(step)), costs.of[step]);
+  return all;
+}
+
+std::string cost_text(const TickCosts& costs) {
+  const auto steps = named(costs);
+  const auto& [name, most] = *std::ranges::max_element(steps, {}, [](const auto& step) { return step.second.p50; });
+  return fmt::format(
+      "  cost         p50 {:.1f} us, p99 {:.1f} us a tick; most of it to {}: p50 {:.1f} us, p99 {:.1f} us\n",
+      1e6 * costs.whole.p50, 1e6 * costs.whole.p99, name, 1e6 * most.p50, 1e6 * most.p99);
+}
+
+nlohmann::ordered_json times_json(const Times& times) {
+  return {{"p50_s", times.p50}, {"p99_s", times.p99}, {"max_s", times.maximum}};
 }
 
 nlohmann::ordered_json vibration_json(const FeltVibration& vibration) {
@@ -102,6 +123,7 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
   report.ticks_missed = run.ticks_missed;
   report.seconds = static_cast<double>(run.ticks_run + run.ticks_missed) * run.record.seconds_per_tick;
   report.lateness = run.lateness;
+  report.costs = run.costs;
   report.guards = run.guards;
   report.scheduling = run.scheduling;
   report.predicted_amplitude = std::min(predicted_amplitude(bank), static_cast<float>(device.most()));
@@ -132,6 +154,7 @@ std::string felt_text(const FeltReport& report) {
   else
     text += fmt::format("  lateness     p50 {:.0f} us, p99 {:.0f} us, maximum {:.0f} us\n", 1e6 * report.lateness.p50,
                         1e6 * report.lateness.p99, 1e6 * report.lateness.maximum);
+  if (report.costs) text += cost_text(*report.costs);
   if (!report.scheduling.empty()) text += fmt::format("  scheduling   {}\n", report.scheduling);
   if (report.manner.plugged) text += plugged_text(*report.manner.plugged, report.seconds);
   if (felt.vibration)
@@ -182,8 +205,11 @@ std::string felt_json(const FeltReport& report) {
   json["virtual_time"] = report.manner.virtual_time;
   json["seconds"] = report.seconds;
   json["ticks"] = {{"run", report.ticks_run}, {"missed", report.ticks_missed}, {"rubbing", felt.ticks_rubbing}};
-  json["lateness"] = {
-      {"p50_s", report.lateness.p50}, {"p99_s", report.lateness.p99}, {"max_s", report.lateness.maximum}};
+  json["lateness"] = times_json(report.lateness);
+  if (report.costs) {
+    auto& cost = json["cost"] = {{"tick", times_json(report.costs->whole)}};
+    for (const auto& [name, times] : named(*report.costs)) cost[name] = times_json(times);
+  }
   json["scheduling"] = report.scheduling;
   if (report.manner.plugged) json["plugged"] = plugged_json(*report.manner.plugged);
   if (felt.vibration) {

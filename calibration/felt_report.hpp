@@ -26,6 +26,7 @@ struct FeltReport {
   double seconds = 0;
   long ticks_run = 0, ticks_missed = 0;
   Lateness lateness;
+  std::optional<TickCosts> costs;  ///< nothing in virtual time
   GuardCounts guards;
   std::string scheduling;
   Felt felt;

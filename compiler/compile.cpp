@@ -36,6 +36,17 @@ void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material,
                                   : fmt::format("say so: `{}` in its physical block", mend)});
 }
 
+/// What a device does not give, a program does not get: it is felt with less.
+void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostics& diagnostics) {
+  const DeviceProfile& device = material.device;
+  if (device.active_watt == 0 || material.active_watt <= device.active_watt) return;
+  diagnostics.report({.code = Code::more_than_device_gives,
+                      .span = material.force_span,
+                      .message = fmt::format("`{}` declares {:.2g} W, and `{}` gives a program {:.2g} W at most",
+                                             material.name, material.active_watt, device.name, device.active_watt),
+                      .help = "what is more is held back while it is felt; declare less, or take another device"});
+}
+
 }  // namespace
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
@@ -98,6 +109,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
     return std::nullopt;
   }
   warn_of_undeclared_energy(bank, solved, diagnostics);
+  warn_of_a_device_that_gives_less(solved, diagnostics);
   return std::get<Program>(std::move(loaded));
 }
 

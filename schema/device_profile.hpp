@@ -50,15 +50,22 @@ struct Shaker {
 /// A two-axis joystick, or a pad that only vibrates, as its `device` declaration describes it; SI units throughout.
 /// Zero means "not declared" where a zero makes no sense.
 struct DeviceProfile {
+  static constexpr double least_rate = 100, most_rate = 10000;  ///< Hz, of any device's control ticks
+  static constexpr double least_heating_seconds = 1e-3;         ///< s; what heats faster is no motor
+
   std::string name;
   double workspace_diameter = 0;  ///< m
   double position_counts = 0;     ///< encoder counts over the workspace's diameter, per axis
   double force_newton = 0;        ///< peak force per axis, N
   double force_counts = 0;        ///< command steps from zero to peak force
-  double rate = 0;                ///< control ticks per second, Hz
+  double rate = 0;                ///< control ticks per second, Hz, least_rate .. most_rate
   double speed_limit = 0;         ///< m/s; what the runtime clamps velocity to and measuring explores up to
   /// N/s, of a pad m/s^3: how fast the output may move after a change of program, bank or patch.
   double slew = 0;
+  /// N per axis, what its motor bears for any length of time without growing too hot, and s, the time constant of its
+  /// heating, which goes with the square of the force; 0: not declared.
+  double continuous_newton = 0, heating_seconds = 0;
+  double active_watt = 0;            ///< W, the most that a program may give to the hand by itself
   double velocity_window = 0;        ///< ticks; the longest window of the velocity filter
   double velocity_noise_counts = 0;  ///< counts; the band the velocity filter takes for noise
   double patch_width = 0;            ///< m; the patch a material gets that does not say

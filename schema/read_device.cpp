@@ -15,6 +15,9 @@ DeviceProfile read_device(ByteReader& in) {
   figure(device.rate, "the rate");
   figure(device.speed_limit, "the speed limit");
   figure(device.slew, "the slew");
+  figure(device.continuous_newton, "the continuous force");
+  figure(device.heating_seconds, "the time constant of heating");
+  figure(device.active_watt, "the power of what is active");
   figure(device.velocity_window, "the velocity window");
   figure(device.velocity_noise_counts, "the velocity's noise");
   figure(device.patch_width, "the patch's width");

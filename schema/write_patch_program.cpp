@@ -139,11 +139,28 @@ void write_tables(ByteWriter& out, std::span<const HeightTable> tables) {
 
 void write_device(ByteWriter& out, const DeviceProfile& device) {
   out.text(device.name);
-  for (const double figure :
-       {device.workspace_diameter, device.position_counts, device.force_newton, device.force_counts, device.rate,
-        device.speed_limit, device.slew, device.velocity_window, device.velocity_noise_counts, device.patch_width,
-        device.patch_height, device.patch_rim, device.mass, device.damping, device.friction, device.delay_x,
-        device.delay_y, device.bandwidth_x, device.bandwidth_y}) {
+  for (const double figure : {device.workspace_diameter,
+                              device.position_counts,
+                              device.force_newton,
+                              device.force_counts,
+                              device.rate,
+                              device.speed_limit,
+                              device.slew,
+                              device.continuous_newton,
+                              device.heating_seconds,
+                              device.active_watt,
+                              device.velocity_window,
+                              device.velocity_noise_counts,
+                              device.patch_width,
+                              device.patch_height,
+                              device.patch_rim,
+                              device.mass,
+                              device.damping,
+                              device.friction,
+                              device.delay_x,
+                              device.delay_y,
+                              device.bandwidth_x,
+                              device.bandwidth_y}) {
     out.f64(figure);
   }
   out.u8(device.damping_known);

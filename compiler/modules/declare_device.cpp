@@ -127,6 +127,49 @@ void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::
   per_axis("bandwidth", "frequency", profile.bandwidth_x, profile.bandwidth_y);
 }
 
+/// `rate 900 Hz`: ticks a second, as many as a loop can keep.
+void read_rate(RecordReader& reader, DeviceProfile& profile) {
+  profile.rate = reader.positive("rate", 0, "frequency", "900 Hz");
+  if (profile.rate > 0 && !(profile.rate >= DeviceProfile::least_rate && profile.rate <= DeviceProfile::most_rate))
+    reader.report(
+        Code::value_out_of_range, reader.setting("rate")->items.front().span,
+        fmt::format("a device's rate is {} Hz .. {} kHz", DeviceProfile::least_rate, DeviceProfile::most_rate / 1000),
+        "write, for example, `rate 900 Hz`");
+}
+
+/// What the motors bear and what a program may do with them: `sustained 5 N, 20 s` and `active 2 W`, each `unknown`
+/// where nobody knows it.
+void read_motors(RecordReader& reader, DeviceProfile& profile) {
+  const auto known = [&](const char* key) -> const Setting* {
+    const auto* found = reader.setting(key);
+    return found && !found->items.empty() && (found->items[0].value || words_of(found->items[0]) != "unknown")
+               ? found
+               : nullptr;
+  };
+  if (const auto* continuous = known("sustained")) {
+    const std::size_t errors_before = reader.diagnostics.error_count();
+    profile.continuous_newton = reader.quantity(*continuous, 0, "force").value_or(0);
+    profile.heating_seconds = reader.quantity(*continuous, 1, "time").value_or(0);
+    const bool lawful = profile.continuous_newton > 0 && profile.continuous_newton <= profile.force_newton;
+    if (reader.diagnostics.error_count() == errors_before && profile.force_newton > 0 &&
+        !(lawful && profile.heating_seconds >= DeviceProfile::least_heating_seconds))
+      reader.report(
+          Code::value_out_of_range, continuous->span,
+          fmt::format("what an axis bears for long is more than nothing and at most its largest force, {:.6g} "
+                      "N; it takes at least {:.6g} ms to grow hot",
+                      profile.force_newton, 1e3 * DeviceProfile::least_heating_seconds),
+          "write, for example, `sustained 5 N, 20 s`, or `sustained unknown` where nobody knows it");
+  }
+  if (const auto* active = known("active")) {
+    const auto power = reader.quantity(*active, 0, "power");
+    profile.active_watt = power.value_or(0);
+    if (power && !(*power > 0 && *power <= most_active_watt))
+      reader.report(Code::value_out_of_range, active->span,
+                    fmt::format("what a program may give is more than nothing and at most {} W", most_active_watt),
+                    "write, for example, `active 2 W`, or `active unknown` where nobody knows it");
+  }
+}
+
 }  // namespace
 
 void declare_device(RecordReader& reader, Declarations& declarations) {
@@ -151,7 +194,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     if (const auto* force = reader.setting("force"))
       profile.force_counts = reader.quantity(*force, 1, "number").value_or(0);
   }
-  profile.rate = reader.positive("rate", 0, "frequency", "900 Hz");
+  read_rate(reader, profile);
   if (has_position)
     profile.speed_limit = reader.positive("speed", 0, "velocity", "1 m/s");
   else
@@ -171,7 +214,10 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     profile.patch_height = reader.quantity(*patch, 1, "length").value_or(0);
     profile.patch_rim = reader.quantity(*patch, 2, "length").value_or(0);
   }
-  if (!vibrates) read_handle(reader, profile, device.unknown);
+  if (!vibrates) {
+    read_handle(reader, profile, device.unknown);
+    read_motors(reader, profile);
+  }
   read_wiring(reader, profile, device.wiring);
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)

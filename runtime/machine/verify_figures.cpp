@@ -180,8 +180,12 @@ void verify_device(const DeviceProfile& device) {
     require_within(device.force_newton, 1e-3, 1000, "the device's force (N)");
     require_within(device.force_counts, 1, 1e9, "the device's number of force counts");
   }
-  require_within(device.rate, 100, 10000, "the device's rate (Hz)");
+  require_within(device.rate, DeviceProfile::least_rate, DeviceProfile::most_rate, "the device's rate (Hz)");
   require_within(device.slew, 0, 1e9, "the device's slew (N/s)");
+  require_within(device.continuous_newton, 0, device.force_newton, "the device's continuous force (N)");
+  require_within(device.heating_seconds, device.continuous_newton > 0 ? DeviceProfile::least_heating_seconds : 0, 1e6,
+                 "the device's time constant of heating (s)");
+  require_within(device.active_watt, 0, most_active_watt, "the device's power for what is active (W)");
   require_within(device.velocity_window, 0, 1e4, "the device's velocity window (ticks)");
   require_within(device.velocity_noise_counts, 0, 1e6, "the device's velocity noise (counts)");
   require_within(device.patch_width, 0, 10, "the device's patch width (m)");

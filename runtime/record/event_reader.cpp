@@ -80,6 +80,11 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
       event.parameter = in.u32();
       event.value = in.f32();
       return event;
+    case EventCode::move:
+      event.kind = RecordedEvent::Kind::move;
+      event.patch = in.u32();
+      for (int i = 0; i < 2; ++i) event.position[i] = in.f32();
+      return event;
     case EventCode::publish:
       event.kind = RecordedEvent::Kind::publish;
       event.revision = in.u32();

@@ -84,7 +84,8 @@ enum class EventCode : std::uint32_t {
   replace = 5,
   set = 6,
   publish = 7,
-  end = 8
+  end = 8,
+  move = 9
 };
 
 /// Events begin at multiples of this in their stream, so that no `size` and `check` lies across two chunks.

@@ -170,6 +170,10 @@ void RecordWriter::set(std::size_t patch, std::size_t parameter, float value) no
        EventBytes() << static_cast<std::uint32_t>(patch) << static_cast<std::uint32_t>(parameter) << value);
 }
 
+void RecordWriter::move(std::size_t patch, glm::vec2 position) noexcept {
+  note(EventCode::move, EventBytes() << static_cast<std::uint32_t>(patch) << position.x << position.y);
+}
+
 void RecordWriter::publish(std::uint32_t revision) noexcept { note(EventCode::publish, EventBytes() << revision); }
 
 void RecordWriter::end() noexcept {

@@ -41,6 +41,7 @@ class RecordWriter final : public TickSink {
            std::span<const float> parameters) noexcept;
   void replace(std::size_t patch, const Program& program) noexcept;
   void set(std::size_t patch, std::size_t parameter, float value) noexcept;
+  void move(std::size_t patch, glm::vec2 position) noexcept;
   /// All that was done so far is about to be handed to the loop as this revision.
   void publish(std::uint32_t revision) noexcept;
   /// The run is over, and no tick comes any more: the recording is whole.

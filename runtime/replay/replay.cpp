@@ -138,6 +138,9 @@ class Replaying final : public RecordedRun {
         placed_[event.patch] = event.program;
         return;
       case RecordedEvent::Kind::set: set(event.patch, event.parameter, event.value); return;
+      case RecordedEvent::Kind::move:
+        if (const auto refusal = stage_.move(event.patch, event.position)) throw Refusal(*refusal);
+        return;
       case RecordedEvent::Kind::publish: revision_ = event.revision; return;
       case RecordedEvent::Kind::end: return;
     }

@@ -15,9 +15,11 @@ Guards::Guards(const DeviceProfile& profile, double most)
     : low_(-static_cast<float>(profile.most())),
       high_(static_cast<float>(profile.most())),
       most_(static_cast<float>(most)),
+      most_active_(profile.active_watt > 0 ? profile.active_watt : HUGE_VAL),
       max_step_(static_cast<float>(profile.slew / profile.rate)),
       vibrates_(profile.shaker.has_value()),
       meter_(profile),
+      heat_(profile),
       observer_(profile) {
   if (vibrates_) {
     low_ = Force(0, static_cast<float>(profile.shaker->frequency_low));
@@ -32,6 +34,7 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
     ++counts_.not_a_number;
   }
   if (vibrates_) return slewed(within_limits(wanted));
+  heat_.elapse(periods);
   const long held = meter_.held();
   const Force lawful = meter_(glm::clamp(wanted, -furthest, furthest), position, periods);
   counts_.energy += meter_.held() - held;
@@ -51,6 +54,7 @@ Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
   last_ = Force(0);
   slew();
   if (vibrates_) return Force(0, low_.y);
+  heat_.elapse(periods);
   meter_(Force(0), position, periods);
   observer_(Force(0), position, periods);
   return Force(0);
@@ -58,19 +62,23 @@ Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
 
 Force Guards::within_device(Force wanted) const noexcept { return glm::clamp(wanted, low_, high_); }
 
-Force Guards::bounded(Force wanted) const noexcept {
-  const Force within = within_device(wanted);
-  const float size = vibrates_ ? within.x : glm::length(within);
-  if (!(size > most_)) return within;
-  return vibrates_ ? Force(most_, within.y) : within * (most_ / size);
+Force Guards::within_user(Force wanted) const noexcept {
+  const float size = vibrates_ ? wanted.x : glm::length(wanted);
+  if (!(size > most_)) return wanted;
+  return vibrates_ ? Force(most_, wanted.y) : wanted * (most_ / size);
 }
 
+Force Guards::bounded(Force wanted) const noexcept { return heat_.held_within(within_user(within_device(wanted))); }
+
 Force Guards::within_limits(Force wanted) noexcept {
-  const Force possible = within_device(wanted), allowed = bounded(wanted);
+  const Force possible = within_device(wanted), allowed = within_user(possible);
   // A hand at rest wants no frequency, and nothing is held back when it gets the least one with no amplitude.
   if (vibrates_ ? possible.x != wanted.x : possible != wanted) ++counts_.device_limit;
   if (allowed != possible) ++counts_.user_limit;
-  return allowed;
+  if (vibrates_) return allowed;
+  const Force borne = heat_.held_within(allowed);
+  if (borne != allowed) ++counts_.heat;
+  return borne;
 }
 
 Force Guards::slewed(Force wanted) noexcept {

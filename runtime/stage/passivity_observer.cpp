@@ -15,25 +15,33 @@ constexpr double most_gained = 2;  ///< of what is allowed
 }  // namespace
 
 PassivityObserver::PassivityObserver(const DeviceProfile& profile)
-    : period_(1 / profile.rate),
+    : exerted_(profile),
+      sampled_(profile),
+      late_(1 + 2 * std::max(exerted_.periods().x, exerted_.periods().y)),
+      period_(1 / profile.rate),
       count_(profile.position_step()),
       damping_(profile.damping),
-      largest_damping_(share_of_impedance * profile.mass * profile.rate) {}
+      largest_damping_(share_of_impedance * profile.mass * profile.rate / late_) {}
 
 Force PassivityObserver::operator()(Force force, glm::dvec2 position, long periods) noexcept {
   const glm::dvec2 field(force);
+  if (!begun_) {
+    begun_ = true;
+    sampled_.begin(position_ = position);
+  }
   const double elapsed = period_ * static_cast<double>(std::max(1L, periods));
-  const glm::dvec2 step = begun_ ? position - position_ : glm::dvec2(0);
-  gained_ += glm::dot(held_, step) - 0.5 * glm::dot(field_ + field, step) - damping_ * glm::dot(step, step) / elapsed;
+  const glm::dvec2 step = position - position_, middle = 0.5 * (position_ + position);
+  const glm::dvec2 exerted = exerted_.over(held_, periods), sampled = sampled_.over(position_, periods);
+  const glm::dvec2 speed = (middle - sampled) / (0.5 * elapsed + period_ * exerted_.periods());
+  gained_ += glm::dot(exerted, step) - 0.5 * glm::dot(field_ + field, step) - damping_ * glm::dot(speed, step);
 
   const double fading = 1 - std::min(1.0, elapsed / memory_seconds);
   const double length = glm::length(step);
   recent_force_ = std::max(glm::length(field), recent_force_ * fading);
   recent_step_ = std::max(length, recent_step_ * fading);
-  const double allowed = least_joule + recent_force_ * (recent_step_ + count_);
+  const double allowed = least_joule + recent_force_ * (late_ * recent_step_ + count_);
   gained_ = std::clamp(gained_, 0.0, most_gained * allowed);
 
-  begun_ = true;
   position_ = position;
   field_ = field;
   if (!(gained_ > allowed) || length == 0 || largest_damping_ == 0) return force;

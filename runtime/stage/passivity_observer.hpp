@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "runtime/stage/lag.hpp"
 #include "schema/device_profile.hpp"
 #include "wale/program.hpp"
 
@@ -16,12 +17,17 @@ namespace wale {
 ///
 ///   W <- max(0, W + u(n-1) dx - (f(n-1) + f(n)) dx / 2 - b dx^2 / T)
 ///
-/// On a texture the first two differ by turns: moving at an even pace over a slope up and one down they come to
-/// nothing, and to at most |f| |dx| on the way. That much, at the force and the pace of the last tenth of a second
-/// (with one encoder count, by which dx may be wrong), is no gain yet. Beyond it the observer damps, by what is gained
-/// and at most 0.1 m/T, m the moving mass at the handle: more would itself be unstable. The form, the 20 uJ and the 0.1
-/// are from simulations (shared reference, closed-loop.md, "Passivity observer"); there 20 uJ alone were allowed, which
-/// fires on a passive corduroy that is moved at more than 0.1 m/s.
+/// u(n-1) is what the actuator exerts: where the device is late by d periods (its delay and its bandwidth's time
+/// constant), the command of d periods before. Then, on a spring, the first two differ by the stretch over all the time
+/// from a sample to the middle of its force's period, (1/2 + d) T, and so the speed with which b takes up energy is
+/// taken over just that time: what an encoder has wrong is wrong on both sides, and they cancel at the stiffness that
+/// is passive, b / (T / 2 + d T). On a texture the first two differ by turns: moving at an even pace over a slope up
+/// and one down they come to nothing, and to at most (1 + 2 d) |f| |dx| on the way. That much, at the force and the
+/// pace of the last tenth of a second (with one encoder count, by which the way may be wrong), is no gain yet.
+/// Beyond it the observer damps, by what is gained and at most 0.1 m/T / (1 + 2 d), m the moving mass at the handle:
+/// more would itself be unstable, and the sooner, the later it comes. The form, the 20 uJ and the 0.1 are from
+/// simulations (shared reference, closed-loop.md, "Passivity observer"); there 20 uJ alone were allowed, which fires on
+/// a passive corduroy that is moved at more than 0.1 m/s.
 class PassivityObserver {
  public:
   /// The profile's rate and encoder are known. A mass or damping that it does not declare is 0; without a mass the
@@ -41,6 +47,9 @@ class PassivityObserver {
   long acted() const noexcept { return acted_; }
 
  private:
+  Lag exerted_;             // of forces
+  Lag sampled_;             // of the places where they were sampled
+  double late_;             // 1 + 2 d
   double period_;           // s
   double count_;            // m
   double damping_;          // N s/m, the device's own

@@ -16,24 +16,62 @@ std::uint32_t guard_bits(const GuardCounts& before, const GuardCounts& after) no
   };
   return bit(before.not_a_number, after.not_a_number, GuardBit::not_a_number) |
          bit(before.device_limit, after.device_limit, GuardBit::device_limit) |
-         bit(before.user_limit, after.user_limit, GuardBit::user_limit) |
+         bit(before.user_limit, after.user_limit, GuardBit::user_limit) | bit(before.heat, after.heat, GuardBit::heat) |
          bit(before.energy, after.energy, GuardBit::energy) |
          bit(before.passivity, after.passivity, GuardBit::passivity) | bit(before.slew, after.slew, GuardBit::slew) |
          bit(before.overrun, after.overrun, GuardBit::overrun) | bit(before.stale, after.stale, GuardBit::stale) |
          bit(before.lost, after.lost, GuardBit::lost) | bit(before.restored, after.restored, GuardBit::restored);
 }
 
+PatchOutline outline_of(const PlacedPatch& patch, glm::vec2 position) {
+  const PatchSize size = patch.bank.size();
+  return {position, size.width, size.height, patch.layer};
+}
+
 }  // namespace
 
+PlacedPatches::PlacedPatches()
+    : patches_(std::make_shared<const Patches>()), staying_(std::make_shared<const FrontMost>()) {}
+
 PlacedPatches::PlacedPatches(PlacedPatch patch) {
-  const PatchSize size = patch.bank.size();
-  const PatchOutline outline{patch.position, size.width, size.height};
-  front_most = std::make_shared<FrontMost>(std::span(&outline, 1));
-  patches.push_back(std::make_shared<PlacedPatch>(std::move(patch)));
+  take({std::make_shared<PlacedPatch>(std::move(patch))});
+  arrange({});
+}
+
+void PlacedPatches::arrange(std::span<const MovedPatch> moving) {
+  std::vector<PatchOutline> outlines;
+  outlines.reserve(patches_->size());
+  for (const auto& patch : *patches_) outlines.push_back(outline_of(*patch, patch->position));
+  for (const MovedPatch& each : moving) outlines[each.number].width = -1;  // is nowhere
+  staying_ = std::make_shared<const FrontMost>(outlines);
+  move(moving);
+}
+
+void PlacedPatches::move(std::span<const MovedPatch> moving) {
+  moved_.assign(moving.begin(), moving.end());
+  std::vector<PatchOutline> outlines;
+  for (const MovedPatch& each : moved_) outlines.push_back(outline_of(*(*patches_)[each.number], each.position));
+  moving_ = moved_.empty() ? nullptr : std::make_shared<const FrontMost>(outlines);
+}
+
+PlacedPatches::Found PlacedPatches::at(glm::dvec2 point) const noexcept {
+  Found found;
+  std::size_t number = 0;
+  if (const std::uint32_t still = staying_->at(point); still != FrontMost::none) {
+    number = still;
+    found = {(*patches_)[still].get(), (*patches_)[still]->position};
+  }
+  const std::uint32_t place = moving_ ? moving_->at(point) : FrontMost::none;
+  if (place == FrontMost::none) return found;
+  const MovedPatch& moved = moved_[place];
+  PlacedPatch* const patch = (*patches_)[moved.number].get();
+  const bool in_front = found.patch == nullptr || patch->layer > found.patch->layer ||
+                        (patch->layer == found.patch->layer && moved.number > number);
+  return in_front ? Found{patch, moved.position} : found;
 }
 
 Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats, double most_newton,
-               TickSink* sink)
+               bool real_time, TickSink* sink)
     : device_(device),
       patches_(patches),
       record_(record),
@@ -41,7 +79,8 @@ Player::Player(Device& device, Exchange<PlacedPatches>& patches, Record& record,
       position_step_(device.profile().position_step()),
       filters_x_(device.profile()),
       filters_y_(device.profile()),
-      guards_(device.profile(), most_newton) {
+      guards_(device.profile(), most_newton),
+      costs_(real_time) {
   record_.seconds_per_tick = 1 / device.profile().rate;
   record_.vibrates = device.profile().shaker.has_value();
   record_.ticks.resize(beats);
@@ -81,41 +120,52 @@ std::optional<Guards::Reason> Player::reason_to_cut(const Reading& reading, cons
 
 void Player::serve(const Beat& beat) noexcept {
   const GuardCounts before = guards();
+  costs_.begin();
   device_.elapse(beat.elapsed);
   const Reading reading = device_.sample();
+  costs_.end(TickCosts::sample);
   const glm::dvec2 position = glm::dvec2(reading.counts) * position_step_;
   Hand hand = this->hand(reading, beat);
 
-  if (patches_.take()) guards_.slew();
+  patches_.take();
+  const PlacedPatches* all = reading.contact == Contact::good ? patches_.held() : nullptr;
+  const PlacedPatches::Found found = all ? all->at(position) : PlacedPatches::Found{};
+  // Whatever is not as it was: where the hand is, the patch's parameters, its program, its place. Another patch cannot
+  // have the address of the last one, which was not let go before the new ones were there.
+  if (found != felt_) guards_.slew();
+  felt_ = found;
+  costs_.end(TickCosts::find);
   Force wanted(0);
-  const Memory* inside = nullptr;
-  std::uint32_t number = RecordedTick::no_patch;
-  if (const PlacedPatches* all = reading.contact == Contact::good ? patches_.held() : nullptr) {
-    if (PlacedPatch* patch = all->at(position)) {
-      hand.position = glm::vec2(position - glm::dvec2(patch->position));
-      wanted = feel(*patch, hand);
-      inside = patch->memory.get();
-      number = patch->number;
-    }
+  if (found.patch) {
+    hand.position = glm::vec2(position - glm::dvec2(found.position));
+    wanted = feel(*found.patch, hand);
   }
-  if (inside != inside_) guards_.slew();
-  inside_ = inside;
+  inside_ = found.patch ? found.patch->memory.get() : nullptr;
+  costs_.end(TickCosts::program);
   const auto cut = reason_to_cut(reading, beat);
   const Force commanded = cut ? guards_.cut(*cut, position, beat.elapsed) : guards_(wanted, position, beat.elapsed);
+  costs_.end(TickCosts::guard);
   const Force force = device_.command(commanded);
   guards_.commanded(force);
+  costs_.end(TickCosts::command);
+  note(beat, reading, hand, {wanted, commanded, force}, before);
+  costs_.end(TickCosts::record);
+  costs_.end_tick();
+}
 
+void Player::note(const Beat& beat, const Reading& reading, const Hand& hand, const Output& output,
+                  const GuardCounts& before) noexcept {
   lateness_.add(beat.lateness);
   missed_ += beat.skipped;
   record_.ticks[served_++ % record_.ticks.size()] = {
       .time = hand.time,
       .position = hand.workspace,
       .velocity = hand.velocity,
-      .force = force,
+      .force = output.exerted,
       .interaction = reading.interaction,
       .lateness = static_cast<float>(static_cast<double>(beat.lateness) * 1e-9),
       .skipped = static_cast<std::uint32_t>(beat.skipped),
-      .inside = inside != nullptr};
+      .inside = inside_ != nullptr};
   if (sink_ != nullptr) {
     const PlacedPatches* all = patches_.held();
     sink_->append({.period = beat.period,
@@ -125,14 +175,14 @@ void Player::serve(const Beat& beat) noexcept {
                    .counts = reading.counts,
                    .contact = reading.contact,
                    .button = reading.button,
-                   .inside = inside != nullptr,
-                   .patch = number,
+                   .inside = inside_ != nullptr,
+                   .patch = felt_.patch != nullptr ? felt_.patch->number : RecordedTick::no_patch,
                    .revision = all != nullptr ? all->revision : 0,
                    .guards = guard_bits(before, guards()),
                    .velocity = hand.velocity,
-                   .wanted = wanted,
-                   .commanded = commanded,
-                   .force = force,
+                   .wanted = output.wanted,
+                   .commanded = output.commanded,
+                   .force = output.exerted,
                    .interaction = reading.interaction});
   }
   latest_.store({.time = hand.time,
@@ -140,8 +190,8 @@ void Player::serve(const Beat& beat) noexcept {
                  .ticks_missed = missed_,
                  .position = hand.workspace,
                  .velocity = hand.velocity,
-                 .force = force,
-                 .inside = inside != nullptr});
+                 .force = output.exerted,
+                 .inside = inside_ != nullptr});
 }
 
 GuardCounts Player::guards() const noexcept {

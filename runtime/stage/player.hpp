@@ -3,16 +3,18 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "runtime/record/tick_sink.hpp"
 #include "runtime/stage/acceleration_filter.hpp"
+#include "runtime/stage/cost_meter.hpp"
 #include "runtime/stage/exchange.hpp"
 #include "runtime/stage/front_most.hpp"
 #include "runtime/stage/guards.hpp"
-#include "runtime/stage/lateness.hpp"
 #include "runtime/stage/latest.hpp"
 #include "runtime/stage/loop.hpp"
+#include "runtime/stage/time_histogram.hpp"
 #include "runtime/stage/velocity_filter.hpp"
 #include "wale/memory.hpp"
 #include "wale/stage.hpp"
@@ -26,26 +28,56 @@ struct PlacedPatch {
   Bank bank;
   glm::vec2 position;
   std::shared_ptr<Memory> memory;
+  float layer = 0;
   std::uint32_t number = 0;  ///< on the stage
 };
 
-/// All that lies on the workspace, as the control side hands it over. What does not change from one to the next they
-/// share: the real-time thread alone touches the patches, and lets the last one go to the control side.
-struct PlacedPatches {
-  std::vector<std::shared_ptr<PlacedPatch>> patches;
-  std::shared_ptr<const FrontMost> front_most;  ///< of these, by their places in `patches`
-  std::uint32_t revision = 0;                   ///< counts what a run hands over, from 1 on
+/// Where a patch is that has been moved.
+struct MovedPatch {
+  std::size_t number = 0;
+  glm::vec2 position{0};  ///< m from the workspace's centre
+};
 
-  PlacedPatches() : front_most(std::make_shared<FrontMost>()) {}
+/// All that lies on the workspace, as the control side hands it over. What does not change from one to the next they
+/// share: the real-time thread alone touches the patches, and lets the last one go to the control side. Patches that
+/// have been moved are found apart from those that stay, so that moving one takes no time among many others.
+class PlacedPatches {
+ public:
+  using Patches = std::vector<std::shared_ptr<PlacedPatch>>;
+
+  /// None.
+  PlacedPatches();
   /// One patch alone.
   explicit PlacedPatches(PlacedPatch patch);
 
-  /// The front-most patch under a point (m from the workspace's centre), or null.
+  std::uint32_t revision = 0;  ///< counts what a run hands over, from 1 on
+
+  const Patches& patches() const noexcept { return *patches_; }
+
+  /// Takes others in their place, by their numbers. What lies where is as it was until `arrange`: where a patch is new,
+  /// or has another size, that is called before the next look.
+  void take(Patches patches) { patches_ = std::make_shared<const Patches>(std::move(patches)); }
+  /// Finds out what is in front where, but for those in `moving`, in time proportional to the number of patches.
+  /// Those that move stand in the order of their numbers.
+  void arrange(std::span<const MovedPatch> moving);
+  /// The same for those that move alone, which are the same as at the last `arrange`.
+  void move(std::span<const MovedPatch> moving);
+
+  /// The front-most patch under a point (m from the workspace's centre) and where it is, or null.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-  PlacedPatch* at(glm::dvec2 point) const noexcept {
-    const std::uint32_t number = front_most->at(point);
-    return number != FrontMost::none ? patches[number].get() : nullptr;
-  }
+  struct Found {
+    PlacedPatch* patch = nullptr;
+    glm::vec2 position{0};
+
+    friend bool operator==(const Found&, const Found&) = default;
+  };
+  Found at(glm::dvec2 point) const noexcept;
+
+ private:
+  std::shared_ptr<const Patches> patches_;
+  std::shared_ptr<const FrontMost> staying_;  // by their places in `patches_`
+  std::vector<MovedPatch> moved_;
+  std::shared_ptr<const FrontMost> moving_;  // by their places in `moved_`; null where there are none
 };
 
 /// What one axis tells of the hand, in counts and ticks.
@@ -72,9 +104,10 @@ class AxisFilters {
 class Player {
  public:
   /// `record` keeps the last `beats` beats, at least one, and `sink` gets each. All outlive the player. `most_newton`
-  /// is the largest force that the user allows. Allocates.
+  /// is the largest force that the user allows; `real_time` says that time passes by itself, so that costs can be
+  /// measured. Allocates.
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
-         double most_newton = HUGE_VAL, TickSink* sink = nullptr);
+         double most_newton = HUGE_VAL, bool real_time = false, TickSink* sink = nullptr);
   ~Player() { device_.command(Force(0)); }
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -89,6 +122,7 @@ class Player {
 
   /// After the last beat.
   Lateness lateness() const { return lateness_.summary(); }
+  std::optional<TickCosts> costs() const { return costs_.summary(); }
   GuardCounts guards() const noexcept;
   long served() const { return static_cast<long>(served_); }
   /// Brings the record into order, and cuts it to the beats served.
@@ -101,6 +135,15 @@ class Player {
   std::optional<Guards::Reason> reason_to_cut(const Reading& reading, const Beat& beat) const noexcept;
   /// The program's force, with the hand within the patch.
   Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
+  /// What became of the program's output.
+  struct Output {
+    Force wanted{0};     ///< by the program
+    Force commanded{0};  ///< after the guards
+    Force exerted{0};    ///< by the actuator
+  };
+  /// Enters the beat in the record, and lets it be seen. `before` is what the guards had counted until then.
+  void note(const Beat& beat, const Reading& reading, const Hand& hand, const Output& output,
+            const GuardCounts& before) noexcept;
 
   Device& device_;
   Exchange<PlacedPatches>& patches_;
@@ -112,8 +155,10 @@ class Player {
   AxisFilters filters_x_, filters_y_;
   Guards guards_;
   const Memory* inside_ = nullptr;  // the memory of the patch that the hand was on at the last beat
+  PlacedPatches::Found felt_;       // that patch, where it was
   long restored_ = 0;
-  LatenessHistogram lateness_;
+  TimeHistogram lateness_;
+  CostMeter costs_;
   Latest<Progress> latest_;
 };
 

@@ -1,11 +1,14 @@
 #include "runtime/stage/scheduling.hpp"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <system_error>
 
 namespace wale {
@@ -20,6 +23,20 @@ void touch_stack() {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
+/// Asks the kernel to let no processor fall into a sleep from which it takes longer than 0 us to wake, as long as the
+/// descriptor that is returned stays open (Linux, Documentation/power/pm_qos_interface.rst). Below 0 and `errno`: it
+/// does not let us.
+int hold_latency() {
+  const int file = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return file;
+  const std::int32_t microseconds = 0;
+  if (write(file, &microseconds, sizeof microseconds) == sizeof microseconds) return file;
+  const int error = errno;
+  close(file);
+  errno = error;
+  return -1;
+}
+
 }  // namespace
 
 RealTimeClaim::RealTimeClaim() {
@@ -32,10 +49,13 @@ RealTimeClaim::RealTimeClaim() {
   // Not MCL_FUTURE: under a small limit it would make later allocations of the control thread fail.
   locked_ = mlockall(MCL_CURRENT) == 0;
   status_ += locked_ ? ", memory locked" : ", memory not locked (" + reason(errno) + ")";
+  latency_ = hold_latency();
+  status_ += latency_ >= 0 ? ", processors kept awake" : ", processors may sleep (" + reason(errno) + ")";
   touch_stack();
 }
 
 RealTimeClaim::~RealTimeClaim() {
+  if (latency_ >= 0) close(latency_);
   if (locked_) munlockall();
 }
 

@@ -9,7 +9,8 @@ namespace wale {
 inline constexpr int loop_priority = 80;
 
 /// Makes the calling thread as punctual as the system permits: SCHED_FIFO, the process's memory locked (what is mapped
-/// now), its stack touched. Unlocks the memory when it goes, and says in one line what it got.
+/// now), its stack touched, the processors kept from sleeping so deeply that they wake late. Gives back memory and
+/// processors when it goes, and says in one line what it got.
 class RealTimeClaim {
  public:
   RealTimeClaim();
@@ -21,6 +22,7 @@ class RealTimeClaim {
 
  private:
   bool locked_ = false;
+  int latency_ = -1;  // the open file that keeps the processors awake
   std::string status_;
 };
 

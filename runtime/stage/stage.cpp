@@ -94,6 +94,7 @@ struct Placement {
   float layer;
   std::vector<float> parameters;
   std::shared_ptr<Memory> memory;
+  bool moves = false;  // found apart from those that stay, because it was moved
 
   Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
       : program(placed),
@@ -110,7 +111,8 @@ struct Placement {
         size(old.size == old.program.default_size() ? replacing.default_size() : old.size),
         layer(old.layer),
         parameters(replacing.default_parameters()),
-        memory(std::make_shared<Memory>(replacing, old.memory)) {
+        memory(std::make_shared<Memory>(replacing, old.memory)),
+        moves(old.moves) {
     const std::vector<Parameter>& known = replacing.description().parameters;
     for (std::size_t i = 0; i < known.size(); ++i) {
       const auto before = old.program.parameter(known[i].name);
@@ -127,12 +129,16 @@ struct Stage::Parts {
   std::mutex mutex;  // never taken by the real-time thread while it ticks
   std::condition_variable news;
   std::vector<Placement> placements;
-  std::vector<std::size_t> changed;  // placements, since they were last published
-  bool cleared = false;              // all of them are new since then
-  bool resized = false;              // one of them may have another size since then
-  bool finished = false;             // the real-time thread's last tick is done
+  std::vector<std::size_t> changed;   // placements, since they were last published
+  std::vector<std::size_t> replaced;  // placements whose memories may know the ones before them
+  std::vector<std::size_t> movers;    // placements that have been moved, by their numbers
+  bool cleared = false;               // all of them are new since they were last published
+  bool rearranged = false;            // one of them may have another size since then, or is the first time elsewhere
+  bool moved = false;                 // one of the movers is elsewhere since then
+  bool finished = false;              // the real-time thread's last tick is done
   bool running = false;
   PlacedPatches published;                 // the thread's that publishes
+  std::uint32_t revision = 0;              // counts what the run under way has handed over
   std::unique_ptr<RecordWriter> recorder;  // of the run under way; called with the mutex held
 
   explicit Parts(Device& stages) : device(stages) {}
@@ -157,43 +163,53 @@ struct Stage::Parts {
     news.notify_all();
   }
 
+  /// With the mutex held.
+  bool has_news() const { return !changed.empty() || moved; }
+
+  /// With the mutex held: all patches stay where they are until one is moved.
+  void begin_anew() {
+    cleared = true;
+    changed.clear();
+    movers.clear();
+    replaced.clear();
+    moved = false;
+    for (Placement& placement : placements) placement.moves = false;
+  }
+
   /// Builds what changed, and hands over all patches.
   void publish_change(Exchange<PlacedPatches>& patches) {
     std::unique_lock lock(mutex);
-    if (changed.empty()) return;
-    if (std::exchange(cleared, false)) {
-      published.patches.clear();
-      published.front_most = std::make_shared<FrontMost>();
-    }
+    if (!has_news()) return;
+    if (std::exchange(cleared, false)) published = PlacedPatches();
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     std::vector<std::pair<std::size_t, Placement>> copies;
     for (const std::size_t patch : changed) copies.emplace_back(patch, placements[patch]);
     changed.clear();
-    ++published.revision;
-    if (recorder) recorder->publish(published.revision);
-    std::vector<float> layers;
-    const bool rearranged = std::exchange(resized, false) || published.patches.size() != placements.size();
-    for (Placement& placement : placements) placement.memory->forget_predecessor();
-    if (rearranged)
-      for (const Placement& placement : placements) layers.push_back(placement.layer);
-    published.patches.resize(placements.size());
+    ++revision;
+    if (recorder) recorder->publish(revision);
+    for (const std::size_t patch : replaced) placements[patch].memory->forget_predecessor();
+    const std::size_t count = placements.size();
+    const bool arrange = std::exchange(rearranged, false) || published.patches().size() != count;
+    const bool move = std::exchange(moved, false);
+    std::vector<MovedPatch> moving;
+    if (arrange || move)
+      for (const std::size_t patch : movers) moving.push_back({patch, placements[patch].position});
     lock.unlock();  // building may take long, and whoever turns the next knob should not wait for it
-    for (const auto& [patch, copy] : copies)
-      published.patches[patch] = std::make_shared<PlacedPatch>(
-          PlacedPatch{copy.bank(), copy.position, copy.memory, static_cast<std::uint32_t>(patch)});
-    if (rearranged) arrange(layers);
-    patches.publish(published);
-  }
-
-  /// Finds out which patch is in front where. A bank knows its size, a placement only what it was asked for.
-  void arrange(const std::vector<float>& layers) {
-    std::vector<PatchOutline> outlines;
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-      const PlacedPatch& patch = *published.patches[i];
-      outlines.push_back({patch.position, patch.bank.size().width, patch.bank.size().height, layers[i]});
+    if (!copies.empty()) {
+      PlacedPatches::Patches all = published.patches();
+      all.resize(count);
+      for (const auto& [patch, copy] : copies)
+        all[patch] = std::make_shared<PlacedPatch>(
+            PlacedPatch{copy.bank(), copy.position, copy.memory, copy.layer, static_cast<std::uint32_t>(patch)});
+      published.take(std::move(all));
     }
-    published.front_most = std::make_shared<const FrontMost>(outlines);
+    if (arrange)
+      published.arrange(moving);
+    else if (move)
+      published.move(moving);
+    published.revision = revision;
+    patches.publish(published);
   }
 
   /// With the mutex held: what lies on the stage is what the recording begins with.
@@ -301,7 +317,7 @@ void Stage::Parts::attend(const Player& player, Exchange<PlacedPatches>& patches
   for (auto next_progress = Clock::now() + interval;;) {
     {
       std::unique_lock lock(mutex);
-      news.wait_until(lock, next_progress, [&] { return finished || !changed.empty(); });
+      news.wait_until(lock, next_progress, [&] { return finished || has_news(); });
       if (finished) return;
     }
     publish_change(patches);
@@ -324,8 +340,7 @@ void Stage::place(const Program& program, glm::vec2 position, PatchSize size) {
   if (parts_->recorder) parts_->recorder->place(program, position, size);
   parts_->placements.clear();
   parts_->placements.push_back(std::move(placement));
-  parts_->changed.clear();
-  parts_->cleared = true;
+  parts_->begin_anew();
   parts_->note_change(0);
 }
 
@@ -344,8 +359,25 @@ std::optional<Refusal> Stage::replace(std::size_t patch, const Program& program)
   if (auto refusal = parts_->no_such(patch)) return refusal;
   if (parts_->recorder) parts_->recorder->replace(patch, program);
   parts_->placements[patch] = Placement(parts_->placements[patch], program);
-  parts_->resized = true;
+  parts_->rearranged = true;
+  if (std::ranges::find(parts_->replaced, patch) == parts_->replaced.end()) parts_->replaced.push_back(patch);
   parts_->note_change(patch);
+  return std::nullopt;
+}
+
+std::optional<Refusal> Stage::move(std::size_t patch, glm::vec2 position) {
+  const std::lock_guard lock(parts_->mutex);
+  if (auto refusal = parts_->no_such(patch)) return refusal;
+  if (!std::isfinite(position.x) || !std::isfinite(position.y)) return Refusal{"a patch is moved to a place"};
+  if (parts_->recorder) parts_->recorder->move(patch, position);
+  Placement& placement = parts_->placements[patch];
+  placement.position = position;
+  if (!std::exchange(placement.moves, true)) {
+    parts_->movers.insert(std::ranges::upper_bound(parts_->movers, patch), patch);
+    parts_->rearranged = true;
+  }
+  parts_->moved = true;
+  parts_->news.notify_all();
   return std::nullopt;
 }
 
@@ -396,9 +428,8 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
       if (auto refusal = misfit(placement.program.description(), profile)) return *refusal;
     if (auto refusal = parts_->begin_recording(options)) return *refusal;
     parts_->running = true;
-    parts_->published.revision = 0;
-    parts_->cleared = true;  // every run begins with banks of its own, and with memories of its own
-    parts_->changed.clear();
+    parts_->revision = 0;
+    parts_->begin_anew();  // every run begins with banks of its own, and with memories of its own
     for (std::size_t patch = 0; patch < parts_->placements.size(); ++patch) {
       parts_->placements[patch].memory = std::make_shared<Memory>(parts_->placements[patch].program);
       parts_->changed.push_back(patch);
@@ -417,7 +448,9 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   Exchange<PlacedPatches> patches;
   parts_->publish_change(patches);
   TickSink* const sink = options.recorded != nullptr ? options.recorded : parts_->sink();
-  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(kept), options.most_newton, sink);
+  const bool real_time = !options.virtual_time && options.recorded == nullptr;
+  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(kept), options.most_newton, real_time,
+                sink);
   if (options.recorded != nullptr) {
     parts_->play_recorded(player, patches, *options.recorded, result);
   } else if (options.virtual_time) {
@@ -429,6 +462,7 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   result.ticks_run = player.served();
   result.record_problem = parts_->end_recording();
   result.lateness = player.lateness();
+  result.costs = player.costs();
   result.guards = player.guards();
   return result;
 }

@@ -71,7 +71,7 @@ double graded_stiffness(const Program& program, const Bench& bench, double visco
 }
 
 /// Whether a small oscillation grows over twenty-five seconds. The motion it is looked at in is along x.
-bool grows(const Program& program, const Bench& bench, double stiffness, double viscosity) {
+bool grows(const Program& program, double stiffness, double viscosity) {
   DeviceProfile profile = program.description().device;
   profile.position_counts = profile.force_counts = 1 << 29;
   SimulatedJoystick joystick(profile, {}, Rest{});
@@ -102,8 +102,8 @@ TEST(ClosedLoop, OscillationsGrowFromTheGradedStiffnessOn) {
       const double graded = graded_stiffness(program, bench, 0);
       SCOPED_TRACE(fmt::format("b {} N s/m, delay {} ms: {} N/m", damping, 1e3 * delay, graded));
       EXPECT_NEAR(graded, damping / (0.5 / 900 + delay), 1e-3 * graded) << "Colgate and Schenkel";
-      EXPECT_FALSE(grows(program, bench, 0.9 * graded, 0));
-      EXPECT_TRUE(grows(program, bench, 1.1 * graded, 0));
+      EXPECT_FALSE(grows(program, 0.9 * graded, 0));
+      EXPECT_TRUE(grows(program, 1.1 * graded, 0));
     }
 }
 
@@ -113,8 +113,8 @@ TEST(ClosedLoop, LikewiseWithAViscosityThatPushes) {
     const Program program = spring_and_viscosity(bench);
     const double graded = graded_stiffness(program, bench, viscosity);
     SCOPED_TRACE(fmt::format("B {} N s/m: {} N/m", viscosity, graded));
-    EXPECT_FALSE(grows(program, bench, 0.9 * graded, viscosity));
-    EXPECT_TRUE(grows(program, bench, 1.1 * graded, viscosity));
+    EXPECT_FALSE(grows(program, 0.9 * graded, viscosity));
+    EXPECT_TRUE(grows(program, 1.1 * graded, viscosity));
   }
 }
 
@@ -125,7 +125,7 @@ TEST(ClosedLoop, WithViscosityItNeverGrowsBelowTheGradedStiffness) {
       const Program program = spring_and_viscosity(bench);
       const double graded = graded_stiffness(program, bench, viscosity);
       SCOPED_TRACE(fmt::format("B {} N s/m, window {}: {} N/m", viscosity, window, graded));
-      EXPECT_FALSE(grows(program, bench, 0.95 * graded, viscosity));
+      EXPECT_FALSE(grows(program, 0.95 * graded, viscosity));
     }
 }
 

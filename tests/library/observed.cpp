@@ -1,6 +1,7 @@
 // The whole library in the simulated hand: the passivity observer has nothing to do on what is passive there.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,6 +29,33 @@ GuardCounts guarded(const Program& program) {
     all.energy += std::get<RunResult>(run).guards.energy;
   }
   return all;
+}
+
+/// The same program for the same device, but for a force that comes so many ticks later.
+Program late(const Program& program, double ticks) {
+  PatchProgram description = program.description();
+  description.device.delay_x = description.device.delay_y = ticks / description.device.rate;
+  auto loaded = Program::load(std::move(description));
+  if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
+  return std::get<Program>(std::move(loaded));
+}
+
+TEST(Observed, NorBehindADelay) {
+  const std::vector<Program> programs = shelf::programs();
+  std::vector<std::string> damped(programs.size());
+  std::atomic<long> calm = 0;
+  in_parallel(programs.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (const double ticks : {1.0, 2.0}) {
+        const Program program = late(programs[i], ticks);
+        const Grade graded = grade(Bank(program));
+        if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
+        ++calm;
+        if (guarded(program).passivity > 0) damped[i] = program.description().material;
+      }
+  });
+  for (const std::string& name : damped) EXPECT_EQ(name, "");
+  EXPECT_GT(calm, 100);
 }
 
 TEST(Observed, NothingIsDoneToWhatIsPassiveInTheHandNorHeldBackOfWhatIsDeclared) {

@@ -277,7 +277,8 @@ TEST(Verification, Device) {
     }
   }
   for (double DeviceProfile::*figure :
-       {&DeviceProfile::slew, &DeviceProfile::velocity_window, &DeviceProfile::velocity_noise_counts,
+       {&DeviceProfile::slew, &DeviceProfile::continuous_newton, &DeviceProfile::heating_seconds,
+        &DeviceProfile::active_watt, &DeviceProfile::velocity_window, &DeviceProfile::velocity_noise_counts,
         &DeviceProfile::patch_width, &DeviceProfile::patch_height, &DeviceProfile::patch_rim, &DeviceProfile::mass,
         &DeviceProfile::damping, &DeviceProfile::friction, &DeviceProfile::delay_x, &DeviceProfile::delay_y,
         &DeviceProfile::bandwidth_x, &DeviceProfile::bandwidth_y}) {
@@ -287,6 +288,14 @@ TEST(Verification, Device) {
       EXPECT_NE(refusal_of(p), "") << value;
     }
   }
+}
+
+TEST(Verification, ADeviceHeatsAtSomePace) {
+  EXPECT_EQ(refusal_after([](auto& p) { p.device.continuous_newton = p.device.force_newton + 1; }),
+            "the device's continuous force (N) is 11 and must be in 0 .. 10");
+  EXPECT_EQ(refusal_after([](auto& p) { p.device.heating_seconds = 0; }),
+            "the device's time constant of heating (s) is 0 and must be in 0.001 .. 1e+06");
+  EXPECT_EQ(refusal_after([](auto& p) { p.device.continuous_newton = p.device.heating_seconds = 0; }), "");
 }
 
 TEST(Verification, Percepts) {

@@ -100,6 +100,52 @@ TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmed) {
   }
 }
 
+/// The stiffest that is passive behind a delay of so many ticks, with the hand's damping beside the device's: Colgate
+/// and Schenkel's bound with the delay in it, b / (T / 2 + t).
+double stiffest_passive(const Scene& scene, double ticks) {
+  return (scene.profile.damping + scene.hand.damping) * scene.profile.rate / (0.5 + ticks);
+}
+
+DeviceProfile late(DeviceProfile profile, double ticks) {
+  profile.delay_x = profile.delay_y = ticks / profile.rate;
+  return profile;
+}
+
+TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmedBehindADelay) {
+  const HandModel light{.mass = 0.2, .damping = 0.5, .stiffness = 135};
+  for (const bool encoder : {false, true})
+    for (const double ticks : {1.0, 2.0, 2.7}) {
+      SCOPED_TRACE(testing::Message() << ticks << " ticks late" << (encoder ? ", encoder" : ""));
+      const Scene leaning{late(frictionless(encoder), ticks), light, Rest{{0.01, 0}}};
+      const Field stiff = wall(2 * stiffest_passive(leaning, ticks));
+      const double unguarded = run(leaning, stiff, 20, false, {-8, 0}).late_speed;
+      const Outcome calmed = run(leaning, stiff, 20, true, {-8, 0});
+      EXPECT_LT(calmed.late_speed, 0.1);
+      EXPECT_LT(calmed.late_speed, unguarded);
+      const Scene alone{late(frictionless(encoder), ticks), no_hand, Rest{}};
+      const Field spring_of_twice = spring(2 * stiffest_passive(alone, ticks));
+      EXPECT_GT(run(alone, spring_of_twice, 20, false, {0.5, 0}).late_speed, 0.2);
+      EXPECT_LT(run(alone, spring_of_twice, 20, true, {0.5, 0}).late_speed, 0.1);
+    }
+}
+
+TEST(ClosedLoop, NothingIsDoneToWhatIsPassiveBehindADelay) {
+  for (const bool encoder : {false, true})
+    for (const double ticks : {1.0, 2.0, 2.7})
+      for (const double share : {0.1, 0.5, 0.9}) {
+        SCOPED_TRACE(testing::Message() << share << ", " << ticks << " ticks late");
+        const Scene alone{late(frictionless(encoder), ticks), no_hand, Rest{{0.012, 0.006}}};  // let go there
+        const double stiffness = share * stiffest_passive(alone, ticks);
+        EXPECT_EQ(run(alone, spring(stiffness), 10, true, stiffness * glm::dvec2(-0.012, -0.006)).acted, 0);
+        const Scene leaning{late(frictionless(encoder), ticks), normal_hand(), Lateral{0.02, 1}};
+        EXPECT_EQ(run(leaning, wall(stiffness), 10, true).acted, 0);
+        // The ribs' steepest slope is 1.3 A 2 pi / 2.5 mm.
+        const double amplitude = share * stiffest_passive(alone, ticks) * 0.0025 / (1.3 * 2 * std::numbers::pi);
+        const Scene rubbing{late(sandpaper(), ticks), normal_hand(), Lateral{0.04, 1}};
+        EXPECT_EQ(run(rubbing, ribs(amplitude), 5, true).acted, 0);
+      }
+}
+
 TEST(ClosedLoop, NothingIsDoneToPassiveSpringsAndWalls) {
   for (const bool encoder : {false, true})
     for (const double share : {0.1, 0.5, 0.9}) {
@@ -253,6 +299,29 @@ TEST(EnergyMeter, ASourceGivesItsRangeAndThenItsWatts) {
       EXPECT_GE(work.let, 0.9 * (range + active * seconds)) << "what it may give it does give";
       EXPECT_GT(work.held, 0);
     }
+}
+
+/// A program that says more watts than the device gives gets what the device gives.
+TEST(EnergyMeter, TheDeviceSaysHowMuchAProgramGets) {
+  constexpr double range = 0.01, seconds = 30;
+  for (const double cap : {0.0, 0.02, 5.0}) {
+    DeviceProfile profile = frictionless(true);
+    profile.mass = 0;  // the passivity observer leaves it alone
+    profile.active_watt = cap;
+    Guards guards(profile);
+    guards.allow(range, 0.1);
+    double given = 0;
+    glm::dvec2 last(0), last_force(0);
+    for (long n = 0; n < std::lround(seconds * profile.rate); ++n) {
+      const TracePoint at = wale::at(Lateral{0.04, 1}, static_cast<double>(n) / profile.rate);
+      const Force force = guards(Force(8.0 * at.velocity), at.position, 1);  // some 0.25 W
+      if (n > 0) given += 0.5 * glm::dot(last_force + glm::dvec2(force), at.position - last);
+      last = at.position, last_force = force;
+    }
+    const double watts = cap > 0 ? std::min(cap, 0.1) : 0.1;
+    EXPECT_NEAR(given / seconds, watts, 0.1 * watts + 0.003) << cap;
+    EXPECT_GT(guards.counts().energy, 0);
+  }
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "runtime/stage/lateness.hpp"
+#include "runtime/stage/cost_meter.hpp"
+#include "runtime/stage/time_histogram.hpp"
 
 namespace wale::loop_test {
 namespace {
@@ -110,7 +111,7 @@ TEST(Loop, MonotonicClockWakesAfterItsDeadline) {
 }
 
 TEST(Lateness, NothingIsNotLate) {
-  const Lateness none = LatenessHistogram().summary();
+  const Lateness none = TimeHistogram().summary();
   EXPECT_EQ(none.p50, 0);
   EXPECT_EQ(none.p99, 0);
   EXPECT_EQ(none.maximum, 0);
@@ -118,7 +119,7 @@ TEST(Lateness, NothingIsNotLate) {
 
 TEST(Lateness, PercentilesAreWithinThreePercentAndTheMaximumExact) {
   for (const double scale : {1.0, 37.0, 1e4, 3.3e7}) {
-    LatenessHistogram histogram;
+    TimeHistogram histogram;
     for (int i = 1; i <= 1000; ++i) histogram.add(static_cast<std::int64_t>(i * scale));
     const Lateness late = histogram.summary();
     EXPECT_NEAR(late.p50, 500 * scale * 1e-9, 0.03 * 500 * scale * 1e-9);
@@ -128,13 +129,33 @@ TEST(Lateness, PercentilesAreWithinThreePercentAndTheMaximumExact) {
 }
 
 TEST(Lateness, TakesAnyNumber) {
-  LatenessHistogram histogram;
+  TimeHistogram histogram;
   histogram.add(-5);
   EXPECT_EQ(histogram.summary().maximum, 0);
   histogram.add(INT64_MAX);
   EXPECT_NEAR(histogram.summary().maximum, 9.22e9, 1e7);
   EXPECT_EQ(histogram.summary().p50, 0);
   EXPECT_NEAR(histogram.summary().p99, 9.22e9, 0.03 * 9.22e9);
+}
+
+TEST(CostMeter, AWholeTickIsTheSumOfItsSteps) {
+  CostMeter meter(true);
+  meter.begin();
+  for (std::size_t step = 0; step < TickCosts::steps; ++step) meter.end(static_cast<TickCosts::Step>(step));
+  meter.end_tick();
+  const auto costs = meter.summary();
+  ASSERT_TRUE(costs);
+  double sum = 0;
+  for (const Times& step : costs->of) sum += step.maximum;
+  EXPECT_NEAR(costs->whole.maximum, sum, 1e-12) << "all read the clock between one step and the next once";
+}
+
+TEST(CostMeter, InVirtualTimeThereIsNone) {
+  CostMeter meter(false);
+  meter.begin();
+  meter.end(TickCosts::guard);
+  meter.end_tick();
+  EXPECT_FALSE(meter.summary());
 }
 
 }  // namespace

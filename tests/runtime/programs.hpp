@@ -1,8 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "tests/runtime/figures.hpp"
 #include "wale/program.hpp"

@@ -96,17 +96,32 @@ TEST(RealTime, AllocationsLocksAndExceptionsAreNoticed) {
   EXPECT_EQ(throws, thrown + 1);
 }
 
+/// With all that a beat may have to do: a clock to read, motors that grow hot, an actuator that is late, patches that
+/// stay and patches that were moved.
 TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
+  DeviceProfile profile = sandpaper();
+  profile.continuous_newton = 0.4;
+  profile.heating_seconds = 0.2;
+  profile.delay_x = profile.delay_y = 0.0015;
   for (const Program& program : {corduroy(1.934f), bead(500)}) {
-    SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});  // in and out of the patch
+    SimulatedJoystick joystick(profile, normal_hand(), Circular{0.075, 1, {0.03, 0}});  // in and out of the patch
     Exchange<PlacedPatches> patches;
     Record record;
-    Player player(joystick, patches, record, 2000);
+    Player player(joystick, patches, record, 2000, 1, true);
     auto memory = std::make_shared<Memory>(program);
+    const auto small = std::make_shared<PlacedPatch>(
+        PlacedPatch{Bank(spring(40), spring(40).default_parameters(), {.width = 0.01f, .height = 0.01f}), glm::vec2(0),
+                    std::make_shared<Memory>(spring(40)), 1});
     long entered = 0, inside = 0;
     for (long period = 0; period < 2000; ++period) {
       if (period % 50 == 0) memory = std::make_shared<Memory>(program);
-      if (period % 7 == 0) patches.publish(PlacedPatches({Bank(program), glm::vec2(0), memory}));
+      if (period % 7 == 0) {
+        PlacedPatches all;
+        all.take({std::make_shared<PlacedPatch>(PlacedPatch{Bank(program), glm::vec2(0), memory}), small});
+        const MovedPatch moved[] = {{1, {0.0001f * static_cast<float>(period % 500), 0.03f}}};
+        all.arrange(moved);
+        patches.publish(all);
+      }
       const long before = deeds();
       player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
       ASSERT_EQ(deeds(), before) << period;
@@ -115,6 +130,8 @@ TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
     }
     EXPECT_GT(entered, 0);
     EXPECT_GT(inside, 500);
+    EXPECT_GT(player.guards().heat, 0);
+    EXPECT_TRUE(player.costs());
   }
 }
 
@@ -130,7 +147,7 @@ TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
     patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
     RecordWriter writer(file, {.device = sandpaper(), .most_newton = 5}, false);
     Record record;
-    Player player(joystick, patches, record, 100, 5, &writer);
+    Player player(joystick, patches, record, 100, 5, true, &writer);
     for (long period = 0; period < beats; ++period) {
       const long before = deeds();
       player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});

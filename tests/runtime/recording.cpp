@@ -274,7 +274,7 @@ TEST(Recording, ReplaysSkippedPeriodsAndOverruns) {
     placed.revision = 1;
     patches.publish(placed);
     Record record;
-    Player player(device, patches, record, 4000, HUGE_VAL, &writer);
+    Player player(device, patches, record, 4000, HUGE_VAL, false, &writer);
     for (long tick = 0, period = 0; tick < 4000; ++tick) {
       const long skipped = tick % 100 == 99 ? 30 : tick % 10 == 9 ? 2 : 0;
       const long last = period;

@@ -169,8 +169,27 @@ TEST(Stage, NoForceAfterTheLoopWasAwayForLong) {
   EXPECT_GT(device.commanded.x, full);
 }
 
+/// The ends of what a device may declare: as many ticks as it says, and the level comes back out of the handle.
+TEST(Stage, RunsAtAHundredTicksASecondAndAtTenThousand) {
+  for (const double rate : {DeviceProfile::least_rate, DeviceProfile::most_rate}) {
+    DeviceProfile profile = sandpaper();
+    profile.rate = rate;
+    SimulatedJoystick joystick(profile, normal_hand(), Lateral{0.02, 0.25});  // at most a third of a millimetre a tick
+    Stage stage(joystick);
+    constexpr float force = 0.3f;
+    stage.place(corduroy(force));
+    const RunResult run = good(stage.run({.seconds = 8, .virtual_time = true}));
+    EXPECT_EQ(run.ticks_run, std::lround(8 * rate));
+    EXPECT_EQ(run.record.seconds_per_tick, 1 / rate);
+    const Felt felt = felt_in(run, force);
+    EXPECT_NEAR(felt.force_rubbing.p99, force, 0.02 * force + force_step) << rate;
+    EXPECT_GT(felt.crossings, 50) << rate;
+  }
+}
+
 TEST(Stage, VirtualTimeIsTheSameBitForBit) {
   const Program program = corduroy(amplitude);
+  EXPECT_FALSE(run_virtual(program, Lateral{0.04, 1}, 0.1).costs) << "no clock is read";
   const RunResult once = run_virtual(program, Lateral{0.04, 1}, 2), again = run_virtual(program, Lateral{0.04, 1}, 2);
   EXPECT_EQ(csv(once.record), csv(again.record));
 }
@@ -381,6 +400,13 @@ TEST(Stage, RunsInRealTime) {
   EXPECT_GE(called, 1);
   EXPECT_GE(run.lateness.maximum, run.lateness.p50);
   EXPECT_FALSE(run.scheduling.empty());
+  EXPECT_NE(run.scheduling.find("processors"), std::string::npos) << run.scheduling;
+  ASSERT_TRUE(run.costs);
+  for (const Times& step : run.costs->of) {
+    EXPECT_LE(step.p50, step.p99);
+    EXPECT_LE(step.maximum, run.costs->whole.maximum);
+  }
+  EXPECT_GT(run.costs->whole.p50, 0);
   EXPECT_EQ(run.scheduling.find('\n'), std::string::npos);
   EXPECT_EQ(joystick.command(Force(0)), Force(0));
 }

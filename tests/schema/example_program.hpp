@@ -20,6 +20,9 @@ inline DeviceProfile device() {
   device.rate = 900;
   device.speed_limit = 2;
   device.slew = 500;
+  device.continuous_newton = 2;
+  device.heating_seconds = 30;
+  device.active_watt = 1.5;
   device.velocity_window = 15;
   device.velocity_noise_counts = 1;
   device.patch_width = 0.1;

@@ -30,6 +30,7 @@ enum class GuardBit : std::uint32_t {
   stale = 1 << 7,
   lost = 1 << 8,
   restored = 1 << 9,
+  heat = 1 << 10,
 };
 
 /// All of one tick: what came in, what was made of it, and what went out.
@@ -61,6 +62,7 @@ struct RecordedEvent {
     add,      ///< one more: the same, and `layer`, `parameters`
     replace,  ///< another program in a patch's place: `patch`, `program`
     set,      ///< a parameter: `patch`, `parameter`, `value`
+    move,     ///< a patch to another place: `patch`, `position`
     publish,  ///< all that was done so far is handed over to the loop as `revision`
     end,      ///< the run is over: `ticks` in all
   };

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -52,40 +54,63 @@ struct RunOptions {
   RecordedRun* recorded = nullptr;
 };
 
-/// How late ticks began, in s after their deadlines. The percentiles come from a fixed histogram and are right within 3
-/// %.
-struct Lateness {
+/// The times of one thing over the ticks of a run, in s. The percentiles come from a fixed histogram and are right
+/// within 3 %.
+struct Times {
   double p50 = 0, p99 = 0, maximum = 0;
 };
+
+/// How late ticks began, after their deadlines.
+using Lateness = Times;
+
+/// How long ticks took, as a whole and step by step.
+struct TickCosts {
+  enum Step : std::size_t {
+    sample,   ///< the device: where the handle is
+    find,     ///< its motion filtered, the patch under it found
+    program,  ///< the patch's program
+    guard,    ///< all guards
+    command,  ///< the device: the force
+    record,   ///< what is kept and shown
+    steps
+  };
+  Times whole;
+  std::array<Times, steps> of;
+};
+
+/// "sample", "find", …
+std::string_view name_of(TickCosts::Step step);
 
 /// On how many ticks each guard changed the force, and what the program's own memory had to mend.
 struct GuardCounts {
   long not_a_number = 0;  ///< the program's force was none, so zero
   long device_limit = 0;  ///< beyond the device's peak force on an axis
   long user_limit = 0;    ///< beyond what the user allows
-  long energy = 0;        ///< held back, because the program gave more energy than it says
-  long passivity = 0;     ///< damped, because the sampled loop gained energy
-  long slew = 0;          ///< held back after a start, an entry, a leaving or a change of bank
-  long overrun = 0;       ///< no force, after more than 20 ms in which nobody served the loop
-  long stale = 0;         ///< no force, the position being an old one
-  long lost = 0;          ///< no force, the device being gone
-  long restored = 0;      ///< times that a state was not a number, so its initial value
+  long heat = 0;          ///< more than a motor bears that was hot already
+  long energy = 0;     ///< held back, because the program gave more energy than it says, or more than the device gives
+  long passivity = 0;  ///< damped, because the sampled loop gained energy
+  long slew = 0;       ///< held back after a start, an entry, a leaving or a change of bank
+  long overrun = 0;    ///< no force, after more than 20 ms in which nobody served the loop
+  long stale = 0;      ///< no force, the position being an old one
+  long lost = 0;       ///< no force, the device being gone
+  long restored = 0;   ///< times that a state was not a number, so its initial value
 };
 
 struct RunResult {
   long ticks_run = 0;
   long ticks_missed = 0;  ///< periods that nobody served; they are skipped, never caught up
   Lateness lateness;
+  std::optional<TickCosts> costs;  ///< nothing in virtual time
   GuardCounts guards;
-  std::string scheduling;  ///< one line: what priority and memory locking the loop got
+  std::string scheduling;  ///< one line: what priority, memory locking and wakefulness of processors the loop got
   Record record;
   std::string record_problem;  ///< why there is less in the file than was run; empty where there is not
 };
 
 /// Patches on a device's workspace, and the loop that makes the one in front under the hand felt.
 ///
-/// `place`, `add` and `set` may be called from any thread, also during a run: setup and peaks are computed on the
-/// thread that called `run`, and the result reaches the real-time thread whole.
+/// `place`, `add`, `move`, `replace` and `set` may be called from any thread, also during a run: setup and peaks are
+/// computed on the thread that called `run`, and the result reaches the real-time thread whole.
 class Stage {
  public:
   /// The device outlives the stage.
@@ -111,6 +136,13 @@ class Stage {
   /// have the same name and the hand stays on the patch, and memories where all have the same names, sizes and bounds.
   /// Takes effect within one tick of being ready, and slews. Refused when there is no such patch.
   std::optional<Refusal> replace(std::size_t patch, const Program& program);
+
+  /// Moves a patch's centre to `position` (m from the workspace's centre). Takes effect within one tick of being ready,
+  /// and slews where that changes what is felt. A patch's first move in a run takes as long to be ready as adding one
+  /// does, some 50 ms among a hundred thousand; from then on it takes as long as there are patches that were moved,
+  /// however many stay. A hand at rest on a patch that is moved stays on it and keeps its memory; the energy that
+  /// moving gives to it counts as the program's own. Refused when there is no such patch or the position is no number.
+  std::optional<Refusal> move(std::size_t patch, glm::vec2 position);
 
   /// Sets a parameter of a patch, by its number or that of patch 0, in SI units. Refused when there is no patch or no
   /// such parameter, or when the value is not a number in its range.

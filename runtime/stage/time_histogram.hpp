@@ -8,14 +8,14 @@
 
 namespace wale {
 
-/// A histogram of fixed size of how late ticks began: exact below 64 ns, then 32 buckets for each doubling.
-class LatenessHistogram {
+/// A histogram of fixed size of how long things took: exact below 64 ns, then 32 buckets for each doubling.
+class TimeHistogram {
  public:
-  /// Counts one tick, `nanoseconds` late; early is not late.
+  /// Counts one time; less than nothing counts as nothing.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void add(std::int64_t nanoseconds) noexcept;
 
-  Lateness summary() const;
+  Times summary() const;
 
  private:
   static constexpr int exact_bits = 6, split_bits = exact_bits - 1;
