@@ -49,6 +49,8 @@ class Emitter {
     program_.fates = material_.fates;
     program_.layers = material_.layers;
 
+    section_nodes_.reserve(lowered_.percepts.size() + 8);
+    program_.percepts.reserve(lowered_.percepts.size());
     plan();
     emit_setup();
     emit_enter();
@@ -68,6 +70,7 @@ class Emitter {
 
   void emit_enter() {
     std::vector<NodeId> roots;
+    roots.reserve(lowered_.states.size());
     for (const auto& state : lowered_.states) roots.push_back(state.initial);
     program_.enter = section(roots);
     for (std::size_t i = 0; i < lowered_.states.size(); ++i) {
@@ -204,6 +207,7 @@ class Emitter {
   /// Says what is needed, and what sections are to know of it.
   void find_needed() {
     steps_.assign(graph_.size() + 1, Step{.operands = {nothing_, nothing_, nothing_}});
+    for (auto* nodes : {&constant_nodes_, &parameter_nodes_, &state_nodes_, &setup_nodes_}) nodes->reserve(64);
     Step* const steps = steps_.data();
     const auto need = [steps](NodeId id) { steps[id].wanted = in_no_section; };
     need(nothing_);

@@ -26,38 +26,35 @@ std::vector<TermId> roots_of(const SolvedMaterial& material) {
 std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& terms, TermId solutions_end) {
   enum class Mark : char { none, asked_for, entered };
   std::vector<Mark> marks(terms.size(), Mark::none);
-  std::vector<TermId> order;
-  order.reserve(terms.size());
-  const auto enter = [&](TermId id) {
-    marks[id] = Mark::entered;
-    order.push_back(id);
-  };
+  std::vector<TermId> order, others;
+  others.reserve(terms.size());
   for (const TermId root : roots) {
     if (marks[root] != Mark::none) continue;
     marks[root] = Mark::asked_for;
-    const auto first = static_cast<std::ptrdiff_t>(order.size());
+    const auto first = static_cast<std::ptrdiff_t>(others.size());
     std::size_t waiting = root >= solutions_end ? 1 : 0;  // of what is no solution
     for (TermId id = root; waiting > 0; --id) {
       if (marks[id] != Mark::asked_for) continue;
       --waiting;
-      enter(id);
+      marks[id] = Mark::entered;
+      others.push_back(id);
       for (const TermId operand : operands(terms[id])) {
         if (marks[operand] != Mark::none) continue;
         marks[operand] = Mark::asked_for;
         if (operand >= solutions_end) ++waiting;
       }
     }
-    std::reverse(order.begin() + first, order.end());
+    std::reverse(others.begin() + first, others.end());
   }
   // By now it is known which of the solutions anybody needs.
-  const auto others = static_cast<std::ptrdiff_t>(order.size());
+  order.reserve(terms.size());
   for (TermId id = solutions_end; id-- > 0;) {
     if (marks[id] != Mark::asked_for) continue;
-    enter(id);
+    order.push_back(id);
     for (const TermId operand : operands(terms[id])) marks[operand] = Mark::asked_for;
   }
-  std::reverse(order.begin() + others, order.end());
-  std::rotate(order.begin(), order.begin() + others, order.end());
+  std::ranges::reverse(order);
+  order.insert(order.end(), others.begin(), others.end());
   return order;
 }
 

@@ -24,13 +24,20 @@ inline std::size_t hash_of(const Node& node) {
   return hash * 0xbf58476d1ce4e5b9u >> 32;
 }
 
-/// How often the result of an operation is worked out at least, by number: a table is not there while the compiler
-/// folds.
-constexpr auto least_rate = [] {
-  std::array<Rate, operation_table.size()> table{};
-  table[static_cast<std::size_t>(Operation::sample)] = Rate::setup;
-  table[static_cast<std::size_t>(Operation::recall)] = Rate::tick;
-  table[static_cast<std::size_t>(Operation::cell)] = Rate::tick;
+/// What `Graph::apply` asks of an operation.
+struct Working {
+  std::uint8_t operands = 0;
+  Rate rate = Rate::constant;  ///< how often it is worked out at least: a table is not there while the compiler folds
+};
+
+/// By number.
+constexpr auto workings = [] {
+  std::array<Working, operation_table.size()> table{};
+  for (std::size_t number = 0; number < table.size(); ++number)
+    table[number].operands = static_cast<std::uint8_t>(operation_table[number].operands);
+  table[static_cast<std::size_t>(Operation::sample)].rate = Rate::setup;
+  table[static_cast<std::size_t>(Operation::recall)].rate = Rate::tick;
+  table[static_cast<std::size_t>(Operation::cell)].rate = Rate::tick;
   return table;
 }();
 
@@ -99,9 +106,7 @@ NodeId Graph::folded(Operation operation, NodeId a, NodeId b, NodeId c) {
 }
 
 NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, const Span& span) {
-  const auto number = static_cast<std::size_t>(operation);
-  const int count = operation_table[number].operands;
-  Rate rate = least_rate[number];
+  auto [count, rate] = workings[static_cast<std::size_t>(operation)];
   if (count > 0) rate = std::max(rate, nodes_[a].rate);
   if (count > 1) rate = std::max(rate, nodes_[b].rate);
   if (count > 2) rate = std::max(rate, nodes_[c].rate);
@@ -130,7 +135,7 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
   return add({.kind = Node::Kind::operation,
               .operation = operation,
               .rate = rate,
-              .operands = static_cast<std::uint8_t>(count),
+              .operands = count,
               .a = a,
               .b = count > 1 ? b : 0,
               .c = count > 2 ? c : 0,

@@ -19,7 +19,7 @@ class Temporaries {
     std::uint64_t& free = free_[word];
     const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free));
     free &= free - 1;
-    most_ = std::max(most_, first + 1);
+    if (first >= most_) most_ = first + 1;
     return first;
   }
   /// `count` neighbouring registers, the lowest that are free.

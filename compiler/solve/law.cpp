@@ -179,6 +179,7 @@ Law::Law(const Map& map, const Percept& percept)
   if (!map_.table.empty()) return;
   magnitude_stands_alone_ = stands_alone(of_magnitude_);
   carrier_stands_alone_ = stands_alone(of_carrier_);
+  if (magnitude_stands_alone_) magnitude_of_one_ = magnitude_of(map_.one.value_or(percept_.one));
   if (carrier_stands_alone_) return;
   // Which root of a quadratic gives back what was put in, where there are two.
   const Way way = map_.branch == Branch::rising    ? Way::rising
@@ -324,7 +325,7 @@ bool Law::has_inverse() const {
 }
 
 double Law::level_of(double carrier, const std::vector<double>& couples) const {
-  if (magnitude_stands_alone_) return magnitude_of(carrier, couples) / magnitude_of(map_.one.value_or(percept_.one));
+  if (magnitude_stands_alone_) return magnitude_of(carrier, couples) / magnitude_of_one_;
   return number_of([&](Terms& terms) { return level(terms, terms.literal(carrier), literals(terms, couples)); });
 }
 
@@ -335,7 +336,7 @@ double Law::magnitude_of(double carrier, const std::vector<double>& couples) con
 
 double Law::carrier_of(double level, const std::vector<double>& couples) const {
   if (magnitude_stands_alone_ && carrier_stands_alone_)
-    return solved_for(of_carrier_, level * magnitude_of(map_.one.value_or(percept_.one)), couples);
+    return solved_for(of_carrier_, level * magnitude_of_one_, couples);
   return number_of([&](Terms& terms) { return this->carrier(terms, terms.literal(level), literals(terms, couples)); });
 }
 

@@ -60,6 +60,8 @@ class Law {
   Occurrences of_magnitude_, of_carrier_;  ///< in the map's terms
   bool magnitude_stands_alone_ = false, carrier_stands_alone_ = false;
   bool upper_root_ = true;  ///< of a quadratic: the one with the square root added
+  /// The magnitude of the reference stimulus, where the magnitude stands alone: levels are told by it again and again.
+  double magnitude_of_one_ = 0;
 };
 
 }  // namespace wale

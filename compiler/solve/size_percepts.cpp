@@ -216,7 +216,7 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   if (const auto& shaker = device_.profile.shaker)
     if (const auto rate = constant_value(*terms_, (*carriers_)[found->carrier].force_y, &material_.parameters))
       most = std::min(most, shaker->acceleration(1, std::clamp(*rate, shaker->frequency_low, shaker->frequency_high)));
-  const double given = Law(map, *found->percept).level_of(std::min(found->size, most), coupled_sizes(*found));
+  const double given = found->law->level_of(std::min(found->size, most), coupled_sizes(*found));
   record.given = std::isfinite(given) ? static_cast<float>(std::clamp(given, 0.0, 1.0)) : record.asked;
   constexpr double rounding = 1e-4;
   const bool foreign = !is_of(map, device_);

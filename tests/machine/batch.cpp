@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/machine/random_program.hpp"
 #include "tests/machine/running.hpp"
@@ -159,6 +160,24 @@ TEST(TickAll, ManyHandsGiveTheSameBitsAsFew) {
   std::vector<Force> forces(all.size());
   tick_all(bank, all, forces);
   for (std::size_t i = 0; i < all.size(); i += 13) expect_same(tick(bank, all[i]), forces[i], "force", 5, i);
+}
+
+// Whoever runs a program's first batch decodes its blocks, and several may be first.
+TEST(TickAll, ThreadsThatAreFirstTogetherGetTheSameBits) {
+  for (unsigned seed = 20; seed < 40; ++seed) {
+    const Program program = loaded(example::RandomProgram(seed).make());
+    Bank bank(program);
+    std::mt19937 random(seed);
+    const std::vector<Hand> all = hands(random, 200);
+    std::vector<std::vector<Force>> found(4, std::vector<Force>(all.size()));
+    std::vector<std::thread> threads;
+    for (std::vector<Force>& forces : found) threads.emplace_back([&] { tick_all(bank, all, forces); });
+    for (std::thread& thread : threads) thread.join();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Force force = tick(bank, all[i]);
+      for (const std::vector<Force>& forces : found) expect_same(force, forces[i], "force", seed, i);
+    }
+  }
 }
 
 }  // namespace
