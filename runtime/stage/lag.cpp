@@ -23,12 +23,14 @@ Lag::Lag(const DeviceProfile& profile) {
     late_[static_cast<std::size_t>(axis)] = {static_cast<std::size_t>(late), late - std::floor(late)};
     periods_[axis] = late;
   }
+  prompt_ = periods_ == glm::dvec2(0);
   commands_.resize(static_cast<std::size_t>(std::max(periods_.x, periods_.y)) + 2, glm::dvec2(0));
 }
 
 void Lag::begin(glm::dvec2 command) noexcept { std::ranges::fill(commands_, command); }
 
 glm::dvec2 Lag::over(glm::dvec2 held, long periods) noexcept {
+  if (prompt_) return held;
   // Beyond as many as are remembered nothing new comes.
   const long count = std::clamp(periods, 1L, static_cast<long>(commands_.size()));
   glm::dvec2 sum(0);

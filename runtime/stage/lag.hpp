@@ -34,6 +34,7 @@ class Lag {
     double part = 0;        ///< of one more
   };
 
+  bool prompt_ = true;  // not late at all
   glm::dvec2 periods_{0};
   std::array<Lateness, 2> late_;
   std::vector<glm::dvec2> commands_;  // a ring, one a period

@@ -28,6 +28,7 @@ MotorHeat::MotorHeat(const DeviceProfile& profile)
 }
 
 void MotorHeat::elapse(long periods) noexcept {
+  if (continuous_square_ == 0) return;
   double kept = kept_, all = 1;
   for (long left = std::max(1L, periods); left > 0; left /= 2, kept *= kept)
     if (left % 2 == 1) all *= kept;
