@@ -40,7 +40,7 @@ Force PassivityObserver::operator()(Force force, glm::dvec2 position, long perio
   const double length = glm::length(step);
   recent_force_ = std::max(glm::length(field), recent_force_ * fading);
   recent_step_ = std::max(length, recent_step_ * fading);
-  const double allowed = least_joule + recent_force_ * (late_ * recent_step_ + count_);
+  const double allowed = least_joule + recent_force_ * late_ * (recent_step_ + count_);
   gained_ = std::clamp(gained_, 0.0, most_gained * allowed);
 
   position_ = position;
