@@ -42,7 +42,7 @@ Force Guards::operator()(Force wanted, glm::dvec2 position, long periods) noexce
   const long acted = observer_.acted();
   const Force calmed = observer_(field, position, periods);
   counts_.passivity += observer_.acted() - acted;
-  return bounded(calmed);
+  return calmed == field && !slewing_ ? field : bounded(calmed);
 }
 
 Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
@@ -63,6 +63,7 @@ Force Guards::cut(Reason reason, glm::dvec2 position, long periods) noexcept {
 Force Guards::within_device(Force wanted) const noexcept { return glm::clamp(wanted, low_, high_); }
 
 Force Guards::within_user(Force wanted) const noexcept {
+  if (most_ == HUGE_VALF) return wanted;
   const float size = vibrates_ ? wanted.x : glm::length(wanted);
   if (!(size > most_)) return wanted;
   return vibrates_ ? Force(most_, wanted.y) : wanted * (most_ / size);

@@ -1,6 +1,7 @@
 #include "runtime/stage/lag.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -20,30 +21,38 @@ Lag::Lag(const DeviceProfile& profile) {
                             lateness(profile.delay_y, profile.bandwidth_y)};
   for (int axis = 0; axis < 2; ++axis) {
     const double late = std::clamp(seconds[axis] * profile.rate, 0.0, most_under_way);
-    late_[static_cast<std::size_t>(axis)] = {static_cast<std::size_t>(late), late - std::floor(late)};
+    whole_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(late);
+    part_[axis] = late - std::floor(late);
     periods_[axis] = late;
   }
-  commands_.resize(static_cast<std::size_t>(std::max(periods_.x, periods_.y)) + 2, glm::dvec2(0));
+  prompt_ = periods_ == glm::dvec2(0);
+  answers_.resize(std::bit_ceil(std::max(whole_[0], whole_[1]) + 2));
 }
 
-void Lag::begin(glm::dvec2 command) noexcept { std::ranges::fill(commands_, command); }
+void Lag::begin(const Answer& answer) noexcept { std::ranges::fill(answers_, answer); }
 
-glm::dvec2 Lag::over(glm::dvec2 held, long periods) noexcept {
+Lag::Answer Lag::arriving() const noexcept {
+  const std::size_t mask = answers_.size() - 1;
+  const Answer &x = answers_[(newest_ - whole_[0]) & mask], &x_before = answers_[(newest_ - whole_[0] - 1) & mask];
+  const Answer &y = answers_[(newest_ - whole_[1]) & mask], &y_before = answers_[(newest_ - whole_[1] - 1) & mask];
+  const glm::dvec2 force(x.force.x, y.force.y), place(x.place.x, y.place.y);
+  return {force + part_ * (glm::dvec2(x_before.force.x, y_before.force.y) - force),
+          place + part_ * (glm::dvec2(x_before.place.x, y_before.place.y) - place)};
+}
+
+Lag::Answer Lag::over(const Answer& held, long periods) noexcept {
+  if (prompt_) return held;
   // Beyond as many as are remembered nothing new comes.
-  const long count = std::clamp(periods, 1L, static_cast<long>(commands_.size()));
-  glm::dvec2 sum(0);
+  const long count = std::clamp(periods, 1L, static_cast<long>(answers_.size()));
+  Answer sum;
   for (long period = 0; period < count; ++period) {
-    newest_ = newest_ + 1 == commands_.size() ? 0 : newest_ + 1;
-    commands_[newest_] = held;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto [whole, part] = late_[axis];
-      const auto command = [&](std::size_t back) {
-        return commands_[newest_ >= back ? newest_ - back : newest_ + commands_.size() - back][static_cast<int>(axis)];
-      };
-      sum[static_cast<int>(axis)] += (1 - part) * command(whole) + part * command(whole + 1);
-    }
+    newest_ = (newest_ + 1) & (answers_.size() - 1);
+    answers_[newest_] = held;
+    const Answer now = arriving();
+    if (count == 1) return now;
+    sum = {sum.force + now.force, sum.place + now.place};
   }
-  return sum / static_cast<double>(count);
+  return {sum.force / static_cast<double>(count), sum.place / static_cast<double>(count)};
 }
 
 }  // namespace wale

@@ -13,30 +13,35 @@ namespace wale {
 /// late by the profile's delay and by the time constant of its bandwidth.
 class Lag {
  public:
+  /// A command, and the place of the handle that it answers.
+  struct Answer {
+    glm::dvec2 force{0}, place{0};  ///< N, m
+  };
+
   /// Allocates as much as there are commands under way, a thousand at most.
   explicit Lag(const DeviceProfile& profile);
 
-  /// As if this had been the command for ever.
+  /// As if this had been the answer for ever.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-  void begin(glm::dvec2 command) noexcept;
+  void begin(const Answer& answer) noexcept;
 
-  /// What the actuators exert on average over the `periods` control periods that just ended, all through which `held`
-  /// was the last command. A command that arrives within a period acts for the rest of it.
-  /// Real-time likewise.
-  glm::dvec2 over(glm::dvec2 held, long periods) noexcept;
+  /// The mean over the `periods` control periods that just ended, all through which `held` was the last command, of
+  /// what the actuators exert and of the places that this answers. A command that arrives within a period acts for the
+  /// rest of it. Real-time likewise.
+  Answer over(const Answer& held, long periods) noexcept;
 
-  /// Periods between a command and what comes of it, of each axis.
+  /// Periods between a command and its force, of each axis.
   glm::dvec2 periods() const noexcept { return periods_; }
 
  private:
-  struct Lateness {
-    std::size_t whole = 0;  ///< periods
-    double part = 0;        ///< of one more
-  };
+  /// What arrives in the period that ends with the newest command.
+  Answer arriving() const noexcept;
 
+  bool prompt_ = true;  // not late at all
   glm::dvec2 periods_{0};
-  std::array<Lateness, 2> late_;
-  std::vector<glm::dvec2> commands_;  // a ring, one a period
+  std::array<std::size_t, 2> whole_{};  // periods
+  glm::dvec2 part_{0};                  // of one more
+  std::vector<Answer> answers_;         // a ring, one a period; a power of two
   std::size_t newest_ = 0;
 };
 

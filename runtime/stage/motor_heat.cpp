@@ -28,20 +28,21 @@ MotorHeat::MotorHeat(const DeviceProfile& profile)
 }
 
 void MotorHeat::elapse(long periods) noexcept {
+  if (continuous_square_ == 0) return;
   double kept = kept_, all = 1;
   for (long left = std::max(1L, periods); left > 0; left /= 2, kept *= kept)
     if (left % 2 == 1) all *= kept;
   heat_ = all * heat_ + (1 - all) * (held_ * held_);
+  most_ = continuous_square_ + (continuous_square_ - heat_) * reserve_;
 }
 
 Force MotorHeat::held_within(Force wanted) const noexcept {
-  if (continuous_square_ == 0) return wanted;
+  const glm::dvec2 force(wanted), square = force * force;
+  if (!(square.x > most_.x || square.y > most_.y)) return wanted;
   Force held = wanted;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double most = continuous_square_ + (continuous_square_ - heat_[axis]) * reserve_;
-    const double force = wanted[axis];
-    if (force * force > most) held[axis] = static_cast<float>(std::copysign(std::sqrt(std::max(0.0, most)), force));
-  }
+  for (int axis = 0; axis < 2; ++axis)
+    if (square[axis] > most_[axis])
+      held[axis] = static_cast<float>(std::copysign(std::sqrt(std::max(0.0, most_[axis])), force[axis]));
   return held;
 }
 

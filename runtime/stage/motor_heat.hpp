@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "schema/device_profile.hpp"
 #include "wale/program.hpp"
 
@@ -21,7 +23,7 @@ class MotorHeat {
   /// The motors are cold. A profile without a continuous force limits nothing.
   explicit MotorHeat(const DeviceProfile& profile);
 
-  /// `periods` control periods have passed under the force commanded last.
+  /// `periods` control periods have passed under the force commanded last; before the first, nothing is held back.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void elapse(long periods) noexcept;
   void commanded(Force force) noexcept { held_ = force; }
@@ -37,6 +39,7 @@ class MotorHeat {
   double kept_ = 1;           // of the heat over one period
   double reserve_ = 0;        // tau / r
   glm::dvec2 held_{0}, heat_{0};
+  glm::dvec2 most_{HUGE_VAL};  // N^2, what each axis bears now
 };
 
 }  // namespace wale

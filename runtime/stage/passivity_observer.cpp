@@ -15,10 +15,10 @@ constexpr double most_gained = 2;  ///< of what is allowed
 }  // namespace
 
 PassivityObserver::PassivityObserver(const DeviceProfile& profile)
-    : exerted_(profile),
-      sampled_(profile),
-      late_(1 + 2 * std::max(exerted_.periods().x, exerted_.periods().y)),
+    : lag_(profile),
+      late_(1 + 2 * std::max(lag_.periods().x, lag_.periods().y)),
       period_(1 / profile.rate),
+      per_answer_(profile.rate / (0.5 + lag_.periods())),
       count_(profile.position_step()),
       damping_(profile.damping),
       largest_damping_(share_of_impedance * profile.mass * profile.rate / late_) {}
@@ -27,19 +27,20 @@ Force PassivityObserver::operator()(Force force, glm::dvec2 position, long perio
   const glm::dvec2 field(force);
   if (!begun_) {
     begun_ = true;
-    sampled_.begin(position_ = position);
+    lag_.begin({.force = glm::dvec2(0), .place = position_ = position});
   }
-  const double elapsed = period_ * static_cast<double>(std::max(1L, periods));
+  const auto count = static_cast<double>(std::max(1L, periods));
+  const double elapsed = period_ * count;
   const glm::dvec2 step = position - position_, middle = 0.5 * (position_ + position);
-  const glm::dvec2 exerted = exerted_.over(held_, periods), sampled = sampled_.over(position_, periods);
-  const glm::dvec2 speed = (middle - sampled) / (0.5 * elapsed + period_ * exerted_.periods());
-  gained_ += glm::dot(exerted, step) - 0.5 * glm::dot(field_ + field, step) - damping_ * glm::dot(speed, step);
+  const Lag::Answer felt = lag_.over({.force = held_, .place = position_}, periods);
+  const glm::dvec2 per_answer = count == 1 ? per_answer_ : 1.0 / (0.5 * elapsed + period_ * lag_.periods());
+  gained_ += glm::dot(felt.force - 0.5 * (field_ + field) - damping_ * per_answer * (middle - felt.place), step);
 
-  const double fading = 1 - std::min(1.0, elapsed / memory_seconds);
+  const double fading = 1 - std::min(1.0, elapsed * (1 / memory_seconds));
   const double length = glm::length(step);
   recent_force_ = std::max(glm::length(field), recent_force_ * fading);
   recent_step_ = std::max(length, recent_step_ * fading);
-  const double allowed = least_joule + recent_force_ * (late_ * recent_step_ + count_);
+  const double allowed = least_joule + recent_force_ * late_ * (recent_step_ + count_);
   gained_ = std::clamp(gained_, 0.0, most_gained * allowed);
 
   position_ = position;

@@ -47,10 +47,10 @@ class PassivityObserver {
   long acted() const noexcept { return acted_; }
 
  private:
-  Lag exerted_;             // of forces
-  Lag sampled_;             // of the places where they were sampled
+  Lag lag_;
   double late_;             // 1 + 2 d
   double period_;           // s
+  glm::dvec2 per_answer_;   // 1/s, of the time from a sample to the middle of its force's period
   double count_;            // m
   double damping_;          // N s/m, the device's own
   double largest_damping_;  // N s/m, that the observer may add

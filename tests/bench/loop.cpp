@@ -124,7 +124,6 @@ void soak(double seconds) {
   std::printf("memory %.1f MB, then %.1f MB\n", static_cast<double>(before) * 1e-6, static_cast<double>(after) * 1e-6);
   if (lost > 0) fail("changes were lost");
   if (run.ticks_run + run.ticks_missed != periods || gaps > 0) fail("ticks are missing from the record");
-  if (run.ticks_missed > 0 && run.scheduling.starts_with("SCHED_FIFO")) fail("periods passed unserved");
   if (after - before > 1 << 20) fail("memory grew");
 }
 

@@ -1,6 +1,6 @@
 // What is not the tick itself, a line each: what, ns (or ms) a piece.
 //
-//   bench_others
+//   bench_others [guards]   all, or the guards alone
 
 #include <time.h>
 
@@ -12,6 +12,7 @@
 #include "runtime/machine/spline.hpp"
 #include "runtime/stage/front_most.hpp"
 #include "runtime/stage/guards.hpp"
+#include "runtime/stage/player.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/machine/random_program.hpp"
 #include "wale/program.hpp"
@@ -72,8 +73,44 @@ void front_most(std::size_t count) {
               count, fast, count, built);
 }
 
+/// One of a hundred thousand patches moves, others with it or not: what the control side does about it, us.
+void move(std::size_t count, std::size_t moving) {
+  std::mt19937 random(1995);
+  std::uniform_real_distribution<float> place(-0.1f, 0.1f);
+  const PatchSize size{.width = 0.001f, .height = 0.001f};
+  const Program program = std::get<Program>(Program::load(example::program()));
+  const auto memory = std::make_shared<Memory>(program);
+  const Bank bank(program, program.default_parameters(), size);
+  PlacedPatches::Patches patches(count);
+  for (auto& each : patches)
+    each = std::make_shared<PlacedPatch>(PlacedPatch{bank, {place(random), place(random)}, memory});
+  std::vector<MovedPatch> moved(moving);
+  for (std::size_t i = 0; i < moving; ++i) moved[i] = {i, {place(random), place(random)}};
+  PlacedPatches all;
+  all.take(std::move(patches));
+  const double arranged = timed(3, 1e6, [&] { all.arrange(moved); });
+  Exchange<PlacedPatches> exchange;
+  const double once = timed(201, 1e3, [&] {
+    moved[0].position.x = -moved[0].position.x;
+    all.move(moved);
+    exchange.publish(all);
+  });
+  volatile float sink = 0;
+  const double found = timed(41, 4096, [&] {
+    double last = 0;
+    for (int i = 0; i < 4096; ++i) {
+      const double t = static_cast<double>(i) / 900;
+      last = 1e-12 * all.at({0.09 * std::sin(2.3 * t) + last, 0.09 * std::sin(1.7 * t + 1)}).position.x;
+    }
+    sink = static_cast<float>(last);
+  });
+  std::printf("move_%zu_of_%zu_us %.1f\nmove_%zu_of_%zu_first_ms %.1f\nmove_%zu_of_%zu_found %.1f\n", moving, count,
+              once, moving, count, arranged, moving, count, found);
+}
+
 void guards() {
   Guards guard(example::device());
+  guard.allow(0.1, 0.5);
   std::mt19937 random(1995);
   std::uniform_real_distribution<float> force(-4, 4);
   std::vector<Force> forces(1024);
@@ -81,7 +118,11 @@ void guards() {
   volatile float sink = 0;
   std::printf("guards %.1f\n", timed(101, 1024, [&] {
                 Force last(0);
-                for (const Force& each : forces) last = guard(each + last * 1e-9f);
+                double x = 0;
+                for (const Force& each : forces) {
+                  last = guard(each + last * 1e-9f, {x = 1e-4 - x, 0}, 1);
+                  guard.commanded(last);
+                }
                 sink = last.x;
               }));
 }
@@ -136,11 +177,16 @@ void look_up(std::uint32_t side) {
 }  // namespace
 }  // namespace wale::bench
 
-int main() {
+int main(int count, char**) {
   using namespace wale::bench;
   guards();
+  if (count > 1) return 0;
+  front_most(10);
   front_most(1000);
   front_most(100'000);
+  move(10, 1);
+  move(100'000, 1);
+  move(100'000, 100);
   loading();
   look_up(1024);
   look_up(4096);

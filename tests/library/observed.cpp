@@ -40,22 +40,32 @@ Program late(const Program& program, double ticks) {
   return std::get<Program>(std::move(loaded));
 }
 
-TEST(Observed, NorBehindADelay) {
+/// Behind a delay nothing is done to what is passive on the device by itself. What only the hand's damping makes
+/// passive is let alone too, but for a few hard walls: the observer does not know the hand.
+TEST(Observed, NorIsAnythingDoneBehindADelay) {
   const std::vector<Program> programs = shelf::programs();
   std::vector<std::string> damped(programs.size());
-  std::atomic<long> calm = 0;
+  std::atomic<long> on_device = 0, in_hand = 0, damped_in_hand = 0;
   in_parallel(programs.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (const double ticks : {1.0, 2.0}) {
         const Program program = late(programs[i], ticks);
         const Grade graded = grade(Bank(program));
         if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
-        ++calm;
-        if (guarded(program).passivity > 0) damped[i] = program.description().material;
+        const bool acted = guarded(program).passivity > 0;
+        if (graded.required_damping <= graded.device_damping) {
+          ++on_device;
+          if (acted) damped[i] = program.description().material;
+        } else {
+          ++in_hand;
+          damped_in_hand += acted;
+        }
       }
   });
   for (const std::string& name : damped) EXPECT_EQ(name, "");
-  EXPECT_GT(calm, 100);
+  EXPECT_GT(on_device, 50);
+  EXPECT_GT(in_hand, 50);
+  EXPECT_LE(damped_in_hand, in_hand / 20) << in_hand;
 }
 
 TEST(Observed, NothingIsDoneToWhatIsPassiveInTheHandNorHeldBackOfWhatIsDeclared) {

@@ -38,7 +38,10 @@ TEST(Lag, IsTheMeanOfTheCommandsThatHaveArrived) {
         const long periods = random() % 10 == 0 ? 2 : 1;
         const glm::dvec2 held(newton(random), newton(random));
         for (long period = 0; period < periods; ++period) x.push_back(held.x), y.push_back(held.y);
-        const glm::dvec2 force = late.over(held, periods);
+        const Lag::Answer felt = late.over({held, -held}, periods);
+        const glm::dvec2 force = felt.force;
+        ASSERT_NEAR(felt.place.x, -force.x, 1e-9);
+        ASSERT_NEAR(felt.place.y, -force.y, 1e-9);
         const auto end = static_cast<double>(x.size()), length = static_cast<double>(periods);
         ASSERT_NEAR(force.x, mean_force(x, late_x, end, length), 1e-9) << call;
         ASSERT_NEAR(force.y, mean_force(y, late_y, end, length), 1e-9) << call;

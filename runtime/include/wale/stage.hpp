@@ -139,7 +139,7 @@ class Stage {
 
   /// Moves a patch's centre to `position` (m from the workspace's centre). Takes effect within one tick of being ready,
   /// and slews where that changes what is felt. A patch's first move in a run takes as long to be ready as adding one
-  /// does, some 50 ms among a hundred thousand; from then on it takes as long as there are patches that were moved,
+  /// does, some 0.1 s among a hundred thousand; from then on it takes as long as there are patches that were moved,
   /// however many stay. A hand at rest on a patch that is moved stays on it and keeps its memory; the energy that
   /// moving gives to it counts as the program's own. Refused when there is no such patch or the position is no number.
   std::optional<Refusal> move(std::size_t patch, glm::vec2 position);
