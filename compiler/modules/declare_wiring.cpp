@@ -12,7 +12,7 @@ namespace {
 /// `x`, `-y`; a word of evidence may stand before it.
 std::optional<SignedAxis> signed_axis(const SyntaxTree& tree, const SettingItem& item) {
   SignedAxis axis;
-  std::string name = item.words.empty() ? "" : item.words.back().text;
+  std::string_view name = item.words.empty() ? "" : item.words.back().text;
   if (item.range_end || item.equals) return std::nullopt;
   if (item.value) {
     const auto* turned = std::get_if<Unary>(&tree.expr(*item.value));

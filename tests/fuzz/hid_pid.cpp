@@ -5,9 +5,11 @@
 // The first byte selects: a report descriptor as it stands, or one of the layouts of the tests with some of its bytes
 // changed, so that the fuzzer begins with descriptors that are accepted.
 
+#include <algorithm>
 #include <cstdlib>
 #include <span>
 
+#include "runtime/device/hid_pid/openffboard.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
@@ -57,6 +59,10 @@ void read_packets(const PidLayout& layout, std::span<const std::uint8_t> bytes) 
     demand((load->status == BlockLoadAnswer::Status::loaded) == (load->block_index != 0));
   }
   if (decode_pool(layout, bytes)) demand(bytes.size() >= layout.pool.bytes);
+  if (const auto message = openffboard::decode(bytes)) {
+    const Packet again = openffboard::encode(*message);
+    demand(std::equal(again.view().begin(), again.view().end(), bytes.begin()));
+  }
 }
 
 }  // namespace

@@ -111,6 +111,24 @@ void write_features(Items& items, const PidFamily& family) {
       .end();
 }
 
+/// As OpenFFBoard has it, usb_hid_ffb_desc.h: usages 1 .. 6 of page FF00, 8 to 64 bits, with a range that means
+/// nothing.
+void write_vendor_reports(Items& items) {
+  items.page(0xff00).begin(0x00, 1);
+  for (const bool is_out : {true, false}) {
+    items.id(0xa1);
+    std::uint8_t which = 0;
+    for (const int bits : {8, 16, 8, 32, 64, 64}) {
+      items.use(++which).logical(0, 4).size(static_cast<std::uint8_t>(bits), 1);
+      if (is_out)
+        items.output(variable);
+      else
+        items.input(variable);
+    }
+  }
+  items.end();
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> report_descriptor(const PidFamily& family) {
@@ -145,6 +163,7 @@ std::vector<std::uint8_t> report_descriptor(const PidFamily& family) {
   items.end();
   write_features(items, family);
   items.end();
+  if (family.has_vendor_report) write_vendor_reports(items);
   return items.bytes;
 }
 
@@ -164,6 +183,7 @@ PidFamily openffboard() {
   family.magnitude_maximum = 32767;
   family.control_is_mask = true;
   family.control_orders = {0x97, 0x98, 0x99, 0x9a, 0x9b, 0x9c};
+  family.has_vendor_report = true;
   return family;
 }
 

@@ -28,6 +28,7 @@ struct PidFamily {
   bool has_pool = true;
   bool has_direction = true;
   int simultaneous = 40;
+  bool has_vendor_report = false;  ///< OpenFFBoard's A1
 };
 
 /// The families of usb.md's table: its ids, widths, ranges, missing fields and kinds of Device Control. Ids that the

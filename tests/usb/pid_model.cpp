@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wale::test {
 namespace {
@@ -35,72 +36,21 @@ PidModel::PidModel(PidFamily of, Faults with)
 
 void PidModel::let_go() { stick_ = SimulatedJoystick(stick_profile(), HandModel{}, Rest{}); }
 
-std::vector<std::uint8_t> PidModel::device_descriptor() const {
+UsbModel::Bytes PidModel::device_descriptor() const {
   const auto low = [](std::uint16_t value) { return static_cast<std::uint8_t>(value & 0xff); };
   const auto high = [](std::uint16_t value) { return static_cast<std::uint8_t>(value >> 8); };
-  return {18,
-          1,
-          0x00,
-          0x02,
-          0,
-          0,
-          0,
-          64,
-          low(family.vendor),
-          high(family.vendor),
-          low(family.product),
-          high(family.product),
-          0x00,
-          0x01,
-          0,
-          0,
-          0,
-          1};
+  const auto numbers = hex({low(family.vendor), high(family.vendor), low(family.product), high(family.product)});
+  return from_hex("12 01 00 02 00 00 00 40 " + numbers + " 00 01 00 00 00 01");
 }
 
-std::vector<std::uint8_t> PidModel::configuration_descriptor() const {
-  const auto length = static_cast<std::uint16_t>(descriptor.size());
-  return {9,
-          2,
-          41,
-          0,
-          1,
-          1,
-          0,
-          0x80,
-          50,  // one interface
-          9,
-          4,
-          0,
-          0,
-          2,
-          3,
-          0,
-          0,
-          0,  // HID, two endpoints
-          9,
-          0x21,
-          0x11,
-          0x01,
-          0,
-          1,
-          0x22,
-          static_cast<std::uint8_t>(length & 0xff),
-          static_cast<std::uint8_t>(length >> 8),
-          7,
-          5,
-          pid_in_endpoint,
-          3,
-          64,
-          0,
-          1,  // interrupt IN, each millisecond
-          7,
-          5,
-          pid_out_endpoint,
-          3,
-          64,
-          0,
-          1};  // interrupt OUT
+UsbModel::Bytes PidModel::configuration_descriptor() const {
+  const auto length = static_cast<std::uint16_t>(descriptor.size() + static_cast<std::size_t>(faults.says_more_bytes));
+  const std::string reports = hex({static_cast<std::uint8_t>(length & 0xff), static_cast<std::uint8_t>(length >> 8)});
+  const bool has_out = !faults.has_no_out;
+  // One interface, HID, with its descriptor; interrupt IN each millisecond, interrupt OUT.
+  return from_hex("09 02 " + std::string(has_out ? "29" : "22") + " 00 01 01 00 80 32 09 04 00 00 " +
+                  (has_out ? "02" : "01") + " 03 00 00 00 09 21 11 01 00 01 22 " + reports + " 07 05 83 03 40 00 01" +
+                  (has_out ? " 07 05 02 03 40 00 01" : ""));
 }
 
 std::optional<UsbModel::Bytes> PidModel::control(const SetUp& setup, const Bytes& out) {
@@ -154,6 +104,7 @@ std::vector<std::uint8_t> PidModel::block_load() {
     --faults.pending_loads;
     return {family.load, 0, 0, 0, 0};
   }
+  if (faults.wild_block) return {family.load, 77, 1, 0, 0x10};
   if (faults.short_load) return {family.load, last_created_};
   const bool is_loaded = last_created_ != 0 || faults.block_zero;
   return {family.load, last_created_, static_cast<std::uint8_t>(is_loaded ? 1 : 2), 0, 0x10};
@@ -196,6 +147,7 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
     return;
   }
   const std::uint8_t id = report[0];
+  if (family.has_vendor_report && id == 0xa1) return answer_vendor(report);
   Effect& effect = effects[report[1]];
   const auto is_long = [&](std::size_t bytes) {
     if (report.size() != bytes) ++wrong_reports;
@@ -238,6 +190,33 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
   }
 }
 
+/// usb.md: A1 type8 class16 instance8 command32 data64 address64.
+void PidModel::answer_vendor(const std::vector<std::uint8_t>& question) {
+  ++vendor_questions;
+  const bool is_about_axes = question.size() == 25 && question[1] == 1 && question[2] == 0x01 && question[3] == 0x0a &&
+                             question[4] < 2 && question[6] == 0 && question[7] == 0 && question[8] == 0;
+  if (!is_about_axes) {
+    ++wrong_reports;
+    return;
+  }
+  vendor_answer_ = question;
+  const int axis = question[4];
+  const Reading reading = stick_.sample();
+  std::int64_t told = 0;
+  if (faults.knows_no_vendor) {
+    vendor_answer_[1] = 13;
+  } else if (question[5] == 0x0d) {
+    told = std::lround(32767 * (axis == 0 ? force().x : force().y));
+  } else if (question[5] == 0x0e) {
+    told = axis == 0 ? reading.counts.x : -reading.counts.y;
+  } else {
+    vendor_answer_[1] = 13;
+  }
+  for (std::size_t i = 0; i < 8; ++i) {
+    vendor_answer_[9 + i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(told) >> (8 * i));
+  }
+}
+
 void PidModel::set_effect(const std::vector<std::uint8_t>& report) {
   using Delay = PidFamily::Delay;
   const std::size_t gain_bytes = static_cast<std::size_t>(family.gain_bits) / 8;
@@ -277,15 +256,21 @@ std::vector<std::uint8_t> PidModel::input_report() {
     report.push_back(static_cast<std::uint8_t>(value & 0xff));
     report.push_back(static_cast<std::uint8_t>(value >> 8 & 0xff));
   };
-  for (const std::uint8_t axis : family.axes)
-    put(axis == 0x30 ? reading.counts.x : axis == 0x31 ? -reading.counts.y : 0);
+  for (const std::uint8_t axis : family.axes) {
+    const int counts = axis == 0x30 ? reading.counts.x : axis == 0x31 ? -reading.counts.y : 0;
+    put(faults.beyond_its_range ? -32768 : counts);
+  }
   return report;
 }
 
 std::optional<std::vector<std::uint8_t>> PidModel::input() {
   const auto is_past = [&](long after) { return after >= 0 && inputs >= after; };
   if (is_past(faults.no_inputs_after)) return std::nullopt;
+  if (!vendor_answer_.empty()) return std::exchange(vendor_answer_, {});
   auto report = input_report();
+  const auto is_one_of = [&](long every) { return every > 0 && inputs % every == every - 1; };
+  if (is_one_of(faults.nonsense_every)) report.assign(report.size(), 0xee);
+  if (is_one_of(faults.short_every)) report.resize(2);
   if (is_past(faults.bad_inputs_after)) report.assign(report.size(), 0xee);
   if (is_past(faults.short_inputs_after)) report.resize(3);
   ++inputs;

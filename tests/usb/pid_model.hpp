@@ -22,13 +22,20 @@ struct Faults {
   long no_inputs_after = -1;
   bool deaf_to_polls = false;  ///< GET_REPORT of input reports is not answered
   bool stalls_polls = false;
-  int room = 40;            ///< effects that fit
-  int pending_loads = 0;    ///< answers of Block Load that say nothing yet
-  bool same_block = false;  ///< gives out the same block twice
-  bool block_zero = false;  ///< gives out block 0
-  bool short_load = false;  ///< answers Block Load with two bytes
-  bool silent = false;      ///< answers nothing
-  int late = 0;             ///< frames that each control transfer and each output report takes
+  int room = 40;                  ///< effects that fit
+  int pending_loads = 0;          ///< answers of Block Load that say nothing yet
+  bool same_block = false;        ///< gives out the same block twice
+  bool block_zero = false;        ///< gives out block 0
+  bool short_load = false;        ///< answers Block Load with two bytes
+  bool silent = false;            ///< answers nothing
+  bool knows_no_vendor = false;   ///< answers questions by the vendor's report that it does not know
+  long nonsense_every = 0;        ///< every so many input reports one is nonsense; 0: none
+  long short_every = 0;           ///< every so many one is cut short
+  int says_more_bytes = 0;        ///< of report descriptor than there are
+  bool has_no_out = false;        ///< no interrupt OUT endpoint: output reports go by the control endpoint
+  bool wild_block = false;        ///< gives out a block beyond the range that its descriptor declares
+  bool beyond_its_range = false;  ///< tells positions beyond the range that its descriptor declares
+  int late = 0;                   ///< frames that each control transfer and each output report takes
 };
 
 constexpr std::uint8_t pid_in_endpoint = 0x83, pid_out_endpoint = 0x02;
@@ -80,18 +87,20 @@ class PidModel final : public UsbModel {
   std::array<Effect, 256> effects{};
   bool is_enabled = false;
   double gain = 1;
-  long outputs = 0, inputs = 0, wrong_reports = 0, polls = 0;
+  long outputs = 0, inputs = 0, wrong_reports = 0, polls = 0, vendor_questions = 0;
 
  private:
   void take(const std::vector<std::uint8_t>& report);
+  void answer_vendor(const std::vector<std::uint8_t>& question);
   void set_effect(const std::vector<std::uint8_t>& report);
   void reset();
   std::vector<std::uint8_t> input_report();
   std::vector<std::uint8_t> block_load();
 
   SimulatedJoystick stick_;
-  long long now_ = 0;                  // ms
-  mutable long long listens_at_ = -1;  // ms, when the report that waits is taken; -1: none waits
+  std::vector<std::uint8_t> vendor_answer_;  // that waits to be sent
+  long long now_ = 0;                        // ms
+  mutable long long listens_at_ = -1;        // ms, when the report that waits is taken; -1: none waits
   int created_ = 0;
   std::uint8_t last_created_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace wale::hid {
@@ -129,6 +130,7 @@ void PidSession::advance(std::int64_t now) noexcept {
       if (step_ == Step::run) {
         state_ = State::running;
         commanded_ = heard_ = now;
+        telemetry_at_ = now + microseconds(options_.telemetry_period);
       }
       break;
     case Step::leave_zero: each(Step::leave_zero, Step::leave_stop); break;
@@ -244,6 +246,7 @@ void PidSession::learn(std::span<const std::uint8_t> bytes) {
   auto found = find_pid_layout(std::get<ReportDescriptor>(descriptor));
   if (auto* refusal = std::get_if<PidRefusal>(&found)) return refuse(std::move(refusal->reason));
   layout_ = std::get<PidLayout>(found);
+  if (openffboard::has_reports(std::get<ReportDescriptor>(descriptor))) telemetry_.emplace();
   for (const Report& report : std::get<ReportDescriptor>(descriptor).reports) {
     if (report.kind == ReportKind::input && report.bytes() <= most_packet_bytes) {
       input_bytes_[report.id] = static_cast<std::uint8_t>(report.bytes());
@@ -313,6 +316,10 @@ void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now)
     ++counts_.inputs;
     return;
   }
+  if (telemetry_ && take_telemetry(report)) {
+    ++counts_.other_reports;
+    return;
+  }
   const bool is_numbered = layout_->input.id != 0;
   if (is_numbered && !report.empty() && report[0] != layout_->input.id && input_bytes_[report[0]] != 0 &&
       report.size() >= input_bytes_[report[0]]) {
@@ -341,6 +348,10 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
       return output(encode_start(*layout_, blocks_[i], false), Transfer::Purpose::refresh);
     }
     if (auto transfer = force_transfer()) {
+      ++in_flight_;
+      return transfer;
+    }
+    if (auto transfer = telemetry_transfer(now)) {  // nothing else has to go now
       ++in_flight_;
       return transfer;
     }
@@ -403,6 +414,41 @@ std::optional<Transfer> PidSession::force_transfer() noexcept {
   sent_[0] = counts;
   ++counts_.forces_sent[0];
   return output(encode_constant_force(*layout_, blocks_[0], magnitude), purpose);
+}
+
+/// The next question of four, x and y of torque and position in turns.
+std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcept {
+  if (!telemetry_ || options_.telemetry_period <= 0 || now < telemetry_at_) return std::nullopt;
+  telemetry_at_ = now + microseconds(options_.telemetry_period);
+  openffboard::Message question;
+  question.instance = static_cast<std::uint8_t>(telemetry_->asked % 2);
+  question.command = telemetry_->asked / 2 % 2 == 0 ? openffboard::torque_command : openffboard::position_command;
+  ++telemetry_->asked;
+  return output(openffboard::encode(question), Transfer::Purpose::telemetry);
+}
+
+/// Whether a report is the vendor's; takes what it tells of the axes.
+bool PidSession::take_telemetry(std::span<const std::uint8_t> report) noexcept {
+  const auto message = openffboard::decode(report);
+  if (!message) return false;
+  using openffboard::Type;
+  if (message->type == Type::not_found || message->type == Type::error) ++telemetry_->refused;
+  if (message->type != Type::request || message->class_id != openffboard::axis_class || message->instance > 1) {
+    return true;
+  }
+  constexpr std::int64_t full = 32767;
+  const auto told = static_cast<std::int32_t>(std::clamp(message->data, -full - 1, full));
+  const std::size_t axis = message->instance;
+  if (message->command == openffboard::torque_command) {
+    telemetry_->torque[axis] = told;
+    telemetry_->most_torque[axis] = std::max(telemetry_->most_torque[axis], std::abs(told));
+  } else if (message->command == openffboard::position_command) {
+    telemetry_->position[axis] = told;
+  } else {
+    return true;
+  }
+  ++telemetry_->answered;
+  return true;
 }
 
 Packet PidSession::turned_effect(std::size_t effect, double direction) const noexcept {

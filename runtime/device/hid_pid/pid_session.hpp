@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/device/hid_pid/openffboard.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
 #include "runtime/device/outcome.hpp"
@@ -29,6 +30,8 @@ struct PidSessionOptions {
   double command_silence = 0.1;
   /// s without an input report after which the device is asked for one.
   double input_silence = 0.1;
+  /// s between questions about its axes to a device that has OpenFFBoard's report for them, one number each; 0: none.
+  double telemetry_period = 0.1;
   int most_in_flight = 2;   ///< output reports on their way at once, at least 1
   int most_bad_inputs = 8;  ///< one after another; then the device is lost
 };
@@ -36,7 +39,7 @@ struct PidSessionOptions {
 /// A transfer that the session wants made.
 struct Transfer {
   enum class Kind : std::uint8_t { control_in, control_out, interrupt_out };
-  enum class Purpose : std::uint8_t { step, force, refresh, poll };
+  enum class Purpose : std::uint8_t { step, force, refresh, poll, telemetry };
 
   Kind kind = Kind::interrupt_out;
   Purpose purpose = Purpose::step;  ///< the session's own
@@ -103,6 +106,8 @@ class PidSession {
   Arrangement arrangement() const noexcept { return arrangement_; }
   const PidSessionCounts& counts() const noexcept { return counts_; }
   const std::optional<InputState>& input() const noexcept { return input_; }
+  /// Nothing where the device has no report for it.
+  const std::optional<Telemetry>& telemetry() const noexcept { return telemetry_; }
 
   /// The transfer to make now, if any; each is given to `finish` once it has ended.
   /// Real-time while running and leaving: allocates nothing, takes no lock, makes no system call, does not throw.
@@ -152,6 +157,8 @@ class PidSession {
   void advance(std::int64_t now) noexcept;
   std::optional<Transfer> running_transfer(std::int64_t now) noexcept;
   std::optional<Transfer> force_transfer() noexcept;
+  std::optional<Transfer> telemetry_transfer(std::int64_t now) noexcept;
+  bool take_telemetry(std::span<const std::uint8_t> report) noexcept;
   Packet turned_effect(std::size_t effect, double direction) const noexcept;
   Packet effect_packet(std::size_t effect) const noexcept;
   Transfer output(const Packet& packet, Transfer::Purpose purpose) const noexcept;
@@ -186,6 +193,8 @@ class PidSession {
   bool silent_ = false;
   std::array<std::int64_t, 2> refresh_at_{};
   std::optional<InputState> input_;
+  std::optional<Telemetry> telemetry_;
+  std::int64_t telemetry_at_ = 0;  // when the next question is due
   PidSessionCounts counts_;
 };
 

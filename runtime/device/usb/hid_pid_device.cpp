@@ -65,10 +65,16 @@ Force HidPidDevice::command(Force force) noexcept {
 
 std::vector<std::pair<std::string, long>> HidPidDevice::tally() const {
   const hid::PidSessionCounts done = counts();
-  return {{"forces_sent_x", done.forces_sent[0]},    {"forces_sent_y", done.forces_sent[1]},
-          {"directions_sent", done.directions_sent}, {"forces_overwritten", done.overwritten},
-          {"effects_refreshed", done.refreshes},     {"positions_received", done.inputs},
-          {"positions_asked_for", done.polls},       {"bad_reports", done.bad_inputs}};
+  std::vector<std::pair<std::string, long>> tally{
+      {"forces_sent_x", done.forces_sent[0]},    {"forces_sent_y", done.forces_sent[1]},
+      {"directions_sent", done.directions_sent}, {"forces_overwritten", done.overwritten},
+      {"effects_refreshed", done.refreshes},     {"positions_received", done.inputs},
+      {"positions_asked_for", done.polls},       {"bad_reports", done.bad_inputs}};
+  if (const auto told = telemetry()) {  // what it did, beside what it was told to do: of 32767
+    tally.push_back({"most_torque_told_x", told->most_torque[0]});
+    tally.push_back({"most_torque_told_y", told->most_torque[1]});
+  }
+  return tally;
 }
 
 }  // namespace wale

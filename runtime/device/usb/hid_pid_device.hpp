@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -50,6 +51,8 @@ class HidPidDevice final : public PluggedDevice {
   std::string manner() const override { return std::string(hid::in_words(arrangement())); }
   hid::Arrangement arrangement() const { return transport_->arrangement(); }
   hid::PidSessionCounts counts() const { return transport_->counts(); }
+  /// What the device's firmware tells of its motors, where it is OpenFFBoard's; nothing otherwise. Not real-time.
+  std::optional<hid::Telemetry> telemetry() const { return transport_->telemetry(); }
   const hid::PidLayout& layout() const { return transport_->layout(); }
 
  private:

@@ -270,4 +270,9 @@ hid::PidSessionCounts PidTransport::counts() const {
   return session_.counts();
 }
 
+std::optional<hid::Telemetry> PidTransport::telemetry() const {
+  const std::lock_guard lock(mutex_);
+  return session_.telemetry();
+}
+
 }  // namespace wale

@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -64,6 +65,7 @@ class PidTransport {
   const hid::PidLayout& layout() const { return *session_.layout(); }  ///< does not change
   hid::Arrangement arrangement() const { return session_.arrangement(); }
   hid::PidSessionCounts counts() const;
+  std::optional<hid::Telemetry> telemetry() const;
 
  private:
   /// A libusb transfer of our own with its buffer; there is a fixed number of them.

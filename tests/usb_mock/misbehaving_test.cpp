@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "runtime/device/usb/hid_pid_device.hpp"
+#include "tests/usb_mock/usb_driver.hpp"
+
+// Joysticks that do not do as they say, or not when they should, through unmodified libusb: what is felt stays in order
+// and bounded, or ends in no force and a reason.
+
+namespace wale::test::misbehaving {
+namespace {
+
+DeviceProfile ten_newton() {
+  DeviceProfile profile;
+  profile.name = "mock";
+  profile.workspace_diameter = 0.2;
+  profile.position_counts = 65534;
+  profile.force_newton = 10;
+  profile.force_counts = 32767;
+  profile.rate = 900;
+  return profile;
+}
+
+class MisbehavingUsb : public MockedUsb {
+ protected:
+  std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(int port) {
+    HidPidOptions options;
+    options.transport.set_up_timeout = 300;
+    return HidPidDevice::open(context(), found(port), ten_newton(), options);
+  }
+  std::unique_ptr<HidPidDevice> opened(int port) {
+    auto result = open(port);
+    if (const auto* refusal = std::get_if<Refusal>(&result)) {
+      ADD_FAILURE() << refusal->reason;
+      return nullptr;
+    }
+    return std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+  }
+  std::string refusal(int port) {
+    auto result = open(port);
+    const auto* refusal = std::get_if<Refusal>(&result);
+    return refusal == nullptr ? "opened" : refusal->reason;
+  }
+};
+
+/// The counts of the Set Constant Force packets to a block that are not none, by whichever endpoint.
+std::vector<int> forces_to(int block, const std::vector<std::string>& log) {
+  std::vector<int> forces;
+  for (const std::string& line : log) {
+    if (line.size() != 15 || line.substr(4, 2) != "05") continue;
+    const auto bytes = from_hex(line.substr(4));
+    const int counts = static_cast<std::int16_t>(bytes[2] | bytes[3] << 8);
+    if (bytes[1] == block && counts != 0) forces.push_back(counts);
+  }
+  return forces;
+}
+
+void expect_rising(const std::vector<int>& forces) {
+  for (std::size_t i = 1; i < forces.size(); ++i) {
+    ASSERT_GT(forces[i], forces[i - 1]) << "no old force after a newer one, and none twice: packet " << i;
+  }
+}
+
+/// Pushes to the right, in each tick by a step more: 1 / 32767 of the device's force.
+void push_harder_and_harder(UsbMock& mock, HidPidDevice& device, long ticks) {
+  run_ticks(mock, ticks, [&](long tick) {
+    device.sample();
+    device.command({static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10), 0});
+  });
+}
+
+template <class Mock>
+glm::dvec2 force_of(Mock& mock) {
+  return mock->with_model([](PidModel& model) { return model.force(); });
+}
+
+TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen) {
+  const auto mock = mock_.plug(PidModel(openffboard(), {.nonsense_every = 7, .short_every = 5, .late = 3}), 1);
+  auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  constexpr long ticks = 10'000;
+  push_harder_and_harder(mock_, *device, ticks);
+  await([&] { return std::abs(force_of(mock).x - ticks / 32767.0) < 1e-9; });
+  EXPECT_FALSE(device->was_lost()) << device->reason();
+  const auto counts = device->counts();
+  const auto log = mock->with_model([](PidModel& model) { return model.log; });
+  const auto forces = forces_to(1, log);
+  expect_rising(forces);
+  EXPECT_EQ(static_cast<long>(forces.size()), counts.forces_sent[0]);
+  EXPECT_GT(counts.overwritten, ticks / 3)
+      << "it takes three frames for each: most commands are never sent, none queues";
+  EXPECT_LT(counts.forces_sent[0], ticks / 2);
+  EXPECT_GT(counts.bad_inputs, 50);
+  EXPECT_GT(counts.inputs, counts.bad_inputs);
+  EXPECT_GT(counts.refreshes, 10);
+  EXPECT_EQ(mock->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
+  device.reset();
+  EXPECT_EQ(force_of(mock), glm::dvec2(0));
+  EXPECT_EQ(mock->releases, 1);
+}
+
+TEST_F(MisbehavingUsb, OneThatBecomesTooLateIsLost) {
+  const auto mock = mock_.plug(PidModel(openffboard()), 1);
+  auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  push_harder_and_harder(mock_, *device, 100);
+  mock->with_model([](PidModel& model) { model.faults.late = 100'000; });
+  float newton = 1;
+  await([&] {
+    device->command({newton += 0.001f, 0});
+    return device->was_lost();
+  });
+  EXPECT_EQ(device->reason(), "it does not answer in time");
+  mock->with_model([](PidModel& model) { model.faults.late = 0; });
+  device.reset();
+  await([&] { return force_of(mock) == glm::dvec2(0); });  // told, or its effects have run out
+}
+
+TEST_F(MisbehavingUsb, WithoutAnOutEndpointAllGoesByTheControlEndpoint) {
+  const auto mock = mock_.plug(PidModel(openffboard(), {.has_no_out = true}), 1);
+  auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  push_harder_and_harder(mock_, *device, 500);
+  await([&] { return std::abs(force_of(mock).x - 500 / 32767.0) < 1e-9; });
+  const auto log = mock->with_model([](PidModel& model) { return model.log; });
+  for (const std::string& line : log) EXPECT_NE(line.substr(0, 3), "OUT");
+  expect_rising(forces_to(1, log));
+  device.reset();
+  mock->with_model([](PidModel& model) {
+    EXPECT_EQ(model.log.back(), "SET 0C 02");
+    EXPECT_EQ(model.wrong_reports, 0);
+    EXPECT_EQ(model.force(), glm::dvec2(0));
+  });
+}
+
+TEST_F(MisbehavingUsb, LiesAreFoundOutWhileItIsSetUp) {
+  struct Case {
+    PidModel model;
+    const char* reason;
+  };
+  PidModel another(rhino());  // answers as another family than its descriptor is of
+  another.descriptor = report_descriptor(openffboard());
+  PidModel magnitude(openffboard());
+  // The magnitude's range of 16 bits, 16 01 80 26 FF 7F, as that of 8 bits: 75 10 after it becomes 75 08.
+  const std::uint8_t usage[] = {0x09, 0x70};
+  const auto at =
+      std::search(magnitude.descriptor.begin(), magnitude.descriptor.end(), std::begin(usage), std::end(usage));
+  const auto size = std::find(at, magnitude.descriptor.end(), 0x75);
+  *(size + 1) = 8;
+  const Case cases[] = {
+      {PidModel(openffboard(), {.says_more_bytes = 40}), "its report descriptor is cut short"},
+      {another, "it refuses a report that its descriptor declares"},
+      {magnitude, "magnitude of its Set Constant Force report, -32767 .. 32767, does not fit in 8 bits"},
+      {PidModel(openffboard(), {.wild_block = true}), "what it says of a new effect is nonsense"},
+      {PidModel(openffboard(), {.block_zero = true}), "what it says of a new effect is nonsense"},
+      {PidModel(openffboard(), {.same_block = true}), "what it says of a new effect is nonsense"},
+      {PidModel(openffboard(), {.pending_loads = 1000}), "it does not say whether it has made an effect"},
+  };
+  int port = 0;
+  for (const Case& lie : cases) {
+    const auto mock = mock_.plug(lie.model, ++port);
+    const std::string reason = refusal(port);
+    EXPECT_NE(reason.find(lie.reason), std::string::npos) << reason;
+    EXPECT_EQ(force_of(mock), glm::dvec2(0));
+    EXPECT_EQ(mock->claims, mock->releases);
+  }
+}
+
+TEST_F(MisbehavingUsb, PositionsStayWithinTheDeclaredRange) {
+  mock_.plug(PidModel(openffboard(), {.beyond_its_range = true}), 1);
+  const auto device = opened(1);
+  ASSERT_NE(device, nullptr);
+  await([&] { return device->counts().inputs > 20; });
+  EXPECT_EQ(device->sample().counts, glm::ivec2(-32767, 32767)) << "half of the profile's 65534 counts";
+}
+
+TEST_F(MisbehavingUsb, OneThatStallsDoesNotDisturbTheOtherNorTheOneAfterIt) {
+  const auto bad = mock_.plug(PidModel(openffboard(), {.stall_outputs_after = 60}), 1);
+  const auto good = mock_.plug(PidModel(openffboard()), 2);
+  auto first = opened(1), second = opened(2);
+  ASSERT_TRUE(first != nullptr && second != nullptr);
+  run_ticks(mock_, 2000, [&](long tick) {
+    const auto newton = static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10);
+    first->command({newton, 0});
+    second->command({newton, 0});
+  });
+  await([&] { return std::abs(force_of(good).x - 2000 / 32767.0) < 1e-9; });
+  await([&] { return first->was_lost(); });
+  EXPECT_FALSE(second->was_lost());
+  expect_rising(forces_to(1, good->with_model([](PidModel& model) { return model.log; })));
+  first.reset();
+  EXPECT_EQ(force_of(bad), glm::dvec2(0)) << "stopped by the control endpoint";
+  bad->with_model([](PidModel& model) { model.faults = {}; });
+  first = opened(1);
+  ASSERT_NE(first, nullptr) << "and usable again";
+  await([&] {
+    first->command({5, 0});
+    return std::abs(force_of(bad).x - 0.5) < 1e-3;
+  });
+}
+
+}  // namespace
+}  // namespace wale::test::misbehaving
