@@ -240,7 +240,7 @@ int feel_blind(const FeelOptions& options) {
   const auto joystick = device_for(options, a->program.description());
   if (!joystick) return refused;
 
-  const std::shared_ptr<const CommonModules> common = common_modules();
+  const std::shared_ptr<const CommonModules> common = command::declared_everywhere();
   const auto cues = [&](const BlindMaterial& material) {
     return cues_of(Bank(material.program, material.parameters, material.program.default_size()), common->declarations);
   };
@@ -263,6 +263,7 @@ int feel_blind(const FeelOptions& options) {
 }
 
 int devices(bool json) {
+  command::declared_everywhere();
   const auto known = Library().devices();
   const PluggedDevices plugged = plugged_devices();
   fmt::print("{}", json ? with_plugged(devices_json(known), plugged) : devices_text(known) + plugged_text(plugged));
