@@ -284,7 +284,7 @@ int feel_blind(const FeelOptions& options) {
   const auto joystick = device_for(options, *on, a->program.description());
   if (!joystick) return refused;
 
-  const std::shared_ptr<const CommonModules> common = common_modules();
+  const std::shared_ptr<const CommonModules> common = command::declared_everywhere();
   const auto cues = [&](const BlindMaterial& material) {
     return cues_of(Bank(material.program, material.parameters, material.program.default_size()), common->declarations);
   };
@@ -307,6 +307,7 @@ int feel_blind(const FeelOptions& options) {
 }
 
 int devices(bool json) {
+  command::declared_everywhere();
   const std::vector<DescribedDevice> known = Library().devices();
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);

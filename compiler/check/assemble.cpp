@@ -67,14 +67,17 @@ class Assembler {
 
   /// `like denim`: everything of `denim` that the material does not say itself.
   bool take_over(const Declared<MaterialDecl>& declared, const Setting& setting, AssembledMaterial& result) {
-    const bool alone = setting.items.size() == 1 && setting.items[0].words.size() == 1 && !setting.items[0].value;
+    const auto found = declared.home->likes.find(&setting);  // in the library
+    const bool alone = found != declared.home->likes.end() ||
+                       (setting.items.size() == 1 && setting.items[0].words.size() == 1 && !setting.items[0].value);
     if (!alone || result.derived) {
       report(alone ? Code::declared_twice : Code::wrong_type, setting.span,
              alone ? "a material is made from one other" : "`like` takes the name of one material",
              alone ? first_origin(*declared.node, setting) : "write, for example, `like denim`");
       return false;
     }
-    const auto* other = find(setting.items[0].words[0], *declared.home);
+    const auto* other =
+        found == declared.home->likes.end() ? find(setting.items[0].words[0], *declared.home) : found->second;
     const auto base = other ? assemble(*other) : nullptr;
     if (base) result = *base;
     result.derived = true;

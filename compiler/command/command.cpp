@@ -11,6 +11,7 @@
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 
 namespace wale::command {
@@ -50,6 +51,12 @@ std::optional<OpenedFile> open(const Choice& choice) {
   if (!opened.diagnostics.has_errors()) return opened;
   print_diagnostics(stderr, opened.diagnostics, opened.sources);
   return std::nullopt;
+}
+
+std::shared_ptr<const CommonModules> declared_everywhere() {
+  std::shared_ptr<const CommonModules> common = common_modules();
+  print_diagnostics(stderr, common->problems, SourceSet());
+  return common;
 }
 
 std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all) {

@@ -38,6 +38,9 @@ struct Choice {
 /// Opens a file; nothing when it cannot be read or its text is wrong, which has been said.
 std::optional<OpenedFile> open(const Choice& choice);
 
+/// What every file knows, for those that need it without a file. What is wrong with it is said: this build is broken.
+std::shared_ptr<const CommonModules> declared_everywhere();
+
 /// The programs of an opened file: one, or all of its materials; what is wrong has been printed when there is none.
 std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all);
 std::vector<Program> load_programs(const Choice& choice, bool all);

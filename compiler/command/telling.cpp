@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "compiler/command/verbs.hpp"
@@ -28,26 +30,40 @@ void print_recalled(const std::set<const Threshold*>& thresholds) {
 }
 
 /// What every device makes of a file's materials.
-int describe_fates(const Choice& choice, bool json) {
+int describe_fates(const Choice& choice, const std::vector<std::string>& settings, bool json) {
   const auto opened = open(choice);
   if (!opened) return refused;
   if (opened->program) return refuse(fmt::format("`{}` is built for one device already", choice.file));
   const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<DeviceFates> all;
+  std::set<std::string> used;  // of the settings, those that some program has a parameter for
   for (const std::string& material : names)
-    for (const std::string& device : common_modules()->declarations.devices.spellings()) {
+    for (const std::string& device : common->declarations.devices.spellings()) {
       FileRequest request = choice.request();
       request.device = device;
       DeviceFates fates{.material = material, .device = device, .fates = {}, .refusal = {}};
       Diagnostics diagnostics;
-      if (const auto program = compile_opened(*opened, request, material, diagnostics))
-        fates.fates = program->description().fates;
-      else
+      if (const auto program = compile_opened(*opened, request, material, diagnostics)) {
+        // A percept that is lost on a device has no parameter there.
+        std::vector<std::string> known;
+        std::ranges::copy_if(settings, std::back_inserter(known), [&](const std::string& setting) {
+          return program->parameter(setting.substr(0, setting.find('='))).has_value();
+        });
+        used.insert(known.begin(), known.end());
+        const auto parameters = chosen_parameters(*program, known);
+        if (!parameters) return refused;
+        fates.fates = fates_at(Bank(*program, *parameters, program->default_size()), &common->declarations);
+      } else {
         for (const Diagnostic& each : diagnostics.all())
           if (fates.refusal.empty() && severity_of(each.code) == Severity::error) fates.refusal = each.message;
+      }
       all.push_back(std::move(fates));
     }
   if (all.empty()) return refuse("there is no material to describe");
+  for (const std::string& setting : settings)
+    if (!used.contains(setting))
+      return refuse(fmt::format("on no device is there a parameter for `--set {}`", setting));
   fmt::print("{}", json ? fates_json(all) : fates_text(all));
   return done;
 }
@@ -55,7 +71,7 @@ int describe_fates(const Choice& choice, bool json) {
 }  // namespace
 
 int describe(const Choice& choice, const std::vector<std::string>& settings, bool exports, bool json) {
-  if (choice.device == "all") return describe_fates(choice, json);
+  if (choice.device == "all") return describe_fates(choice, settings, json);
   auto opened = open(choice);
   if (!opened) return refused;
   if (opened->module && choice.material.empty() && (exports || opened->module->materials.empty())) {
@@ -68,7 +84,7 @@ int describe(const Choice& choice, const std::vector<std::string>& settings, boo
   }
   const auto programs = programs_of(*opened, choice, true);
   if (programs.empty()) return refused;
-  const std::shared_ptr<const CommonModules> common = common_modules();
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<Description> descriptions;
   for (const auto& program : programs) {
     const auto parameters = chosen_parameters(program, settings);
@@ -85,7 +101,7 @@ int describe(const Choice& choice, const std::vector<std::string>& settings, boo
 }
 
 int compare(const Choice& choice, const std::vector<std::string>& names, bool with_table, bool json) {
-  const std::shared_ptr<const CommonModules> common = common_modules();
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<ComparedFile> files = read_cues(names, choice.request(), common->declarations);
   bool all_read = true;
   for (const ComparedFile& file : files) {
@@ -108,7 +124,7 @@ int compare(const Choice& choice, const std::vector<std::string>& names, bool wi
 
 int levels(const std::string& percept, const std::string& device, std::optional<std::size_t> steps, double apart,
            bool json) {
-  const std::shared_ptr<const CommonModules> common = common_modules();
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const auto proposed = propose_levels(percept, device, steps, apart, common->declarations);
   if (const auto* reason = std::get_if<std::string>(&proposed)) return refuse(*reason);
   const auto& proposal = std::get<LevelProposal>(proposed);

@@ -9,6 +9,7 @@
 
 #include "compiler/declarations/dimension.hpp"
 #include "compiler/declarations/percepts.hpp"
+#include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
 #include "compiler/text/name_index.hpp"
@@ -169,6 +170,9 @@ struct Declarations {
   Names<DeviceDeclaration> devices;
   Names<HandDeclaration> hands;
   Names<Declared<MaterialDecl>> materials;
+  /// What a `like` of this file means that none of these is, found in the library; null where nothing was, which has
+  /// been reported.
+  std::map<const Setting*, const Declared<MaterialDecl>*> likes;
   /// What imported files keep to themselves, and where: to tell it from what is unknown.
   std::map<std::string, Span, std::less<>> private_names;
   std::vector<Map> own_maps;
@@ -222,6 +226,7 @@ struct Module {
 struct CommonModules {
   std::vector<std::unique_ptr<SyntaxTree>> trees;
   Declarations declarations;
+  Diagnostics problems;  ///< what is wrong with the files themselves: with a build of this compiler
 };
 
 /// A parsed file, what every file knows, and all that it imports, everything declared.

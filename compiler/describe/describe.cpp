@@ -167,11 +167,11 @@ Description describe(const Bank& bank, const Declarations* declarations) {
     // A slider may make a viscosity or a spring push along instead of against: nothing that a map knows.
     if (std::isfinite(percept.level)) description.percepts.push_back(percept);
   }
-  description.fates = program.fates;
   if (program.vibrates())
     describe_shaking(description, bank);
   else
     describe_force(description, bank, declarations);
+  description.fates = fates_at(bank, declarations);
   description.parameters = program.parameters;
   description.states = program.states;
   description.memories = program.grids;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/describe/fates_at.hpp"
 #include "compiler/extract/texture.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
@@ -56,7 +57,7 @@ struct Description {
   std::vector<DescribedPercept> percepts;
   std::optional<DescribedTexture> texture;  ///< where the declarations were given
   std::string no_percept;                   ///< why none is of a texture, in a line; empty when there is one
-  std::vector<FateRecord> fates;            ///< what the device makes of what was asked for and written
+  std::vector<DescribedFate> fates;         ///< what the device makes of what was asked for and written
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; then force, bound, grade and texture are empty
   Measured force;                     ///< `max_newton` also of a rehearsal, when the program remembers

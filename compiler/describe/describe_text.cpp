@@ -80,12 +80,13 @@ long degrees(double radians) { return std::lround(radians * 180 / std::numbers::
 void write_fates(std::string& text, const Description& description) {
   if (description.fates.empty()) return;
   text += fmt::format("\non {}\n", description.device.name);
-  for (const FateRecord& each : description.fates) {
+  for (const DescribedFate& described : description.fates) {
+    const FateRecord& each = described.record;
     std::string level;
     if (each.percept && each.fate == Fate::saturated)
       level = fmt::format(" from {:.2f} to {:.2f}", each.asked, each.given);
-    text += fmt::format("  {:<18} {}{}{}{}\n", each.name, fate_word(each.fate), level, each.reason.empty() ? "" : ": ",
-                        each.reason);
+    text += fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level,
+                        each.reason.empty() ? "" : ": ", each.reason, changes_text(described));
   }
 }
 

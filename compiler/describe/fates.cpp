@@ -23,9 +23,11 @@ struct Row {
 
 std::string cell(const DeviceFates& device, const Row& row) {
   if (!device.refusal.empty()) return "-";
-  for (const FateRecord& each : device.fates)
-    if (Row{each.name, each.percept} == row)
-      return each.fate == Fate::saturated ? fmt::format("saturated {:.2f}", each.given) : fate_word(each.fate);
+  for (const DescribedFate& described : device.fates) {
+    const FateRecord& each = described.record;
+    if (Row{each.name, each.percept} != row) continue;
+    return each.fate == Fate::saturated ? fmt::format("saturated {:.2f}", each.given) : fate_word(each.fate);
+  }
   return "";
 }
 
@@ -37,9 +39,9 @@ void write_material(std::string& text, const std::vector<const DeviceFates*>& de
   std::vector<Row> rows;
   for (const bool percepts : {true, false})
     for (const DeviceFates* device : devices)
-      for (const FateRecord& each : device->fates)
-        if (const Row row{each.name, each.percept};
-            each.percept == percepts && std::ranges::find(rows, row) == rows.end())
+      for (const DescribedFate& each : device->fates)
+        if (const Row row{each.record.name, each.record.percept};
+            row.percept == percepts && std::ranges::find(rows, row) == rows.end())
           rows.push_back(row);
   for (const Row& row : rows) {
     std::string line = fmt::format("\n  {:<{}}", row.name, first_column - 2);
@@ -48,17 +50,27 @@ void write_material(std::string& text, const std::vector<const DeviceFates*>& de
   }
   text += '\n';
   for (const DeviceFates* device : devices)
+    for (const DescribedFate& each : device->fates)
+      if (!each.changes.empty())
+        text += fmt::format("  {} on {}{}\n", each.record.name, device->device, changes_text(each).replace(0, 1, ":"));
+  for (const DeviceFates* device : devices)
     if (!device->refusal.empty()) text += fmt::format("  not for {}: {}\n", device->device, device->refusal);
 }
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const std::vector<FateRecord>& fates) {
+nlohmann::ordered_json to_json(const std::vector<DescribedFate>& fates) {
   nlohmann::ordered_json percepts = nlohmann::ordered_json::object(), physics = percepts;
-  for (const FateRecord& each : fates) {
+  for (const DescribedFate& described : fates) {
+    const FateRecord& each = described.record;
     nlohmann::ordered_json entry = {{"fate", fate_word(each.fate)}};
     if (each.percept) entry["asked"] = figure(each.asked), entry["given"] = figure(each.given);
     entry["reason"] = each.reason;
+    for (const FateChange& change : described.changes)
+      entry["changes"].push_back({{"fate", fate_word(change.fate)},
+                                  {"parameter", change.parameter},
+                                  {change.above ? "above" : "below", figure(change.value)},
+                                  {"unit", change.unit}});
     (each.percept ? percepts : physics)[each.name] = std::move(entry);
   }
   return {{"percepts", std::move(percepts)}, {"physics", std::move(physics)}};

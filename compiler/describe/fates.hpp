@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "compiler/describe/fates_at.hpp"
 
 namespace wale {
 
 /// What one device makes of one material.
 struct DeviceFates {
   std::string material, device;
-  std::vector<FateRecord> fates;
+  std::vector<DescribedFate> fates;
   std::string refusal;  ///< why it cannot be built for the device, in a line; empty where it can
 };
 

@@ -5,6 +5,7 @@
 
 #include "compiler/declarations/discrimination.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/solve/saturation.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 
 // Sizes as numbers, at the parameters' defaults, and as expressions of the program.
@@ -222,8 +223,7 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   const bool foreign = !is_of(map, device_);
   if (found->solved && given < asked.level * (1 - rounding)) {
     record.fate = Fate::saturated;
-    record.reason = found->size > most ? fmt::format("`{}` gives no more", device_.profile.name)
-                                       : fmt::format("`{}` gives no more to all together", device_.profile.name);
+    record.reason = saturation_reason(device_.profile.name, found->size <= most);
   } else if (rule != realised_.end() || foreign) {
     record.fate = Fate::approximated;
   }

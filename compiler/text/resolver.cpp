@@ -22,6 +22,9 @@ namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{512} << 20;
 
+/// More files than this are no library but a disk.
+constexpr std::size_t most_listed = 100'000;
+
 /// Each file that is imported may import another, and they are followed recursively.
 constexpr std::size_t most_modules = 1000;
 
@@ -48,7 +51,53 @@ class FileResolver final : public Resolver {
     return look_for(name, from);
   }
 
+  std::string library(const std::string& from) override {
+    std::error_code ignored;
+    std::string name = fs::absolute(own_folder(from), ignored).lexically_normal().string();
+    for (const auto& root : roots_) name += '\n' + fs::absolute(root, ignored).lexically_normal().string();
+    return name;
+  }
+
+  std::vector<std::string> modules(const std::string& from) override {
+    std::vector<std::string> all;
+    list(own_folder(from), project_of(from).has_value(), all);
+    for (const auto& root : roots_) list(root, true, all);
+    return all;
+  }
+
  private:
+  /// Of a file's project, or the one that it is in.
+  fs::path own_folder(const std::string& from) {
+    if (const auto& project = project_of(from)) return *project;
+    const fs::path folder = fs::path(from).parent_path();
+    return folder.empty() ? fs::path(".") : folder;
+  }
+
+  /// Adds the modules of a folder, and of those in it where they belong to it, in the order of their names.
+  static void list(const fs::path& folder, bool whole, std::vector<std::string>& all) {
+    std::vector<std::string> found;
+    std::error_code error;
+    fs::recursive_directory_iterator each(folder, fs::directory_options::skip_permission_denied, error);
+    for (std::size_t seen = 0; !error && each != fs::recursive_directory_iterator() && seen < most_listed; ++seen) {
+      const fs::path& path = each->path();
+      std::error_code ignored;
+      if (each->is_directory(ignored)) {
+        if (!whole || path.filename().string().starts_with('.')) each.disable_recursion_pending();
+      } else if (path.extension() == ".wale") {
+        std::string module = path.lexically_relative(folder).replace_extension().generic_string();
+        // A dot in a name would stand for a folder.
+        if (module.find_first_of(". ") == std::string::npos) {
+          std::ranges::replace(module, '/', '.');
+          found.push_back(std::move(module));
+        }
+      }
+      each.increment(error);
+    }
+    std::ranges::sort(found);
+    for (std::string& module : found)
+      if (std::ranges::find(all, module) == all.end()) all.push_back(std::move(module));
+  }
+
   std::variant<ResolvedFile, ResolveProblem> look_for(const std::string& name, const std::string& from) {
     std::vector<fs::path> candidates{fs::path(from).parent_path() / name};
     if (const auto project = project_of(from)) candidates.push_back(*project / name);

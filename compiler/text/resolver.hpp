@@ -28,6 +28,12 @@ class Resolver {
   virtual std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) = 0;
   /// Any other file by its name as written, "slate.tif".
   virtual std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) = 0;
+
+  /// What tells apart the libraries that modules are listed of; empty where none is worth remembering.
+  virtual std::string library(const std::string& /*from*/) { return {}; }
+  /// The modules that `from` could import, each once: first those of its project, or else beside it. None where files
+  /// come from where nothing can be listed.
+  virtual std::vector<std::string> modules(const std::string& /*from*/) { return {}; }
 };
 
 /// The name of the file that marks the folder in which a project's modules are rooted. It may be empty.

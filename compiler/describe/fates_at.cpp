@@ -1,0 +1,211 @@
+#include "compiler/describe/fates_at.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compiler/declarations/declarations.hpp"
+#include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
+#include "compiler/measure/measure.hpp"
+#include "compiler/solve/saturation.hpp"
+#include "runtime/machine/floating_point_mode.hpp"
+#include "runtime/machine/lane.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double rounding = 5e-4;    // relative: what a level asked for and given may differ by in single precision
+constexpr float at_the_end = 1e-3f;  // of a parameter's range: what holds only there is not worth a word
+constexpr int halvings = 14;         // of a parameter's range, to find where a fate changes
+
+/// Which registers matter to what comes after.
+using LiveRegisters = std::vector<char>;
+
+void read_operands(const Instruction& instruction, LiveRegisters& live) {
+  const RegisterNumber operands[] = {instruction.a, instruction.b, instruction.c};
+  const std::string_view fields = facts(static_cast<Operation>(instruction.operation)).fields;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (fields[i] == 'r') live[operands[i]] = true;
+}
+
+/// How one solved percept's size and level follow from the parameters: the part of the setup code that they need, which
+/// seldom holds a peak.
+class SolvedSize {
+ public:
+  SolvedSize(const Bank& bank, std::size_t index)
+      : decoded_(bank.program().decoded()),
+        program_(decoded_.description),
+        percept_(program_.percepts[index]),
+        live_(program_.register_count()) {
+    live_[percept_.amplitude] = true;
+    for (const Instruction& instruction : percept_.prediction) read_operands(instruction, live_);
+    for (auto i = program_.setup.rbegin(); i != program_.setup.rend(); ++i) {
+      const int results = facts(static_cast<Operation>(i->operation)).results;
+      bool needed = false;
+      for (int result = 0; result < results; ++result)
+        needed |= std::exchange(live_[i->destination + result], char{false}) != 0;
+      if (!needed) continue;
+      read_operands(*i, live_);
+      if (i->operation == static_cast<std::uint8_t>(Operation::peak))
+        for (const Instruction& instruction : program_.peaks[i->a].code) read_operands(instruction, live_);
+      code_.push_back(*i);
+    }
+    std::ranges::reverse(code_);
+  }
+
+  bool depends_on(std::size_t parameter) const { return live_[program_.first_parameter() + parameter] != 0; }
+
+  /// The carrier's size at these registers, in the percept's unit.
+  double size(std::vector<float>& registers) const {
+    run(code_, registers);
+    return registers[percept_.amplitude];
+  }
+  /// The level of a carrier of that size, after `size`.
+  double level(std::vector<float>& registers, double size) const {
+    registers[static_cast<std::size_t>(Input::probe)] = static_cast<float>(size);
+    run(percept_.prediction, registers);
+    return registers[percept_.level];
+  }
+
+ private:
+#if defined(__GNUC__)
+  __attribute__((noinline))  // see FloatingPointMode
+#endif
+  void
+  run(std::span<const Instruction> code, std::vector<float>& registers) const {
+    const FloatingPointMode mode;
+    run_lane(decoded_, code, registers.data(), nullptr);
+  }
+
+  const DecodedProgram& decoded_;
+  const PatchProgram& program_;
+  const PerceptRecord& percept_;
+  LiveRegisters live_;  ///< at the beginning of the code
+  std::vector<Instruction> code_;
+};
+
+class FateFinder {
+ public:
+  FateFinder(const Bank& bank, const FateRecord& record, std::size_t index, double most)
+      : bank_(bank),
+        program_(bank.program().description()),
+        record_(record),
+        percept_(program_.percepts[index]),
+        size_(bank, index),
+        most_(most) {}
+
+  DescribedFate found() const {
+    const std::vector<float> registers(bank_.registers().begin(), bank_.registers().end());
+    DescribedFate fate{at(registers), {}};
+    for (std::size_t i = 0; i < program_.parameters.size(); ++i)
+      if (size_.depends_on(i))
+        for (const bool above : {false, true}) add_change(fate, registers, i, above);
+    return fate;
+  }
+
+ private:
+  FateRecord at(std::vector<float> registers) const {
+    FateRecord now = record_;
+    const double size = size_.size(registers), level = size_.level(registers, std::min(size, most_));
+    now.asked = registers[program_.first_parameter() + *percept_.parameter];
+    now.given = std::isfinite(level) ? static_cast<float>(std::clamp(level, 0.0, 1.0)) : now.asked;
+    std::string how = without_saturation(record_.reason, program_.device.name);
+    now.fate = how.empty() ? Fate::kept : Fate::approximated;
+    if (now.given < now.asked * (1 - rounding)) {
+      now.fate = Fate::saturated;
+      const std::string why = saturation_reason(program_.device.name, size <= most_);
+      how = how.empty() ? why : fmt::format("{}; {}", why, how);
+    }
+    now.reason = how;
+    return now;
+  }
+
+  FateRecord with(const std::vector<float>& registers, std::size_t parameter, float value) const {
+    std::vector<float> changed = registers;
+    changed[program_.first_parameter() + parameter] = value;
+    return at(std::move(changed));
+  }
+
+  /// Looks towards one end of a parameter's range, at which the fate may be another.
+  void add_change(DescribedFate& fate, const std::vector<float>& registers, std::size_t index, bool above) const {
+    const Parameter& parameter = program_.parameters[index];
+    float same = registers[program_.first_parameter() + index], other = above ? parameter.high : parameter.low;
+    if (same == other) return;
+    const FateRecord there = with(registers, index, other);
+    if (there.fate == fate.record.fate) return;
+    const float end = other;
+    for (int i = 0; i < halvings; ++i) {
+      const float middle = 0.5f * (same + other);
+      (with(registers, index, middle).fate == fate.record.fate ? same : other) = middle;
+    }
+    if (std::abs(other - end) <= at_the_end * (parameter.high - parameter.low)) return;
+    fate.changes.push_back({parameter.name, shown(other, parameter.unit_in_si), parameter.unit, above, there.fate});
+  }
+
+  const Bank& bank_;
+  const PatchProgram& program_;
+  const FateRecord& record_;
+  const PerceptRecord& percept_;
+  SolvedSize size_;
+  double most_;  ///< of the carrier, in its own unit
+};
+
+/// The percept that a fate is of, where its level is a parameter of its own: not where it only shares a carrier.
+std::optional<std::size_t> solved_percept(const PatchProgram& program, const FateRecord& fate) {
+  if (!fate.percept || fate.fate == Fate::lost) return std::nullopt;
+  for (std::size_t i = 0; i < program.percepts.size(); ++i) {
+    const PerceptRecord& percept = program.percepts[i];
+    if (percept.name != fate.name || !percept.parameter || percept.blended) continue;
+    const auto first = std::ranges::find(program.percepts, percept.parameter, &PerceptRecord::parameter);
+    return &*first == &percept ? std::optional(i) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// What the device gives at most, N or m/s^2: a pad that shakes at one rate, what it gives there.
+double most_given(const Bank& bank) {
+  const DeviceProfile& device = bank.program().description().device;
+  if (!device.shaker) return device.most();
+  constexpr float steady = 1e-3f;
+  const MeasuredShaking shaking = measure_shaking(bank);
+  if (!(shaking.highest > 0) || shaking.highest - shaking.lowest > steady * shaking.highest) return device.most();
+  return std::min(device.most(), device.shaker->acceleration(1, shaking.highest));
+}
+
+/// The largest carrier of a percept of which the device gives that, in the percept's unit.
+double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations* declarations,
+               double given) {
+  if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given;
+  const Percept* declared = declarations ? declarations->percepts.find(percept.name) : nullptr;
+  return declared && declared->exerts > 0 ? given / declared->exerts : HUGE_VAL;
+}
+
+}  // namespace
+
+std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations* declarations) {
+  const PatchProgram& program = bank.program().description();
+  const double given = most_given(bank);
+  std::vector<DescribedFate> all;
+  for (const FateRecord& record : program.fates) {
+    const auto index = solved_percept(program, record);
+    if (!index) {
+      all.push_back({record, {}});
+      continue;
+    }
+    const double most = most_of(program, program.percepts[*index], declarations, given);
+    all.push_back(FateFinder(bank, record, *index, most).found());
+  }
+  return all;
+}
+
+std::string changes_text(const DescribedFate& fate) {
+  std::string text;
+  for (const FateChange& each : fate.changes)
+    text += fmt::format("; {} {} {} {:.3g}{}{}", fate_word(each.fate), each.above ? "above" : "below", each.parameter,
+                        each.value, each.unit.empty() ? "" : " ", each.unit);
+  return text;
+}
+
+}  // namespace wale

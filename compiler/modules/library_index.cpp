@@ -1,0 +1,121 @@
+#include "compiler/modules/library_index.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "compiler/parse/parse.hpp"
+#include "compiler/text/embedded_files.hpp"
+
+namespace wale {
+namespace {
+
+/// Texts as they are written, words with their dots.
+std::vector<std::string> texts_in(const Setting& setting, const SyntaxTree& tree) {
+  std::vector<std::string> texts;
+  for (const SettingItem& item : setting.items) {
+    const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
+    if (literal) texts.push_back(literal->text);
+    if (!item.value && !item.words.empty()) texts.push_back(item.words.front().text);
+  }
+  return texts;
+}
+
+bool same_but_for_capitals(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+/// Reads one more file. Its diagnostics are those of whoever compiles it.
+void read_into(LibraryIndex& index, const std::string& module, std::string name, std::string text) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const SourceId source = sources.add(std::move(name), std::move(text));
+  index.add(module, parse(sources, source, diagnostics));
+}
+
+/// "library/std/friction.wale" -> "std.friction".
+std::string module_of(std::string_view embedded) {
+  constexpr std::string_view folder = "library/", ending = ".wale";
+  std::string module(embedded.substr(folder.size(), embedded.size() - folder.size() - ending.size()));
+  std::ranges::replace(module, '/', '.');
+  return module;
+}
+
+LibraryIndex read_all(Resolver& resolver, const std::string& from) {
+  LibraryIndex index;
+  std::set<std::string> known;
+  for (const std::string& module : resolver.modules(from)) {
+    std::string path = module;
+    std::ranges::replace(path, '.', '/');
+    auto found = resolver.file(path + ".wale", from);
+    if (auto* file = std::get_if<ResolvedFile>(&found); file && known.insert(module).second)
+      read_into(index, module, file->name, std::move(file->bytes));
+  }
+  for (const EmbeddedFile& file : embedded_files())
+    if (!file.common && known.insert(module_of(file.name)).second)
+      read_into(index, module_of(file.name), std::string(file.name), std::string(file.text));
+  return index;
+}
+
+}  // namespace
+
+void LibraryIndex::add(const std::string& module, const SyntaxTree& tree) {
+  for (const Declaration& declaration : tree.declarations) {
+    const auto* material = std::get_if<MaterialDecl>(&declaration);
+    if (!material) continue;
+    IndexedMaterial& entry = materials_.emplace_back();
+    entry.name = material->name.text, entry.module = module;
+    for (const Setting& setting : material->representative) {
+      std::vector<std::string> texts = texts_in(setting, tree);
+      const std::string& key = setting.key.text;
+      if (key == "called")
+        entry.called = std::move(texts);
+      else if (key == "feels")
+        entry.feels = std::move(texts);
+      else if (key == "title" && !texts.empty())
+        entry.title = std::move(texts.front());
+      else if (key == "kind" && !texts.empty())
+        entry.kind = std::move(texts.front());
+    }
+  }
+}
+
+std::vector<const IndexedMaterial*> LibraryIndex::meant_by(std::string_view text) const {
+  std::vector<const IndexedMaterial*> found;
+  const auto take = [&](const auto& meant) {
+    for (const IndexedMaterial& each : materials_)
+      if (meant(each)) found.push_back(&each);
+    return !found.empty();
+  };
+  const auto same = [&](const std::string& word) { return same_but_for_capitals(word, text); };
+  if (take([&](const IndexedMaterial& each) { return each.name == text; })) return found;
+  if (take([&](const IndexedMaterial& each) { return same(each.title) || std::ranges::any_of(each.called, same); }))
+    return found;
+  take([&](const IndexedMaterial& each) { return each.kind == text; });
+  return found;
+}
+
+std::vector<std::string> LibraryIndex::spellings() const {
+  std::set<std::string> all;
+  for (const IndexedMaterial& each : materials_) {
+    all.insert(each.name);
+    all.insert(each.called.begin(), each.called.end());
+    if (!each.title.empty()) all.insert(each.title);
+    if (!each.kind.empty()) all.insert(each.kind);
+  }
+  return {all.begin(), all.end()};
+}
+
+std::shared_ptr<const LibraryIndex> library_index(Resolver& resolver, const std::string& from) {
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_ptr<const LibraryIndex>> known;
+  const std::string library = resolver.library(from);
+  const std::scoped_lock lock(mutex);
+  std::shared_ptr<const LibraryIndex>& index = known[library];
+  if (!index || library.empty()) index = std::make_shared<const LibraryIndex>(read_all(resolver, from));
+  return index;
+}
+
+}  // namespace wale

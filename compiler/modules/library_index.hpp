@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/parse/syntax_tree.hpp"
+#include "compiler/text/resolver.hpp"
+
+namespace wale {
+
+/// A material of a library, as people look for it.
+struct IndexedMaterial {
+  std::string name;
+  std::string module;  ///< the file that declares it, as an import names it: "fabric.denim"
+  std::string title, kind;
+  std::vector<std::string> called, feels;
+};
+
+/// What the materials of a library are called, file by file in the order of their modules.
+class LibraryIndex {
+ public:
+  /// Enters the materials of a file. What is wrong with it is no matter here.
+  void add(const std::string& module, const SyntaxTree& tree);
+
+  const std::vector<IndexedMaterial>& materials() const { return materials_; }
+
+  /// The materials that a text may mean: those of that name; where there are none, those with that title or `called`
+  /// so, capitals or not; where there are none either, those of that kind.
+  std::vector<const IndexedMaterial*> meant_by(std::string_view text) const;
+
+  /// Everything by which one may be meant.
+  std::vector<std::string> spellings() const;
+
+ private:
+  std::vector<IndexedMaterial> materials_;
+};
+
+/// Of all modules that a file called `from` could import: those that the resolver lists, then the embedded ones. Made
+/// once in a process for each library, from all of its files; a file that is written later is not in it.
+std::shared_ptr<const LibraryIndex> library_index(Resolver& resolver, const std::string& from);
+
+}  // namespace wale
