@@ -37,7 +37,8 @@ CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resol
     if (tree->source == all.source) own = tree.get();
   if (!own) return checked;
 
-  const Surroundings surroundings{sources, checked.declarations(), diagnostics, &resolver};
+  const Surroundings surroundings{sources, checked.declarations(), diagnostics, &resolver,
+                                  all.common->written_out.get()};
   const bool whole = !diagnostics.has_errors();
   check_constants(*own, surroundings);
   check_functions(*own, surroundings);

@@ -185,6 +185,7 @@ Value BuiltinFunctions::within() const {
   if (!number(0) || !number(1) || !number(2)) return failed();
   for (const std::size_t bound : {1, 2})
     if (value(bound).dimension != value(0).dimension) return mismatched(bound, 0);
+  for (const std::size_t each : {0, 1, 2}) checker.ask_of(value(each).x);
   const auto known = constant_value(terms(), value(0).x);
   const auto low = constant_value(terms(), value(1).x), high = constant_value(terms(), value(2).x);
   if (known && low && high && !(*known >= *low && *known <= *high)) {
@@ -214,6 +215,7 @@ Value BuiltinFunctions::gradient() const {
 
 Value BuiltinFunctions::peak() const {
   if (!number(0)) return failed();
+  checker.ask_of(value(0).x);
   if (const auto dependence = terms().dependence(value(0).x); dependence.changing())
     return checker.report(
         Code::wrong_rate, actuals[0].span,
@@ -245,6 +247,7 @@ std::optional<double> BuiltinFunctions::constant_argument(std::size_t i, const D
          .help = fmt::format("write something like `{}`", example)});
     return std::nullopt;
   }
+  checker.ask_of(value(i).x);
   const auto known = constant_value(terms(), value(i).x);
   if (!known)
     checker.report(Code::not_constant, actuals[i].span, "a value known at compile time is due here", "it may change",

@@ -8,13 +8,6 @@
 
 namespace wale {
 
-namespace {
-
-/// A material that needs more terms than this is far beyond what a patch program holds.
-constexpr std::size_t most_terms = std::size_t{1} << 18;
-
-}  // namespace
-
 std::string what_changes(const Dependence& dependence) {
   return dependence.on(Dependence::velocity) ? "velocity"
          : dependence.on(Dependence::state)  ? "what the material remembers"
@@ -245,7 +238,8 @@ Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, Frame&
   if (good) {
     enter_call(span);
     callees_.push_back({declaration.name.text});
-    result = check(*function.tree, declaration.body, inner);
+    deepest_ = std::max(deepest_, callees_.size());
+    result = body(function, frame);
     leave_call();
     callees_.pop_back();
   }
@@ -279,7 +273,9 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
                     .relief = {},
                     .span = blame(span),
                     .size_span = blame(size.span)};
+    ask_of(size.x);
     const auto* height = formals.find("height");
+    if (height) ask_of(height->value.x);
     if (const auto fixed = carrier.open ? std::nullopt : constant_value(terms_, size.x); fixed && *fixed < 0) {
       if (!height) continue;  // what pushes along with the motion, or away, is nothing that a percept tells of
       report(Code::value_out_of_range, span, fmt::format("`{}` is less than nothing", formal.name.text), "",

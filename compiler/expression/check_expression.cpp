@@ -314,6 +314,7 @@ Value ExpressionChecker::raise(const Value& base, const Value& exponent, Span sp
                       .fact("expected", names().words({}))
                       .fact("found", names().words(exponent.dimension)));
   Value result{.type = Value::Type::number, .span = span};
+  ask_of(exponent.x);
   const auto value = constant_value(terms_, exponent.x);
   constexpr int largest_whole = 16;
   if (value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/expression/checked.hpp"
+#include "compiler/expression/written_out.hpp"
 #include "compiler/text/resolver.hpp"
 
 namespace wale {
@@ -19,7 +21,8 @@ struct Surroundings {
   const SourceSet& sources;
   const Declarations& declarations;  ///< of the file whose expressions are checked
   Diagnostics& diagnostics;
-  Resolver* resolver = nullptr;  ///< for images; none where no file may be read
+  Resolver* resolver = nullptr;                ///< for images; none where no file may be read
+  WrittenOutFunctions* written_out = nullptr;  ///< what is known of functions from other materials, if anything is
 };
 
 /// Gives expressions their types and dimensions and turns them into terms, inlining functions on the way.
@@ -92,6 +95,8 @@ class ExpressionChecker {
     std::vector<std::string_view> formals;
     std::vector<Actual> actuals;
     Scope names;
+    std::vector<WrittenOut::Kind> kinds;  ///< of the names
+    std::vector<TermId> parts;            ///< that the names stand for
   };
   /// A frame while a call is read. It is used again for later calls: nearly everything in an expression is a call.
   class OpenFrame {
@@ -134,6 +139,19 @@ class ExpressionChecker {
   bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string_view>& formals,
                       Scope& scope, std::vector<Actual>& actuals);
   Value expanded(const Declared<FunctionDecl>& function, Frame& frame, const Scope& scope, Span span);
+  // written_out.cpp: bodies that are the same in all materials
+  using Traces = std::array<std::size_t, 8>;
+  Traces traces() const;  ///< how much reading expressions has left behind, besides terms
+  Value body(const Declared<FunctionDecl>& function, Frame& frame);
+  static bool list_parts(Frame& frame);
+  bool write_out(TermId first, std::size_t first_asked, const std::vector<TermId>& parts, const Value& result,
+                 WrittenOut& body) const;
+  Value written(const WrittenOut& body, const std::vector<TermId>& parts);
+  /// What comes out does not only depend on what the term is made of, but on what it is worth.
+  void ask_of(TermId term) {
+    if (writing_out_ > 0) asked_.push_back(term);
+  }
+
   void record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span);
 
   Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
@@ -193,10 +211,16 @@ class ExpressionChecker {
   std::vector<std::unique_ptr<const Field>> fields_;  ///< that values point to
   std::vector<std::unique_ptr<Frame>> frames_;
   std::size_t open_frames_ = 0;  ///< the first of `frames_`
+  std::size_t writing_out_ = 0;  ///< bodies within one another
+  std::vector<TermId> asked_;    ///< while they are
+  std::size_t deepest_ = 0;      ///< how many callees there have been at a time since one of them began
 };
 
 /// What makes a value change while the hand rests, in words.
 std::string what_changes(const Dependence& dependence);
+
+/// A material that needs more terms than this is far beyond what a patch program holds.
+inline constexpr std::size_t most_terms = std::size_t{1} << 18;
 
 /// Definitions lead to one another at most so deep.
 inline constexpr std::size_t deepest_call = 64;

@@ -123,8 +123,8 @@ class Scope {
   }
 
  private:
-  /// Up to so many names, those of a function or of most materials, are faster looked through than looked up.
-  static constexpr std::size_t few = 20;
+  /// Up to so many names, those of most functions, are faster looked through than looked up.
+  static constexpr std::size_t few = 8;
 
   std::size_t index_of(const NameKey& name) const {
     if (bindings_.size() > few) {

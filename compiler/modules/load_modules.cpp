@@ -9,6 +9,7 @@
 #include <set>
 
 #include "compiler/diagnostics/advice.hpp"
+#include "compiler/expression/written_out.hpp"
 #include "compiler/modules/declare.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/parse/parse.hpp"
@@ -41,6 +42,7 @@ std::shared_ptr<const CommonModules> load_common(std::optional<SyntaxTree> repla
     common->trees.push_back(std::make_unique<SyntaxTree>(std::move(tree)));
     declare(*common->trees.back(), sources, common->declarations, diagnostics);
   }
+  if (replaced.empty()) common->written_out = std::make_shared<WrittenOutFunctions>(common->declarations);
   return common;
 }
 
