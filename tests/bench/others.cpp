@@ -15,6 +15,7 @@
 #include "runtime/stage/player.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/machine/random_program.hpp"
+#include "tests/runtime/figures.hpp"
 #include "wale/program.hpp"
 
 namespace wale::bench {
@@ -108,15 +109,15 @@ void move(std::size_t count, std::size_t moving) {
               once, moving, count, arranged, moving, count, found);
 }
 
-void guards() {
-  Guards guard(example::device());
+void guards(const char* what, const DeviceProfile& device) {
+  Guards guard(device);
   guard.allow(0.1, 0.5);
   std::mt19937 random(1995);
   std::uniform_real_distribution<float> force(-4, 4);
   std::vector<Force> forces(1024);
   for (Force& each : forces) each = {force(random), force(random)};
   volatile float sink = 0;
-  std::printf("guards %.1f\n", timed(101, 1024, [&] {
+  std::printf("%s %.1f\n", what, timed(101, 1024, [&] {
                 Force last(0);
                 double x = 0;
                 for (const Force& each : forces) {
@@ -179,7 +180,12 @@ void look_up(std::uint32_t side) {
 
 int main(int count, char**) {
   using namespace wale::bench;
-  guards();
+  wale::DeviceProfile device = wale::sandpaper();
+  guards("guards", device);
+  device.delay_x = device.delay_y = 0.0015;
+  device.continuous_newton = 5;
+  device.heating_seconds = 20;
+  guards("guards_late", device);
   if (count > 1) return 0;
   front_most(10);
   front_most(1000);
