@@ -16,6 +16,9 @@ namespace wale {
 
 namespace {
 
+/// A file that could be imported by this name is: its exported devices are those of the project.
+constexpr const char* project_devices = "devices";
+
 /// A file's imports may have imports, and so on, so deep.
 constexpr std::size_t deepest_import = 64;
 
@@ -47,6 +50,19 @@ class ModuleLoader {
   ModuleLoader(SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, ModuleSet& modules)
       : sources_(sources), resolver_(resolver), diagnostics_(diagnostics), modules_(modules) {}
 
+  /// The file itself, which knows the devices of its project besides what it imports.
+  void add_first(SyntaxTree tree) {
+    const std::string name = sources_[tree.source].name;
+    auto resolved = resolver_.module(project_devices, name);
+    // One that is just being written is still empty.
+    if (auto* file = std::get_if<ResolvedFile>(&resolved); file && file->name != name && !file->bytes.empty()) {
+      const SourceId source = sources_.add(file->name, std::move(file->bytes));
+      devices_ = add(parse(sources_, source, diagnostics_));
+    }
+    add(std::move(tree));
+  }
+
+ private:
   std::shared_ptr<const Module> add(SyntaxTree tree) {
     const std::string name = sources_[tree.source].name;
     path_.push_back(name);
@@ -59,13 +75,23 @@ class ModuleLoader {
           import_names(imported->declarations, *import, module->declarations, sources_, diagnostics_);
         }
     declare(module->tree, sources_, module->declarations, diagnostics_);
+    if (devices_ && path_.size() == 1) add_project_devices(module->declarations);
     path_.pop_back();
     loaded_[name] = module;
     modules_.modules.push_back(module);
     return module;
   }
 
- private:
+  /// What the file declares or imports by the same names goes before them.
+  void add_project_devices(Declarations& declarations) const {
+    for (const auto& [name, entry] : devices_->declarations.devices.own()) {
+      if (!entry.exported || entry.imported || declarations.devices.own().contains(name)) continue;
+      auto imported = entry;
+      imported.imported = true;
+      declarations.devices.add(name, std::move(imported));
+    }
+  }
+
   std::shared_ptr<const Module> follow(const Import& import, const std::string& from) {
     const Word& module = import.module;
     auto resolved = resolver_.module(module.text, from);
@@ -136,6 +162,7 @@ class ModuleLoader {
   std::shared_ptr<SharedNames> names_ = std::make_shared<SharedNames>(modules_.common->declarations.names());
   std::vector<std::string> path_;  ///< files whose imports are being followed
   std::map<std::string, std::shared_ptr<const Module>> loaded_;
+  std::shared_ptr<const Module> devices_;  ///< the project's own; may be null
 };
 
 }  // namespace
@@ -158,7 +185,7 @@ ModuleSet load_modules(SyntaxTree tree, SourceSet& sources, Resolver& resolver, 
       return modules;
     }
   modules.common = common_modules();
-  ModuleLoader(sources, resolver, diagnostics, modules).add(std::move(tree));
+  ModuleLoader(sources, resolver, diagnostics, modules).add_first(std::move(tree));
   return modules;
 }
 
