@@ -10,6 +10,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@
 #include "compiler/build_stage.hpp"
 #include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
+#include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
 #include "compiler/quantity.hpp"
@@ -120,6 +122,16 @@ struct FeelOptions {
   std::optional<std::uint64_t> seed;
 };
 
+/// The devices that a file in this folder would know.
+std::vector<DescribedDevice> devices_here() {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver(library_folders({}, std::getenv("WALE_LIBRARY")));
+  const CheckedModule module = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
+  command::print_diagnostics(stderr, diagnostics, sources);
+  return devices_known(module);
+}
+
 /// The device that is to be felt on, and the one to build for.
 struct DeviceToFeel {
   Connections connections;  ///< open while something plugged in is used
@@ -135,7 +147,7 @@ struct DeviceToFeel {
 /// Chooses among what is plugged in and what is declared, and says so; nothing when what is wrong has been printed.
 std::optional<DeviceToFeel> device_to_feel(const FeelOptions& options) {
   const OpenedFile file = open_file(options.choice.request());  // what is wrong with it is said when it is built
-  const std::vector<DescribedDevice> known = file.module ? devices_known(*file.module) : Library().devices();
+  const std::vector<DescribedDevice> known = file.module ? devices_known(*file.module) : devices_here();
   DeviceRequest request{.spelling = options.device.empty() ? "auto" : options.device,
                         .built_for = file.program ? file.program->description().device.name : options.built_for,
                         .only_simulated = options.virtual_time || options.hand};
@@ -308,13 +320,16 @@ int feel_blind(const FeelOptions& options) {
 
 int devices(bool json) {
   command::declared_everywhere();
-  const std::vector<DescribedDevice> known = Library().devices();
+  const std::vector<DescribedDevice> known = devices_here();
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
   fmt::print("{}", json ? with_plugged(devices_json(known), plugged, known)
                         : devices_text(known) + plugged_text(connections, plugged, known));
   return 0;
 }
+
+/// Of a declaration of one's own: that of ours with `my_` before it, which it keeps when it is made anew.
+std::string own_name(const std::string& profile) { return profile.starts_with("my_") ? profile : "my_" + profile; }
 
 /// Finds out how a device that is plugged in lies on the desk, and prints a declaration that says so.
 int identify(const std::string& device, const std::string& max_force) {
@@ -329,7 +344,7 @@ int identify(const std::string& device, const std::string& max_force) {
     if (!(*most > 0)) return refuse("the largest force allowed is more than nothing");
     options.most_newton = *most;
   }
-  const std::vector<DescribedDevice> known = Library().devices();
+  const std::vector<DescribedDevice> known = devices_here();
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
   const auto choice = choose_device({.spelling = device.empty() ? "auto" : device}, known, plugged);
@@ -355,10 +370,14 @@ int identify(const std::string& device, const std::string& max_force) {
   wiring.axes = *identified.axes_settled;
   wiring.motors = *identified.motors_settled;
   if (const auto numbers = read_usb_numbers(chosen.plugged->numbers)) wiring.usb = {*numbers};
-  fmt::print("{}", device_declaration(described, "my_" + chosen.profile, wiring,
+  fmt::print("{}", device_declaration(described, own_name(chosen.profile), wiring,
                                       {in_words(*chosen.plugged) + ", as `wale devices --identify` found it; its other "
                                                                    "figures are",
                                        "those of " + chosen.profile + "."}));
+  fmt::print(
+      stderr,
+      "in a file devices.wale in this folder, in that of your wale.project, or in one of WALE_LIBRARY, it is known "
+      "to every material there\n");
   return 0;
 }
 
@@ -536,7 +555,7 @@ int main(int argc, char** argv) {
   verb->add_option("--max-force", gentle,
                    "the largest force of --identify, as in \"1 N\" (default: a fifth of its own)")
       ->needs(identifies);
-  verb->footer("for example: wale devices --json; wale devices --identify > my_stick.wale");
+  verb->footer("for example: wale devices --json; wale devices --identify > devices.wale");
   verb->callback([&, identifies] { status = identifies->count() > 0 ? identify(identified, gentle) : devices(json); });
 
   // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.

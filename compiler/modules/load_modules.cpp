@@ -19,6 +19,9 @@ namespace wale {
 
 namespace {
 
+/// A file that could be imported by this name is: its exported devices are those of the project.
+constexpr const char* project_devices = "devices";
+
 /// A file's imports may have imports, and so on, so deep.
 constexpr std::size_t deepest_import = 64;
 
@@ -77,8 +80,10 @@ class ModuleLoader {
   ModuleLoader(SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, ModuleSet& modules)
       : sources_(sources), resolver_(resolver), diagnostics_(diagnostics), modules_(modules) {}
 
-  /// The file itself, with all that its imports and its `like`s bring, each before what uses it.
+  /// The file itself, with all that its imports and its `like`s bring, each before what uses it. It knows the devices of
+  /// its project besides.
   void load(SyntaxTree tree) {
+    add_project_devices_of(sources_[tree.source].name);
     const std::shared_ptr<const Module> file = add(std::move(tree));
     modules_.modules.pop_back();
     // What is brought may bring more.
@@ -99,11 +104,31 @@ class ModuleLoader {
           import_names(imported->declarations, *import, module->declarations, sources_, diagnostics_);
         }
     declare(module->tree, sources_, module->declarations, diagnostics_);
+    if (devices_ && path_.size() == 1) add_project_devices(module->declarations);
     path_.pop_back();
     loaded_[name] = module;
     modules_.modules.push_back(module);
     added_.push_back(module);
     return module;
+  }
+
+  void add_project_devices_of(const std::string& name) {
+    auto resolved = resolver_.module(project_devices, name);
+    // One that is just being written is still empty.
+    if (auto* file = std::get_if<ResolvedFile>(&resolved); file && file->name != name && !file->bytes.empty()) {
+      const SourceId source = sources_.add(file->name, std::move(file->bytes));
+      devices_ = add(parse(sources_, source, diagnostics_));
+    }
+  }
+
+  /// What the file declares or imports by the same names goes before them.
+  void add_project_devices(Declarations& declarations) const {
+    for (const auto& [name, entry] : devices_->declarations.devices.own()) {
+      if (!entry.exported || entry.imported || declarations.devices.own().contains(name)) continue;
+      auto imported = entry;
+      imported.imported = true;
+      declarations.devices.add(name, std::move(imported));
+    }
   }
 
   std::shared_ptr<const Module> follow(const Word& module, const std::string& from) {
@@ -241,6 +266,7 @@ class ModuleLoader {
   std::vector<std::string> path_;  ///< files whose imports are being followed
   std::map<std::string, std::shared_ptr<const Module>> loaded_;
   std::vector<std::shared_ptr<Module>> added_;  ///< all of them
+  std::shared_ptr<const Module> devices_;  ///< the project's own; may be null
 };
 
 }  // namespace

@@ -49,16 +49,9 @@ class Solver {
     solved_.active_watt = material_.active_watt;
     solved_.patch_width = material_.patch ? (*material_.patch)[0] : device_->profile.patch_width;
     solved_.patch_height = material_.patch ? (*material_.patch)[1] : device_->profile.patch_height;
+    cut_patch(device_->profile.widest_patch());
     solved_.patch_rim =
         std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
-
-    const double workspace = device_->profile.widest_patch();
-    if (std::max(solved_.patch_width, solved_.patch_height) > workspace)
-      report(Code::value_out_of_range, material_.patch ? material_.patch_span : material_.span,
-             fmt::format("a patch of {:.4g} mm x {:.4g} mm does not fit `{}`", 1e3 * solved_.patch_width,
-                         1e3 * solved_.patch_height, device_name),
-             Advice(fmt::format("its workspace is {:.4g} mm across", 1e3 * workspace))
-                 .fact("high", 1e3 * workspace, "mm"));
 
     open_terms_ = material_.terms;
     carriers_ = material_.carriers;
@@ -87,6 +80,24 @@ class Solver {
   }
 
  private:
+  /// A patch is felt as far as the device reaches: one text is for wide devices and for narrow ones.
+  void cut_patch(double workspace) {
+    const double width = solved_.patch_width, height = solved_.patch_height;
+    float widest = static_cast<float>(workspace);  // as a program writes it, which must not be the wider one
+    if (widest > workspace) widest = std::nextafter(widest, 0.0f);
+    solved_.patch_width = std::min(width, double{widest});
+    solved_.patch_height = std::min(height, double{widest});
+    if (std::max(width, height) <= workspace) return;
+    const std::string asked = fmt::format("{:.4g} mm x {:.4g} mm", 1e3 * width, 1e3 * height);
+    cut_ = fmt::format("a patch of {}, cut to the workspace, {:.4g} mm across", asked, 1e3 * workspace);
+    report(Code::cut_patch, material_.patch ? material_.patch_span : material_.span,
+           fmt::format("a patch of {} does not fit `{}` and is cut to its workspace, {:.4g} mm across", asked,
+                       device_->profile.name, 1e3 * workspace),
+           Advice(fmt::format("what lies beyond is not felt there; `patch {:.4g} mm, {:.4g} mm` fits",
+                              1e3 * solved_.patch_width, 1e3 * solved_.patch_height))
+               .fact("high", 1e3 * workspace, "mm"));
+  }
+
   /// A material without a force takes the device's own realisations of its percepts, side by side.
   bool realise_percepts() {
     if (material_.percepts.empty() && physics_.empty()) {
@@ -231,6 +242,7 @@ class Solver {
     }
     if (material_.force)
       solved_.fates.push_back({.name = "force", .fate = Fate::kept, .reason = "as its author wrote it"});
+    if (!cut_.empty()) solved_.fates.push_back({.name = "place", .fate = Fate::approximated, .reason = cut_});
     std::string lost;
     for (const FateRecord& each : physics_)
       if (each.fate == Fate::lost) lost += (lost.empty() ? "" : "; ") + each.name + ": " + each.reason;
@@ -363,6 +375,7 @@ class Solver {
   std::map<std::string, std::string> realised_;  ///< percepts that the device renders in its own way: how
   std::map<std::string, std::string> lost_;      ///< percepts that it does not render: why
   std::vector<FateRecord> physics_;              ///< of what the device cannot exert
+  std::string cut_;                              ///< what became of a patch that is wider than the device; else empty
 };
 
 }  // namespace

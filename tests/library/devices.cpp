@@ -1,4 +1,5 @@
-// Every material of the library for every device: it builds, or says why not, and what is said of it is whole.
+// Every material of the library for every declared device: it builds, or on a pad says why not, and what is said of it
+// is whole.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,16 +12,27 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/listing/print_cpp.hpp"
 #include "compiler/listing/print_program.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "tests/library/shelf.hpp"
 
 namespace wale::devices_test {
 namespace {
 
-/// What of a device a material may ask too much of: an essential percept (W0404), a patch that does not fit (W0305).
+std::vector<std::string> declared_devices() { return common_modules()->declarations.devices.spellings(); }
+
+const DeviceProfile& profile_of(const std::string& device) {
+  return common_modules()->declarations.devices.find(device)->profile;
+}
+
+/// What of a device that only vibrates a material may ask too much of: an essential percept (W0404).
 bool explains(const Diagnostics& diagnostics) {
-  return std::ranges::any_of(diagnostics.all(), [](const Diagnostic& each) {
-    return each.code == Code::percept_unrealised || each.code == Code::value_out_of_range;
-  });
+  return std::ranges::any_of(diagnostics.all(),
+                             [](const Diagnostic& each) { return each.code == Code::percept_unrealised; });
+}
+
+/// Whether something is said of the patch, and it is.
+bool tells_of_cut(const Diagnostics& diagnostics) {
+  return std::ranges::any_of(diagnostics.all(), [](const Diagnostic& each) { return each.code == Code::cut_patch; });
 }
 
 class EveryDevice : public testing::TestWithParam<std::string> {};
@@ -39,17 +51,22 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       for (const auto& each : diagnostics.all()) said += render_text(each, sources, false);
       if (!program) {
         ++refused;
-        EXPECT_TRUE(explains(diagnostics)) << material.name << "\n" << said;
+        EXPECT_TRUE(profile_of(device).shaker && explains(diagnostics)) << material.name << "\n" << said;
         continue;
       }
       ++built;
       const PatchProgram& description = program->description();
-      EXPECT_EQ(description.vibrates(), device == "touch_pad" || device == "gamepad");
+      EXPECT_EQ(description.vibrates(), profile_of(device).shaker.has_value());
+      const double widest = profile_of(device).widest_patch();
+      EXPECT_LE(double{std::max(description.patch_width, description.patch_height)}, widest);
       // A fate for each percept that was asked for, by name, and one for the physics where there is some.
       std::set<std::string> told;
       for (const DescribedFate& fate : description.fates) told.insert(fate.record.name);
       for (const auto& asked : material.percepts) EXPECT_TRUE(told.contains(asked.name)) << material.name;
       EXPECT_GE(told.size(), material.percepts.size() + (material.force ? 1 : 0)) << material.name;
+      const bool is_wider = material.patch && std::max((*material.patch)[0], (*material.patch)[1]) > widest;
+      EXPECT_EQ(tells_of_cut(diagnostics), is_wider) << material.name;
+      EXPECT_EQ(told.contains("place"), is_wider) << material.name;
       if (!description.vibrates()) continue;
       EXPECT_EQ(read_patch_program(write_patch_program(description)).index(), 0u);
       const Description described = describe(Bank(*program));
@@ -63,7 +80,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
   EXPECT_GT(built, 100) << refused;
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, EveryDevice, testing::Values("falcon", "touch_pad", "gamepad"),
+INSTANTIATE_TEST_SUITE_P(Devices, EveryDevice, testing::ValuesIn(declared_devices()),
                          [](const auto& device) { return device.param; });
 
 }  // namespace

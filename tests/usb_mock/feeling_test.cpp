@@ -2,6 +2,9 @@
 // the way that they take: the devices are not there, everything else is. Counts, order and bytes, never durations.
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -17,6 +21,7 @@
 #include <thread>
 
 #include "library/open_device.hpp"
+#include "runtime/stage/scheduling.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
 #include "wale/stage.hpp"
@@ -356,10 +361,75 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
   // A fifth of its force at most: 6554 of 32767.
   for (const int block : {1, 2})
     for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
+  // What was printed, in the folder of a material, is what that material is then felt on.
+  const auto folder = std::filesystem::temp_directory_path() / ("wale-usb-mock-" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "devices.wale") << identified.out;
+  std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
+  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale").string() + " --seconds 0.2 --json");
+  EXPECT_TRUE(contains(felt.err, "at port 1-1), as my_openffboard")) << felt.err;
+  EXPECT_EQ(nlohmann::json::parse(felt.out).at("profile"), "my_openffboard");
+  std::filesystem::remove_all(folder);
+
   const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
   EXPECT_EQ(weak.status, 1);
   EXPECT_TRUE(contains(weak.err, "nothing moved")) << weak.err;
   EXPECT_EQ(weak.out, "");
+}
+
+TEST_F(Feeling, IdentifyIsEndedAtOnceByCtrlC) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1);
+  found(1);
+  std::string binary = WALE_BINARY, verb = "devices", option = "--identify";
+  char* words[] = {binary.data(), verb.data(), option.data(), nullptr};
+  pid_t child = 0;
+  ASSERT_EQ(posix_spawn(&child, binary.c_str(), nullptr, nullptr, words, environ), 0);
+  wait_until([&] {
+    const auto pushes = pushes_in(log_of(stick), 1);
+    return !pushes.empty() && pushes.back() != 0;
+  });
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
+  EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
+}
+
+/// How many of this process's threads have a SCHED_FIFO priority.
+int threads_with(int priority) {
+  int count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    sched_param parameters{};
+    const pid_t thread = std::stoi(task.path().filename());
+    if (sched_getscheduler(thread) == SCHED_FIFO && sched_getparam(thread, &parameters) == 0 &&
+        parameters.sched_priority == priority)
+      ++count;
+  }
+  return count;
+}
+
+TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
+  std::atomic<bool> is_permitted{false};
+  std::thread([&] {
+    sched_param parameters{};
+    parameters.sched_priority = loop_priority;
+    is_permitted = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+  }).join();
+  if (!is_permitted) GTEST_SKIP() << "SCHED_FIFO is not permitted here";
+  const auto stick = mock_.plug(PidModel(openffboard()), 1);
+  const ChosenDevice device = chosen("auto", 1);
+  EXPECT_EQ(threads_with(loop_priority - 1), 0);
+  const auto joystick = opened(device, built(device));
+  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "that of libusb's events and that which submits forces";
+  mock_.unplug(stick);
+  wait_until([&] { return joystick->sample().contact == Contact::lost; });
+  mock_.plug(PidModel(openffboard()), 1);
+  wait_until([&] {
+    joystick->elapse(1);
+    return joystick->sample().contact == Contact::good;
+  });
+  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "also when it is set up anew";
 }
 
 }  // namespace
