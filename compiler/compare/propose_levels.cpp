@@ -103,7 +103,9 @@ std::variant<LevelProposal, std::string> propose_levels(const std::string& name,
                        candidates(device, declarations.devices.spellings()));
   if (!(apart > 0)) return "levels are more than nothing apart: --jnd is above 0";
   if (steps && *steps < 2) return "two levels are the fewest that can be apart";
-  const Percept& percept = *meant.percept;
+  if (on->profile.shaker && !on->realise.contains(meant.percept->name))
+    return fmt::format("`{}` only shakes, and has no realisation of {}", device, meant.percept->name);
+  const Percept percept = carried_on(*on, *meant.percept, declarations);
   const MapChoice choice = percept.has_reference ? choose_map(percept, *on, declarations) : MapChoice{};
   if (!choice.map) return why_no_map(percept, choice, device);
   const LevelScale scale(percept, *choice.map, declarations, *on);

@@ -14,6 +14,7 @@
 #include "compiler/extract/fourier.hpp"
 #include "compiler/measure/hands.hpp"
 #include "wale/batch.hpp"
+#include "wale/memory.hpp"
 
 namespace wale {
 namespace {
@@ -100,8 +101,35 @@ std::vector<double> opposed_anywhere(const Bank& bank, const std::vector<Stroke>
   return means;
 }
 
-/// The same of any program, tick by tick.
+/// The same of a program that remembers in states alone, tick by tick: one hand after the other, since so few would
+/// leave most lanes of a block without work.
+std::vector<double> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes) {
+  const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
+  Bank own = bank;
+  Memory memory(own.program());
+  std::vector<double> means(strokes.size());
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    const Stroke& stroke = strokes[i];
+    double sum = 0;
+    long count = 0;
+    for (long now = 0; now < stroke.ticks(); ++now) {
+      const auto [along, forth] = stroke.at(now, rate);
+      Hand hand = stroke.hand(along, forth);
+      hand.time = static_cast<double>(now) / rate;
+      if (now == 0) memory.enter(own, hand);
+      const Force force = tick(own, memory, hand);
+      if (now < stroke.pass / 2 || std::abs(along) > middle) continue;
+      sum -= glm::dot(glm::dvec2(force), glm::dvec2(hand.velocity)) / stroke.speed;
+      ++count;
+    }
+    means[i] = sum / static_cast<double>(std::max(1L, count));
+  }
+  return means;
+}
+
+/// The same of any program; memories stay as they are at the beginning.
 std::vector<double> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes) {
+  if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes);
   const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
   const long longest = std::ranges::max(strokes, {}, &Stroke::ticks).ticks();
   std::vector<double> sums(strokes.size());

@@ -13,6 +13,8 @@ namespace {
 
 /// A bound this much above what was found is as good as exact.
 constexpr double close_enough = 1.001;
+/// The share of the effort after which it is given up, if all that time the bound has not come down by a thousandth.
+constexpr long patience = 8;
 /// What an evaluation costs besides its instructions, in instructions.
 constexpr long evaluation_overhead = 40;
 
@@ -128,8 +130,11 @@ ForceBound force_bound(const Program& program, const Domain& domain, long effort
       open.push(std::move(part));
   };
   add(whole);
-  while (!open.empty() && splitting.evaluations() < most) {
+  double lowest = whole.bound;
+  long gained = splitting.evaluations();
+  while (!open.empty() && splitting.evaluations() < std::min(most, gained + most / patience + 1)) {
     const Part part = open.top();
+    if (part.bound * close_enough < lowest) lowest = part.bound, gained = splitting.evaluations();
     open.pop();
     if (const Quantity* quantity = splitting.widest(part)) {
       for (Part& half : splitting.halves(part, *quantity)) add(std::move(half));

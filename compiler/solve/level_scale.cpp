@@ -69,11 +69,13 @@ void check_levels(const Declarations& declarations, SourceId source, const std::
   const DeviceDeclaration* on = declarations.devices.find(device);
   if (!on) return;
   for (const Levels* levels : declarations.levels()) {
-    const Percept* percept = declarations.percepts.find(levels->percept);
-    if (levels->span.source != source || !percept || !percept->has_reference) continue;
-    const Map* map = choose_map(*percept, *on, declarations).map;
+    const Percept* declared = declarations.percepts.find(levels->percept);
+    if (levels->span.source != source || !declared || !declared->has_reference) continue;
+    if (on->profile.shaker && !on->realise.contains(declared->name)) continue;  // it renders none of them
+    const Percept percept = carried_on(*on, *declared, declarations);
+    const Map* map = choose_map(percept, *on, declarations).map;
     if (!map) continue;
-    const LevelScale scale(*percept, *map, declarations, *on);
+    const LevelScale scale(percept, *map, declarations, *on);
     std::vector<Levels::Level> sorted = levels->levels;
     std::ranges::stable_sort(sorted, {}, &Levels::Level::value);
     const Threshold* recalled = nullptr;

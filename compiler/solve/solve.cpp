@@ -204,7 +204,12 @@ class Solver {
   /// A percept that the device has no rule for, or no use of it.
   void lose(const AskedPercept& asked, const std::string& why = {}) {
     const std::string& device = device_->profile.name;
-    lost_[asked.name] = why.empty() ? fmt::format("`{}` has no realisation of {}", device, asked.name) : why;
+    const auto maps = declarations_.maps();
+    const bool told_by_shaking = std::ranges::any_of(maps, [&](const Map* map) {
+      return map->percept == asked.name && map->dimension == declarations_.dimension("acceleration");
+    });
+    const char* unknown = device_->profile.shaker && !told_by_shaking ? ", and no map ties it to shaking" : "";
+    lost_[asked.name] = why.empty() ? fmt::format("`{}` has no realisation of {}{}", device, asked.name, unknown) : why;
     if (asked.essential)
       report(Code::percept_unrealised, asked.span,
              fmt::format("`{}` cannot render {}, which is essential here", device, asked.name),

@@ -3,6 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <ctime>
+
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/extract/cues.hpp"
@@ -31,6 +33,7 @@ Program shipped(const std::string& file) {
 
 const Declarations& declarations() { return common_modules()->declarations; }
 
+Program velvet() { return shipped("fabric/velvet.wale"); }
 Program corduroy() { return shipped("fabric/corduroy.wale"); }
 Program perlin() { return made("force = lateral(1 mm * noise2(x / 2 mm, y / 2 mm), amplitude: 1 N)"); }
 Program spring() { return made("force = -120 N/m * hand"); }
@@ -58,14 +61,35 @@ void DescribeExtracted(benchmark::State& state, Program (*make)()) {
     benchmark::DoNotOptimize(description);
   }
 }
-/// All that `wale describe` tells.
+/// Processor time, s, of so many ticks as fill a plane of 256 by 256 places.
+double seconds_of_a_plane(const Bank& bank) {
+  constexpr std::size_t lines = 8, columns = 8192;
+  std::vector<Hand> hands(columns);
+  for (std::size_t i = 0; i < columns; ++i) hands[i].position = {static_cast<float>(i) * 5e-6f, 0};
+  std::vector<Force> forces(columns);
+  const std::clock_t begin = std::clock();
+  for (std::size_t line = 0; line < lines; ++line) {
+    tick_all(bank, hands, forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+/// All that `wale describe` tells. `planes`: how many times as long as the force at 256 by 256 places of it, which a
+/// busy machine leaves as it is.
 void Describe(benchmark::State& state, Program (*make)()) {
   const Bank bank(make());
+  double planes = seconds_of_a_plane(bank);
+  const std::clock_t begin = std::clock();
   for (auto _ : state) benchmark::DoNotOptimize(describe(bank, &declarations()));
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  planes += seconds_of_a_plane(bank);
+  state.counters["planes"] = seconds / static_cast<double>(state.iterations()) / (0.5 * planes);
 }
 
 #define EACH_MATERIAL(what)                                                       \
   BENCHMARK_CAPTURE(what, corduroy, corduroy)->Unit(benchmark::kMillisecond);     \
+  BENCHMARK_CAPTURE(what, velvet, velvet)->Unit(benchmark::kMillisecond);         \
   BENCHMARK_CAPTURE(what, grille, grille)->Unit(benchmark::kMillisecond);         \
   BENCHMARK_CAPTURE(what, perlin, perlin)->Unit(benchmark::kMillisecond);         \
   BENCHMARK_CAPTURE(what, photograph, photograph)->Unit(benchmark::kMillisecond); \

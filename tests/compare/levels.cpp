@@ -124,6 +124,19 @@ std::string said_of_levels(const std::string& text, const std::string& device) {
   return all;
 }
 
+TEST(Levels, OfWhatOnlyShakesAreOfShaking) {
+  // Nobody has published how small a difference of a pad's acceleration is noticed, so that nothing is proposed.
+  for (const char* percept : {"roughness", "vibration"}) {
+    const auto proposed = propose_levels(percept, "touch_pad", std::nullopt, 1, common_modules()->declarations);
+    ASSERT_TRUE(std::holds_alternative<std::string>(proposed)) << percept;
+    EXPECT_EQ(std::get<std::string>(proposed),
+              std::string("unknown: no published threshold says how little of ") + percept + " is noticed");
+  }
+  const auto spring = propose_levels("springiness", "touch_pad", std::nullopt, 1, common_modules()->declarations);
+  ASSERT_TRUE(std::holds_alternative<std::string>(spring));
+  EXPECT_EQ(std::get<std::string>(spring), "`touch_pad` only shakes, and has no realisation of springiness");
+}
+
 TEST(CloseLevels, AreJudgedOnTheDeviceAtHand) {
   // 8.4 N and 9.6 N: ln(9.6 / 8.4) / ln(1 + 0.0734) = 1.9 on the Sandpaper joystick; on the Falcon 8 N both.
   const std::string text =
