@@ -2,30 +2,23 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <iostream>
 #include <memory>
 #include <optional>
-#include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "calibration/asking_person.hpp"
-#include "calibration/felt_report.hpp"
+#include "calibration/feel/feel.hpp"
 #include "compiler/build_stage.hpp"
 #include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/modules/library_folders.hpp"
-#include "compiler/modules/load_modules.hpp"
 #include "compiler/open_file.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/text/spelling.hpp"
@@ -40,7 +33,7 @@
 namespace {
 
 using namespace wale;
-using command::Choice, command::misused, command::refuse, command::refused;
+using command::Choice, command::FeelOptions, command::misused, command::refuse, command::refused;
 
 std::atomic<bool> interrupted{false};
 
@@ -105,22 +98,6 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
   if (const auto problem = command::write_file(out, text)) return refuse(*problem);
   return 0;
 }
-
-struct FeelOptions {
-  Choice choice;
-  std::vector<std::string> settings;
-  std::string device;               ///< empty: `auto`
-  std::string built_for;            ///< empty: whatever suits the device
-  std::optional<std::string> hand;  ///< the simulated one's motion
-  std::string record;
-  std::optional<double> seconds;
-  bool virtual_time = false, json = false;
-  std::string max_force;
-  std::string against;
-  bool blind = false;
-  int trials = BlindOptions{}.trials;
-  std::optional<std::uint64_t> seed;
-};
 
 /// The devices that a file in this folder would know.
 std::vector<DescribedDevice> devices_here() {
@@ -210,112 +187,26 @@ void stop_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-/// A material to feel, with its parameters as set.
-std::optional<BlindMaterial> material_to_feel(const Choice& choice, const std::vector<std::string>& settings) {
-  const auto programs = command::load_programs(choice, false);
-  if (programs.empty()) return std::nullopt;
-  auto parameters = command::chosen_parameters(programs.front(), settings);
-  if (!parameters) return std::nullopt;
-  return BlindMaterial{programs.front(), *std::move(parameters)};
+/// What `feel` runs on.
+command::FeltOn felt_on(const FeelOptions& options, const DeviceToFeel& device) {
+  return {.is_felt = !device.chosen.plugged || device.chosen.plugged->kind != "pointer",
+          .built = [&device](Choice choice) { return device.built(std::move(choice)); },
+          .open = [&](const PatchProgram& program) { return device_for(options, device, program); },
+          .manner =
+              [&](const Device& opened) {
+                if (const auto* plugged = dynamic_cast<const HotPluggedDevice*>(&opened))
+                  return RunManner{in_words(*device.chosen.plugged), "yours", false, plugged->report()};
+                return RunManner{"simulated", options.hand.value_or("lateral"), options.virtual_time, std::nullopt};
+              }};
 }
 
+/// Runs until it is over, or the person ends it.
 int feel(const FeelOptions& options) {
-  const auto on = device_to_feel(options);
-  if (!on) return refused;
-  const auto material = material_to_feel(on->built(options.choice), options.settings);
-  if (!material) return refused;
-  const PatchProgram& program = material->program.description();
-  auto device = device_for(options, *on, program);
+  const auto device = device_to_feel(options);
   if (!device) return refused;
-  Stage stage(*device);
-  stage.place(material->program);
-  for (std::size_t i = 0; i < material->parameters.size(); ++i)
-    if (const auto refusal = stage.set(program.parameters[i].name, material->parameters[i]))
-      return refuse(refusal->reason);
-
-  double most_newton = HUGE_VAL;
-  if (!options.max_force.empty()) {
-    if (program.vibrates())
-      return refuse(fmt::format("`{}` only vibrates: it has no force to limit", program.device.name));
-    QuantityReader reader;
-    const auto most = reader.force("--max-force", options.max_force);
-    if (!most) {
-      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return refused;
-    }
-    most_newton = *most;
-  }
   stop_on_signals();
-  constexpr double usual_seconds = 5;
-  RunOptions run{.seconds = options.seconds.value_or(usual_seconds),
-                 .most_newton = most_newton,
-                 .virtual_time = options.virtual_time,
-                 .progress = {},
-                 .stop = &interrupted};
-  const bool live = isatty(fileno(stderr));
-  if (live)
-    run.progress = [vibrates = program.vibrates()](const Progress& now) {
-      fmt::print(stderr, "\r{}", progress_line(now, vibrates));
-    };
-  const auto result = stage.run(run);
-  if (live) fmt::print(stderr, "\r\033[K");
-  if (const auto* refusal = std::get_if<Refusal>(&result)) return refuse(refusal->reason);
-
-  const auto& done = std::get<RunResult>(result);
-  if (!options.record.empty()) {
-    std::ostringstream csv;
-    write_csv(csv, done.record);
-    if (const auto problem = command::write_file(options.record, csv.str())) return refuse(*problem);
-  }
-  RunManner manner{"simulated", options.hand.value_or("lateral"), options.virtual_time, std::nullopt};
-  if (const auto* plugged = dynamic_cast<const HotPluggedDevice*>(device.get()))
-    manner = {in_words(*on->chosen.plugged), "yours", false, plugged->report()};
-  const FeltReport report = felt_report(*stage.bank(), done, program.device, std::move(manner));
-  device.reset();  // one that draws gives the terminal back
-  fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
-  return 0;
-}
-
-/// Which of two was A?
-int feel_blind(const FeelOptions& options) {
-  Choice against = options.choice;
-  const NamedMaterial named = named_material(options.against);
-  against.file = named.file, against.material = named.material;
-  const auto on = device_to_feel(options);
-  if (!on) return refused;
-  const auto a = material_to_feel(on->built(options.choice), options.settings),
-             b = material_to_feel(on->built(against), {});
-  if (!a || !b) return refused;
-  const DeviceProfile& device = a->program.description().device;
-  if (b->program.description().device.name != device.name)
-    return refuse(fmt::format("A is built for `{}` and B for `{}`: both are felt on one device", device.name,
-                              b->program.description().device.name));
-  if (device.shaker) return refuse(fmt::format("`{}` only vibrates: what is compared blindly are forces", device.name));
-  if (on->chosen.plugged && on->chosen.plugged->kind == "pointer")
-    return refuse("nothing is felt on the pointer, so there is nothing to compare");
-  const auto joystick = device_for(options, *on, a->program.description());
-  if (!joystick) return refused;
-
-  const std::shared_ptr<const CommonModules> common = command::declared_everywhere();
-  const auto cues = [&](const BlindMaterial& material) {
-    return cues_of(Bank(material.program, material.parameters, material.program.default_size()), common->declarations);
-  };
-  BlindReport report{.a = a->program.description().material,
-                     .b = b->program.description().material,
-                     .device = device.name,
-                     .seed = options.seed ? *options.seed : std::random_device{}(),
-                     .asked = options.trials,
-                     .session = {},
-                     .predicted = Comparer(common->declarations, device.name).compare(cues(*a), cues(*b))};
-  stop_on_signals();
-  BlindOptions blind{
-      .trials = options.trials, .seed = report.seed, .virtual_time = options.virtual_time, .stop = &interrupted};
-  blind.seconds = options.seconds.value_or(blind.seconds);
-  AskingPerson person(std::cin, std::cerr, report.a, report.b, options.trials, isatty(fileno(stdin)));
-  report.session = feel_blind(*joystick, *a, *b, blind, person);
-  if (report.session.trials.empty()) return refuse(fmt::format("no trial was answered: {}", report.session.ended));
-  fmt::print("{}", options.json ? blind_json(report) : blind_text(report));
-  return 0;
+  const command::FeltOn on = felt_on(options, *device);
+  return options.blind ? command::feel_blind(options, on, interrupted) : command::feel(options, on, interrupted);
 }
 
 int devices(bool json) {
@@ -503,26 +394,43 @@ int main(int argc, char** argv) {
   verb->add_option("--hand", feeling.hand,
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   verb->add_option("--seconds", feeling.seconds, "how long (default: 5; with --blind 3 for each of the two)");
-  verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
-  auto* most = verb->add_option("--max-force", feeling.max_force, "the largest force allowed, as in \"3 N\"");
-  auto* record = verb->add_option("--record", feeling.record, "writes every tick to a CSV file");
+  auto* virtual_time =
+      verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
+  verb->add_option("--max-force", feeling.max_force, "the largest force allowed, as in \"3 N\"");
+  auto* record = verb->add_option("--record", feeling.record,
+                                  "records every tick: NAME.wrec as it happens, for `wale replay`; NAME.csv");
   auto* against = verb->add_option("--against", feeling.against, "another to tell it from: a file, or FILE:MATERIAL");
   auto* blind = verb->add_flag("--blind", feeling.blind,
                                "feels FILE (A) and the other (B) in random order and asks which of two was A")
                     ->needs(against)
-                    ->excludes(record)
-                    ->excludes(most);
+                    ->excludes(record);
   against->needs(blind);
   verb->add_option("--trials", feeling.trials, "how often it asks (default: 12)")
       ->needs(blind)
       ->check(CLI::Range(1, 1000));
   verb->add_option("--seed", feeling.seed, "of the random order (default: another each time)")->needs(blind);
+  verb->add_flag("--watch", feeling.watch,
+                 "feels the file anew whenever it is saved; until Ctrl-C unless --seconds say so")
+      ->excludes(blind)
+      ->excludes(virtual_time);
   verb->add_flag("--json", feeling.json, "the report as a JSON object");
   verb->footer("for example: wale feel library/fabric/velvet.wale --against library/fabric/denim.wale --blind");
   verb->callback([&, built_for = verb->get_option("--built-for")] {
     if (built_for->count() > 0) feeling.built_for = feeling.choice.device;
-    status = feeling.blind ? feel_blind(feeling) : feel(feeling);
+    status = feel(feeling);
   });
+
+  verb = app.add_subcommand("replay", "runs a recording's programs again on what its device told, and compares");
+  command::ReplayOptions replaying;
+  verb->add_option("FILE", replaying.file, "a recording that `wale feel --record` made (.wrec)")->required();
+  verb->add_option("--csv", replaying.csv, "writes every tick to a CSV file");
+  verb->add_option("--wav", replaying.wav,
+                   "writes the force as sound: x left, y right, the device's peak force full scale");
+  verb->add_option("--ticks", replaying.ticks, "only the first so many, of a damaged one those before the damage")
+      ->type_name("N");
+  verb->add_flag("--json", replaying.json, "as a JSON object");
+  verb->footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
+  verb->callback([&] { status = command::replay(replaying); });
 
   verb = app.add_subcommand("sample", "the program's force at given hands, open loop; outside the patch it is zero");
   offer(*verb, choice);

@@ -21,8 +21,11 @@ class Interval {
     const auto& parameters = material.program.description().parameters;
     for (std::size_t i = 0; i < material.parameters.size(); ++i)
       if (const auto refusal = stage_.set(parameters[i].name, material.parameters[i])) return refusal->reason;
-    const auto result = stage_.run(
-        {.seconds = options_.seconds, .virtual_time = options_.virtual_time, .progress = {}, .stop = options_.stop});
+    const auto result = stage_.run({.seconds = options_.seconds,
+                                    .most_newton = options_.most_newton,
+                                    .virtual_time = options_.virtual_time,
+                                    .progress = {},
+                                    .stop = options_.stop});
     if (const auto* refusal = std::get_if<Refusal>(&result)) return refusal->reason;
     if (options_.stop && *options_.stop) return "interrupted";
     const auto& run = std::get<RunResult>(result);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,8 +28,9 @@ struct BlindTrial {
 
 struct BlindOptions {
   int trials = 12;
-  std::uint64_t seed = 0;  ///< of the order: each trial's is drawn for itself, both orders as likely
-  double seconds = 3;      ///< of an interval
+  std::uint64_t seed = 0;         ///< of the order: each trial's is drawn for itself, both orders as likely
+  double seconds = 3;             ///< of an interval
+  double most_newton = HUGE_VAL;  ///< the largest force that the user allows
   bool virtual_time = false;
   const std::atomic<bool>* stop = nullptr;  ///< as in `RunOptions`
 };

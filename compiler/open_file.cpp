@@ -35,7 +35,7 @@ OpenedFile open_file(const FileRequest& request) {
       opened.program = std::get<Program>(std::move(loaded));
     return opened;
   }
-  const auto resolver = file_resolver(request.roots);
+  const auto resolver = file_resolver(request.roots, request.looked_for);
   opened.source = opened.sources.add(request.file, std::move(bytes));
   opened.module = check_source(opened.sources, opened.source, *resolver, opened.diagnostics);
   if (!opened.diagnostics.has_errors())
@@ -45,7 +45,7 @@ OpenedFile open_file(const FileRequest& request) {
 
 std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,
                                       Diagnostics& diagnostics) {
-  const auto resolver = file_resolver(request.roots);
+  const auto resolver = file_resolver(request.roots, request.looked_for);
   return compile_material(*opened.module, material, request.device, opened.sources, opened.source, *resolver,
                           diagnostics);
 }

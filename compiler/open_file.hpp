@@ -15,7 +15,8 @@ namespace wale {
 struct FileRequest {
   std::string file;
   std::string device = default_device;
-  std::vector<std::string> roots;  ///< folders in which imports are looked for at last
+  std::vector<std::string> roots;                  ///< folders in which imports are looked for at last
+  std::vector<std::string>* looked_for = nullptr;  ///< gets the paths of what it imports or shows, found or not
 };
 
 /// FILE, or FILE:MATERIAL where there is no file of that whole name.

@@ -83,6 +83,7 @@ struct State {
   std::string name;
   float low = 0, high = 0;
   RegisterNumber initial = 0, next = 0;
+  std::string si_unit;  ///< the coherent unit of its dimension, by which a state of another program is the same one
 
   friend bool operator==(const State&, const State&) = default;
 };
@@ -93,6 +94,7 @@ struct Grid {
   std::string name;
   std::uint32_t columns = 0, rows = 0;
   float initial = 0, low = 0, high = 0;
+  std::string si_unit;  ///< as a state's
 
   friend bool operator==(const Grid&, const Grid&) = default;
 };

@@ -47,9 +47,10 @@ std::vector<Peak> read_peaks(ByteReader& in) {
 }
 
 void read_states(ByteReader& in, PatchProgram& program) {
-  program.states.resize(in.count(16, "states"));
+  program.states.resize(in.count(20, "states"));
   for (State& state : program.states) {
     state.name = in.text("a state's name");
+    state.si_unit = in.text("a state's unit");
     state.low = in.finite_f32("a state's range");
     state.high = in.finite_f32("a state's range");
     state.initial = in.u16();
@@ -62,9 +63,10 @@ void read_states(ByteReader& in, PatchProgram& program) {
 }
 
 void read_grids(ByteReader& in, PatchProgram& program) {
-  program.grids.resize(in.count(24, "grids"));
+  program.grids.resize(in.count(28, "grids"));
   for (Grid& grid : program.grids) {
     grid.name = in.text("a grid's name");
+    grid.si_unit = in.text("a grid's unit");
     grid.columns = in.u32();
     grid.rows = in.u32();
     grid.initial = in.finite_f32("a grid's initial value");

@@ -72,6 +72,7 @@ void write_states(ByteWriter& out, const PatchProgram& program) {
   out.u32(program.states.size());
   for (const State& state : program.states) {
     out.text(state.name);
+    out.text(state.si_unit);
     out.f32(state.low);
     out.f32(state.high);
     out.u16(state.initial);
@@ -84,6 +85,7 @@ void write_grids(ByteWriter& out, const PatchProgram& program) {
   out.u32(program.grids.size());
   for (const Grid& grid : program.grids) {
     out.text(grid.name);
+    out.text(grid.si_unit);
     out.u32(grid.columns);
     out.u32(grid.rows);
     out.f32(grid.initial);

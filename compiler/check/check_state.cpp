@@ -100,6 +100,7 @@ void StatementChecker::operator()(const StateStatement& node) {
                                  .high = range->high,
                                  .initial = first,
                                  .next = now,
+                                 .si_unit = declarations().names().unit(initial.dimension),
                                  .span = node.name.span});
     return now;
   };
@@ -146,6 +147,7 @@ void StatementChecker::operator()(const MemoryStatement& node) {
                                 .high = range->high,
                                 .cell = *cell,
                                 .next = {},
+                                .si_unit = declarations().names().unit(initial.dimension),
                                 .span = node.name.span});
   const Field field{
       .kind = Field::Kind::memory, .from = declarations().dimension("length"), .to = initial.dimension, .index = index};

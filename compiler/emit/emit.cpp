@@ -78,7 +78,8 @@ class Emitter {
       program_.states.push_back({.name = state.name,
                                  .low = static_cast<float>(state.low),
                                  .high = static_cast<float>(state.high),
-                                 .initial = at(lowered_.states[i].initial)});
+                                 .initial = at(lowered_.states[i].initial),
+                                 .si_unit = state.si_unit});
     }
   }
 

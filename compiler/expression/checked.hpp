@@ -39,6 +39,7 @@ struct CheckedState {
   double low = 0, high = 0;  ///< SI
   TermId initial = 0;        ///< as the hand enters
   TermId next = 0;           ///< after the tick
+  std::string si_unit;       ///< of its dimension
   Span span;
 };
 
@@ -54,6 +55,7 @@ struct CheckedMemory {
   double initial = 0, low = 0, high = 0;  ///< SI
   double cell = 0;                        ///< width of a cell, m
   std::optional<CheckedWrite> next;       ///< where the hand is
+  std::string si_unit;                    ///< of its dimension
   Span span;
 };
 

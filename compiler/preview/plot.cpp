@@ -8,12 +8,12 @@
 namespace wale {
 namespace {
 
-struct Range {
+struct AxisRange {
   double low = 0, high = 0;
 };
 
 /// The y axis of a plot, in shown units, with air above and below the curves.
-Range y_range(const Plot& plot) {
+AxisRange y_range(const Plot& plot) {
   double low = 1e300, high = -1e300;
   for (const Curve& curve : plot.curves) {
     for (double value : curve.profile.values) low = std::min(low, value), high = std::max(high, value);
@@ -46,9 +46,9 @@ void write_key(Canvas& canvas, const PageBox& box, const Plot& plot) {
 }  // namespace
 
 void draw_plot(Canvas& canvas, const PageBox& box, const Plot& plot) {
-  const Range y = y_range(plot);
+  const AxisRange y = y_range(plot);
   const Profile& first = plot.curves.front().profile;
-  const Range x = {first.at.front() * plot.x_notation.per_si, first.at.back() * plot.x_notation.per_si};
+  const AxisRange x = {first.at.front() * plot.x_notation.per_si, first.at.back() * plot.x_notation.per_si};
   const auto page_x = [&](double shown) { return box.left + (shown - x.low) / (x.high - x.low) * box.width(); };
   const auto page_y = [&](double shown) { return box.bottom - (shown - y.low) / (y.high - y.low) * box.height(); };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "compiler/measure/rehearsal.hpp"
 #include "compiler/preview/axis.hpp"
@@ -13,12 +14,14 @@
 #include "compiler/preview/marks.hpp"
 #include "compiler/preview/plot.hpp"
 #include "compiler/preview/relief.hpp"
+#include "compiler/preview/spectrum_panel.hpp"
 #include "compiler/preview/style.hpp"
 
 namespace wale {
 namespace {
 
 constexpr int page_width = 1600, page_height = 1000;
+constexpr int page_height_with_spectrum = 1330;
 constexpr double margin = 64;
 constexpr PageBox picture = {margin, 196, margin + 580, 776};
 constexpr PageBox upper_plot = {764, 226, page_width - margin, 456};
@@ -27,6 +30,10 @@ constexpr PageBox lower_plot = {764, 534, page_width - margin, 776};
 constexpr PageBox upper_of_two = {764, 226, page_width - margin, 438};
 constexpr PageBox lower_of_two = {764, 564, page_width - margin, 776};
 constexpr PageBox tall_plot = {764, 226, page_width - margin, 776};
+// Below the words at the foot.
+constexpr PageBox spectrum_plot = {margin + 70, 1050, margin + 650, 1250};
+constexpr PageBox spectrogram_plot = {margin + 770, 1050, page_width - margin, 1250};
+constexpr double least_force = 1e-4;  // N; weaker ones are none
 constexpr int curve_points = 1801;
 constexpr double stroking_speed = 0.1;  // m/s; of the second force curve, where motion is resisted
 
@@ -212,6 +219,17 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
   canvas.write_within({margin, 957}, width, text.evidence, style::label);
 }
 
+/// What there is to hear of a stroke, where the force is one and changes on the way.
+std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit) {
+  if (bank.program().description().vibrates()) return std::nullopt;
+  const FeltStroke felt = felt_along(bank, exhibit);
+  FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
+  const auto& amplitudes = spectrum.amplitudes;
+  if (amplitudes.empty() || !(*std::max_element(amplitudes.begin(), amplitudes.end()) > least_force))
+    return std::nullopt;
+  return spectrum;
+}
+
 }  // namespace
 
 Drawing draw_preview(const Bank& bank, const PreviewText& text) {
@@ -219,7 +237,8 @@ Drawing draw_preview(const Bank& bank, const PreviewText& text) {
   const Rehearsal rehearsal = rehearse(bank);
   const Exhibit exhibit = exhibit_of(bank, &rehearsal.memory);
   const bool of_velocity = !exhibit.pushes_at_rest && exhibit.resists_motion;
-  Canvas canvas(page_width, page_height, style::paper);
+  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit);
+  Canvas canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
   write_words(canvas, bank, text);
   if (exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() || remembers(program)) {
     draw_surface(canvas, bank, exhibit, rehearsal);
@@ -249,6 +268,11 @@ Drawing draw_preview(const Bank& bank, const PreviewText& text) {
     draw_force_plots(canvas, bank, exhibit, of_velocity);
   }
   canvas.outline(picture, {1, style::rule});
+  if (spectrum) {
+    canvas.line({margin, 985}, {page_width - margin, 985}, {1, style::rule});
+    draw_spectrum(canvas, spectrum_plot, *spectrum);
+    draw_spectrogram(canvas, spectrogram_plot, *spectrum);
+  }
   return canvas.finish();
 }
 

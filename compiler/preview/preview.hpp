@@ -25,8 +25,9 @@ struct PreviewText {
 /// force and the parameters at the bank's values, and the evidence of its maps.
 PreviewText preview_text(const Bank& bank);
 
-/// The picture a designer would pin to the wall, 1600 x 1000: shaded relief with a scale bar, height and force along a
-/// line through the centre, and the words.
+/// The picture a designer would pin to the wall, 1600 x 1330: shaded relief with a scale bar, height and force along a
+/// line through the centre, the words, and the spectrum and the spectrogram of the force on a hand that strokes to and
+/// fro along that line. A pad, and what does not push such a hand, has no spectrum, and a page of 1600 x 1000.
 ///
 /// A program whose relief is constant shows its force field as arrows instead; one that only resists motion shows the
 /// force against velocity. A program that says colours, shows marks or remembers shows its surface whatever its relief;

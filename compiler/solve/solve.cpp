@@ -302,7 +302,8 @@ class Solver {
                                   .rows = static_cast<std::uint32_t>(rows),
                                   .initial = static_cast<float>(memory.initial),
                                   .low = static_cast<float>(memory.low),
-                                  .high = static_cast<float>(memory.high)});
+                                  .high = static_cast<float>(memory.high),
+                                  .si_unit = memory.si_unit});
     }
   }
 

@@ -30,7 +30,8 @@ constexpr std::size_t most_modules = 1000;
 
 class FileResolver final : public Resolver {
  public:
-  explicit FileResolver(std::vector<std::string> roots) : roots_(std::move(roots)) {}
+  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for)
+      : roots_(std::move(roots)), looked_for_(looked_for) {}
 
   std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) override {
     std::string relative = path;
@@ -104,6 +105,7 @@ class FileResolver final : public Resolver {
     for (const auto& root : roots_) candidates.push_back(fs::path(root) / name);
     for (const auto& candidate : candidates) {
       std::error_code ignored;
+      if (looked_for_ != nullptr) looked_for_->push_back(candidate.lexically_normal().string());
       if (fs::exists(candidate, ignored)) return read_file(candidate.lexically_normal().string());
     }
     std::string searched;
@@ -135,14 +137,15 @@ class FileResolver final : public Resolver {
   }
 
   std::vector<std::string> roots_;
+  std::vector<std::string>* looked_for_;
   std::map<std::string, std::optional<fs::path>> projects_;
   std::set<std::string> modules_;  ///< all that were asked for
 };
 
 }  // namespace
 
-std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots) {
-  return std::make_unique<FileResolver>(std::move(roots));
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for) {
+  return std::make_unique<FileResolver>(std::move(roots), looked_for);
 }
 
 std::variant<ResolvedFile, ResolveProblem> read_file(const std::string& path) {

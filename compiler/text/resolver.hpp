@@ -41,8 +41,8 @@ inline constexpr const char* project_marker = "wale.project";
 
 /// Looks beside the file that asks, then in the project that it belongs to (the nearest folder above it that holds a
 /// `wale.project`), then in each of the roots; files over 512 MiB, modules over 4 MiB and more than a thousand modules
-/// are refused.
-std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots);
+/// are refused. `looked_for` gets the paths of all files that it looks for, found or not, and outlives it.
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr);
 
 /// Reads a whole file, or says why not (missing, a folder, unreadable, too large).
 std::variant<ResolvedFile, ResolveProblem> read_file(const std::string& path);

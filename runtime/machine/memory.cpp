@@ -24,11 +24,12 @@ Memory::Memory(const Program& program, std::shared_ptr<Memory> predecessor) : Me
   const PatchProgram &here = program.description(), &there = predecessor_->program().description();
   for (std::size_t i = 0; i < here.states.size(); ++i) {
     const auto same = std::ranges::find(there.states, here.states[i].name, &State::name);
-    if (same == there.states.end()) continue;
+    if (same == there.states.end() || same->si_unit != here.states[i].si_unit) continue;
     kept_states_.emplace_back(static_cast<std::uint16_t>(same - there.states.begin()), static_cast<std::uint16_t>(i));
   }
   const auto same_shape = [](const Grid& a, const Grid& b) {
-    return a.name == b.name && a.columns == b.columns && a.rows == b.rows && a.low == b.low && a.high == b.high;
+    return a.name == b.name && a.columns == b.columns && a.rows == b.rows && a.low == b.low && a.high == b.high &&
+           a.si_unit == b.si_unit;
   };
   keeps_grids_ = !here.grids.empty() && std::ranges::equal(here.grids, there.grids, same_shape);
 }

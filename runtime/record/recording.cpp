@@ -151,7 +151,8 @@ class RecordingReader {
     if (entry.sequence != number + 1 || entry.check != check_of(entry)) return "is damaged";
     if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost)) return "has a contact that is none";
     if (entry.period < 0 || entry.period > most_periods) return "has a period that is none";
-    if (number > 0 && entry.elapsed == 0) return "comes no period after the one before";
+    if (number > 0 && (entry.elapsed == 0 || entry.period <= before.period))
+      return "comes no period after the one before";
     for (const std::int32_t counts : entry.counts)
       if (counts < -most_counts || counts > most_counts) return "has counts that no encoder has";
     if (entry.revision < before.revision) return "goes back to an older stage";

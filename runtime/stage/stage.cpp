@@ -117,6 +117,7 @@ struct Placement {
     for (std::size_t i = 0; i < known.size(); ++i) {
       const auto before = old.program.parameter(known[i].name);
       if (!before || old.program.description().parameters[*before].si_unit != known[i].si_unit) continue;
+      if (old.parameters[*before] == old.program.description().parameters[*before].value) continue;  // nobody set it
       parameters[i] = std::clamp(old.parameters[*before], known[i].low, known[i].high);
     }
   }

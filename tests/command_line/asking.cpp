@@ -7,7 +7,8 @@
 namespace wale::command_line::asking_test {
 namespace {
 
-const std::vector<std::string> verbs{"check", "explain", "build", "describe", "feel", "sample", "preview", "devices"};
+const std::vector<std::string> verbs{"check",  "explain", "build",   "describe", "feel",
+                                     "replay", "sample",  "preview", "devices"};
 
 TEST(Help, TellsADesignerACuratorAndAProgrammerWhereToStart) {
   const Outcome help = wale({"--help"});

@@ -42,7 +42,7 @@ Drawing draw(const Bank& bank) { return draw_preview(bank, preview_text(bank)); 
 TEST(Preview, ReliefRepeatsWithThePeriodAndAcrossTheRibsNotAtAll) {
   const Drawing drawing = draw(sine_grating(0.004f, 1));
   ASSERT_EQ(drawing.width, 1600);
-  ASSERT_EQ(drawing.height, 1000);
+  ASSERT_EQ(drawing.height, 1330);
   // Eight periods over 580 pixels: two are 145. In the outermost period a hollow has only one side to shade it.
   constexpr int two_periods = picture_side / 4, edge = picture_side / 8;
   int least = 999, most = 0;

@@ -185,15 +185,39 @@ TEST(Replacing, KeepsParametersAndStatesOfTheSameNameAndStartsTheOthers) {
   EXPECT_NEAR(ticks[180].force.x, 0.004 * 1, 1e-5) << "a state of another name is another state";
 }
 
+TEST(Replacing, AStateOfAnotherUnitIsAnotherState) {
+  const auto counting_in = [](const std::string& unit) {
+    PatchProgram program = counting().description();
+    program.states[0].si_unit = unit;
+    return std::get<Program>(Program::load(program));
+  };
+  Puppet device([](long) { return Reading{}; });
+  Stage stage(device);
+  stage.place(counting_in("m"));
+  const auto result = run(stage, 300, [&](const Progress& now) {
+    if (now.ticks_run == 90) {
+      EXPECT_FALSE(stage.replace(0, counting_in("m")));
+    }
+    if (now.ticks_run == 180) {
+      EXPECT_FALSE(stage.replace(0, counting_in("kg")));
+    }
+  });
+  EXPECT_NEAR(result.record.ticks[90].force.x, 0.090, 1e-6);
+  EXPECT_NEAR(result.record.ticks[180].force.x, 0, 1e-6) << "kilograms are no metres";
+  EXPECT_NEAR(result.record.ticks[299].force.x, 0.119, 1e-6);
+  EXPECT_NEAR(result.record.ticks[180].force.y, 0, 1e-6) << "the other state is the same one";
+}
+
 TEST(Replacing, SeveralTimesBeforeATickTakesTheLastAndLosesNothing) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
   stage.place(counting());
+  ASSERT_FALSE(stage.set("gain", 0.002f));
   const auto result = run(stage, 200, [&](const Progress& now) {
     if (now.ticks_run != 90) return;
     for (const float gain : {0.3f, 0.2f, 0.4f}) EXPECT_FALSE(stage.replace(0, counting_too(gain)));
   });
-  EXPECT_NEAR(result.record.ticks[90].force.x, 0.001 * 90, 1e-5);
+  EXPECT_NEAR(result.record.ticks[90].force.x, 0.002 * 90, 1e-5);
   EXPECT_TRUE(stage.replace(3, counting()));
 }
 
@@ -206,7 +230,7 @@ TEST(Replacing, WhereTheHandIsNotStatesBeginWhenItComes) {
       EXPECT_FALSE(stage.replace(0, counting_too(0.1f)));
     }
   });
-  EXPECT_NEAR(result.record.ticks[151].force.x, 0.001 * 1, 1e-5);
+  EXPECT_NEAR(result.record.ticks[151].force.x, 0.1 * 1, 1e-5) << "a gain that nobody set is the new program's";
 }
 
 TEST(Replacing, KeepsWhatWasPressedIntoTheGround) {

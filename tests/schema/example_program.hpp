@@ -78,9 +78,9 @@ inline PatchProgram program() {
   p.picture.marks = {{MarkKind::point, {0, 1, 46}, 0xff8000},
                      {MarkKind::spring, {0, 1, 34, 34, 35}, 0x102030},
                      {MarkKind::line, {0, 1, 34, 34}, 0}};
-  p.states = {{"wear", -1.0f, 1.0f, 43, 44}};
+  p.states = {{"wear", -1.0f, 1.0f, 43, 44, "m"}};
   p.enter = {instruction(multiply, 43, 16, 35)};
-  p.grids = {{"trace", 4, 3, 0.25f, 0.0f, 1.0f}, {"dot", 1, 1, -1.0f, -2.0f, 2.0f}};
+  p.grids = {{"trace", 4, 3, 0.25f, 0.0f, 1.0f, "kg"}, {"dot", 1, 1, -1.0f, -2.0f, 2.0f}};
   p.writes = {{0, 43, 1, 44}, {1, 34, 34, 42}};
   p.tables = {{3, 2, {0, 65535, 100, 7, 8, 9}}};
   p.patch_width = 0.1f;

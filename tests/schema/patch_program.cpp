@@ -73,6 +73,7 @@ TEST(PatchProgram, StatesGridsAndMarksAreLaidOutAsDocumented) {
   Bytes states;
   wpp::append(states, 1, 4);
   wpp::append_text(states, "wear");
+  wpp::append_text(states, "m");
   wpp::append(states, 0xbf800000, 4);  // -1
   wpp::append(states, 0x3f800000, 4);
   wpp::append(states, 43, 2);
@@ -84,10 +85,12 @@ TEST(PatchProgram, StatesGridsAndMarksAreLaidOutAsDocumented) {
   Bytes grids;
   wpp::append(grids, 2, 4);
   wpp::append_text(grids, "trace");
+  wpp::append_text(grids, "kg");
   wpp::append(grids, 4, 4);
   wpp::append(grids, 3, 4);
   for (const std::uint32_t figure : {0x3e800000u, 0u, 0x3f800000u}) wpp::append(grids, figure, 4);  // 0.25, 0, 1
   wpp::append_text(grids, "dot");
+  wpp::append_text(grids, "");
   wpp::append(grids, 1, 4);
   wpp::append(grids, 1, 4);
   for (const std::uint32_t figure : {0xbf800000u, 0xc0000000u, 0x40000000u})

@@ -174,9 +174,9 @@ TEST(Refusals, FiguresThatAreNone) {
   constexpr std::uint64_t nan32 = 0x7fc00000, inf64 = 0x7ff0000000000000;
   EXPECT_EQ(refusal_of_content("PTCH", [](Bytes& b) { wpp::put(b, 4, nan32, 4); }),
             "section PTCH holds nan for the patch's height, which is no figure");
-  EXPECT_EQ(refusal_of_content("STAT", [](Bytes& b) { wpp::put(b, 4 + (4 + 4) + 4, nan32, 4); }),
+  EXPECT_EQ(refusal_of_content("STAT", [](Bytes& b) { wpp::put(b, 4 + (4 + 4) + (4 + 1) + 4, nan32, 4); }),
             "section STAT holds nan for a state's range, which is no figure");
-  EXPECT_EQ(refusal_of_content("GRID", [](Bytes& b) { wpp::put(b, 4 + (4 + 5) + 8, nan32, 4); }),
+  EXPECT_EQ(refusal_of_content("GRID", [](Bytes& b) { wpp::put(b, 4 + (4 + 5) + (4 + 2) + 8, nan32, 4); }),
             "section GRID holds nan for a grid's initial value, which is no figure");
   EXPECT_EQ(refusal_of_content("DEVI", [](Bytes& b) { wpp::put(b, 4 + 5 + 8 * 4, inf64, 8); }),
             "section DEVI holds inf for the rate, which is no figure");

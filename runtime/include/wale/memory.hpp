@@ -22,8 +22,8 @@ class Memory {
   /// Allocates all that the program will ever remember.
   explicit Memory(const Program& program);
 
-  /// Allocates it for a program that takes the place of another one: what has the same name as in `predecessor`'s
-  /// program (grids: all of them the same names and sizes) goes on from there, once `succeed` is called.
+  /// Allocates it for a program that takes the place of another one: what has the same name and unit as in
+  /// `predecessor`'s program (grids: all of them the same names, units and sizes) goes on from there, once `succeed` is called.
   Memory(const Program& program, std::shared_ptr<Memory> predecessor);
 
   /// Takes over from the predecessor, which has taken over from its own, what goes on: the grids and, where the hand

@@ -132,8 +132,10 @@ class Stage {
   std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
 
   /// Puts another program in the place of a patch's: same place, same layer, its own size where the patch had its own.
-  /// Parameters keep their values where they have the same name and unit (held in their new ranges), states where they
-  /// have the same name and the hand stays on the patch, and memories where all have the same names, sizes and bounds.
+  /// Parameters that are not at their defaults keep their values where they have the same name and unit (held in their
+  /// new ranges), states where they
+  /// have the same name and unit and the hand stays on the patch, and memories where all have the same names, units,
+  /// sizes and bounds.
   /// Takes effect within one tick of being ready, and slews. Refused when there is no such patch.
   std::optional<Refusal> replace(std::size_t patch, const Program& program);
 

@@ -1,0 +1,69 @@
+#include "calibration/feel/material_watch.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "compiler/diagnostics/render.hpp"
+
+namespace wale {
+
+MaterialWatch::MaterialWatch(command::Choice choice, Stage& stage, const Program& felt,
+                             std::function<void(const std::string&)> say)
+    : choice_(std::move(choice)),
+      stage_(stage),
+      say_(std::move(say)),
+      felt_(write_patch_program(felt.description())),
+      vibrates_(felt.description().vibrates()),
+      device_(felt.description().device.name) {}
+
+MaterialWatch::Outcome MaterialWatch::attend(std::chrono::milliseconds wait) {
+  if (std::exchange(begun_, true) && !files_.changed(wait)) return Outcome::nothing;
+  return look();
+}
+
+MaterialWatch::Outcome MaterialWatch::look() {
+  std::vector<std::string> looked_for;
+  FileRequest request = choice_.request();
+  request.looked_for = &looked_for;
+  OpenedFile opened;
+  std::optional<Program> program;
+  do {
+    looked_for.clear();
+    opened = open_file(request);
+    program = opened.program;
+    if (opened.module && !opened.diagnostics.has_errors())
+      program = compile_opened(opened, request, choice_.material, opened.diagnostics);
+    looked_for.push_back(choice_.file);
+  } while (files_.follow(looked_for));  // again, as long as a folder comes that was not watched while it was read
+
+  if (!opened.refusal.empty()) return refuse(fmt::format("wale: {}\n", opened.refusal));
+  std::string said;
+  for (const auto& diagnostic : opened.diagnostics.all())
+    said += render_text(diagnostic, opened.sources, isatty(fileno(stderr)) != 0) + "\n";
+  if (!program || opened.diagnostics.has_errors()) return refuse(said);
+  const PatchProgram& now = program->description();
+  if (now.vibrates() != vibrates_ || now.device.name != device_)
+    return refuse(
+        fmt::format("wale: `{}` is built for `{}` now, and is felt on `{}`\n", now.material, now.device.name, device_));
+  auto bytes = write_patch_program(now);
+  const bool was_refused = !std::exchange(refused_, {}).empty();
+  if (bytes == felt_) {
+    if (was_refused) say_(fmt::format("wale: `{}` is what is felt already\n", now.material));
+    return Outcome::nothing;
+  }
+  if (const auto refusal = stage_.replace(0, *program)) return refuse(fmt::format("wale: {}\n", refusal->reason));
+  felt_ = std::move(bytes);
+  say_(said + fmt::format("wale: `{}` is felt anew\n", now.material));
+  return Outcome::replaced;
+}
+
+MaterialWatch::Outcome MaterialWatch::refuse(std::string why) {
+  if (why != refused_) say_(why + "wale: what was felt before is felt on\n");
+  refused_ = std::move(why);
+  return Outcome::refused;
+}
+
+}  // namespace wale

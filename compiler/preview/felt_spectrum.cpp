@@ -1,0 +1,76 @@
+#include "compiler/preview/felt_spectrum.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <numeric>
+
+#include "compiler/extract/band_spectrum.hpp"
+#include "compiler/extract/fourier.hpp"
+#include "compiler/measure/strokes.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double felt_seconds = 2;
+constexpr double window_seconds = 1.0 / 7;
+constexpr std::size_t steps_a_window = 8;
+constexpr double turn = 6.283185307179586;
+
+}  // namespace
+
+FeltStroke felt_along(Bank bank, const Exhibit& exhibit) {
+  const DeviceProfile& device = bank.program().description().device;
+  FeltStroke felt{.rate = device.rate > 0 ? device.rate : 1000, .forces = {}};
+  double reach = room_to_stroke(bank.size()), frequency = 1;
+  if (const HandDeclaration* hand = common_modules()->declarations.hands.find("showing")) {
+    reach = std::min(reach, hand->lateral_amplitude);
+    frequency = hand->lateral_frequency;
+  }
+  const auto place = [&](double time) {
+    glm::dvec2 at(exhibit.aside);
+    at[exhibit.axis] = -reach * std::cos(turn * frequency * time);  // begins where it turns, at rest
+    return at;
+  };
+  Memory memory(bank.program());
+  memory.enter(bank, hand_along(place, 0, 1 / felt.rate));
+  const long ticks = std::lround(felt_seconds * felt.rate);
+  for (long i = 0; i < ticks; ++i) {
+    const Force force = tick(bank, memory, hand_along(place, static_cast<double>(i) / felt.rate, 1 / felt.rate));
+    felt.forces.push_back(std::isfinite(force[exhibit.axis]) ? force[exhibit.axis] : 0);
+  }
+  return felt;
+}
+
+FeltSpectrum spectrum_of(std::span<const float> signal, double rate) {
+  FeltSpectrum spectrum;
+  spectrum.seconds = static_cast<double>(signal.size()) / rate;
+  const auto wanted = static_cast<std::size_t>(std::max(8.0, window_seconds * rate));
+  const std::size_t length = std::min(std::bit_floor(wanted), std::bit_floor(std::max<std::size_t>(signal.size(), 1)));
+  if (length < 8) return spectrum;
+  const std::vector<float> window = hann_window(length);
+  const double gain = std::accumulate(window.begin(), window.end(), 0.0);
+  const double mean = std::accumulate(signal.begin(), signal.end(), 0.0) / static_cast<double>(signal.size());
+  const std::size_t lines = length / 2 + 1;
+  for (std::size_t line = 0; line < lines; ++line)
+    spectrum.frequencies.push_back(static_cast<double>(line) * rate / static_cast<double>(length));
+  std::vector<double> squares(lines, 0.0);
+  std::vector<std::complex<float>> part(length);
+  for (std::size_t first = 0; first + length <= signal.size(); first += length / steps_a_window) {
+    for (std::size_t i = 0; i < length; ++i) part[i] = static_cast<float>((signal[first + i] - mean) * window[i]);
+    const Spectrum coefficients = fourier_of_line(part);
+    std::vector<double>& amplitudes = spectrum.windows.emplace_back();
+    for (std::size_t line = 0; line < lines; ++line) {
+      const bool alone = line == 0 || 2 * line == length;  // has no mirror image
+      amplitudes.push_back((alone ? 1 : 2) * std::abs(coefficients[line]) / gain);
+      squares[line] += amplitudes.back() * amplitudes.back();
+    }
+  }
+  for (const double square : squares)
+    spectrum.amplitudes.push_back(std::sqrt(square / static_cast<double>(spectrum.windows.size())));
+  return spectrum;
+}
+
+}  // namespace wale

@@ -1,0 +1,215 @@
+// A file that is watched while it is felt: whatever way it is saved, and with errors.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "calibration/feel/material_watch.hpp"
+#include "compiler/open_file.hpp"
+#include "wale/simulated.hpp"
+
+namespace wale::watching_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Outcome = MaterialWatch::Outcome;
+
+/// Long enough on any machine; nobody waits for it but where something is wrong.
+constexpr std::chrono::seconds long_enough{60};
+/// For what should not happen.
+constexpr std::chrono::milliseconds short_while{40};
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "wale-watching-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  /// In place: cut to nothing and written.
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return *this / name;
+  }
+  /// As most editors: beside it, then renamed.
+  void write_and_rename(const std::string& name, const std::string& text) const {
+    write("." + name + ".swp", text);
+    fs::rename(path_ / ("." + name + ".swp"), path_ / name);
+  }
+
+ private:
+  fs::path path_;
+};
+
+std::string pushing(double newton, const std::string& more = {}) {
+  return "wale 1\nmaterial m {\n  physical {\n    param push = " + std::to_string(newton) +
+         " N in -5 N .. 5 N\n    force = vector(push, 0 N)\n" + more + "  }\n}\n";
+}
+
+/// A stage that feels a file, and the watch that keeps it to it.
+struct Watched {
+  explicit Watched(const std::string& file)
+      : program(compiled(file)),
+        joystick(program.description().device, {.mass = 0.55, .damping = 6.5, .stiffness = 135}, Rest{}),
+        stage(joystick),
+        watch({.file = file}, stage, program, [this](const std::string& text) { said += text; }) {
+    stage.place(program);
+    EXPECT_EQ(watch.attend(short_while), Outcome::nothing);
+  }
+
+  static Program compiled(const std::string& file) {
+    const FileRequest request{.file = file};
+    OpenedFile opened = open_file(request);
+    const auto program = compile_opened(opened, request, "", opened.diagnostics);
+    if (!program) throw std::runtime_error("does not compile: " + file);
+    return *program;
+  }
+
+  /// N, what is felt now.
+  float felt() const { return stage.bank()->registers()[program.description().first_parameter()]; }
+  std::string take_said() { return std::exchange(said, {}); }
+
+  Program program;
+  SimulatedJoystick joystick;
+  Stage stage;
+  std::string said;
+  MaterialWatch watch;
+};
+
+TEST(Watching, AFileThatIsSavedInAnyWayIsFeltAnew) {
+  const Folder folder;
+  Watched watched(folder.write("m.wale", pushing(1)));
+  EXPECT_EQ(watched.felt(), 1);
+  folder.write("m.wale", pushing(2));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
+  EXPECT_EQ(watched.felt(), 2);
+  EXPECT_EQ(watched.take_said(), "wale: `m` is felt anew\n");
+  folder.write_and_rename("m.wale", pushing(3));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
+  EXPECT_EQ(watched.felt(), 3);
+  fs::remove(folder / "m.wale");
+  folder.write("m.wale", pushing(4));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
+  EXPECT_EQ(watched.felt(), 4);
+  fs::remove(folder / "m.wale");
+  fs::create_symlink(folder.write("other.wale", pushing(5)), folder / "link.wale");
+  fs::rename(folder / "link.wale", folder / "m.wale");
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
+  EXPECT_EQ(watched.felt(), 5);
+  folder.write("other.wale", pushing(0.5));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << "what the link leads to";
+  EXPECT_EQ(watched.felt(), 0.5);
+}
+
+TEST(Watching, OtherFilesAndSavesThatChangeNothingAreNone) {
+  const Folder folder;
+  Watched watched(folder.write("m.wale", pushing(1)));
+  folder.write("another.wale", pushing(2));
+  folder.write("m.wale~", pushing(2));
+  EXPECT_EQ(watched.watch.attend(short_while), Outcome::nothing);
+  folder.write("m.wale", pushing(1));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::nothing);
+  EXPECT_EQ(watched.said, "");
+}
+
+TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
+  const Folder folder;
+  Watched watched(folder.write("m.wale", pushing(1)));
+  folder.write("m.wale", "wale 1\nmaterial m {\n  physical {\n    force = 3 m\n  }\n}\n");
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
+  EXPECT_EQ(watched.felt(), 1);
+  const std::string said = watched.take_said();
+  EXPECT_NE(said.find("error[W0301]"), std::string::npos) << said;
+  EXPECT_NE(said.find("m.wale:4"), std::string::npos) << said;
+  EXPECT_TRUE(said.ends_with("wale: what was felt before is felt on\n")) << said;
+  folder.write("m.wale", "wale 1\nmaterial m {\n  physical {\n    force = 3 m\n  }\n}\n");
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
+  EXPECT_EQ(watched.take_said(), "") << "no news";
+  fs::remove(folder / "m.wale");
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
+  EXPECT_NE(watched.take_said().find("no such file"), std::string::npos);
+  folder.write("m.wale", pushing(1));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::nothing);
+  EXPECT_EQ(watched.take_said(), "wale: `m` is what is felt already\n");
+  folder.write("m.wale", pushing(2));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
+  EXPECT_EQ(watched.felt(), 2);
+}
+
+TEST(Watching, WhatIsImportedIsWatchedTooAlsoBeforeItIsThere) {
+  const Folder folder;
+  folder.write("strength.wale", "wale 1\nexport let strength = 1 N\n");
+  const std::string text =
+      "wale 1\nimport strength\nmaterial m {\n  physical {\n    param push = strength in -5 N .. 5 N\n"
+      "    force = vector(push, 0 N)\n  }\n}\n";
+  Watched watched(folder.write("m.wale", text));
+  folder.write_and_rename("strength.wale", "wale 1\nexport let strength = 2 N\n");
+  ASSERT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
+  EXPECT_EQ(watched.felt(), 2);
+  std::string other = text;
+  for (std::size_t at = 0; (at = other.find("strength", at)) != std::string::npos; at += 7)
+    other.replace(at, 8, "vigours");
+  folder.write("m.wale", other);
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
+  folder.write("vigours.wale", "wale 1\nexport let vigours = 3 N\n");
+  ASSERT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
+  EXPECT_EQ(watched.felt(), 3);
+}
+
+TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
+  const Folder folder;
+  const auto counting = [](const std::string& gain, const std::string& more, const std::string& state) {
+    return "wale 1\nmaterial m {\n  physical {\n    param gain = " + gain + " in 0 N/s .. 5 N/s\n" + more +
+           "    state " + state + "\n    force = vector(gain * t, 0 N)\n    active 5 W\n  }\n}\n";
+  };
+  const std::string seconds = "t : time = 0 s in 0 s .. 100 s\n    t' = 1";
+  Watched watched(folder.write("m.wale", counting("0.5 N/s", "", seconds)));
+  ASSERT_FALSE(watched.stage.set("gain", 0.25f));
+  const auto save = [&](const Progress& now) {
+    if (now.ticks_run == 900) {  // one parameter more, and another default for the one that was set
+      folder.write_and_rename("m.wale", counting("0.75 N/s", "    param more = 2 mm in 0 mm .. 5 mm\n", seconds));
+      EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
+    }
+    if (now.ticks_run == 1800) {  // the state is of another dimension now
+      folder.write("m.wale", counting("0.75 N/s", "",
+                                      "u : length = 0 m in 0 m .. 100 m\n    u' = 1 m/s\n    let t = u / (1 m/s)"));
+      EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
+    }
+  };
+  const auto result = watched.stage.run({.seconds = 3, .virtual_time = true, .progress = save});
+  ASSERT_TRUE(std::holds_alternative<RunResult>(result));
+  const auto& ticks = std::get<RunResult>(result).record.ticks;
+  const double step = 10.0 / 2048;  // of the force
+  EXPECT_NEAR(ticks[899].force.x, 0.25 * 899 / 900, step);
+  EXPECT_NEAR(ticks[900].force.x, 0.25 * 900 / 900, step) << "its state and its parameter, in the very next tick";
+  EXPECT_NEAR(ticks[1799].force.x, 0.25 * 1799 / 900, step);
+  EXPECT_NEAR(ticks[1810].force.x, 0.25 * 10 / 900, 0.05) << "begins anew, and slews there";
+  EXPECT_NEAR(ticks[2699].force.x, 0.25 * 899 / 900, step);
+}
+
+TEST(Watching, AProgramForAnotherDeviceIsRefused) {
+  const Folder folder;
+  const std::string file = folder.write("m.wale", pushing(1));
+  const FileRequest falcon{.file = file, .device = "falcon"};
+  const auto bytes_for = [&](const FileRequest& request) {
+    OpenedFile opened = open_file(request);
+    const auto bytes = write_patch_program(compile_opened(opened, request, "", opened.diagnostics)->description());
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  Watched watched(file);
+  folder.write("m.wale", bytes_for(falcon));
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
+  EXPECT_NE(watched.said.find("`falcon`"), std::string::npos) << watched.said;
+}
+
+}  // namespace
+}  // namespace wale::watching_test

@@ -1,0 +1,199 @@
+// Runs that are recorded, replayed, and felt anew while their file is edited.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line::recording_test {
+namespace {
+
+const std::vector<std::string> quick{"--virtual-time", "--seconds", "2"};
+
+Outcome feel(std::vector<std::string> words) {
+  words.insert(words.begin(), "feel");
+  words.insert(words.end(), quick.begin(), quick.end());
+  return wale(words);
+}
+
+TEST(Record, WhatWasRecordedReplaysTheSame) {
+  const Folder folder;
+  const std::string file = folder / "corduroy.wrec";
+  const Outcome felt = feel({corduroy, "--set", "wale=4mm", "--max-force", "1.5 N", "--record", file});
+  ASSERT_EQ(felt.status, 0) << felt.err;
+  const Outcome replayed = wale({"replay", file});
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_TRUE(contains(replayed.out, "a run on the sandpaper, simulated, lateral, 2 s of virtual time"))
+      << replayed.out;
+  EXPECT_TRUE(contains(replayed.out, "  ticks        1800 run, 0 missed, at 900 Hz\n")) << replayed.out;
+  EXPECT_TRUE(contains(replayed.out, "  program      corduroy ")) << replayed.out;
+  EXPECT_TRUE(contains(replayed.out, "  replay       the same, bit for bit\n")) << replayed.out;
+  const auto json = wale({"replay", file, "--json"}).json();
+  EXPECT_EQ(json["replay"]["same"], true);
+  EXPECT_EQ(json["complete"], true);
+  EXPECT_EQ(json["ticks"]["run"], 1800);
+  EXPECT_EQ(json["changes"]["placed"], 1);
+}
+
+TEST(Record, IsWrittenAsATableAndAsSound) {
+  const Folder folder;
+  const std::string file = folder / "a.wrec", csv = folder / "a.csv", direct = folder / "b.csv", wav = folder / "a.wav";
+  ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
+  ASSERT_EQ(feel({corduroy, "--record", direct}).status, 0);
+  const Outcome replayed = wale({"replay", file, "--csv", csv, "--wav", wav});
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  // Virtual time is the same each time, so each line of the one begins with that of the other.
+  std::istringstream lines(bytes_of(csv)), direct_lines(bytes_of(direct));
+  std::size_t count = 0;
+  for (std::string line, begin; std::getline(direct_lines, begin); ++count) {
+    ASSERT_TRUE(std::getline(lines, line));
+    ASSERT_TRUE(line.starts_with(begin + ",")) << line;
+  }
+  EXPECT_EQ(count, 1801u);
+  EXPECT_EQ(bytes_of(wav).substr(0, 4), "RIFF");
+  EXPECT_EQ(bytes_of(wav).size(), 58u + 2 * 44100 * 8);
+  // A recording's table is a hand's trace.
+  EXPECT_EQ(feel({corduroy, "--hand", csv}).status, 0);
+}
+
+TEST(Record, ShippedMaterialsOfEveryKindReplayTheSame) {
+  const Folder folder;
+  for (const char* material : {"fabric/velvet", "earth/sand", "mechanism/toggle", "mechanism/wall", "mechanism/spring",
+                               "stone/slate", "fluid/oil", "glass/wet_glass", "metal/grille"}) {
+    const std::string path = std::string(WALE_SOURCE_DIR) + "/library/" + material + ".wale",
+                      file = folder / (fs::path(path).stem().string() + ".wrec");
+    const Outcome felt = feel({path, "--hand", "circular", "--record", file});
+    ASSERT_EQ(felt.status, 0) << felt.err;
+    EXPECT_EQ(wale({"replay", file}).status, 0) << material;
+  }
+}
+
+TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
+  const Folder folder;
+  const std::string file = folder / "a.wrec";
+  ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
+  const std::string before = bytes_of(file);
+  const Outcome again = feel({corduroy, "--record", file});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_TRUE(contains(again.err, "it is there already")) << again.err;
+  EXPECT_EQ(bytes_of(file), before);
+  const Outcome nowhere = feel({corduroy, "--record", folder / "none/a.wrec"});
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_TRUE(contains(nowhere.err, "there is no such folder")) << nowhere.err;
+  const Outcome odd = feel({corduroy, "--record", folder / "a.record"});
+  EXPECT_EQ(odd.status, 1);
+  EXPECT_TRUE(contains(odd.err, "NAME.wrec")) << odd.err;
+}
+
+TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
+  const Folder folder;
+  const std::string file = folder / "a.wrec";
+  ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
+  std::string bytes = bytes_of(file);
+  // The tick number 1000 begins with its number and one, and its period.
+  std::string begin(16, '\0');
+  begin[0] = static_cast<char>(1001 & 0xff), begin[1] = 1001 >> 8;
+  begin[8] = static_cast<char>(1000 & 0xff), begin[9] = 1000 >> 8;
+  const std::size_t at = bytes.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 50] = static_cast<char>(bytes[at + 50] ^ 0x40);
+  const std::string damaged = folder.write("damaged.wrec", bytes);
+  const Outcome outcome = wale({"replay", damaged});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(contains(outcome.err, "tick 1000 (byte " + std::to_string(at) + ") is damaged")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "--ticks 1000")) << outcome.err;
+  EXPECT_EQ(wale({"replay", damaged, "--ticks", "1000"}).status, 0);
+  EXPECT_TRUE(contains(wale({"replay", folder.write("empty.wrec", "")}).err, "it is empty"));
+  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "it is no recording"));
+  EXPECT_TRUE(contains(wale({"replay", folder / "none.wrec"}).err, "No such file"));
+  EXPECT_EQ(wale({"replay"}).status, 2);
+}
+
+TEST(Blind, AllowsALargestForce) {
+  const Outcome outcome = wale({"feel", corduroy, "--against", corduroy, "--blind", "--trials", "1", "--virtual-time",
+                                "--seconds", "0.2", "--max-force", "0.5 N"},
+                               "1\n");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+/// A `wale` that runs until it is told to stop.
+class Started {
+ public:
+  Started(std::vector<std::string> words, const std::string& out, const std::string& err) {
+    child_ = fork();
+    if (child_ != 0) return;
+    const auto to = [](const std::string& path, int number) {
+      const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      dup2(file, number);
+    };
+    to(out, 1), to(err, 2);
+    std::vector<char*> arguments;
+    words.insert(words.begin(), WALE_BINARY);
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(WALE_BINARY, arguments.data());
+    _exit(127);
+  }
+  ~Started() {
+    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
+  }
+  void tell(int signal) const { kill(child_, signal); }
+  int wait() {
+    int status = 0;
+    waitpid(std::exchange(child_, 0), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+
+ private:
+  pid_t child_ = 0;
+};
+
+/// Until it is so, or a minute has passed.
+template <class Condition>
+bool eventually(Condition&& condition) {
+  for (int i = 0; i < 3000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
+}
+
+TEST(Watch, FeelsTheFileAnewAtEverySaveUntilInterrupted) {
+  const Folder folder;
+  const std::string file = folder.write("c.wale", bytes_of(corduroy)), err = folder / "err", out = folder / "out",
+                    recording = folder / "a.wrec";
+  Started running({"feel", file, "--watch", "--json", "--record", recording}, out, err);
+  ASSERT_TRUE(eventually([&] { return fs::exists(recording); })) << bytes_of(err);
+  folder.write("c.wale", corduroy_with("2.5 mm in", "3.5 mm in"));
+  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: `corduroy` is felt anew\n"); })) << bytes_of(err);
+  folder.write("c.wale", corduroy_with("2.5 mm in", "2.5 N in"));
+  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: what was felt before is felt on\n"); }));
+  EXPECT_TRUE(contains(bytes_of(err), "error[W0")) << bytes_of(err);
+  folder.write("other.wale", corduroy_with("2.5 mm in", "4.5 mm in"));
+  fs::rename(folder / "other.wale", folder / "c.wale");
+  const auto swaps = [&] {
+    const std::string said = bytes_of(err);
+    return said.find("is felt anew") != said.rfind("is felt anew");
+  };
+  ASSERT_TRUE(eventually(swaps)) << bytes_of(err);
+  running.tell(SIGINT);
+  EXPECT_EQ(running.wait(), 0) << bytes_of(err);
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(out))["material"], "corduroy");
+  const Outcome replayed = wale({"replay", recording, "--json"});
+  EXPECT_EQ(replayed.status, 0) << replayed.err << replayed.out;
+  EXPECT_EQ(replayed.json()["changes"]["swapped"], 2);
+  EXPECT_EQ(replayed.json()["programs"].size(), 3u);
+  EXPECT_EQ(replayed.json()["complete"], true);
+}
+
+TEST(Watch, EndsByItselfWhenSecondsAreSaid) {
+  EXPECT_EQ(wale({"feel", corduroy, "--watch", "--seconds", "0.3"}).status, 0);
+  EXPECT_EQ(wale({"feel", corduroy, "--watch", "--blind", "--against", corduroy}).status, 2);
+}
+
+}  // namespace
+}  // namespace wale::command_line::recording_test

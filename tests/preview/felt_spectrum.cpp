@@ -1,0 +1,87 @@
+// How strong the felt force is at each frequency, against sines and strokes whose frequencies are known.
+
+#include "compiler/preview/felt_spectrum.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/preview/hand_made.hpp"
+
+namespace wale::felt_spectrum_test {
+namespace {
+
+std::vector<float> sine(double amplitude, double frequency, double rate, double seconds, double offset = 0) {
+  std::vector<float> signal;
+  for (long i = 0; i < std::lround(seconds * rate); ++i)
+    signal.push_back(static_cast<float>(
+        offset + amplitude * std::sin(2 * std::numbers::pi * frequency * static_cast<double>(i) / rate + 0.3)));
+  return signal;
+}
+
+std::size_t strongest(const std::vector<double>& amplitudes) {
+  return static_cast<std::size_t>(std::max_element(amplitudes.begin(), amplitudes.end()) - amplitudes.begin());
+}
+
+TEST(FeltSpectrum, HasASineAtItsFrequencyWithItsAmplitude) {
+  for (const double rate : {900.0, 4000.0}) {
+    for (const double line : {10.0, 37.0, 10.5}) {
+      const double width = spectrum_of(sine(1, 100, rate, 2), rate).frequencies[1];
+      const FeltSpectrum spectrum = spectrum_of(sine(1.5, line * width, rate, 2, 3), rate);
+      EXPECT_NEAR(spectrum.frequencies.back(), rate / 2, 1e-9);
+      EXPECT_NEAR(spectrum.seconds, 2, 1e-9);
+      const std::size_t top = strongest(spectrum.amplitudes);
+      EXPECT_NEAR(spectrum.frequencies[top], line * width, 0.51 * width);
+      // Between two lines Hann's window has 1.42 dB less: 0.849.
+      const double share = line == std::floor(line) ? 1 : 0.849;
+      EXPECT_NEAR(spectrum.amplitudes[top], 1.5 * share, 0.003 * 1.5);
+      for (std::size_t i = 0; i < spectrum.amplitudes.size(); ++i) {
+        if (std::abs(spectrum.frequencies[i] - line * width) < 4 * width) continue;
+        EXPECT_LT(spectrum.amplitudes[i], 0.01 * 1.5) << spectrum.frequencies[i];
+      }
+    }
+  }
+}
+
+TEST(FeltSpectrum, TellsWhenAFrequencyIsThere) {
+  std::vector<float> signal = sine(1, 100, 900, 1);
+  const std::vector<float> after = sine(1, 300, 900, 1);
+  signal.insert(signal.end(), after.begin(), after.end());
+  const FeltSpectrum spectrum = spectrum_of(signal, 900);
+  ASSERT_GT(spectrum.windows.size(), 20u);
+  const double width = spectrum.frequencies[1];
+  EXPECT_NEAR(spectrum.frequencies[strongest(spectrum.windows.front())], 100, width);
+  EXPECT_NEAR(spectrum.frequencies[strongest(spectrum.windows.back())], 300, width);
+}
+
+TEST(FeltSpectrum, OfTooLittleThereIsNone) {
+  EXPECT_TRUE(spectrum_of({}, 900).windows.empty());
+  EXPECT_TRUE(spectrum_of(sine(1, 100, 900, 0.005), 900).windows.empty());
+}
+
+// At speed v a grating of period p is felt at v / p; the hand of the stroke is fastest at its centre, with v = 2 pi f
+// A.
+TEST(FeltSpectrum, AGratingIsFeltAtSpeedOverPeriod) {
+  const float period = 0.004f;
+  const Bank bank = sine_grating(period, 1);
+  const FeltStroke felt = felt_along(bank, exhibit_of(bank));
+  EXPECT_EQ(felt.rate, 900);
+  EXPECT_EQ(felt.forces.size(), 1800u);
+  const FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
+  // 36 mm = 0.9 (40 mm - 2 mm - ...) at most; `showing` has 48 mm at 1.2 Hz: the patch is smaller.
+  const double reach = 0.9 * (0.04 - 0.002), fastest = 2 * std::numbers::pi * 1.2 * reach / period;
+  double below = 0, beyond = 0;
+  for (std::size_t i = 0; i < spectrum.frequencies.size(); ++i) {
+    double& sum = spectrum.frequencies[i] < fastest + 2 * spectrum.frequencies[1] ? below : beyond;
+    sum += spectrum.amplitudes[i] * spectrum.amplitudes[i];
+  }
+  EXPECT_LT(beyond, 0.01 * below);
+  const double top = spectrum.frequencies[strongest(spectrum.amplitudes)];
+  EXPECT_GT(top, 0.75 * fastest) << "a sine lingers near its extreme speed";
+  EXPECT_LT(top, fastest + spectrum.frequencies[1]);
+}
+
+}  // namespace
+}  // namespace wale::felt_spectrum_test

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+
+#include "runtime/record/format.hpp"
+#include "tests/runtime/figures.hpp"
+#include "wale/recording.hpp"
+#include "wale/stage.hpp"
+
+/// Recordings made in a test.
+namespace wale::recorded {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for one test, gone with it.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "wale-recording-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+inline std::vector<std::byte> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+inline Recording opened(const std::string& path) {
+  auto recording = Recording::open(path);
+  if (const auto* refusal = std::get_if<Refusal>(&recording)) throw std::runtime_error(refusal->reason);
+  return std::get<Recording>(std::move(recording));
+}
+
+inline std::string refused(const std::variant<Recording, Refusal>& recording) {
+  const auto* refusal = std::get_if<Refusal>(&recording);
+  return refusal != nullptr ? refusal->reason : "not refused";
+}
+
+inline RunResult run(Stage& stage, const RunOptions& options) {
+  auto result = stage.run(options);
+  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
+  return std::get<RunResult>(std::move(result));
+}
+
+inline void expect_same(const Recording& recording) {
+  const auto result = replay(recording);
+  ASSERT_TRUE(std::holds_alternative<Replay>(result)) << std::get<Refusal>(result).reason;
+  const auto& replayed = std::get<Replay>(result);
+  EXPECT_EQ(replayed.ticks, recording.ticks());
+  EXPECT_EQ(replayed.differing, 0u);
+  if (replayed.first)
+    ADD_FAILURE() << "tick " << replayed.first->tick << ": " << replayed.first->what << " was "
+                  << replayed.first->recorded << " and is " << replayed.first->replayed;
+}
+
+/// A device whose reading the test makes up, and which tells what is done with it.
+class Puppet : public Device {
+ public:
+  explicit Puppet(std::function<Reading(long sample)> reading) : reading_(std::move(reading)) {}
+  const DeviceProfile& profile() const noexcept override { return profile_; }
+  void elapse(long) noexcept override {}
+  Reading sample() noexcept override { return reading_(samples_++); }
+  Force command(Force force) noexcept override { return force * 0.75f; }  // a weak actuator, so that the two differ
+
+  DeviceProfile profile_ = sandpaper();
+
+ private:
+  std::function<Reading(long)> reading_;
+  long samples_ = 0;
+};
+
+/// Over the workspace and beyond its patches, at up to 1 m/s.
+inline Reading roaming(long sample) {
+  const double t = static_cast<double>(sample) / 900;
+  const auto place = [](double amplitude, double phase) {
+    return static_cast<int>(std::lround(amplitude * std::sin(phase)));
+  };
+  return {.counts = {place(1800, 2.1 * t), place(900, 7.7 * t)}, .button = sample % 700 > 600};
+}
+
+}  // namespace wale::recorded

@@ -1,0 +1,254 @@
+// Recordings as files: whole after a crash, on a full disk, damaged, and where there can be none.
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+
+#include "tests/runtime/programs.hpp"
+#include "tests/runtime/recorded.hpp"
+
+namespace wale::recording_files_test {
+namespace {
+
+using namespace recorded;
+using namespace recording_format;
+
+/// What a process leaves behind that is killed while it serves its tick number `last`, of which `forces` saw all
+/// before.
+struct Killed {
+  std::size_t served = 0;
+  std::vector<Force> forces;
+};
+
+Killed killed(const std::string& file, bool virtual_time, std::size_t last) {
+  struct Shared {
+    std::atomic<std::size_t> served;
+    std::array<Force, 20000> forces;
+  };
+  void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  auto* shared = static_cast<Shared*>(memory);
+  const pid_t child = fork();
+  if (child == 0) {
+    class Doomed : public Device {
+     public:
+      Doomed(Shared& shared, std::size_t last) : shared_(shared), last_(last) { joystick_profile_.rate = 10000; }
+      const DeviceProfile& profile() const noexcept override { return joystick_profile_; }
+      void elapse(long) noexcept override {}
+      Reading sample() noexcept override {
+        if (shared_.served.load() == last_) kill(getpid(), SIGKILL);
+        return roaming(static_cast<long>(shared_.served.load()));
+      }
+      Force command(Force force) noexcept override {
+        const std::size_t served = shared_.served.load();
+        shared_.forces[served] = force;
+        shared_.served.store(served + 1);
+        return force;
+      }
+
+     private:
+      DeviceProfile joystick_profile_ = sandpaper();
+      Shared& shared_;
+      std::size_t last_;
+    } device(*shared, last);
+    Stage stage(device);
+    stage.place(corduroy(1.934f));
+    const auto turn = [&](const Progress& now) {
+      stage.set("wale", 0.001f + 0.001f * static_cast<float>(now.ticks_run % 4));
+    };
+    stage.run({.seconds = 60, .virtual_time = virtual_time, .progress = turn, .record_to = RecordTo{file, {}}});
+    _exit(0);  // it should not have come here
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  Killed result{shared->served.load(), {shared->forces.begin(), shared->forces.begin() + shared->served.load()}};
+  munmap(memory, sizeof(Shared));
+  return result;
+}
+
+TEST(RecordingFile, IsWholeUpToTheLastTickWhenItsProcessIsKilled) {
+  const Folder folder;
+  for (const bool virtual_time : {true, false}) {
+    for (const std::size_t last : {std::size_t{1}, ticks_per_chunk, ticks_per_chunk + 1, 2 * ticks_per_chunk + 777}) {
+      const std::string file = folder / (std::to_string(last) + (virtual_time ? "v.wrec" : "r.wrec"));
+      const Killed process = killed(file, virtual_time, last);
+      ASSERT_EQ(process.served, last);
+      const Recording recording = opened(file);
+      EXPECT_FALSE(recording.complete());
+      // Killed in the middle of tick `last`, counted from 0.
+      ASSERT_EQ(recording.ticks(), last);
+      for (std::size_t i = 0; i < last; ++i) ASSERT_EQ(recording.tick(i).commanded, process.forces[i]) << i;
+      expect_same(recording);
+    }
+  }
+}
+
+std::vector<std::byte> some_recording() {
+  const Folder folder;
+  Puppet device(roaming);
+  Stage stage(device);
+  stage.place(corduroy(1.934f));
+  const auto turn = [&](const Progress&) { stage.set("wale", 0.002f); };
+  run(stage, {.seconds = 4, .virtual_time = true, .progress = turn, .record_to = RecordTo{folder / "a.wrec", {}}});
+  return bytes_of(folder / "a.wrec");
+}
+
+bool equal(const Recording& a, const Recording& b, std::size_t ticks) {
+  for (std::size_t i = 0; i < ticks; ++i) {
+    const TickEntry one = encode(a.tick(i), i), other = encode(b.tick(i), i);
+    if (std::memcmp(&one, &other, sizeof one) != 0) return false;
+  }
+  return true;
+}
+
+TEST(RecordingFile, AFlippedByteIsFoundOrIsNone) {
+  const std::vector<std::byte> bytes = some_recording();
+  const Recording whole = std::get<Recording>(Recording::read(bytes, "whole"));
+  ASSERT_EQ(whole.ticks(), 3600u);
+  ASSERT_GT(whole.ticks(), ticks_per_chunk);
+  // Every byte of the headers, of the events and of a few ticks, and every 997th of the rest.
+  long found = 0, none = 0;
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    const std::size_t in_chunk = at < first_chunk ? at : (at - first_chunk) % chunk_size;
+    if (in_chunk > 2500 && in_chunk % 997 != 0) continue;
+    if (in_chunk > 700 && in_chunk % 7 != 0) continue;
+    std::vector<std::byte> flipped = bytes;
+    flipped[at] ^= std::byte{0x10};
+    const auto read = Recording::read(std::move(flipped), "flipped");
+    if (const auto* refusal = std::get_if<Refusal>(&read)) {
+      ++found;
+      ASSERT_TRUE(refusal->reason.starts_with("`flipped`: ")) << refusal->reason;
+      continue;
+    }
+    ++none;
+    const Recording& same = std::get<Recording>(read);
+    ASSERT_EQ(same.ticks(), whole.ticks()) << at;
+    ASSERT_TRUE(same.complete()) << at;
+    ASSERT_EQ(same.events().size(), whole.events().size()) << at;
+    ASSERT_TRUE(equal(same, whole, whole.ticks())) << at;
+  }
+  EXPECT_GT(found, 1000);
+  EXPECT_GT(none, 100) << "padding";
+}
+
+TEST(RecordingFile, OfADamagedOneTheTicksBeforeCanBeHad) {
+  std::vector<std::byte> bytes = some_recording();
+  const Recording whole = std::get<Recording>(Recording::read(bytes, "whole"));
+  std::size_t at = 0;
+  for (std::size_t i = first_chunk; i + 8 <= bytes.size(); i += 8) {  // where tick number 1234 lies
+    TickEntry entry;
+    if (i + sizeof entry > bytes.size()) break;
+    std::memcpy(&entry, bytes.data() + i, sizeof entry);
+    if (entry.sequence == 1235 && entry.period == 1234) at = i;
+  }
+  ASSERT_NE(at, 0u);
+  bytes[at + 40] ^= std::byte{1};
+  EXPECT_EQ(refused(Recording::read(bytes, "a.wrec")),
+            "`a.wrec`: tick 1234 (byte " + std::to_string(at) +
+                ") is damaged; the 1234 ticks before are whole, and can be had: --ticks 1234");
+  const auto before = Recording::read(bytes, "a.wrec", 1234);
+  ASSERT_TRUE(std::holds_alternative<Recording>(before)) << refused(before);
+  EXPECT_EQ(std::get<Recording>(before).ticks(), 1234u);
+  EXPECT_FALSE(std::get<Recording>(before).complete());
+  EXPECT_TRUE(equal(std::get<Recording>(before), whole, 1234));
+  expect_same(std::get<Recording>(before));
+}
+
+TEST(RecordingFile, CutShortItIsRefusedOrShorter) {
+  const std::vector<std::byte> bytes = some_recording();
+  const Recording whole = std::get<Recording>(Recording::read(bytes, "whole"));
+  for (std::size_t size = 0; size < bytes.size(); size += 4999) {
+    const auto read = Recording::read({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}, "cut");
+    EXPECT_TRUE(std::holds_alternative<Refusal>(read)) << size;
+  }
+  const auto cut = Recording::read({bytes.begin(), bytes.end() - 5}, "cut");
+  EXPECT_NE(refused(cut).find("`cut`: it is cut short within the chunk at byte"), std::string::npos) << refused(cut);
+}
+
+TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
+  const auto reason = [](const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
+  };
+  EXPECT_EQ(reason(""), "`x`: it is empty: nothing was recorded in it");
+  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"),
+            "`x`: it is no recording: it does not begin as one does; `wale feel FILE --record NAME.wrec` makes one");
+  EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "`x`: a transfer as text has damaged it: copy it as binary");
+  EXPECT_EQ(reason(std::string("\x89WRC\r\n\x1a\n", 8)),
+            "`x`: it is cut short within its header, at byte 8: copy it again");
+  std::vector<std::byte> newer = some_recording();
+  FileHeader header;
+  std::memcpy(&header, newer.data(), sizeof header);
+  header.version = 2;
+  header.check = check_of(header);
+  std::memcpy(newer.data(), &header, sizeof header);
+  EXPECT_EQ(refused(Recording::read(newer, "x")), "`x`: it is of format 2, and this Wale reads up to 1: update Wale");
+  const Folder folder;
+  EXPECT_EQ(refused(Recording::open(folder / "none.wrec")),
+            "`" + folder / "none.wrec" + "` cannot be read: No such file or directory");
+}
+
+TEST(RecordingFile, CannotBeMadeWhereItWouldTakeAnothersPlaceOrThereIsNone) {
+  const Folder folder;
+  Puppet device(roaming);
+  Stage stage(device);
+  stage.place(oil(1));
+  const auto attempt = [&](const std::string& file) {
+    const auto result = stage.run({.seconds = 0.01, .virtual_time = true, .record_to = RecordTo{file, {}}});
+    const auto* refusal = std::get_if<Refusal>(&result);
+    return refusal != nullptr ? refusal->reason : "not refused";
+  };
+  EXPECT_EQ(attempt(folder / "a.wrec"), "not refused");
+  const auto before = bytes_of(folder / "a.wrec");
+  EXPECT_EQ(attempt(folder / "a.wrec"),
+            "cannot record in `" + folder / "a.wrec" +
+                "`: it is there already, and a recording is never written over; delete it or choose another name");
+  EXPECT_EQ(bytes_of(folder / "a.wrec"), before);
+  EXPECT_EQ(attempt(folder / "none/a.wrec"),
+            "cannot record in `" + folder / "none/a.wrec" + "`: there is no such folder; make it first");
+  device.profile_.mass = -1;
+  EXPECT_NE(attempt(folder / "b.wrec").find("the device's mass (kg)"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "b.wrec"));
+}
+
+TEST(RecordingFile, OnAFullDiskTheRunGoesOnAndSaysWhatIsRecorded) {
+  const Folder folder;
+  rlimit usual{};
+  getrlimit(RLIMIT_FSIZE, &usual);
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = usual;
+  small.rlim_cur = first_chunk + 8 * chunk_size + 100;  // one chunk of events, seven of ticks
+  for (const bool virtual_time : {true, false}) {
+    Puppet device(roaming);
+    if (!virtual_time) device.profile_.rate = 10000;
+    const double seconds = (7 * ticks_per_chunk + 500) / device.profile_.rate;
+    Stage stage(device);
+    stage.place(corduroy(1.934f));
+    const std::string file = folder / (virtual_time ? "v.wrec" : "r.wrec");
+    setrlimit(RLIMIT_FSIZE, &small);
+    const RunResult done =
+        run(stage, {.seconds = seconds, .virtual_time = virtual_time, .record_to = RecordTo{file, {}}});
+    setrlimit(RLIMIT_FSIZE, &usual);
+    EXPECT_EQ(done.ticks_run + done.ticks_missed, static_cast<long>(7 * ticks_per_chunk + 500));
+    if (static_cast<std::size_t>(done.ticks_run) <= 7 * ticks_per_chunk) continue;  // a machine too busy for the test
+    EXPECT_EQ(done.record_problem, "the recording ends after " + std::to_string(7 * ticks_per_chunk) +
+                                       " ticks: cannot go on recording in `" + file +
+                                       "`: no file may become that large here (ulimit -f); raise the limit or record "
+                                       "elsewhere");
+    const Recording recording = opened(file);
+    EXPECT_EQ(recording.ticks(), 7 * ticks_per_chunk);
+    EXPECT_FALSE(recording.complete());
+    expect_same(recording);
+  }
+  std::signal(SIGXFSZ, old);
+}
+
+}  // namespace
+}  // namespace wale::recording_files_test
