@@ -104,6 +104,10 @@ std::string device_declaration(const DescribedDevice& device, const std::string&
   writer.figure("rate", number(profile.rate) + " Hz");
   writer.figure("speed", number(profile.speed_limit) + " m/s");
   writer.figure("slew", number(profile.slew) + " N/s");
+  writer.figure("sustained", profile.continuous_newton > 0
+                                 ? number(profile.continuous_newton) + " N, " + number(profile.heating_seconds) + " s"
+                                 : "unknown");
+  writer.figure("active", profile.active_watt > 0 ? number(profile.active_watt) + " W" : "unknown");
   writer.figure("velocity_filter",
                 number(profile.velocity_window) + ", " + number(profile.velocity_noise_counts) + " counts");
   writer.figure("patch", millimetres(profile.patch_width) + ", " + millimetres(profile.patch_height) + ", " +

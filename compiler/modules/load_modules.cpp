@@ -200,7 +200,7 @@ class ModuleLoader {
         for (const Setting& setting : material->representative)
           if (const auto liked = liked_by(setting, module.tree))
             if (const auto* named = module.declarations.materials.find(liked->text); !named)
-              module.declarations.likes[&setting] = find_in_library(module, material->name.text, *liked);
+              module.declarations.likes[&setting] = find_in_library(module, std::string(material->name.text), *liked);
             else if (setting.items.front().value)
               module.declarations.likes[&setting] = named;
   }
