@@ -29,6 +29,7 @@
 #include "compiler/text/spelling.hpp"
 #include "library/device_report.hpp"
 #include "library/devices_known.hpp"
+#include "library/identify_device.hpp"
 #include "library/open_device.hpp"
 #include "library/plugged_report.hpp"
 #include "wale/library.hpp"
@@ -142,7 +143,7 @@ std::optional<DeviceToFeel> device_to_feel(const FeelOptions& options) {
   std::vector<PluggedIn> plugged;
   if (!request.only_simulated && !request.spelling.starts_with("simulated")) {
     device.connections = Connections::open();
-    plugged = plugged_in(device.connections);
+    plugged = plugged_in(device.connections, request.spelling);
   }
   auto chosen = choose_device(request, known, plugged);
   if (const auto* refusal = std::get_if<Refusal>(&chosen)) {
@@ -306,9 +307,57 @@ int feel_blind(const FeelOptions& options) {
 }
 
 int devices(bool json) {
-  const auto known = Library().devices();
-  const PluggedDevices plugged = plugged_devices();
-  fmt::print("{}", json ? with_plugged(devices_json(known), plugged) : devices_text(known) + plugged_text(plugged));
+  const std::vector<DescribedDevice> known = Library().devices();
+  const Connections connections = Connections::open();
+  const std::vector<PluggedIn> plugged = plugged_in(connections);
+  fmt::print("{}", json ? with_plugged(devices_json(known), plugged, known)
+                        : devices_text(known) + plugged_text(connections, plugged, known));
+  return 0;
+}
+
+/// Finds out how a device that is plugged in lies on the desk, and prints a declaration that says so.
+int identify(const std::string& device, const std::string& max_force) {
+  IdentifyOptions options{.asks = isatty(fileno(stdin)) != 0};
+  if (!max_force.empty()) {
+    QuantityReader reader;
+    const auto most = reader.force("--max-force", max_force);
+    if (!most) {
+      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
+      return refused;
+    }
+    if (!(*most > 0)) return refuse("the largest force allowed is more than nothing");
+    options.most_newton = *most;
+  }
+  const std::vector<DescribedDevice> known = Library().devices();
+  const Connections connections = Connections::open();
+  const std::vector<PluggedIn> plugged = plugged_in(connections);
+  const auto choice = choose_device({.spelling = device.empty() ? "auto" : device}, known, plugged);
+  if (const auto* refusal = std::get_if<Refusal>(&choice)) return refuse(refusal->reason);
+  ChosenDevice chosen = std::get<ChosenDevice>(choice);
+  if (!chosen.plugged)
+    return refuse(chosen.is_worth_saying ? chosen.said : "no force-feedback device is plugged in; see `wale devices`");
+  DescribedDevice described = *matched_profile(*chosen.plugged, known).device;
+  if (described.profile.shaker) return refuse(fmt::format("`{}` only vibrates: it has no axes", chosen.profile));
+  DeviceWiring wiring = chosen.wiring;
+  chosen.wiring = DeviceWiring{};  // its own axes and motors, as they are
+  auto opened = open_device(connections, chosen, described.profile);
+  if (const auto* refusal = std::get_if<Refusal>(&opened)) return refuse(refusal->reason);
+  stop_on_signals();
+  fmt::print(stderr, "identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged), chosen.profile);
+  const auto found = identify_device(
+      *std::get<std::unique_ptr<HotPluggedDevice>>(opened), options,
+      [](std::string_view request) { fmt::print(stderr, "{}\n", request); }, interrupted);
+  if (const auto* refusal = std::get_if<Refusal>(&found)) return refuse(refusal->reason);
+  const Identified& identified = std::get<Identified>(found);
+  fmt::print(stderr, "{}", identified_text(identified));
+  if (!identified.motors_settled) return refused;
+  wiring.axes = *identified.axes_settled;
+  wiring.motors = *identified.motors_settled;
+  if (const auto numbers = read_usb_numbers(chosen.plugged->numbers)) wiring.usb = {*numbers};
+  fmt::print("{}", device_declaration(described, "my_" + chosen.profile, wiring,
+                                      {in_words(*chosen.plugged) + ", as `wale devices --identify` found it; its other "
+                                                                   "figures are",
+                                       "those of " + chosen.profile + "."}));
   return 0;
 }
 
@@ -475,9 +524,19 @@ int main(int argc, char** argv) {
   verb->callback([&] { status = command::preview(choice, settings, out); });
 
   verb = app.add_subcommand("devices", "lists the joysticks that materials can be felt on and built for");
-  verb->add_flag("--json", json, "as a JSON array");
-  verb->footer("for example: wale devices --json");
-  verb->callback([&] { status = devices(json); });
+  auto* as_json = verb->add_flag("--json", json, "as a JSON array");
+  std::string identified, gentle;
+  auto* identifies = verb->add_option("--identify", identified,
+                                      "pushes one gently, to find out how its axes and motors lie, and prints a "
+                                      "declaration of it (default: the best one plugged in)")
+                         ->expected(0, 1)
+                         ->type_name("[DEVICE]")
+                         ->excludes(as_json);
+  verb->add_option("--max-force", gentle,
+                   "the largest force of --identify, as in \"1 N\" (default: a fifth of its own)")
+      ->needs(identifies);
+  verb->footer("for example: wale devices --json; wale devices --identify > my_stick.wale");
+  verb->callback([&, identifies] { status = identifies->count() > 0 ? identify(identified, gentle) : devices(json); });
 
   // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.
   if (argc == 1) {

@@ -18,6 +18,12 @@ const char* position_word(PositionSource source) {
   return "unknown";
 }
 
+nlohmann::ordered_json numbers_of(const DeviceWiring& wiring) {
+  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+  for (const UsbNumbers& each : wiring.usb) numbers.push_back(in_words(each));
+  return numbers;
+}
+
 nlohmann::ordered_json shaker_json(const DescribedDevice& device) {
   const DeviceProfile& profile = device.profile;
   const Shaker& shaker = *profile.shaker;
@@ -51,8 +57,11 @@ nlohmann::ordered_json shaker_json(const DescribedDevice& device) {
 std::string devices_text(const std::vector<DescribedDevice>& devices) {
   std::string text =
       "to feel on (wale feel --device NAME)\n"
+      "  auto         the best that is plugged in, else simulated: what is taken unless you say otherwise\n"
       "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
-      "  a device to build for, by its name: the same\n"
+      "  a device to build for, by its name: the real one where it is plugged in, else simulated\n"
+      "  simulated:NAME: that one, and never the real one\n"
+      "  usb, vendor and product (1209:ffb0), a port (1-2): what is plugged in, or nothing\n"
       "\nto build for (wale build --device NAME)\n";
   for (const DescribedDevice& device : devices) {
     const DeviceProfile& profile = device.profile;
@@ -73,6 +82,12 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
                           profile.damping, profile.friction);
     }
+    if (!device.wiring.usb.empty()) {
+      std::string numbers;
+      for (const UsbNumbers& each : device.wiring.usb) numbers += " " + in_words(each);
+      text += fmt::format("  {:<12} on USB:{}\n", "", numbers);
+    }
+    if (!device.unknown.empty()) text += fmt::format("  {:<12} unknown: {}\n", "", fmt::join(device.unknown, ", "));
     if (!device.assumed.empty())
       text += fmt::format("  {:<12} assumed, not measured: {}\n", "", fmt::join(device.assumed, ", "));
     if (!device.source.empty()) text += fmt::format("  {:<12} {}\n", "", device.source);
@@ -101,6 +116,13 @@ std::string devices_json(const std::vector<DescribedDevice>& devices) {
                     {"mass_kg", profile.mass},
                     {"damping_newton_second_per_m", profile.damping},
                     {"friction_newton", profile.friction},
+                    {"delay_s", {profile.delay_x, profile.delay_y}},
+                    {"bandwidth_hz", {profile.bandwidth_x, profile.bandwidth_y}},
+                    {"usb", numbers_of(device.wiring)},
+                    {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},
+                    {"motors_lie", {in_words(device.wiring.motors[0]), in_words(device.wiring.motors[1])}},
+                    {"gain", device.wiring.gain},
+                    {"unknown", device.unknown},
                     {"assumed", device.assumed},
                     {"source", device.source}});
   }

@@ -194,6 +194,20 @@ class Chooser {
   std::vector<Candidate> all_;
 };
 
+/// What is plugged in and like something that was. On USB nothing is opened to find out: another one may be in use.
+std::vector<PluggedIn> alike(const Connections& connections, const DeviceKind& kind, const PluggedIn& plugged) {
+  const auto numbers = read_usb_numbers(plugged.numbers);
+  if (!numbers || !connections.usb) return kind.find(connections, &plugged);
+  std::vector<PluggedIn> all;
+  for (const UsbDeviceInfo& info : connections.usb->devices()) {
+    if (*numbers != UsbNumbers{info.vendor, info.product}) continue;
+    all.push_back(plugged);
+    all.back().port = info.port;
+    all.back().usb = info;
+  }
+  return all;
+}
+
 }  // namespace
 
 MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<DescribedDevice>& known) {
@@ -208,10 +222,12 @@ MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<Descr
   return {generic, generic != nullptr};
 }
 
-std::vector<PluggedIn> plugged_in(const Connections& connections) {
+std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked) {
   std::vector<PluggedIn> all;
-  for (const DeviceKind& kind : device_kinds())
+  for (const DeviceKind& kind : device_kinds()) {
+    if (!kind.is_chosen_by_auto && kind.name != asked) continue;
     for (PluggedIn& each : kind.find(connections, nullptr)) all.push_back(std::move(each));
+  }
   return all;
 }
 
@@ -230,18 +246,17 @@ std::variant<std::unique_ptr<HotPluggedDevice>, Refusal> open_device(const Conne
   const DeviceOptions options{.priority = loop_priority - 1, .ask = std::move(ask)};
   if (connections.usb) connections.usb->set_priority(options.priority);  // not permitted: as punctual as may be
   std::set<std::string> others;                                          // where another of its like was
-  for (const PluggedIn& each : kind.find(connections, &plugged))
+  for (const PluggedIn& each : alike(connections, kind, plugged))
     if (each.port != plugged.port) others.insert(each.port);
   OpenedDevice opened = kind.open(connections, plugged, profile, options);
   if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
 
   const auto reopen = [connections, plugged, profile, options, others, &kind]() -> OpenedDevice {
-    const std::vector<PluggedIn> found = kind.find(connections, &plugged);
+    const std::vector<PluggedIn> found = alike(connections, kind, plugged);
     const PluggedIn* again = nullptr;
     for (const PluggedIn& each : found)
       if (each.port == plugged.port || (again == nullptr && !others.contains(each.port))) again = &each;
     if (again == nullptr) return Refusal{"it is not plugged in", {}};
-    if (!is_usable(*again)) return Refusal{again->obstacle, {}};
     return kind.open(connections, *again, profile, options);
   };
   return std::make_unique<HotPluggedDevice>(std::move(std::get<std::unique_ptr<PluggedDevice>>(opened)), chosen.wiring,

@@ -2,42 +2,71 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace wale {
+#include "library/open_device.hpp"
 
-PluggedDevices plugged_devices() {
-  auto context = UsbContext::open();
-  if (auto* refusal = std::get_if<Refusal>(&context)) return *std::move(refusal);
-  return list_usb_devices(*std::get<std::shared_ptr<UsbContext>>(context));
+namespace wale {
+namespace {
+
+constexpr const char* nothing =
+    "  nothing that could be felt on\n"
+    "               a stick that is connected and does not stand here may lack its own power, or have a cable that\n"
+    "               only charges; `lsusb` lists whatever the computer sees\n";
+
+/// Lines behind the first one begin below it.
+std::string indented(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+    text.insert(at + 1, "               ");
+  return text;
 }
 
-std::string plugged_text(const PluggedDevices& plugged) {
-  std::string text = "\nplugged in (listed; this version does not feel on them yet)\n";
-  if (const auto* refusal = std::get_if<Refusal>(&plugged))
-    return text + fmt::format("  USB cannot be looked at: {}\n", refusal->reason);
-  const auto& devices = std::get<std::vector<ListedUsbDevice>>(plugged);
-  if (devices.empty()) return text + "  no USB joystick\n";
-  for (const ListedUsbDevice& device : devices) {
-    text += fmt::format("  {:<12} {} at port {}\n", in_words(device.usb.vendor, device.usb.product),
-                        device.name.empty() ? "without a name" : device.name, device.usb.port);
+bool is_felt_on(const PluggedIn& plugged, const MatchedProfile& match) {
+  return plugged.obstacle.empty() && !plugged.can.empty() && match.device != nullptr;
+}
+
+}  // namespace
+
+std::string plugged_text(const Connections& connections, const std::vector<PluggedIn>& plugged,
+                         const std::vector<DescribedDevice>& known) {
+  std::string text = "\nplugged in (wale feel --device PORT)\n";
+  if (!connections.usb) text += fmt::format("  USB cannot be looked at: {}\n", connections.without_usb);
+  if (plugged.empty()) return connections.usb ? text + nothing : text;
+  for (const PluggedIn& device : plugged) {
+    const MatchedProfile match = matched_profile(device, known);
+    text += fmt::format("  {:<12} {}{}\n", device.port, device.name.empty() ? "without a name" : device.name,
+                        device.numbers.empty() ? "" : ", " + device.numbers);
     if (!device.can.empty()) text += fmt::format("  {:<12} {}\n", "", device.can);
-    if (!device.obstacle.empty()) text += fmt::format("  {:<12} cannot be used: {}\n", "", device.obstacle);
+    if (match.device != nullptr && !device.can.empty())
+      text += match.is_generic
+                  ? fmt::format(
+                        "  {:<12} no declaration is about it: taken for {}, all of whose figures are assumed;\n"
+                        "  {:<12} `wale devices --identify {}` prints one to begin with\n",
+                        "", match.device->profile.name, "", device.port)
+                  : fmt::format("  {:<12} taken for {}\n", "", match.device->profile.name);
+    if (!device.obstacle.empty()) text += fmt::format("  {:<12} cannot be used: {}\n", "", indented(device.obstacle));
   }
   return text;
 }
 
-std::string with_plugged(const std::string& devices_json, const PluggedDevices& plugged) {
+std::string with_plugged(const std::string& devices_json, const std::vector<PluggedIn>& plugged,
+                         const std::vector<DescribedDevice>& known) {
   auto json = nlohmann::ordered_json::parse(devices_json);
-  if (const auto* devices = std::get_if<std::vector<ListedUsbDevice>>(&plugged))
-    for (const ListedUsbDevice& device : *devices)
-      json.push_back({{"name", device.name},
-                      {"feel", false},
-                      {"build", false},
-                      {"usb", in_words(device.usb.vendor, device.usb.product)},
-                      {"port", device.usb.port},
-                      {"can", device.can},
-                      {"obstacle", device.obstacle}});
+  for (const PluggedIn& device : plugged) {
+    const MatchedProfile match = matched_profile(device, known);
+    json.push_back({{"name", device.name},
+                    {"plugged_in", true},
+                    {"feel", is_felt_on(device, match)},
+                    {"build", false},
+                    {"kind", device.kind},
+                    {"usb", device.numbers},
+                    {"port", device.port},
+                    {"profile", match.device != nullptr ? match.device->profile.name : ""},
+                    {"generic", match.is_generic},
+                    {"can", device.can},
+                    {"obstacle", device.obstacle}});
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -175,8 +175,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   read_wiring(reader, profile, device.wiring);
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
-      if (has_word(item, "assumed") &&
-          (device.assumed.empty() || device.assumed.back() != setting.key.text || setting.key.text != "acceleration"))
+      if (has_word(item, "assumed") && (device.assumed.empty() || device.assumed.back() != setting.key.text))
         device.assumed.push_back(setting.key.text);
   const auto known = [&](const char* key) {
     return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end() &&

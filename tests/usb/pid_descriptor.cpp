@@ -217,7 +217,7 @@ PidFamily adapt_ffb_joy() {
   PidFamily family;
   family.name = "adapt-ffb-joy";
   family.vendor = 0x03eb;
-  family.product = 0x2040;
+  family.product = 0x2056;
   family.axes = {0x30, 0x31, 0x36};
   family.buttons = 9;
   family.create = 1;

@@ -34,6 +34,8 @@ PidModel::PidModel(PidFamily of, Faults with)
       descriptor(test::report_descriptor(family)),
       stick_(stick_profile(), HandModel{0.55, 6.5, 135}, Lateral{0.04, 1}) {}
 
+void PidModel::let_go() { stick_ = SimulatedJoystick(stick_profile(), HandModel{}, Rest{}); }
+
 UsbModel::Bytes PidModel::device_descriptor() const {
   const auto low = [](std::uint16_t value) { return static_cast<std::uint8_t>(value & 0xff); };
   const auto high = [](std::uint16_t value) { return static_cast<std::uint8_t>(value >> 8); };

@@ -70,6 +70,9 @@ class PidModel final : public UsbModel {
   bool is_deaf_to_outputs() const { return faults.silent_outputs_after >= 0 && outputs >= faults.silent_outputs_after; }
   /// The input report of this frame, if it sends one.
   std::optional<std::vector<std::uint8_t>> input();
+  /// Nobody holds the stick any more: it stands where it is, at its centre, until a force moves it. Before the first
+  /// step.
+  void let_go();
 
   /// The force that the motors exert, of full force along the axes of HID (y to the user).
   glm::dvec2 force() const;

@@ -1,0 +1,366 @@
+// What `wale feel`, `wale devices` and `wale devices --identify` do with a device, from finding it to letting it go, on
+// the way that they take: the devices are not there, everything else is. Counts, order and bytes, never durations.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "library/open_device.hpp"
+#include "tests/usb_mock/usb_mock.hpp"
+#include "wale/library.hpp"
+#include "wale/stage.hpp"
+
+namespace wale::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string corduroy = std::string(WALE_SOURCE_DIR) + "/library/fabric/corduroy.wale";
+
+template <class Condition>
+void wait_until(Condition holds) {
+  while (!holds()) std::this_thread::sleep_for(1ms);
+}
+
+std::vector<std::string> log_of(const std::shared_ptr<MockJoystick>& joystick) {
+  return joystick->with_model([](PidModel& model) { return model.log; });
+}
+
+/// The counts that OpenFFBoard's Set Constant Force packets say of one of its blocks, but for those of setting up.
+std::vector<int> pushes_in(const std::vector<std::string>& log, int block) {
+  std::vector<int> pushes;
+  for (const std::string& line : log) {
+    if (line.rfind("OUT 05 0" + std::to_string(block), 0) != 0) continue;
+    const auto bytes = from_hex(line.substr(4));
+    pushes.push_back(static_cast<std::int16_t>(bytes[2] | bytes[3] << 8));
+  }
+  if (!pushes.empty()) pushes.erase(pushes.begin());
+  return pushes;
+}
+
+const std::vector<std::string> set_up_of_openffboard{
+    "GET 13",          "OUT 0C 08",       "OUT 0C 01",
+    "OUT 0D FF",       "SET 11 01 00 00", "GET 12",
+    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+    "OUT 05 02 00 00", "OUT 0A 02 01 01"};
+const std::vector<std::string> leave_of_openffboard{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00",
+                                                    "OUT 0A 02 03 00", "OUT 0C 04",       "OUT 0B 01",
+                                                    "OUT 0B 02",       "OUT 0C 02"};
+
+std::vector<std::string> first(const std::vector<std::string>& log, std::size_t count) {
+  return {log.begin(), log.begin() + static_cast<long>(std::min(count, log.size()))};
+}
+std::vector<std::string> last(const std::vector<std::string>& log, std::size_t count) {
+  return {log.end() - static_cast<long>(std::min(count, log.size())), log.end()};
+}
+
+class Feeling : public testing::Test {
+ protected:
+  Feeling() : connections_(Connections::open()) {}
+
+  /// What is plugged in, once there are so many.
+  std::vector<PluggedIn> found(std::size_t count) const {
+    std::vector<PluggedIn> all;
+    wait_until([&] { return (all = plugged_in(connections_)).size() == count; });
+    return all;
+  }
+  ChosenDevice chosen(const std::string& spelling, std::size_t plugged) const {
+    auto choice = choose_device({.spelling = spelling}, library_.devices(), found(plugged));
+    if (const auto* refusal = std::get_if<Refusal>(&choice)) throw std::runtime_error(refusal->reason);
+    return std::get<ChosenDevice>(std::move(choice));
+  }
+  Program built(const ChosenDevice& device) const {
+    return std::get<Program>(library_.material(corduroy, "", device.profile));
+  }
+  std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device, const Program& program) const {
+    auto result = open_device(connections_, device, program.description().device);
+    if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
+    return std::get<std::unique_ptr<HotPluggedDevice>>(std::move(result));
+  }
+
+  UsbMock mock_;
+  Connections connections_;
+  Library library_;
+};
+
+TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1), other = mock_.plug(PidModel(rhino()), 2);
+  const ChosenDevice device = chosen("auto", 2);
+  EXPECT_EQ(device.profile, "openffboard");
+  EXPECT_EQ(device.plugged->port, "1-1");
+  EXPECT_EQ(device.said,
+            "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard\n"
+            "  also there: VPforce Rhino (ffff:2055 at port 1-2); --device 1-2");
+  const Program program = built(device);
+  auto joystick = opened(device, program);
+  Stage stage(*joystick);
+  stage.place(program);
+
+  std::atomic<bool> stop{false};
+  std::shared_ptr<MockJoystick> again;
+  long calls = 0, felt_again = 0;
+  std::size_t under_way = 0;
+  RunOptions options{.seconds = 3600, .stop = &stop};
+  options.progress = [&](const Progress& now) {
+    ++calls;
+    if (calls == 20) {
+      under_way = log_of(stick).size();
+      mock_.unplug(stick);
+    }
+    if (calls == 24) again = mock_.plug(PidModel(openffboard()), 1);
+    if (again && now.inside && ++felt_again == 20) stop = true;
+  };
+  const auto ran = stage.run(options);
+  ASSERT_TRUE(std::holds_alternative<RunResult>(ran)) << std::get<Refusal>(ran).reason;
+  const RunResult& result = std::get<RunResult>(ran);
+  EXPECT_GT(result.ticks_run, 3000);
+  EXPECT_GT(under_way, set_up_of_openffboard.size() + 100);
+
+  const HotPlugReport report = joystick->report();
+  EXPECT_EQ(report.losses, 1);
+  EXPECT_EQ(report.returns, 1);
+  EXPECT_EQ(report.reason, "it was unplugged");
+  EXPECT_EQ(report.manner, "an effect for each axis, by direction");
+  EXPECT_GT(result.guards.lost, 0);
+
+  // No force and no patch while it is lost, and then never a step beyond the slew until it has caught up.
+  const DeviceProfile& profile = joystick->profile();
+  const double step = profile.slew / profile.rate + 2 * profile.force_step();
+  long lost = 0, since = 0;
+  glm::vec2 before(0);
+  for (const TickRecord& tick : result.record.ticks) {
+    if (!tick.inside) {
+      EXPECT_EQ(tick.force, Force(0));
+      before = Force(0);
+      ++lost;
+    } else if (lost > 0 && ++since < 5) {
+      EXPECT_LE(glm::distance(tick.force, before), step);
+      before = tick.force;
+    }
+  }
+  EXPECT_EQ(lost, result.guards.lost);
+
+  joystick.reset();
+  EXPECT_EQ(first(log_of(stick), set_up_of_openffboard.size()), set_up_of_openffboard);
+  const auto log = log_of(again);
+  EXPECT_EQ(first(log, set_up_of_openffboard.size()), set_up_of_openffboard) << "set up anew";
+  EXPECT_EQ(last(log, leave_of_openffboard.size()), leave_of_openffboard) << "and left";
+  for (const auto& one : {stick, again})
+    EXPECT_EQ(one->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
+  EXPECT_TRUE(log_of(other).empty()) << "the other one is left alone";
+  EXPECT_EQ(again->releases, again->claims);
+
+  // What either was told along x are forces that ticks commanded, in their order, some left out.
+  std::size_t tick = 0;
+  long told = 0;
+  for (const auto& one : {stick, again})
+    for (const int counts : pushes_in(log_of(one), 1)) {
+      if (counts == 0) continue;
+      const auto& ticks = result.record.ticks;
+      const auto is_it = [&] { return std::lround(ticks[tick].force.x / profile.force_newton * 32767) == counts; };
+      while (tick < ticks.size() && !is_it()) ++tick;
+      ASSERT_LT(tick, ticks.size()) << "a force that no later tick commanded: " << counts;
+      ++told;
+    }
+  EXPECT_GT(told, 200);
+}
+
+TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
+  const auto left = mock_.plug(PidModel(openffboard()), 1), right = mock_.plug(PidModel(openffboard()), 2);
+  const ChosenDevice on_left = chosen("1-1", 2), on_right = chosen("1-2", 2);
+  EXPECT_EQ(on_right.plugged->port, "1-2");
+  const Program program = built(on_left);
+  auto first_joystick = opened(on_left, program), second_joystick = opened(on_right, program);
+  const int claims = right->claims;
+  std::atomic<bool> stop{false};
+  const auto run = [&](HotPluggedDevice& device, const std::function<void(long)>& each) {
+    Stage stage(device);
+    stage.place(program);
+    long calls = 0;
+    RunOptions options{.seconds = 3600, .stop = &stop};
+    options.progress = [&](const Progress&) { each(++calls); };
+    return std::get<RunResult>(stage.run(options));
+  };
+  RunResult of_second;
+  std::thread second([&] { of_second = run(*second_joystick, [](long) {}); });
+  const RunResult of_first = run(*first_joystick, [&](long calls) {
+    if (calls == 5) mock_.unplug(left);
+    if (calls == 20) stop = true;
+  });
+  second.join();
+  EXPECT_GT(of_first.guards.lost, 0);
+  EXPECT_EQ(of_second.guards.lost, 0);
+  EXPECT_EQ(first_joystick->report().losses, 1);
+  EXPECT_EQ(first_joystick->report().returns, 0) << "the other one of its like is not taken for it";
+  EXPECT_EQ(first_joystick->report().refusal, "it is not plugged in");
+  EXPECT_EQ(second_joystick->report().losses, 0);
+  EXPECT_GT(pushes_in(log_of(right), 1).size(), pushes_in(log_of(left), 1).size());
+  second_joystick.reset();
+  EXPECT_EQ(last(log_of(right), leave_of_openffboard.size()), leave_of_openffboard);
+  EXPECT_EQ(right->claims, claims) << "nor looked at";
+}
+
+TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
+  PidFamily family = arduino();
+  family.vendor = 0x1234;
+  family.product = 0x5678;
+  family.name = "Stick of my own";
+  const auto stick = mock_.plug(PidModel(family), 3);
+  const ChosenDevice device = chosen("auto", 1);
+  EXPECT_EQ(device.profile, "usb_joystick");
+  EXPECT_TRUE(device.is_generic);
+  EXPECT_EQ(device.said,
+            "feeling on Stick of my own (1234:5678 at port 1-3), as usb_joystick: no declaration is about it, so its "
+            "figures are assumed; `wale devices --identify 1-3` prints one to begin with");
+  const Program program = built(device);
+  auto joystick = opened(device, program);
+  wait_until([&] {
+    joystick->command({5, 0});
+    return stick->with_model([](PidModel& model) { return model.force().x; }) > 0.2;
+  });
+  joystick.reset();
+  EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
+}
+
+// The binary itself, in a process of its own.
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+Outcome run_wale(const std::string& words) {
+  const std::string base = "/tmp/wale-usb-mock-" + std::to_string(getpid());
+  const int status = std::system(
+      (std::string(WALE_BINARY) + " " + words + " </dev/null >" + base + ".out 2>" + base + ".err").c_str());
+  const auto text = [](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    unlink(path.c_str());
+    return bytes;
+  };
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text(base + ".out"), text(base + ".err")};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(Feeling, APersonPlugsItInAndFeelsCorduroy) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1);
+  found(1);
+  const Outcome felt = run_wale("feel " + corduroy + " --seconds 2 --json");
+  ASSERT_EQ(felt.status, 0) << felt.err;
+  EXPECT_TRUE(contains(felt.err, "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard")) << felt.err;
+  const auto json = nlohmann::json::parse(felt.out);
+  EXPECT_EQ(json.at("device"), "OpenFFBoard (1209:ffb0 at port 1-1)");
+  EXPECT_EQ(json.at("profile"), "openffboard");
+  EXPECT_EQ(json.at("plugged").at("losses"), 0);
+  const auto log = log_of(stick);
+  EXPECT_EQ(first(log, set_up_of_openffboard.size()), set_up_of_openffboard);
+  EXPECT_EQ(last(log, leave_of_openffboard.size()), leave_of_openffboard);
+  EXPECT_GT(pushes_in(log, 1).size(), 50u);
+  // Counted by whoever sent them. Leaving sends one more, and so may the end of the run after it was reported.
+  const auto sent = json.at("plugged").at("tally").at("forces_sent_x").get<std::size_t>();
+  EXPECT_LE(sent + 1, pushes_in(log, 1).size());
+  EXPECT_GE(sent + 2, pushes_in(log, 1).size());
+  EXPECT_EQ(stick->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
+  EXPECT_TRUE(contains(run_wale("feel " + corduroy + " --seconds 0.5").out, "driven       an effect for each axis"));
+}
+
+TEST_F(Feeling, WhatIsNamedIsMeantReally) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1), rhino_stick = mock_.plug(PidModel(rhino()), 2);
+  found(2);
+  const auto device_of = [](const std::string& spelling) -> std::string {
+    const Outcome felt = run_wale("feel " + corduroy + " --seconds 0.2 --json --device " + spelling);
+    return felt.status == 0 ? nlohmann::json::parse(felt.out).at("device").get<std::string>() : felt.err;
+  };
+  EXPECT_EQ(device_of("vpforce_rhino"), "VPforce Rhino (ffff:2055 at port 1-2)");
+  EXPECT_EQ(device_of("ffff:2055"), "VPforce Rhino (ffff:2055 at port 1-2)");
+  EXPECT_EQ(device_of("1-2"), "VPforce Rhino (ffff:2055 at port 1-2)");
+  EXPECT_EQ(device_of("usb"), "OpenFFBoard (1209:ffb0 at port 1-1)");
+  EXPECT_EQ(device_of("hid-pid"), "OpenFFBoard (1209:ffb0 at port 1-1)");
+  const std::size_t before = log_of(stick).size() + log_of(rhino_stick).size();
+  EXPECT_EQ(device_of("simulated"), "simulated");
+  EXPECT_EQ(device_of("simulated:openffboard"), "simulated");
+  EXPECT_EQ(device_of("adapt_ffb_joy"), "simulated") << "declared, and not plugged in";
+  EXPECT_EQ(log_of(stick).size() + log_of(rhino_stick).size(), before) << "nothing was said to either";
+}
+
+TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1);
+  found(1);
+  const std::string program = "/tmp/wale-usb-mock-" + std::to_string(getpid()) + ".wpp";
+  ASSERT_EQ(run_wale("build " + corduroy + " --device sandpaper -o " + program).status, 0);
+  const Outcome named = run_wale("feel " + program + " --seconds 0.2 --device usb");
+  EXPECT_EQ(named.status, 1);
+  EXPECT_TRUE(contains(named.err, "build it for that (`wale build FILE --device openffboard -o OUT.wpp`)"))
+      << named.err;
+  const Outcome by_itself = run_wale("feel " + program + " --seconds 0.2 --json");
+  EXPECT_EQ(by_itself.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(by_itself.out).at("device"), "simulated");
+  EXPECT_TRUE(contains(by_itself.err, "is taken for openffboard, and the program is built for sandpaper"))
+      << by_itself.err;
+  EXPECT_TRUE(log_of(stick).empty());
+  unlink(program.c_str());
+}
+
+TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
+  EXPECT_TRUE(contains(run_wale("devices").out, "nothing that could be felt on"));
+  mock_.plug(PidModel(openffboard()), 1);
+  PidModel plain(arduino());
+  plain.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");
+  mock_.plug(std::move(plain), 2);
+  mock_.plug(PidModel(rhino()), 3)->is_claimed_elsewhere = true;
+  found(3);
+  const auto json = nlohmann::json::parse(run_wale("devices --json").out);
+  std::vector<nlohmann::json> plugged;
+  for (const auto& each : json)
+    if (each.contains("plugged_in")) plugged.push_back(each);
+  ASSERT_EQ(plugged.size(), 3u);
+  EXPECT_EQ(plugged[0].at("feel"), true);
+  EXPECT_EQ(plugged[0].at("profile"), "openffboard");
+  EXPECT_EQ(plugged[0].at("can"), "two axes by direction, 32767 steps of force to each side");
+  EXPECT_EQ(plugged[1].at("feel"), false);
+  EXPECT_EQ(plugged[1].at("obstacle"),
+            "it is not a force device: nothing in its report descriptor is of usage page 0F");
+  EXPECT_EQ(plugged[2].at("feel"), false);
+  EXPECT_EQ(plugged[2].at("obstacle"), "another program has claimed it");
+  EXPECT_TRUE(contains(run_wale("devices").out, "another program has claimed it"));
+  const Outcome felt = run_wale("feel " + corduroy + " --seconds 0.2 --device 1-3");
+  EXPECT_EQ(felt.status, 1);
+  EXPECT_TRUE(contains(felt.err, "cannot be used: another program has claimed it")) << felt.err;
+}
+
+TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
+  const auto stick = mock_.plug(PidModel(openffboard()), 1);
+  stick->with_model([](PidModel& model) { model.let_go(); });
+  found(1);
+  const Outcome identified = run_wale("devices --identify 1-1");
+  ASSERT_EQ(identified.status, 0) << identified.err;
+  EXPECT_TRUE(contains(identified.out, "  axes      x, y\n") || contains(identified.out, "  axes x, y\n"))
+      << identified.out;
+  EXPECT_TRUE(contains(identified.out, "motors x, y")) << identified.out;
+  EXPECT_TRUE(contains(identified.err, "Keep your hand off the handle"));
+  EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
+  // A fifth of its force at most: 6554 of 32767.
+  for (const int block : {1, 2})
+    for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
+  const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
+  EXPECT_EQ(weak.status, 1);
+  EXPECT_TRUE(contains(weak.err, "nothing moved")) << weak.err;
+  EXPECT_EQ(weak.out, "");
+}
+
+}  // namespace
+}  // namespace wale::test
