@@ -298,10 +298,11 @@ glm::dvec2 PidModel::force() const {
 }
 
 void PidModel::step() {
+  ++now_;
+  if (!moves) return;
   const glm::dvec2 now = force() * full_newton;
   stick_.command({static_cast<float>(now.x), static_cast<float>(-now.y)});
   stick_.elapse(1);
-  ++now_;
 }
 
 }  // namespace wale::test
