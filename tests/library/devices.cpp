@@ -47,7 +47,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       EXPECT_EQ(description.vibrates(), device == "touch_pad" || device == "gamepad");
       // A fate for each percept that was asked for, by name, and one for the physics where there is some.
       std::set<std::string> told;
-      for (const DescribedFate& fate : description.fates) told.insert(fate.record.name);
+      for (const FateRecord& fate : description.fates) told.insert(fate.name);
       for (const auto& asked : material.percepts) EXPECT_TRUE(told.contains(asked.name)) << material.name;
       EXPECT_GE(told.size(), material.percepts.size() + (material.force ? 1 : 0)) << material.name;
       if (!description.vibrates()) continue;
