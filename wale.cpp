@@ -132,7 +132,7 @@ std::optional<DeviceToFeel> device_to_feel(const FeelOptions& options) {
   std::vector<PluggedIn> plugged;
   if (!request.only_simulated && !request.spelling.starts_with("simulated")) {
     device.connections = Connections::open();
-    plugged = plugged_in(device.connections);
+    plugged = plugged_in(device.connections, request.spelling);
   }
   auto chosen = choose_device(request, known, plugged);
   if (const auto* refusal = std::get_if<Refusal>(&chosen)) {

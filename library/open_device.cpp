@@ -222,10 +222,12 @@ MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<Descr
   return {generic, generic != nullptr};
 }
 
-std::vector<PluggedIn> plugged_in(const Connections& connections) {
+std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked) {
   std::vector<PluggedIn> all;
-  for (const DeviceKind& kind : device_kinds())
+  for (const DeviceKind& kind : device_kinds()) {
+    if (!kind.is_chosen_by_auto && kind.name != asked) continue;
     for (PluggedIn& each : kind.find(connections, nullptr)) all.push_back(std::move(each));
+  }
   return all;
 }
 

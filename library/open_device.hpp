@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -20,8 +21,9 @@ struct MatchedProfile {
 };
 MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<DescribedDevice>& known);
 
-/// All that is plugged in and of some kind, in the order in which `auto` looks at it.
-std::vector<PluggedIn> plugged_in(const Connections& connections);
+/// All that is plugged in and of some kind, in the order in which `auto` looks at it. Of a kind that `auto` does not
+/// choose, as the pointer, which is always there, only when that kind is `asked` for by its name.
+std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked = {});
 
 /// What is asked for by `--device`.
 struct DeviceRequest {

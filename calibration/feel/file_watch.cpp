@@ -50,9 +50,9 @@ bool FileWatch::follow(const std::vector<std::string>& files) {
     folders[folder] = watch;
     followed_.emplace(watch, path.filename().string());
   }
-  for (const auto& [folder, watch] : folders_)
-    if (std::ranges::none_of(folders, [&](const auto& each) { return each.second == watch; }))
-      inotify_rm_watch(events_, watch);
+  for (const auto& old : folders_)
+    if (std::ranges::none_of(folders, [&](const auto& each) { return each.second == old.second; }))
+      inotify_rm_watch(events_, old.second);
   folders_ = std::move(folders);
   return fresh;
 }

@@ -279,17 +279,23 @@ class Grader {
     const LoopTiming timing(device_);
     const auto all = slopes_.at(hands, states);
     if (all.empty()) return false;
-    std::vector<double> needed(all.size());
+    // Many places are alike, in oil all of them; of equals the first is named as the worst.
+    std::vector<std::size_t> different;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (is_smooth(all[i].linear) && steepness(all[i]) <= sharp_over_step * grade_.stiffness &&
+          std::ranges::none_of(different, [&](std::size_t j) { return all[j].linear == all[i].linear; }))
+        different.push_back(i);
+    std::vector<double> of_different(different.size());
     const auto work = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (is_smooth(all[i].linear) && steepness(all[i]) <= sharp_over_step * grade_.stiffness)
-          needed[i] = required_damping(all[i].linear, timing);
+      for (std::size_t i = begin; i < end; ++i) of_different[i] = required_damping(all[different[i]].linear, timing);
     };
     // In closed form, without motion and states, they are not worth a thread.
     if (slopes_.depends_on_motion() || !program_.states.empty())
-      in_parallel(all.size(), work);
+      in_parallel(different.size(), work);
     else
-      work(0, all.size());
+      work(0, different.size());
+    std::vector<double> needed(all.size());
+    for (std::size_t i = 0; i < different.size(); ++i) needed[different[i]] = of_different[i];
     for (std::size_t i = 0; i < all.size(); ++i)
       if (needed[i] > grade_.required_damping) {
         grade_.required_damping = needed[i];

@@ -19,6 +19,8 @@ struct HandSlopes {
   Slopes raw_velocity{};      ///< N s/m
   Slopes acceleration{};      ///< filtered; N s^2/m
   Slopes raw_acceleration{};  ///< N s^2/m
+
+  friend bool operator==(const HandSlopes&, const HandSlopes&) = default;
 };
 
 /// A program near one place and motion: force = direct * hand + output * state, next state = carry * state + input *
@@ -30,6 +32,8 @@ struct LinearProgram {
   std::vector<double> carry;   ///< n x n
   /// n / 2 rounded up pairs of rows: what the hand does to states 2 i and 2 i + 1 is `input[i]`, as to a force.
   std::vector<HandSlopes> input;
+
+  friend bool operator==(const LinearProgram&, const LinearProgram&) = default;
 };
 
 /// When a device samples, and how long its command takes to the handle.

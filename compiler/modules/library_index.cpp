@@ -17,8 +17,8 @@ std::vector<std::string> texts_in(const Setting& setting, const SyntaxTree& tree
   std::vector<std::string> texts;
   for (const SettingItem& item : setting.items) {
     const auto* literal = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
-    if (literal) texts.push_back(literal->text);
-    if (!item.value && !item.words.empty()) texts.push_back(item.words.front().text);
+    if (literal) texts.emplace_back(literal->text);
+    if (!item.value && !item.words.empty()) texts.emplace_back(item.words.front().text);
   }
   return texts;
 }
@@ -69,7 +69,7 @@ void LibraryIndex::add(const std::string& module, const SyntaxTree& tree) {
     entry.name = material->name.text, entry.module = module;
     for (const Setting& setting : material->representative) {
       std::vector<std::string> texts = texts_in(setting, tree);
-      const std::string& key = setting.key.text;
+      const std::string_view key = setting.key.text;
       if (key == "called")
         entry.called = std::move(texts);
       else if (key == "feels")

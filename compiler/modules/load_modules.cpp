@@ -198,15 +198,16 @@ class ModuleLoader {
     for (const Declaration& declaration : module.tree.declarations)
       if (const auto* material = std::get_if<MaterialDecl>(&declaration))
         for (const Setting& setting : material->representative)
-          if (const auto liked = liked_by(setting, module.tree))
+          if (const auto liked = liked_by(setting, module.tree)) {
             if (const auto* named = module.declarations.materials.find(liked->text); !named)
               module.declarations.likes[&setting] = find_in_library(module, std::string(material->name.text), *liked);
             else if (setting.items.front().value)
               module.declarations.likes[&setting] = named;
+          }
   }
 
   /// What a material of a file is like: one of the file itself goes before one that it imports, and that before others.
-  const Declared<MaterialDecl>* find_in_library(const Module& module, const std::string& asking, const Word& liked) {
+  const Declared<MaterialDecl>* find_in_library(const Module& module, std::string_view asking, const Word& liked) {
     LibraryIndex own;
     own.add(module.name, module.tree);
     const auto others = [&](std::vector<const IndexedMaterial*> found) {

@@ -16,6 +16,7 @@ constexpr std::size_t neighbours = 128;   ///< hands of one step around the best
 constexpr int steps = 14;                 ///< each half as wide as the one before
 constexpr int passes = 4;                 ///< of all steps, the first of which may lead out of a dead end again
 constexpr std::size_t refined = 4;        ///< of the choices of parameters, the best
+constexpr double near_enough = 0.9;       ///< of what is looked for
 constexpr double setup_budget = 3e7;      ///< units of cost, for the peaks of all choices together
 constexpr std::size_t most_choices = 32;  ///< of parameters
 constexpr std::size_t strokes = 16, stroke_ticks = 256;
@@ -73,9 +74,16 @@ class Search {
 
   LargestForce run() {
     std::vector<LargestForce> found;
+    bool hoped = false;
     for (const Choice& choice : choices()) {
       found.push_back(best_of(choice));
       if (enough(found.back())) return found.back();
+      // The first that comes near may get there at once, which spares the peaks of all further choices.
+      if (hoped || found.back().newton < near_enough * enough_) continue;
+      hoped = true;
+      LargestForce nearer = found.back();
+      refine(Bank(program_, nearer.parameters, nearer.size), nearer);
+      if (enough(nearer)) return nearer;
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const LargestForce& a, const LargestForce& b) { return a.newton > b.newton; });

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -103,11 +102,15 @@ class Check {
     sum_ ^= sum_ >> 32;
   }
   void add(std::span<const std::byte> bytes) noexcept {
-    for (std::size_t i = 0; i < bytes.size(); i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
+    std::uint64_t word = 0;
+    for (; bytes.size() >= sizeof word; bytes = bytes.subspan(sizeof word)) {
+      std::memcpy(&word, bytes.data(), sizeof word);
       add(word);
     }
+    if (bytes.empty()) return;
+    word = 0;
+    std::memcpy(&word, bytes.data(), bytes.size());
+    add(word);
   }
   std::uint32_t value() const noexcept { return static_cast<std::uint32_t>(sum_ ^ sum_ >> 32); }
 

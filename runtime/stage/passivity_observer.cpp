@@ -12,10 +12,16 @@ constexpr double share_of_impedance = 0.1;  ///< of m/T
 constexpr double memory_seconds = 0.1;
 constexpr double most_gained = 2;  ///< of what is allowed
 
+/// How late a device is taken to be.
+Lag lag_of(DeviceProfile profile) {
+  if (!profile.damping_known) profile.delay_x = profile.delay_y = profile.bandwidth_x = profile.bandwidth_y = 0;
+  return Lag(profile);
+}
+
 }  // namespace
 
 PassivityObserver::PassivityObserver(const DeviceProfile& profile)
-    : lag_(profile),
+    : lag_(lag_of(profile)),
       late_(1 + 2 * std::max(lag_.periods().x, lag_.periods().y)),
       period_(1 / profile.rate),
       per_answer_(profile.rate / (0.5 + lag_.periods())),

@@ -18,16 +18,17 @@ namespace wale {
 ///   W <- max(0, W + u(n-1) dx - (f(n-1) + f(n)) dx / 2 - b dx^2 / T)
 ///
 /// u(n-1) is what the actuator exerts: where the device is late by d periods (its delay and its bandwidth's time
-/// constant), the command of d periods before. Then, on a spring, the first two differ by the stretch over all the time
-/// from a sample to the middle of its force's period, (1/2 + d) T, and so the speed with which b takes up energy is
-/// taken over just that time: what an encoder has wrong is wrong on both sides, and they cancel at the stiffness that
-/// is passive, b / (T / 2 + d T). On a texture the first two differ by turns: moving at an even pace over a slope up
-/// and one down they come to nothing, and to at most (1 + 2 d) |f| |dx| on the way. That much, at the force and the
-/// pace of the last tenth of a second (with one encoder count, by which the way may be wrong), is no gain yet.
-/// Beyond it the observer damps, by what is gained and at most 0.1 m/T / (1 + 2 d), m the moving mass at the handle:
-/// more would itself be unstable, and the sooner, the later it comes. The form, the 20 uJ and the 0.1 are from
-/// simulations (shared reference, closed-loop.md, "Passivity observer"); there 20 uJ alone were allowed, which fires on
-/// a passive corduroy that is moved at more than 0.1 m/s.
+/// constant), the command of d periods before. That is counted only where somebody measured the device's damping: with
+/// an assumed one a late device would be blamed for what the hand takes up in truth, as no grade is given then either.
+/// Then, on a spring, the first two differ by the stretch over all the time from a sample to the middle of its force's
+/// period, (1/2 + d) T, and so the speed with which b takes up energy is taken over just that time: what an encoder has
+/// wrong is wrong on both sides, and they cancel at the stiffness that is passive, b / (T / 2 + d T). On a texture the
+/// first two differ by turns: moving at an even pace over a slope up and one down they come to nothing, and to at most
+/// (1 + 2 d) |f| |dx| on the way. That much, at the force and the pace of the last tenth of a second (with one encoder
+/// count, by which the way may be wrong), is no gain yet. Beyond it the observer damps, by what is gained and at most
+/// 0.1 m/T / (1 + 2 d), m the moving mass at the handle: more would itself be unstable, and the sooner, the later it
+/// comes. The form, the 20 uJ and the 0.1 are from simulations (shared reference, closed-loop.md, "Passivity
+/// observer"); there 20 uJ alone were allowed, which fires on a passive corduroy that is moved at more than 0.1 m/s.
 class PassivityObserver {
  public:
   /// The profile's rate and encoder are known. A mass or damping that it does not declare is 0; without a mass the

@@ -183,6 +183,7 @@ int main(int count, char**) {
   wale::DeviceProfile device = wale::sandpaper();
   guards("guards", device);
   device.delay_x = device.delay_y = 0.0015;
+  device.damping_known = true;
   device.continuous_newton = 5;
   device.heating_seconds = 20;
   guards("guards_late", device);

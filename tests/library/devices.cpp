@@ -61,7 +61,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       EXPECT_LE(double{std::max(description.patch_width, description.patch_height)}, widest);
       // A fate for each percept that was asked for, by name, and one for the physics where there is some.
       std::set<std::string> told;
-      for (const DescribedFate& fate : description.fates) told.insert(fate.record.name);
+      for (const FateRecord& fate : description.fates) told.insert(fate.name);
       for (const auto& asked : material.percepts) EXPECT_TRUE(told.contains(asked.name)) << material.name;
       EXPECT_GE(told.size(), material.percepts.size() + (material.force ? 1 : 0)) << material.name;
       const bool is_wider = material.patch && std::max((*material.patch)[0], (*material.patch)[1]) > widest;

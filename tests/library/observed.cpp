@@ -34,6 +34,7 @@ GuardCounts guarded(const Program& program) {
 /// The same program for the same device, but for a force that comes so many ticks later.
 Program late(const Program& program, double ticks) {
   PatchProgram description = program.description();
+  description.device.damping_known = true;
   description.device.delay_x = description.device.delay_y = ticks / description.device.rate;
   auto loaded = Program::load(std::move(description));
   if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);

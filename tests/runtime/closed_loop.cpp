@@ -108,6 +108,7 @@ double stiffest_passive(const Scene& scene, double ticks) {
 
 DeviceProfile late(DeviceProfile profile, double ticks) {
   profile.delay_x = profile.delay_y = ticks / profile.rate;
+  profile.damping_known = true;
   return profile;
 }
 
@@ -226,6 +227,20 @@ TEST(PassivityObserver, WhatItAddsStaysWithinWhatTheUserAllows) {
     guards.commanded(Force(20 * step * 900, 0));  // an actuator that goes along with the hand
   }
   EXPECT_GT(guards.counts().passivity, 0);
+}
+
+TEST(PassivityObserver, LeansOnADelayOnlyWhereTheDampingIsKnown) {
+  DeviceProfile known = late(frictionless(false), 2), assumed = known;
+  assumed.damping_known = false;
+  PassivityObserver with(known), without(assumed), prompt(frictionless(false));
+  for (int tick = 0; tick < 300; ++tick) {
+    const glm::dvec2 position(0.001 * std::sin(0.07 * tick), 0);
+    const Force field(-500.0 * position);
+    for (PassivityObserver* observer : {&with, &without, &prompt})
+      (*observer)(field, position, 1), observer->commanded(field);
+    ASSERT_EQ(without.gained(), prompt.gained());
+  }
+  EXPECT_GT(with.gained(), prompt.gained());
 }
 
 TEST(PassivityObserver, WithoutAKnownMassItOnlyMeters) {

@@ -103,6 +103,7 @@ TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
   profile.continuous_newton = 0.4;
   profile.heating_seconds = 0.2;
   profile.delay_x = profile.delay_y = 0.0015;
+  profile.damping_known = true;
   for (const Program& program : {corduroy(1.934f), bead(500)}) {
     SimulatedJoystick joystick(profile, normal_hand(), Circular{0.075, 1, {0.03, 0}});  // in and out of the patch
     Exchange<PlacedPatches> patches;

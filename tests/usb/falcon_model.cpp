@@ -193,7 +193,10 @@ std::optional<UsbModel::Bytes> FalconModel::give(std::uint8_t endpoint) {
 glm::dvec3 FalconModel::force() const { return force_; }
 
 void FalconModel::step() {
+  if (!moves && torques == torques_of_force_) return;
+  torques_of_force_ = torques;
   force_ = torques == glm::ivec3(0) ? glm::dvec3(0) : force_of(place, -glm::dvec3(torques) / steps_per_newton_metre_);
+  if (!moves) return;
   constexpr int parts = 10;
   for (int i = 0; i < parts; ++i) {
     const glm::dvec3 all = force_ - losses * velocity + hand_stiffness * (hand - place);

@@ -50,6 +50,7 @@ class FalconModel final : public UsbModel {
   FalconFaults faults;
   std::vector<std::string> log;  ///< "C 9 1", "OUT 0A 43 0D", "OUT <AAAAAAAAAAAABA>"; of firmware "OUT 62 bytes"
   bool logs = true;
+  bool moves = true;  ///< the handle does; where that is dear, as on an emulated processor, it may stand still
   bool runs_firmware = false;
   Bytes firmware;        ///< as it was loaded
   int homes_after = 20;  ///< commands that keep homing before the encoders have found their zeros; -1: never
@@ -78,6 +79,7 @@ class FalconModel final : public UsbModel {
   long packets_ = 0;
   double steps_per_newton_metre_ = 0;
   glm::dvec3 force_{0};
+  glm::ivec3 torques_of_force_{0};
 };
 
 }  // namespace wale::test

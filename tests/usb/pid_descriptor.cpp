@@ -148,6 +148,10 @@ std::vector<std::uint8_t> report_descriptor(const PidFamily& family) {
   items.use(0x22).logical(1, 40).physical(1, 40).size(7, 1).input(variable).end();
 
   write_set_effect(items, family);
+  begin_output(items, 0x5a, family.envelope);  // without which Linux's driver has no use for a constant force
+  for (const std::uint8_t level : {0x5b, 0x5d}) number(items, level, 16, family.magnitude_maximum);
+  for (const std::uint8_t time : {0x5c, 0x5e}) number(items, time, 16, 32767);
+  items.end();
   begin_output(items, 0x73, family.constant);
   number(items, 0x70, 16, family.magnitude_maximum, -family.magnitude_maximum);
   items.end();
@@ -195,6 +199,7 @@ PidFamily rhino() {
   family.axes = {0x30, 0x31};
   family.buttons = 32;
   family.set_effect = 101;
+  family.envelope = 102;
   family.constant = 105;
   family.operation = 110;
   family.free = 111;

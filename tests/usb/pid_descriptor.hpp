@@ -16,7 +16,7 @@ struct PidFamily {
   std::uint8_t input = 1;
   std::vector<std::uint8_t> axes;  ///< usages of page 01, i16 each, after `buttons` bits of buttons
   int buttons = 0;
-  std::uint8_t set_effect = 1, constant = 5, operation = 10, free = 11, control = 12, gain = 13;
+  std::uint8_t set_effect = 1, envelope = 2, constant = 5, operation = 10, free = 11, control = 12, gain = 13;
   std::uint8_t create = 5, load = 6, pool = 7;
   int gain_bits = 8, gain_maximum = 255;
   int direction_bits = 8, direction_maximum = 255;

@@ -159,6 +159,8 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
     const auto counts = static_cast<std::int16_t>(unsigned16(report, 2));
     if (!effect.exists || std::abs(counts) > family.magnitude_maximum) ++wrong_reports;
     effect.magnitude = static_cast<double>(counts) / family.magnitude_maximum;
+  } else if (id == family.envelope && is_long(10)) {
+    if (!effect.exists) ++wrong_reports;  // nothing of it is felt here
   } else if (id == family.operation && is_long(4)) {
     if (!effect.exists || report[2] < 1 || report[2] > 3) ++wrong_reports;
     effect.plays = report[2] != 3;
@@ -184,8 +186,8 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
         default: ++wrong_reports; break;
       }
     }
-  } else if (id != family.constant && id != family.operation && id != family.free && id != family.gain &&
-             id != family.control) {
+  } else if (id != family.constant && id != family.envelope && id != family.operation && id != family.free &&
+             id != family.gain && id != family.control) {
     ++wrong_reports;
   }
 }
@@ -296,10 +298,11 @@ glm::dvec2 PidModel::force() const {
 }
 
 void PidModel::step() {
+  ++now_;
+  if (!moves) return;
   const glm::dvec2 now = force() * full_newton;
   stick_.command({static_cast<float>(now.x), static_cast<float>(-now.y)});
   stick_.elapse(1);
-  ++now_;
 }
 
 }  // namespace wale::test

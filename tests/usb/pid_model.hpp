@@ -84,6 +84,7 @@ class PidModel final : public UsbModel {
   std::vector<std::uint8_t> descriptor;
   std::vector<std::string> log;  ///< "OUT 0C 08", "SET 11 01 00 00", "GET 12"
   bool logs = true;
+  bool moves = true;  ///< the stick does; where that is dear, as on an emulated processor, it may stand still
   std::array<Effect, 256> effects{};
   bool is_enabled = false;
   double gain = 1;

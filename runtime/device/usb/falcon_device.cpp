@@ -16,8 +16,7 @@ std::variant<std::unique_ptr<FalconDevice>, Refusal> FalconDevice::open(std::sha
   const auto refused = [&](const std::string& reason) {
     return Refusal{in_words(info.vendor, info.product) + ": " + reason, {}};
   };
-  FalconTransport::Options wanted;
-  wanted.session.command_silence = options.command_silence;
+  FalconTransport::Options wanted = options.transport;
   auto firmware = read_falcon_firmware(options.firmware);
   if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&firmware)) wanted.session.firmware = std::move(*bytes);
 

@@ -20,6 +20,7 @@ namespace wale {
 bool is_falcon(const UsbDeviceInfo& info);
 
 struct FalconOptions {
+  FalconTransport::Options transport;  ///< but for the firmware, which is read from its file
   falcon::HoldInPlane hold;
   /// The user's own file, needed after the device was without power; read only then.
   std::filesystem::path firmware = falcon_firmware_path();
@@ -27,7 +28,6 @@ struct FalconOptions {
   double homing_patience = 60;
   /// Told what the person is to do; on the thread that opens.
   std::function<void(const std::string&)> ask = {};
-  double command_silence = 0.1;  ///< s without a command after which the motors are let go
   /// s after the newest answer from which on the position counts as an old one.
   double stale_after = 0.02;
 };
