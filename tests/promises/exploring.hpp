@@ -31,6 +31,7 @@ inline std::vector<DeviceProfile> force_devices() {
   std::vector<DeviceProfile> found;
   common_modules()->declarations.devices.each([&](const std::string&, const DeviceDeclaration& device) {
     const DeviceProfile& profile = device.profile;
+    if (profile.name == "pointer") return;  // draws its forces: nothing comes out of a handle
     if (profile.force_newton > 0 && profile.force_counts > 0 && profile.position_counts > 0) found.push_back(profile);
   });
   return found;

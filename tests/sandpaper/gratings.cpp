@@ -32,7 +32,7 @@ double smoothed_wave(double along, double valley, double hill, double kernel) {
 class Probe {
  public:
   Probe(const std::string& imports, const std::string& function)
-      : program_(Module("probe.wale", "wale 1\n" + imports + "\nmaterial probe { physical { patch 220 mm, 220 mm; active 100 W; " +
+      : program_(Module("probe.wale", "wale 1\n" + imports + "\nmaterial probe { physical { patch 220 mm, 220 mm; active 2 W; " +
                                           "force = vector(1 N * (" + function + "), 0 N) } }\n")
                      .program("probe")),
         bank_(program_) {}

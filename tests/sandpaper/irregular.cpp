@@ -9,7 +9,7 @@ namespace {
 
 /// A program of a material whose force is the two given plain numbers, in newtons.
 Program probe(const std::string& imports, const std::string& along_x, const std::string& along_y) {
-  return Module("probe.wale", "wale 1\n" + imports + "\nmaterial probe { physical { patch 220 mm, 220 mm; active 100 W; force = " +
+  return Module("probe.wale", "wale 1\n" + imports + "\nmaterial probe { physical { patch 220 mm, 220 mm; active 2 W; force = " +
                                   "vector(1 N * (" + along_x + "), 1 N * (" + along_y + ")) } }\n")
       .program("probe");
 }
