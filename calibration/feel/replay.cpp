@@ -17,7 +17,7 @@ namespace {
 /// What a person wants to know of a recording before they look closer.
 struct Summary {
   std::vector<std::string> materials;  ///< of its programs, with their hashes
-  long sets = 0, swaps = 0, placements = 0, missed = 0;
+  long sets = 0, swaps = 0, moves = 0, placements = 0, missed = 0;
   double seconds = 0;
 };
 
@@ -33,6 +33,7 @@ Summary summary_of(const Recording& recording) {
   for (const RecordedEvent& event : recording.events()) {
     summary.sets += event.kind == RecordedEvent::Kind::set;
     summary.swaps += event.kind == RecordedEvent::Kind::replace;
+    summary.moves += event.kind == RecordedEvent::Kind::move;
     summary.placements += event.kind == RecordedEvent::Kind::place || event.kind == RecordedEvent::Kind::add;
   }
   for (std::size_t i = 0; i < recording.ticks(); ++i) summary.missed += recording.tick(i).skipped;
@@ -63,8 +64,8 @@ std::string replay_text(const std::string& file, const Recording& recording, con
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
                       header.device.rate);
   for (const std::string& material : summary.materials) text += fmt::format("  program      {}\n", material);
-  text += fmt::format("  changes      {} placed, {} swapped, {} parameters set\n", summary.placements, summary.swaps,
-                      summary.sets);
+  text += fmt::format("  changes      {} placed, {} moved, {} swapped, {} parameters set\n", summary.placements,
+                      summary.moves, summary.swaps, summary.sets);
   return text + fmt::format("  replay       {}\n", verdict(replay, header.device.rate));
 }
 
@@ -80,7 +81,10 @@ std::string replay_json(const std::string& file, const Recording& recording, con
   json["seconds"] = summary.seconds;
   json["ticks"] = {{"run", recording.ticks()}, {"missed", summary.missed}};
   json["programs"] = summary.materials;
-  json["changes"] = {{"placed", summary.placements}, {"swapped", summary.swaps}, {"parameters_set", summary.sets}};
+  json["changes"] = {{"placed", summary.placements},
+                     {"moved", summary.moves},
+                     {"swapped", summary.swaps},
+                     {"parameters_set", summary.sets}};
   json["replay"] = {{"same", !replay.first}, {"differing", replay.differing}};
   if (replay.first)
     json["replay"]["first"] = {{"tick", replay.first->tick},

@@ -156,6 +156,36 @@ TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
   expect_same(recording);
 }
 
+TEST(Recording, ReplaysMovesAndHotMotors) {
+  const Folder folder;
+  Puppet device(roaming);
+  device.profile_.continuous_newton = 0.5;
+  device.profile_.heating_seconds = 1;
+  Stage stage(device);
+  stage.place(spring(200, 2));
+  stage.add(push(1.5f), {0, 0}, {.width = 0.04f, .height = 0.04f}, 1);
+  long moves = 0;
+  RunOptions options{.seconds = 8, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", {}}};
+  options.progress = [&](const Progress&) {
+    ++moves;
+    ASSERT_FALSE(stage.move(1, {0.03f * std::sin(0.5f * static_cast<float>(moves)), 0}).has_value());
+  };
+  const RunResult done = run(stage, options);
+  EXPECT_GT(done.guards.heat, 0);
+  const Recording recording = opened(folder / "a.wrec");
+  EXPECT_EQ(std::ranges::count(recording.events(), RecordedEvent::Kind::move, &RecordedEvent::kind), moves);
+  long hot = 0;
+  std::vector<long> under(2);
+  for (std::size_t i = 0; i < recording.ticks(); ++i) {
+    const RecordedTick tick = recording.tick(i);
+    hot += (tick.guards & static_cast<std::uint32_t>(GuardBit::heat)) != 0;
+    if (tick.inside) ++under.at(tick.patch);
+  }
+  EXPECT_EQ(hot, done.guards.heat);
+  for (const long ticks : under) EXPECT_GT(ticks, 50);
+  expect_same(recording);
+}
+
 TEST(Recording, ReplaysPads) {
   const Folder folder;
   const Program ribs = std::get<Program>(Program::load(example::pad(PositionSource::touch)));
