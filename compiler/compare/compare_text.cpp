@@ -17,15 +17,27 @@ constexpr std::size_t most_listed = 20;  // pairs
 
 const CueFacts& facts_of(CueKind kind) { return cue_table()[static_cast<std::size_t>(kind)]; }
 
-/// "2.5 mm", "1.93 N", "45 degrees", "none": with the digits that such figures deserve.
-std::string cue_text(CueKind kind, const std::optional<double>& value) {
+/// "2.5 mm", "1.93 N", "45 degrees", "none": with the digits that such figures deserve, and so many `more`.
+std::string cue_text(CueKind kind, const std::optional<double>& value, int more = 0) {
   if (!value) return "none";
-  if (kind == CueKind::period || kind == CueKind::bump_period) return fmt::format("{:.3g} mm", 1e3 * *value);
-  // 180 degrees are none: a texture has no front.
-  if (kind == CueKind::orientation)
-    return fmt::format("{} degrees", std::lround(*value * 180 / std::numbers::pi) % 180);
+  if (kind == CueKind::period || kind == CueKind::bump_period) return fmt::format("{:.{}g} mm", 1e3 * *value, 3 + more);
+  if (kind == CueKind::orientation) {
+    // 180 degrees are none: a texture has no front.
+    const double unit = std::pow(10, -more);
+    const double rounded = std::round(*value * 180 / std::numbers::pi / unit) * unit;
+    return fmt::format("{:.{}f} degrees", std::fmod(rounded, 180) + 0.0, more);
+  }
   const CueFacts& facts = facts_of(kind);
-  return fmt::format("{:.3g}{}{}", *value, *facts.unit ? " " : "", facts.unit);
+  return fmt::format("{:.{}g}{}{}", *value, 3 + more, *facts.unit ? " " : "", facts.unit);
+}
+
+/// Both values of a cue, with more digits where they differ and would read the same.
+std::pair<std::string, std::string> cue_texts(const CueDifference& cue) {
+  constexpr int most = 3;
+  for (int more = 0;; ++more) {
+    std::pair texts{cue_text(cue.kind, cue.a, more), cue_text(cue.kind, cue.b, more)};
+    if (texts.first != texts.second || cue.noticeable == 0.0 || more == most) return texts;
+  }
 }
 
 std::string noticeable_text(const std::optional<double>& noticeable) {
@@ -58,8 +70,9 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t f
   const std::size_t width = std::max({a.size(), b.size(), std::size_t{14}});
   text += fmt::format("  {:<20} {:<{}}  {:<{}}  noticeable differences\n", "", a, width, b, width);
   for (const CueDifference& cue : comparison.cues) {
-    text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, cue_text(cue.kind, cue.a), width,
-                        cue_text(cue.kind, cue.b), width, noticeable_text(cue.noticeable));
+    const auto [of_a, of_b] = cue_texts(cue);
+    text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, of_a, width, of_b, width,
+                        noticeable_text(cue.noticeable));
     if (cue.threshold)
       text += fmt::format("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber, evidence_word(cue.evidence),
                           cue.threshold->source);

@@ -26,7 +26,7 @@ void write_percepts(std::string& text, const Description& description) {
   for (const auto& percept : description.percepts) {
     text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
                         percept.level, percept.low, percept.high, percept.magnitude);
-    text += fmt::format("  {:<12} {} {:.3f} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
+    text += fmt::format("  {:<12} {} {:.4g} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
                         percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
                         : percept.blended   ? ", solved for what its components ask"
                         : percept.extracted ? ", read from its force"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "compiler/modules/load_modules.hpp"
 #include "tests/standard/standard.hpp"
@@ -46,6 +47,20 @@ TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
   EXPECT_EQ(amplitude->evidence, Evidence::transferred);
   EXPECT_EQ(comparison.verdict, Verdict::apart);
   EXPECT_EQ(comparison.plainest(), amplitude);
+}
+
+TEST(Compare, WhatDiffersReadsDifferently) {
+  Cues a{"a", "sandpaper", {}}, b{"b", "sandpaper", {}};
+  a[CueKind::orientation] = 0.6 * std::numbers::pi / 180, b[CueKind::orientation] = 1.4 * std::numbers::pi / 180;
+  a[CueKind::amplitude] = 1.001, b[CueKind::amplitude] = 1.0049;
+  a[CueKind::period] = b[CueKind::period] = 0.0025;
+  const std::string text = comparison_text(ComparisonMatrix({a, b}, declarations()));
+  for (const char* part : {" 0.6 degrees ", " 1.4 degrees ", " 1.001 N ", " 1.005 N ", " 2.5 mm "})
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+  b[CueKind::orientation] = std::numbers::pi / 4, b[CueKind::amplitude] = 2;
+  const std::string far = comparison_text(ComparisonMatrix({a, b}, declarations()));
+  for (const char* part : {" 1 degrees ", " 45 degrees ", " 1 N ", " 2 N "})
+    EXPECT_NE(far.find(part), std::string::npos) << part << '\n' << far;
 }
 
 TEST(Compare, SmallForcesAreNotToldApartByTheirRatio) {
