@@ -36,11 +36,4 @@ Force EnergyMeter::operator()(Force force, glm::dvec2 position, long periods) no
   return Force(field);
 }
 
-double largest_potential_range(const Bank& bank) noexcept {
-  double most = 0;
-  for (const Output& output : bank.program().description().outputs)
-    most = std::max(most, static_cast<double>(std::abs(bank.registers()[output.ceiling])));
-  return most * std::hypot(bank.size().width, bank.size().height);
-}
-
 }  // namespace wale

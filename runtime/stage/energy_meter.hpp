@@ -45,9 +45,4 @@ class EnergyMeter {
   long held_ = 0;
 };
 
-/// The most that a force may have stored which is nowhere beyond the bank's limit: that limit all the way across the
-/// patch, J.
-/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
-double largest_potential_range(const Bank& bank) noexcept;
-
 }  // namespace wale

@@ -105,7 +105,7 @@ Force Player::feel(PlacedPatch& patch, const Hand& hand) noexcept {
     patch.memory->enter(patch.bank, hand);
     patch.memory->succeed(stays);
   }
-  guards_.allow(largest_potential_range(patch.bank), patch.bank.program().description().active_watt);
+  guards_.allow(patch.potential_range, patch.bank.program().description().active_watt);
   const Force force = tick(patch.bank, *patch.memory, hand);
   restored_ += patch.memory->restored() - before;
   return force;

@@ -29,7 +29,8 @@ struct PlacedPatch {
   glm::vec2 position;
   std::shared_ptr<Memory> memory;
   float layer = 0;
-  std::uint32_t number = 0;  ///< on the stage
+  std::uint32_t number = 0;           ///< on the stage
+  double potential_range = HUGE_VAL;  ///< J, of the bank's force; without a bound nothing that it gives is held back
 };
 
 /// Where a patch is that has been moved.

@@ -14,6 +14,7 @@
 
 #include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
+#include "runtime/stage/potential_range.hpp"
 #include "runtime/stage/recorded_run.hpp"
 #include "runtime/stage/scheduling.hpp"
 
@@ -123,6 +124,9 @@ struct Placement {
   }
 
   Bank bank() const { return Bank(program, parameters, size); }
+  bool has_bank_of(const Placement& other) const {
+    return &program.decoded() == &other.program.decoded() && parameters == other.parameters && size == other.size;
+  }
 };
 
 struct Stage::Parts {
@@ -200,9 +204,18 @@ struct Stage::Parts {
     if (!copies.empty()) {
       PlacedPatches::Patches all = published.patches();
       all.resize(count);
-      for (const auto& [patch, copy] : copies)
+      const Placement* like = nullptr;  // whose bank is `bank`: many patches are often the same but for their places
+      std::optional<Bank> bank;
+      double range = 0;
+      for (const auto& [patch, copy] : copies) {
+        if (!like || !copy.has_bank_of(*like)) {
+          bank = copy.bank();
+          range = potential_range(*bank);
+          like = &copy;
+        }
         all[patch] = std::make_shared<PlacedPatch>(
-            PlacedPatch{copy.bank(), copy.position, copy.memory, copy.layer, static_cast<std::uint32_t>(patch)});
+            PlacedPatch{*bank, copy.position, copy.memory, copy.layer, static_cast<std::uint32_t>(patch), range});
+      }
       published.take(std::move(all));
     }
     if (arrange)
