@@ -276,7 +276,8 @@ constexpr const char* about =
     R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
 
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
-  curators     compare and trust:        wale compare A.wale B.wale;  wale levels roughness;  wale describe --json FILE;  wale preview FILE -o OUT.png
+  curators     find, compare and trust:  wale find ribbed;  wale compare A.wale B.wale;  wale levels roughness;
+                                         wale describe --json FILE;  wale preview FILE -o OUT.png
   programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
 
@@ -358,6 +359,17 @@ int main(int argc, char** argv) {
   verb->add_flag("--json", json, "an object for one material, an array for several");
   verb->footer("for example: wale describe library/fabric/corduroy.wale --set wale=4mm");
   verb->callback([&] { status = command::describe(choice, settings, exports, json); });
+
+  verb = app.add_subcommand("find", "lists the materials of the library, or those with these words");
+  std::string kind;
+  verb->add_option("TEXT", files,
+                   "what has to stand in a material's name, title, kind, what it is called or feels like, or its "
+                   "documentation, from the beginning of a word on; all of several");
+  verb->add_option("--kind", kind, "only materials of this kind, as in fabric or fabric.woven");
+  offer_library(*verb, choice);
+  verb->add_flag("--json", json, "an array with all that is known of each");
+  verb->footer("for example: wale find ribbed;  wale find --kind fabric soft");
+  verb->callback([&] { status = command::find(files, kind, choice.folders, json); });
 
   verb = app.add_subcommand("compare", "tells by what people would tell materials apart, and how plainly");
   verb->add_option("FILE", files, "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")

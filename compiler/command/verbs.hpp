@@ -28,6 +28,10 @@ int build_collection(const Choice& choice, const std::string& folder);
 
 int describe(const Choice& choice, const std::vector<std::string>& settings, bool exports, bool json);
 
+/// Lists the materials of the library in which every text occurs, of that kind where one is given; all without either.
+int find(const std::vector<std::string>& texts, const std::string& kind, const std::vector<std::string>& folders,
+         bool json);
+
 /// Each of `names` is a file with all of its materials, or FILE:MATERIAL. `with_table` prints how far all are from each
 /// other, however many they are.
 int compare(const Choice& choice, const std::vector<std::string>& names, bool with_table, bool json);

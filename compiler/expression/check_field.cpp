@@ -8,8 +8,20 @@
 #include "compiler/expression/builtin_functions.hpp"
 #include "compiler/expression/measured_table.hpp"
 #include "compiler/image/image.hpp"
+#include "compiler/text/embedded_files.hpp"
 
 namespace wale {
+namespace {
+
+/// What a module of the binary brings with it: `slate.png` beside library/stone/slate.wale.
+const EmbeddedFile* embedded_asset(std::string_view module, std::string_view written) {
+  const std::string_view folder = module.substr(0, module.rfind('/') + 1);
+  for (const EmbeddedFile& asset : embedded_assets())
+    if (asset.name.starts_with(folder) && asset.name.substr(folder.size()) == written) return &asset;
+  return nullptr;
+}
+
+}  // namespace
 
 Value ExpressionChecker::at(const Field& field, const Value& argument, Span span) {
   const auto literal = [&](double value) { return terms_.literal(value, span); };
@@ -173,6 +185,11 @@ std::optional<std::string> BuiltinFunctions::file_argument(std::string& name) co
     return std::nullopt;
   }
   const Source& source = checker.surroundings_.sources[span.source];
+  if (span.source >= first_embedded_source)
+    if (const auto* asset = embedded_asset(source.name, value(0).text)) {
+      name = asset->name;
+      return std::string(asset->text);
+    }
   auto resolved = checker.surroundings_.resolver->file(std::string(value(0).text), source.name);
   if (const auto* problem = std::get_if<ResolveProblem>(&resolved)) {
     checker.report(Code::unreadable_file, actuals[0].span,

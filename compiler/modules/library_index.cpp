@@ -28,11 +28,12 @@ bool same_but_for_capitals(std::string_view a, std::string_view b) {
 }
 
 /// Reads one more file. Its diagnostics are those of whoever compiles it.
-void read_into(LibraryIndex& index, const std::string& module, std::string name, std::string text) {
+void read_into(LibraryIndex& index, const std::string& module, const std::string& name, std::string text,
+               bool shipped) {
   SourceSet sources;
   Diagnostics diagnostics;
-  const SourceId source = sources.add(std::move(name), std::move(text));
-  index.add(module, parse(sources, source, diagnostics));
+  const SourceId source = sources.add(name, std::move(text));
+  index.add(module, name, parse(sources, source, diagnostics), shipped);
 }
 
 /// "library/std/friction.wale" -> "std.friction".
@@ -51,22 +52,23 @@ LibraryIndex read_all(Resolver& resolver, const std::string& from) {
     std::ranges::replace(path, '.', '/');
     auto found = resolver.file(path + ".wale", from);
     if (auto* file = std::get_if<ResolvedFile>(&found); file && known.insert(module).second)
-      read_into(index, module, file->name, std::move(file->bytes));
+      read_into(index, module, file->name, std::move(file->bytes), false);
   }
   for (const EmbeddedFile& file : embedded_files())
     if (!file.common && known.insert(module_of(file.name)).second)
-      read_into(index, module_of(file.name), std::string(file.name), std::string(file.text));
+      read_into(index, module_of(file.name), std::string(file.name), std::string(file.text), true);
   return index;
 }
 
 }  // namespace
 
-void LibraryIndex::add(const std::string& module, const SyntaxTree& tree) {
+void LibraryIndex::add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped) {
   for (const Declaration& declaration : tree.declarations) {
     const auto* material = std::get_if<MaterialDecl>(&declaration);
     if (!material) continue;
     IndexedMaterial& entry = materials_.emplace_back();
-    entry.name = material->name.text, entry.module = module;
+    entry.name = material->name.text, entry.module = module, entry.file = file;
+    entry.documentation = material->documentation, entry.shipped = shipped;
     for (const Setting& setting : material->representative) {
       std::vector<std::string> texts = texts_in(setting, tree);
       const std::string_view key = setting.key.text;

@@ -14,15 +14,18 @@ namespace wale {
 struct IndexedMaterial {
   std::string name;
   std::string module;  ///< the file that declares it, as an import names it: "fabric.denim"
+  std::string file;    ///< ... and as people see it: "library/fabric/denim.wale"
   std::string title, kind;
   std::vector<std::string> called, feels;
+  std::string documentation;  ///< of its `///` comment
+  bool shipped = false;       ///< part of the binary, and no file of the person's own
 };
 
 /// What the materials of a library are called, file by file in the order of their modules.
 class LibraryIndex {
  public:
   /// Enters the materials of a file. What is wrong with it is no matter here.
-  void add(const std::string& module, const SyntaxTree& tree);
+  void add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped = false);
 
   const std::vector<IndexedMaterial>& materials() const { return materials_; }
 

@@ -64,7 +64,7 @@ std::optional<Word> liked_by(const Setting& setting, const SyntaxTree& tree) {
 }
 
 /// Of several materials those whose files are imported, if there are any.
-void choose_imported(const SyntaxTree& tree, std::vector<const IndexedMaterial*>& found) {
+void choose_nearest(const SyntaxTree& tree, std::vector<const IndexedMaterial*>& found) {
   const auto is_imported = [&](const IndexedMaterial* each) {
     return std::ranges::any_of(tree.declarations, [&](const Declaration& declaration) {
       const auto* import = std::get_if<Import>(&declaration);
@@ -72,6 +72,8 @@ void choose_imported(const SyntaxTree& tree, std::vector<const IndexedMaterial*>
     });
   };
   if (std::ranges::any_of(found, is_imported)) std::erase_if(found, std::not_fn(is_imported));
+  const auto is_own = [](const IndexedMaterial* each) { return !each->shipped; };
+  if (std::ranges::any_of(found, is_own)) std::erase_if(found, std::not_fn(is_own));
 }
 
 /// Follows imports depth first, so that what a file refers to is declared before it.
@@ -80,8 +82,8 @@ class ModuleLoader {
   ModuleLoader(SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, ModuleSet& modules)
       : sources_(sources), resolver_(resolver), diagnostics_(diagnostics), modules_(modules) {}
 
-  /// The file itself, with all that its imports and its `like`s bring, each before what uses it. It knows the devices of
-  /// its project besides.
+  /// The file itself, with all that its imports and its `like`s bring, each before what uses it. It knows the devices
+  /// of its project besides.
   void load(SyntaxTree tree) {
     add_project_devices_of(sources_[tree.source].name);
     const std::shared_ptr<const Module> file = add(std::move(tree));
@@ -209,7 +211,7 @@ class ModuleLoader {
   /// What a material of a file is like: one of the file itself goes before one that it imports, and that before others.
   const Declared<MaterialDecl>* find_in_library(const Module& module, std::string_view asking, const Word& liked) {
     LibraryIndex own;
-    own.add(module.name, module.tree);
+    own.add(module.name, module.name, module.tree);
     const auto others = [&](std::vector<const IndexedMaterial*> found) {
       std::erase_if(found, [&](const IndexedMaterial* each) { return each->name == asking && is_file(module, *each); });
       return found;
@@ -218,7 +220,7 @@ class ModuleLoader {
       return module.declarations.materials.find(near.front()->name);
     const std::shared_ptr<const LibraryIndex> index = library_index(resolver_, module.name);
     std::vector<const IndexedMaterial*> found = others(index->meant_by(liked.text));
-    if (found.size() > 1) choose_imported(module.tree, found);
+    if (found.size() > 1) choose_nearest(module.tree, found);
     if (found.size() != 1) return report_likes(module, liked, found, *index), nullptr;
     const auto file = follow({found.front()->module, liked.span}, module.name);
     return file ? file->declarations.materials.find(found.front()->name) : nullptr;
@@ -267,7 +269,7 @@ class ModuleLoader {
   std::vector<std::string> path_;  ///< files whose imports are being followed
   std::map<std::string, std::shared_ptr<const Module>> loaded_;
   std::vector<std::shared_ptr<Module>> added_;  ///< all of them
-  std::shared_ptr<const Module> devices_;  ///< the project's own; may be null
+  std::shared_ptr<const Module> devices_;       ///< the project's own; may be null
 };
 
 }  // namespace

@@ -1,0 +1,60 @@
+// `wale find`: the library by its words.
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line::finding_test {
+namespace {
+
+/// A library of one's own.
+struct Shelf {
+  Shelf() {
+    folder.write("glass/marbles.wale",
+                 "wale 1\n/// In a tray.\nmaterial marbles {\n  representative {\n    title \"Glass marbles\"\n"
+                 "    kind glass.loose\n    feels \"like ball bearings\", \"pleasant\"\n  }\n"
+                 "  perceptual { roughness 0.4 }\n}\n");
+  }
+  Outcome find(std::vector<std::string> words) const {
+    words.insert(words.begin(), "find");
+    words.insert(words.end(), {"--library", folder / "."});
+    return wale(words);
+  }
+  TemporaryFolder folder;
+};
+
+TEST(Find, TellsWhereAMaterialIsAndWhatItsWordWasFoundIn) {
+  const Outcome outcome = Shelf().find({"--kind", "glass", "ball bearings"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 1);
+  for (const char* part :
+       {"marbles ", "Glass marbles", "glass.loose", "glass/marbles.wale", "feels \"like ball bearings\""})
+    EXPECT_TRUE(contains(outcome.out, part)) << part << outcome.out;
+}
+
+TEST(Find, KnowsWhatIsShippedToo) {
+  const Outcome outcome = Shelf().find({"--kind", "fabric", "corduroy", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  bool has_corduroy = false;
+  for (const auto& each : outcome.json()) {
+    EXPECT_TRUE(each["kind"].get<std::string>().starts_with("fabric"));
+    has_corduroy = has_corduroy || (each["name"] == "corduroy" && each["module"] == "fabric.corduroy" &&
+                                    each["file"] == "library/fabric/corduroy.wale" && each["found_by"] == "name");
+  }
+  EXPECT_TRUE(has_corduroy);
+}
+
+TEST(Find, FailsOverNothingAndSaysWhatMayHaveBeenMeant) {
+  const Shelf shelf;
+  const Outcome misspelt = shelf.find({"marbels"});
+  EXPECT_EQ(misspelt.status, 1);
+  EXPECT_EQ(misspelt.out, "");
+  EXPECT_TRUE(contains(misspelt.err, "did you mean \"marbles\"?")) << misspelt.err;
+  EXPECT_TRUE(contains(shelf.find({"--kind", "glas"}).err, "did you mean `glass`?"));
+  EXPECT_TRUE(contains(shelf.find({"marbles", "corduroy"}).err, "each alone"));
+  const Outcome json = shelf.find({"marbels", "--json"});
+  EXPECT_EQ(json.status, 1);
+  EXPECT_EQ(json.out, "[]\n");
+}
+
+}  // namespace
+}  // namespace wale::command_line::finding_test
