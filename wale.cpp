@@ -41,6 +41,7 @@ void offer_library(CLI::App& verb, Choice& choice) {
   verb.add_option("--library", choice.folders, "a folder to look for imports in, after the file's own; may be repeated")
       ->type_name("DIR")
       ->expected(1)
+      ->allow_extra_args(false)
       ->take_all();
 }
 
@@ -300,6 +301,7 @@ int main(int argc, char** argv) {
     verb->add_option("--set", into, "a parameter's value, as in --set wale=5mm; may be repeated")
         ->type_name("NAME=VALUE")
         ->expected(1)
+        ->allow_extra_args(false)
         ->take_all();
   };
 

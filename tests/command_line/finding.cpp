@@ -15,8 +15,7 @@ struct Shelf {
                  "  perceptual { roughness 0.4 }\n}\n");
   }
   Outcome find(std::vector<std::string> words) const {
-    words.insert(words.begin(), "find");
-    words.insert(words.end(), {"--library", folder / "."});
+    words.insert(words.begin(), {"find", "--library", folder / "."});
     return wale(words);
   }
   TemporaryFolder folder;
