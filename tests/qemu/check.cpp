@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "runtime/device/usb/falcon_device.hpp"
 #include "runtime/device/usb/hid_pid_device.hpp"
@@ -112,10 +114,10 @@ Found find(std::uint16_t vendor, std::uint16_t product) {
 // An emulated processor that others keep busy may take its time.
 constexpr unsigned patience = 5000;  // ms
 
-HidPidOptions patient() {
-  HidPidOptions options;
-  options.transport.timeout = options.transport.set_up_timeout = patience;
-  options.transport.session.command_silence = options.transport.session.input_silence = patience / 1000.0;
+PidTransport::Options patient() {
+  PidTransport::Options options;
+  options.timeout = options.set_up_timeout = patience;
+  options.session.command_silence = options.session.input_silence = patience / 1000.0;
   return options;
 }
 
@@ -282,11 +284,16 @@ void check_falcon() {
 }  // namespace
 }  // namespace wale::test
 
-int main() {
+/// check NAME...: openffboard, rhino, falcon; without one all of them.
+int main(int count, char** words) {
   using namespace wale::test;
-  check_joystick(openffboard());
-  check_joystick(rhino());
-  check_falcon();
+  const std::vector<std::string> named(words + 1, words + count);
+  const auto is_meant = [&](const char* name) {
+    return named.empty() || std::ranges::find(named, name) != named.end();
+  };
+  if (is_meant("openffboard")) check_joystick(openffboard());
+  if (is_meant("rhino")) check_joystick(rhino());
+  if (is_meant("falcon")) check_falcon();
   std::printf("all passed\n");
   return 0;
 }

@@ -42,7 +42,7 @@ DeviceProfile profile() {
 
 class UsbDriver : public MockedUsb {
  protected:
-  std::unique_ptr<HidPidDevice> opened(int port, const HidPidOptions& options = {}) const {
+  std::unique_ptr<HidPidDevice> opened(int port, const PidTransport::Options& options = {}) const {
     auto result = HidPidDevice::open(context(), found(port), profile(), options);
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       ADD_FAILURE() << refusal->reason;
@@ -52,8 +52,8 @@ class UsbDriver : public MockedUsb {
   }
 
   std::string refusal(int port) const {
-    HidPidOptions options;
-    options.transport.set_up_timeout = 100;
+    PidTransport::Options options;
+    options.set_up_timeout = 100;
     auto result = HidPidDevice::open(context(), found(port), profile(), options);
     const auto* refusal = std::get_if<Refusal>(&result);
     return refusal == nullptr ? "opened" : refusal->reason;

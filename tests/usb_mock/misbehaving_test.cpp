@@ -27,8 +27,8 @@ DeviceProfile ten_newton() {
 class MisbehavingUsb : public MockedUsb {
  protected:
   std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(int port) {
-    HidPidOptions options;
-    options.transport.set_up_timeout = 300;
+    PidTransport::Options options;
+    options.set_up_timeout = 300;
     return HidPidDevice::open(context(), found(port), ten_newton(), options);
   }
   std::unique_ptr<HidPidDevice> opened(int port) {
