@@ -1,20 +1,16 @@
 // How long it takes to compare a library with itself: `wale compare` of a thousand files, and the pairs alone.
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 
 #include "compiler/compare/compare.hpp"
 #include "compiler/compare/compare_files.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "tests/benchmarks/materials.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace wale::benchmarks::comparing_test {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Material `number` of many, none like another: textures, mixtures, fluids, springs, walls and what lies between.
 std::string one_of_many(std::size_t number) {
@@ -41,25 +37,13 @@ std::string one_of_many(std::size_t number) {
 class ManyFiles {
  public:
   explicit ManyFiles(std::size_t count) {
-    std::string name = (fs::temp_directory_path() / "wale-many-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    for (std::size_t i = 0; i < count; ++i) {
-      names_.push_back((folder_ / fmt::format("m{}.wale", i)).string());
-      std::ofstream(names_.back()) << one_of_many(i);
-    }
+    for (std::size_t i = 0; i < count; ++i) names_.push_back(folder_.write(fmt::format("m{}.wale", i), one_of_many(i)));
   }
-  ~ManyFiles() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  ManyFiles(const ManyFiles&) = delete;
-  ManyFiles& operator=(const ManyFiles&) = delete;
 
   const std::vector<std::string>& names() const { return names_; }
 
  private:
-  fs::path folder_;
+  TemporaryFolder folder_;
   std::vector<std::string> names_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "calibration/feel/material_watch.hpp"
 #include "compiler/open_file.hpp"
+#include "tests/temporary_folder.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale::watching_test {
@@ -22,33 +23,11 @@ constexpr std::chrono::seconds long_enough{60};
 /// For what should not happen.
 constexpr std::chrono::milliseconds short_while{40};
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "wale-watching-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-  /// In place: cut to nothing and written.
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return *this / name;
-  }
-  /// As most editors: beside it, then renamed.
-  void write_and_rename(const std::string& name, const std::string& text) const {
-    write("." + name + ".swp", text);
-    fs::rename(path_ / ("." + name + ".swp"), path_ / name);
-  }
-
- private:
-  fs::path path_;
-};
+/// As most editors do: beside it, then renamed.
+void write_and_rename(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+  const std::string beside = folder.write("." + name + ".swp", text);
+  fs::rename(beside, folder / name);
+}
 
 std::string pushing(double newton, const std::string& more = {}) {
   return "wale 1\nmaterial m {\n  physical {\n    param push = " + std::to_string(newton) +
@@ -86,14 +65,14 @@ struct Watched {
 };
 
 TEST(Watching, AFileThatIsSavedInAnyWayIsFeltAnew) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Watched watched(folder.write("m.wale", pushing(1)));
   EXPECT_EQ(watched.felt(), 1);
   folder.write("m.wale", pushing(2));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
   EXPECT_EQ(watched.felt(), 2);
   EXPECT_EQ(watched.take_said(), "wale: `m` is felt anew\n");
-  folder.write_and_rename("m.wale", pushing(3));
+  write_and_rename(folder, "m.wale", pushing(3));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
   EXPECT_EQ(watched.felt(), 3);
   fs::remove(folder / "m.wale");
@@ -111,7 +90,7 @@ TEST(Watching, AFileThatIsSavedInAnyWayIsFeltAnew) {
 }
 
 TEST(Watching, OtherFilesAndSavesThatChangeNothingAreNone) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Watched watched(folder.write("m.wale", pushing(1)));
   folder.write("another.wale", pushing(2));
   folder.write("m.wale~", pushing(2));
@@ -122,7 +101,7 @@ TEST(Watching, OtherFilesAndSavesThatChangeNothingAreNone) {
 }
 
 TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Watched watched(folder.write("m.wale", pushing(1)));
   folder.write("m.wale", "wale 1\nmaterial m {\n  physical {\n    force = 3 m\n  }\n}\n");
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
@@ -146,13 +125,13 @@ TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
 }
 
 TEST(Watching, WhatIsImportedIsWatchedTooAlsoBeforeItIsThere) {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("strength.wale", "wale 1\nexport let strength = 1 N\n");
   const std::string text =
       "wale 1\nimport strength\nmaterial m {\n  physical {\n    param push = strength in -5 N .. 5 N\n"
       "    force = vector(push, 0 N)\n  }\n}\n";
   Watched watched(folder.write("m.wale", text));
-  folder.write_and_rename("strength.wale", "wale 1\nexport let strength = 2 N\n");
+  write_and_rename(folder, "strength.wale", "wale 1\nexport let strength = 2 N\n");
   ASSERT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
   EXPECT_EQ(watched.felt(), 2);
   std::string other = text;
@@ -166,7 +145,7 @@ TEST(Watching, WhatIsImportedIsWatchedTooAlsoBeforeItIsThere) {
 }
 
 TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto counting = [](const std::string& gain, const std::string& more, const std::string& state) {
     return "wale 1\nmaterial m {\n  physical {\n    param gain = " + gain + " in 0 N/s .. 5 N/s\n" + more +
            "    state " + state + "\n    force = vector(gain * t, 0 N)\n    active 5 W\n  }\n}\n";
@@ -176,7 +155,7 @@ TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
   ASSERT_FALSE(watched.stage.set("gain", 0.25f));
   const auto save = [&](const Progress& now) {
     if (now.ticks_run == 900) {  // one parameter more, and another default for the one that was set
-      folder.write_and_rename("m.wale", counting("0.75 N/s", "    param more = 2 mm in 0 mm .. 5 mm\n", seconds));
+      write_and_rename(folder, "m.wale", counting("0.75 N/s", "    param more = 2 mm in 0 mm .. 5 mm\n", seconds));
       EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
     }
     if (now.ticks_run == 1800) {  // the state is of another dimension now
@@ -197,7 +176,7 @@ TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
 }
 
 TEST(Watching, AProgramForAnotherDeviceIsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("m.wale", pushing(1));
   const FileRequest falcon{.file = file, .device = "falcon"};
   const auto bytes_for = [&](const FileRequest& request) {

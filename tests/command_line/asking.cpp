@@ -60,7 +60,7 @@ TEST(Misuse, IsStatus2AndSaysSo) {
 TEST(Misuse, NearestVerbIsProposed) { EXPECT_TRUE(contains(wale({"chekc", corduroy}).err, "`check`")); }
 
 TEST(Files, EveryVerbRefusesWhatCannotBeRead) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string folder_itself = folder / ".", missing = folder / "missing.wale";
   for (const auto& file : {folder_itself, missing}) {
     const std::vector<std::vector<std::string>> commands{{"check", file},
@@ -79,7 +79,7 @@ TEST(Files, EveryVerbRefusesWhatCannotBeRead) {
 }
 
 TEST(Files, TextThatIsNoneIsADiagnostic) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string empty = folder.write("empty.wale", ""),
                     binary = folder.write("binary.wale", std::string("\x7f"
                                                                      "ELF\0\xff\xfe",
@@ -92,7 +92,7 @@ TEST(Files, TextThatIsNoneIsADiagnostic) {
 }
 
 TEST(Files, OutputsThatCannotBeWrittenAreErrors) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string nowhere = folder / "missing/out";
   const std::vector<std::vector<std::string>> commands{
       {"build", corduroy, "-o", nowhere + ".wpp"},
@@ -108,7 +108,7 @@ TEST(Files, OutputsThatCannotBeWrittenAreErrors) {
 }
 
 TEST(Check, CountsAndStatus) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(wale({"check", corduroy}).status, 0);
   EXPECT_TRUE(contains(wale({"check", corduroy}).out, "1 file: 0 errors, 0 warnings"));
   const std::string warned =
@@ -126,7 +126,7 @@ TEST(Check, CountsAndStatus) {
 }
 
 TEST(Check, JsonHasEveryFieldOfADiagnostic) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string wrong = folder.write("wrong.wale", "wale 1\nmaterial a { physical { force = 3 mm * hand } }\n");
   const Outcome outcome = wale({"check", "--json", wrong});
   EXPECT_EQ(outcome.status, 1);
@@ -159,7 +159,7 @@ TEST(Devices, AreTheSimulatedOneAndThoseToBuildFor) {
 }
 
 TEST(Choices, UnknownNamesAreRefusedWithTheNearest) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome material = wale({"describe", corduroy, "--material", "corderoy"});
   EXPECT_EQ(material.status, 1);
   EXPECT_TRUE(contains(material.err, "`corduroy`")) << material.err;

@@ -33,7 +33,7 @@ Outcome check_within_bounds(const std::string& file) {
 
 /// What `check` says of a text.
 Outcome check_text(const std::string& text) {
-  const Folder folder;
+  const TemporaryFolder folder;
   return check_within_bounds(folder.write("hostile.wale", text));
 }
 
@@ -120,7 +120,7 @@ TEST(Bounds, FourMegabytesOfMistakesAreCutShort) {
 }
 
 TEST(Bounds, ImagesThatAreMissingUnreadableOrHugeAreOneDiagnostic) {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("torn.png", bytes_of(std::string(WALE_SOURCE_DIR) + "/examples/corduroy.png").substr(0, 1000));
   folder.write("empty.png", "");
   folder.write("vast.pgm", "P5\n100000 100000\n255\n");
@@ -141,7 +141,7 @@ TEST(Bounds, ImagesThatAreMissingUnreadableOrHugeAreOneDiagnostic) {
 }
 
 TEST(Bounds, AHundredMegabytesImportedAreOneDiagnostic) {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("large.wale", std::string(100u << 20, '\n'));
   const Outcome outcome = check_within_bounds(folder.write("a.wale", "wale 1\nimport large\n"));
   EXPECT_TRUE(contains(outcome.out, "error[W0212]: `large` cannot be imported: ")) << outcome.out;
@@ -149,7 +149,7 @@ TEST(Bounds, AHundredMegabytesImportedAreOneDiagnostic) {
 }
 
 TEST(Bounds, ImportsInACircleAreOneDiagnostic) {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr int files = 50;
   for (int i = 0; i < files; ++i)
     folder.write("m" + std::to_string(i) + ".wale", "wale 1\nimport m" + std::to_string((i + 1) % files) + "\n");
@@ -159,7 +159,7 @@ TEST(Bounds, ImportsInACircleAreOneDiagnostic) {
 }
 
 TEST(Bounds, ImportsThousandsDeepAreOneDiagnostic) {
-  const Folder folder;
+  const TemporaryFolder folder;
   constexpr int files = 3000;
   for (int i = 0; i < files; ++i)
     folder.write("m" + std::to_string(i) + ".wale", "wale 1\nimport m" + std::to_string(i + 1) + "\n");
@@ -169,7 +169,7 @@ TEST(Bounds, ImportsThousandsDeepAreOneDiagnostic) {
 }
 
 TEST(Bounds, AThousandImportsAreTheMost) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string imports = "wale 1\n";
   for (int i = 1; i <= 1001; ++i) {
     folder.write("m" + std::to_string(i) + ".wale", "wale 1\n");

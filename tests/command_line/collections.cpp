@@ -12,7 +12,7 @@ const std::string three =
     "material c { physical { force = spring(20 N/m) } }\n";
 
 TEST(BuildAll, EveryMaterialIsAProgramOfItsName) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("three.wale", three), out = folder / "made/here";
   const Outcome outcome = wale({"build", "--all", file, "-o", out});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -29,7 +29,7 @@ TEST(BuildAll, EveryMaterialIsAProgramOfItsName) {
 }
 
 TEST(BuildAll, OneThatFailsKeepsNoOtherFromBeingBuilt) {
-  const Folder folder;
+  const TemporaryFolder folder;
   // A percept that contradicts the amplitude is an error of this material alone, found when it is solved.
   const std::string file =
       folder.write("two.wale",
@@ -46,7 +46,7 @@ TEST(BuildAll, OneThatFailsKeepsNoOtherFromBeingBuilt) {
 }
 
 TEST(BuildAll, RefusesWhatIsNoFolderAndWhatHasNoMaterials) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("three.wale", three), taken = folder.write("taken", "mine");
   const Outcome outcome = wale({"build", "--all", file, "-o", taken});
   EXPECT_EQ(outcome.status, 1);
@@ -66,7 +66,7 @@ struct Borrower {
     folder.write("shared/stiff/door.wale", "wale 1\nexport let hinge = 30 N/m\n");
     file = folder.write("mine.wale", "wale 1\nimport stiff.door\nmaterial a { physical { force = spring(hinge) } }\n");
   }
-  Folder folder;
+  TemporaryFolder folder;
   std::string file;
 };
 

@@ -76,7 +76,7 @@ TEST(Compare, FilesComeInTheirOrderWhateverThreadReadsThem) {
 }
 
 TEST(Compare, WhatIsWrongIsSaidOfEachFileInTheirOrder) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = folder.write("one.wale", "wale 1\nmaterial m { physical { force = 1 m } }\n");
   const std::string two = folder.write("two.wale", "wale 1\nmaterial m { physical { force = nothing } }\n");
   const Outcome run = wale({"compare", one, corduroy, two, corduroy + ":velvet"});
@@ -89,7 +89,7 @@ TEST(Compare, WhatIsWrongIsSaidOfEachFileInTheirOrder) {
 }
 
 TEST(Compare, WhatIsOnlyRecalledWarns) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto heavy = [&](const std::string& name, const std::string& mass) {
     return folder.write(name + ".wale", "wale 1\nmaterial " + name + " { physical { force = heavy(" + mass + ") } }\n");
   };
@@ -104,7 +104,7 @@ TEST(Levels, AreProposedAsALineThatCanBePasted) {
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
   ASSERT_EQ(json["levels"].size(), 5u);
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = "wale 1\n\n" + json["wale"].get<std::string>() + "\n";
   for (const int i : {2, 3})
     text += "material m" + std::to_string(i) + " {\n  perceptual { roughness level_" + std::to_string(i) +

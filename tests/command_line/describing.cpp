@@ -45,7 +45,7 @@ export function twice(a) = inner(2 * a)
 )";
 
 TEST(Describe, ProvesABoundAndGrades) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto of = [&](const std::string& physical) {
     return wale(
                {"describe", folder.write("m.wale", "wale 1\nmaterial m { physical { " + physical + " } }\n"), "--json"})
@@ -69,7 +69,7 @@ TEST(Describe, ProvesABoundAndGrades) {
 }
 
 TEST(Describe, TellsWhatAProgramRemembersAndShows) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("sledge.wale", sledge);
   const auto described = wale({"describe", file, "--json"}).json();
   EXPECT_EQ(described.at("documentation"), "A block on a spring.\nIt lags behind.");
@@ -99,7 +99,7 @@ TEST(Describe, TellsWhatAProgramRemembersAndShows) {
 }
 
 TEST(Describe, UsualRangesAreToldWhereTheyAreNarrower) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("sledge.wale", sledge);
   const auto parameters = wale({"describe", file, "--json"}).json().at("parameters");
   EXPECT_DOUBLE_EQ(parameters.at(0).at("soft_min").get<double>(), 30);
@@ -111,7 +111,7 @@ TEST(Describe, UsualRangesAreToldWhereTheyAreNarrower) {
 }
 
 TEST(Describe, SaysWhyNoPerceptIsTold) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto reason = [&](const std::string& force) {
     const std::string file = folder.write("a.wale", "wale 1\nmaterial a { physical { force = " + force + " } }\n");
     return wale({"describe", file, "--json"}).json().at("no_percept").get<std::string>();
@@ -124,7 +124,7 @@ TEST(Describe, SaysWhyNoPerceptIsTold) {
 }
 
 TEST(Describe, AModuleTellsWhatItExports) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("module.wale", module);
   const Outcome outcome = wale({"describe", file, "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -164,7 +164,7 @@ TEST(Describe, WhatEveryFileKnowsIsAModuleToo) {
 }
 
 TEST(Describe, ExportsOfAFileWithMaterialsAreToldWhenAsked) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("both.wale", module + "material a { physical { force = viscous(2 N s/m) } }\n");
   EXPECT_EQ(wale({"describe", file, "--json"}).json().at("material"), "a");
   EXPECT_EQ(wale({"describe", file, "--exports", "--json"}).json().at("functions").size(), 2u);
@@ -173,7 +173,7 @@ TEST(Describe, ExportsOfAFileWithMaterialsAreToldWhenAsked) {
 }
 
 TEST(Feel, TellsHowOftenAStateWasMended) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("broken.wale", R"(wale 1
 material broken {
   physical {
@@ -194,7 +194,7 @@ material broken {
 }
 
 TEST(Set, OutsideTheUsualRangeIsAWarning) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("sledge.wale", sledge);
   const Outcome outcome = wale({"describe", file, "--json", "--set", "k=150 N/m"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -206,7 +206,7 @@ TEST(Set, OutsideTheUsualRangeIsAWarning) {
 }
 
 TEST(Describing, KeepsWordsThatNobodyInterprets) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file =
       folder.write("m.wale",
                    "wale 1\n\nmaterial m {\n  representative { feels \"pleasant\", \"like ball bearings\" }\n"

@@ -12,7 +12,7 @@ namespace {
 const std::string untidy = "wale 1\nlet a=1//one\n", tidy = "wale 1\nlet a = 1   // one\n";
 
 TEST(Formatting, WritesWhatChangesAndNothingElse) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = folder.write("one.wale", untidy), two = folder.write("two.wale", tidy);
   fs::permissions(one, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
   const auto written = fs::last_write_time(two) - std::chrono::hours(1);
@@ -27,7 +27,7 @@ TEST(Formatting, WritesWhatChangesAndNothingElse) {
 }
 
 TEST(Formatting, FollowsALinkAndLeavesItALink) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("file.wale", untidy), link = folder / "link.wale";
   fs::create_symlink(file, link);
   EXPECT_EQ(wale({"format", link}).status, 0);
@@ -36,7 +36,7 @@ TEST(Formatting, FollowsALinkAndLeavesItALink) {
 }
 
 TEST(Formatting, ACheckListsWhatWouldChangeAndWritesNothing) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = folder.write("one.wale", untidy), two = folder.write("two.wale", tidy);
   const Outcome outcome = wale({"format", "--check", one, two});
   EXPECT_EQ(outcome.status, 1);
@@ -46,7 +46,7 @@ TEST(Formatting, ACheckListsWhatWouldChangeAndWritesNothing) {
 }
 
 TEST(Formatting, AFileWithErrorsIsLeftAloneAndTheOthersAreNot) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string wrong = folder.write("wrong.wale", "wale 1\nlet a=(\n"), one = folder.write("one.wale", untidy);
   const Outcome outcome = wale({"format", wrong, folder / "none.wale", one});
   EXPECT_EQ(outcome.status, 1);
@@ -57,7 +57,7 @@ TEST(Formatting, AFileWithErrorsIsLeftAloneAndTheOthersAreNot) {
 }
 
 TEST(Formatting, ADashIsStandardInputToStandardOutput) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("in.wale", untidy);
   const std::string command = quoted(WALE_BINARY) + " format - <" + quoted(file) + " >" + quoted(folder / "out");
   EXPECT_EQ(std::system(command.c_str()), 0);

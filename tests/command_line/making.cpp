@@ -22,7 +22,7 @@ std::vector<double> last_line(const std::string& csv) {
 }
 
 TEST(Build, SameFileSameBytes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = folder / "one.wpp", two = folder / "two.wpp";
   EXPECT_EQ(wale({"build", corduroy, "-o", one}).status, 0);
   EXPECT_EQ(wale({"build", corduroy, "-o", two, "--material", "corduroy", "--device", "sandpaper"}).status, 0);
@@ -31,14 +31,14 @@ TEST(Build, SameFileSameBytes) {
 }
 
 TEST(Build, NothingIsWrittenWhenTheMaterialIsWrong) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string wrong = folder.write("wrong.wale", "wale 1\nmaterial a { physical { force = 3 N } }\n");
   EXPECT_EQ(wale({"build", wrong, "-o", folder / "out.wpp"}).status, 1);
   EXPECT_FALSE(fs::exists(folder / "out.wpp"));
 }
 
 TEST(PatchPrograms, AFlippedByteIsRefusedWithAReason) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string whole = folder / "whole.wpp";
   ASSERT_EQ(wale({"build", corduroy, "-o", whole}).status, 0);
   const std::string bytes = bytes_of(whole);
@@ -63,7 +63,7 @@ TEST(PatchPrograms, AFlippedByteIsRefusedWithAReason) {
 }
 
 TEST(PatchPrograms, DescribeAndSampleAsTheirSourceDoes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string program = folder / "corduroy.wpp";
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
   EXPECT_EQ(wale({"describe", program, "--json"}).json(), wale({"describe", corduroy, "--json"}).json());
@@ -93,7 +93,7 @@ TEST(Describe, JsonHasWhatTheIssueAsksFor) {
 }
 
 TEST(Describe, SeveralMaterialsAreAnArray) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string two = folder.write(
       "two.wale",
       "wale 1\nmaterial a { perceptual { roughness 0.5 } }\nmaterial b { physical { force = viscous(2 N s/m) } }\n");
@@ -171,7 +171,7 @@ TEST(Sample, PlacesThatAreNoneAreErrors) {
 }
 
 TEST(Sample, ThroughATrace) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string trace = folder.write("trace.csv", "t (s), x (mm), y (mm)\n0, 0, 0\n0.1, 0.625, 0\n0.2, 1.25, 0\n");
   const Outcome to_file = wale({"sample", corduroy, "--trace", trace, "-o", folder / "out.csv"});
   EXPECT_EQ(to_file.status, 0);
@@ -203,7 +203,7 @@ TEST(Feel, MeasuresWhatWasAskedFor) {
 }
 
 TEST(Feel, AnotherRoughnessIsAnotherForce) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("fine.wale", corduroy_with("roughness 0.6", "roughness 0.3"));
   const auto felt = wale({"feel", file, "--virtual-time", "--json"}).json();
   EXPECT_NEAR(felt.at("actuator_rubbing").at("p99_newton").get<double>(), 0.777, 0.00777 + 10.0 / 2048);
@@ -223,7 +223,7 @@ TEST(Feel, AtRestNoLevelIsGivenBack) {
 }
 
 TEST(Feel, VirtualTimeIsTheSameBytesTwice) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string hand : {"lateral", "circular"}) {
     const std::string one = folder / (hand + "1.csv"), two = folder / (hand + "2.csv");
     EXPECT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--hand", hand, "--record", one}).status, 0);
@@ -237,7 +237,7 @@ TEST(Feel, VirtualTimeIsTheSameBytesTwice) {
 }
 
 TEST(Feel, ARecordIsATraceToFollow) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "1", "--record", folder / "run.csv"}).status, 0);
   EXPECT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "1", "--hand", folder / "run.csv"}).status, 0);
   EXPECT_EQ(wale({"sample", corduroy, "--trace", folder / "run.csv"}).status, 0);
@@ -252,7 +252,7 @@ TEST(Feel, TimesThatAreNoneAreRefused) {
 }
 
 TEST(Preview, WritesAPicture) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string one = folder / "one.png", two = folder / "two.png";
   EXPECT_EQ(wale({"preview", corduroy, "-o", one}).status, 0);
   const std::string picture = bytes_of(one);
@@ -263,7 +263,7 @@ TEST(Preview, WritesAPicture) {
 }
 
 TEST(Preview, FormatsThatNobodyWritesAreRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome outcome = wale({"preview", corduroy, "-o", folder / "out.wall"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_FALSE(outcome.err.empty());

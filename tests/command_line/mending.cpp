@@ -33,12 +33,12 @@ mode_t permissions(const std::string& path) {
   return stat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
 }
 
-std::size_t entries(const Folder& folder) {
+std::size_t entries(const TemporaryFolder& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder / "."), fs::directory_iterator()));
 }
 
 TEST(CheckFix, MendsWhatIsBeyondDoubtAndSaysWhat) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("ribs.wale", wrong);
   const Outcome outcome = wale({"check", "--fix", file});
   EXPECT_EQ(bytes_of(file), right);
@@ -50,7 +50,7 @@ TEST(CheckFix, MendsWhatIsBeyondDoubtAndSaysWhat) {
 }
 
 TEST(CheckFix, IsOfferedByTheCheckThatDoesNotMend) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("ribs.wale", wrong);
   const Outcome outcome = wale({"check", file});
   EXPECT_EQ(outcome.status, 1);
@@ -60,7 +60,7 @@ TEST(CheckFix, IsOfferedByTheCheckThatDoesNotMend) {
 }
 
 TEST(CheckFix, KeepsPermissionsLinksAndUnchangedFiles) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("ribs.wale", wrong), link = folder / "link.wale";
   ASSERT_EQ(chmod(file.c_str(), 0640), 0);
   fs::create_symlink(file, link);
@@ -75,7 +75,7 @@ TEST(CheckFix, KeepsPermissionsLinksAndUnchangedFiles) {
 }
 
 TEST(CheckFix, LeavesDoubtfulErrorsAndSaysSoByItsStatus) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file =
       folder.write("a.wale", "wale 1\nmaterial a { physical { param k = 3 × 2 N\n force = k hand } }\n");
   const Outcome outcome = wale({"check", "--fix", file});
@@ -86,7 +86,7 @@ TEST(CheckFix, LeavesDoubtfulErrorsAndSaysSoByItsStatus) {
 }
 
 TEST(CheckFix, LeavesImportedFilesAlone) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string imported = folder.write("half.wale", "wale 1\nexport let half 0.5\n");
   const std::string file =
       folder.write("a.wale", "wale 1\nimport half\nmaterial a { physical { force = -1 N/m × hand * half } }\n");
@@ -100,7 +100,7 @@ TEST(CheckFix, LeavesImportedFilesAlone) {
 
 TEST(CheckFix, WhatCannotBeWrittenIsAnError) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anything";
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("ribs.wale", wrong);
   ASSERT_EQ(chmod(file.c_str(), 0440), 0);
   const Outcome outcome = wale({"check", "--fix", file});
@@ -110,7 +110,7 @@ TEST(CheckFix, WhatCannotBeWrittenIsAnError) {
 }
 
 TEST(CheckFix, LeavesWhatIsNoWaleFileAlone) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string text = "Things to buy\n\neggs × 6\n";
   const std::string file = folder.write("list.txt", text);
   EXPECT_EQ(wale({"check", "--fix", file}).status, 1);
@@ -124,7 +124,7 @@ TEST(CheckFix, LeavesWhatIsNoWaleFileAlone) {
 }
 
 TEST(CheckFix, WritesTheRestAsJson) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("ribs.wale", wrong);
   const Outcome outcome = wale({"check", "--fix", "--json", file});
   EXPECT_EQ(outcome.json(), nlohmann::json::array());
@@ -132,7 +132,7 @@ TEST(CheckFix, WritesTheRestAsJson) {
 }
 
 TEST(CheckJson, FixesCanBeAppliedByTheirBytes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("a.wale", "wale 1\nmaterial a { physical { force = -1 N/m × hand } }\n");
   const auto diagnostics = wale({"check", "--json", file}).json();
   ASSERT_EQ(diagnostics.size(), 1u);
@@ -144,7 +144,7 @@ TEST(CheckJson, FixesCanBeAppliedByTheirBytes) {
 }
 
 TEST(Check, TellsOnceWhatIsWrongWithAFileThatSeveralImport) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string wrong_one = folder.write("half.wale", "wale 1\nlet half = \n");
   const std::string a =
       folder.write("a.wale", "wale 1\nimport half\nmaterial a { physical { force = -1 N/m * hand } }\n");

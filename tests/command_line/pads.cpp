@@ -23,7 +23,7 @@ TEST(Pads, AMaterialIsFeltOnEach) {
 }
 
 TEST(Pads, AProgramTellsItsFatesByItself) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string program = folder / "pad.wpp";
   ASSERT_EQ(wale({"build", corduroy, "--device", "gamepad", "-o", program}).status, 0);
   const auto described = wale({"describe", program, "--json"}).json();
@@ -43,7 +43,7 @@ TEST(Pads, AProgramTellsItsFatesByItself) {
 }
 
 TEST(Pads, EveryVerbTakesTheirPrograms) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::string device : {"touch_pad", "gamepad"}) {
     const std::string program = folder / (device + ".wpp");
     ASSERT_EQ(wale({"build", corduroy, "--device", device, "-o", program}).status, 0);

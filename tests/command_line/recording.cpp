@@ -21,7 +21,7 @@ Outcome feel(std::vector<std::string> words) {
 }
 
 TEST(Record, WhatWasRecordedReplaysTheSame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder / "corduroy.wrec";
   const Outcome felt = feel({corduroy, "--set", "wale=4mm", "--max-force", "1.5 N", "--record", file});
   ASSERT_EQ(felt.status, 0) << felt.err;
@@ -40,7 +40,7 @@ TEST(Record, WhatWasRecordedReplaysTheSame) {
 }
 
 TEST(Record, IsWrittenAsATableAndAsSound) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder / "a.wrec", csv = folder / "a.csv", direct = folder / "b.csv", wav = folder / "a.wav";
   ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
   ASSERT_EQ(feel({corduroy, "--record", direct}).status, 0);
@@ -61,7 +61,7 @@ TEST(Record, IsWrittenAsATableAndAsSound) {
 }
 
 TEST(Record, ShippedMaterialsOfEveryKindReplayTheSame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* material : {"fabric/velvet", "earth/sand", "mechanism/toggle", "mechanism/wall", "mechanism/spring",
                                "stone/slate", "fluid/oil", "glass/wet_glass", "metal/grille"}) {
     const std::string path = std::string(WALE_SOURCE_DIR) + "/library/" + material + ".wale",
@@ -73,7 +73,7 @@ TEST(Record, ShippedMaterialsOfEveryKindReplayTheSame) {
 }
 
 TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder / "a.wrec";
   ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
   const std::string before = bytes_of(file);
@@ -90,7 +90,7 @@ TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
 }
 
 TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder / "a.wrec";
   ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
   std::string bytes = bytes_of(file);
@@ -163,7 +163,7 @@ bool eventually(Condition&& condition) {
 }
 
 TEST(Watch, FeelsTheFileAnewAtEverySaveUntilInterrupted) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("c.wale", bytes_of(corduroy)), err = folder / "err", out = folder / "out",
                     recording = folder / "a.wrec";
   Started running({"feel", file, "--watch", "--json", "--record", recording}, out, err);

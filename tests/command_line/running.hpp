@@ -14,39 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/temporary_folder.hpp"
+
 /// The `wale` binary run as a person runs it.
 namespace wale::command_line {
 
 namespace fs = std::filesystem;
 
 inline const std::string corduroy = std::string(WALE_SOURCE_DIR) + "/library/fabric/corduroy.wale";
-
-/// A folder of its own for one test, gone with it.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "wale-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-  /// Writes a file and gives its path.
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return *this / name;
-  }
-
- private:
-  fs::path path_;
-};
 
 inline std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -69,7 +44,7 @@ inline std::string quoted(const std::string& word) {
 
 /// Runs `wale` with these words and what is typed; colours are off.
 inline Outcome wale(const std::vector<std::string>& words, const std::string& typed = {}) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string command = quoted(WALE_BINARY);
   for (const auto& word : words) command += " " + quoted(word);
   command += " <" + (typed.empty() ? "/dev/null" : quoted(folder.write("typed", typed))) + " >" +

@@ -8,7 +8,7 @@ namespace wale::command_line::stages_test {
 namespace {
 
 TEST(Emit, WritesEachStageToStandardOutputOrAFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const auto& [stage, part] : {std::pair{"tree", "(material corduroy"},
                                     {"checked", "asks roughness 0.6"},
                                     {"ir", "parameter wale"},
@@ -24,7 +24,7 @@ TEST(Emit, WritesEachStageToStandardOutputOrAFile) {
 }
 
 TEST(Emit, OfAPatchProgramShowsWhatIsLeft) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string program = folder / "corduroy.wpp";
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
   for (const char* stage : {"listing", "cpp"})
@@ -49,7 +49,7 @@ TEST(Emit, UnknownStagesAndSenselessWordsAreMisuse) {
 }
 
 TEST(Emit, StopsWhereTheMaterialIsWrong) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string open =
       folder.write("open.wale", "wale 1\nmaterial a { physical { force = lateral(grating(x, period: 2 mm)) } }\n");
   const Outcome checked = wale({"build", open, "--emit", "checked"});

@@ -1,16 +1,12 @@
 // What the golden cases cannot say: whole lines that go, and what is not said twice.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace wale::checker_fixes_test {
 namespace {
-
-namespace fs = std::filesystem;
 
 Diagnostics checked(const std::string& text, const std::string& name = "test.wale") {
   SourceSet sources;
@@ -50,11 +46,9 @@ TEST(CheckerFixes, AreOfTheFileThatTheDiagnosticPointsTo) {
 }
 
 TEST(Imports, AreLookedForOnceInEachPlace) {
-  const fs::path folder = fs::temp_directory_path() / "wale_imports_looked_for_once";
-  fs::create_directories(folder);
-  std::ofstream(folder / project_marker).put('\n');
-  const auto diagnostics = checked("wale 1\nimport nowhere\n", (folder / "a.wale").string());
-  fs::remove_all(folder);
+  const TemporaryFolder folder;
+  folder.write(project_marker, "\n");
+  const auto diagnostics = checked("wale 1\nimport nowhere\n", folder / "a.wale");
   ASSERT_EQ(diagnostics.all().size(), 1u);
   const std::string& message = diagnostics.all()[0].message;
   const auto first = message.find("nowhere.wale");

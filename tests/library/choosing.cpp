@@ -1,11 +1,8 @@
 // Which device is meant: of what is plugged in, what is declared, and what the program was built for.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +12,7 @@
 #include "library/devices_known.hpp"
 #include "library/identify_device.hpp"
 #include "library/open_device.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace wale::choosing_test {
 namespace {
@@ -184,22 +182,17 @@ std::string device_text(const std::string& name, int newton) {
 }
 
 TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
-  namespace fs = std::filesystem;
-  std::string name = (fs::temp_directory_path() / "wale-project-XXXXXX").string();
-  ASSERT_NE(mkdtemp(name.data()), nullptr);
-  const fs::path project = name;
-  fs::create_directory(project / "fabric");
-  const auto write = [&](const char* file, const std::string& text) { std::ofstream(project / file) << text; };
+  const TemporaryFolder project;
   const std::string material = "material m { physical { force = spring(20 N/m) } }\n";
-  write("wale.project", "");
-  write("devices.wale", "wale 1\nexport " + device_text("at_home", 5) + device_text("of_nobody", 6));
-  write("fabric/m.wale", "wale 1\n" + material);
-  write("fabric/own.wale", "wale 1\n" + device_text("at_home", 7) + material);
+  project.write("wale.project", "");
+  project.write("devices.wale", "wale 1\nexport " + device_text("at_home", 5) + device_text("of_nobody", 6));
+  project.write("fabric/m.wale", "wale 1\n" + material);
+  project.write("fabric/own.wale", "wale 1\n" + device_text("at_home", 7) + material);
   const auto force_on = [&](const std::string& file, const std::string& device) {
     SourceSet sources;
     Diagnostics diagnostics;
     const auto resolver = file_resolver({});
-    const std::string path = (project / file).string();
+    const std::string path = project / file;
     const SourceId source = sources.add(path, std::get<ResolvedFile>(read_file(path)).bytes);
     const auto program = compile(sources, source, "", device, *resolver, diagnostics);
     if (!program) return std::string(code_name(diagnostics.all().front().code));
@@ -209,11 +202,10 @@ TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
   EXPECT_EQ(force_on("fabric/m.wale", "of_nobody"), "W0601") << "it is not exported";
   EXPECT_EQ(force_on("fabric/own.wale", "at_home"), "7") << "what the file says itself goes first";
   EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "10");
-  write("devices.wale", "");
+  project.write("devices.wale", "");
   EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "10") << "as while it is being written";
-  write("devices.wale", "wale 1\nexport " + device_text("sandpaper", 5));
+  project.write("devices.wale", "wale 1\nexport " + device_text("sandpaper", 5));
   EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "W0202") << "and what is wrong in it is said";
-  fs::remove_all(project);
 }
 
 TEST(Choosing, NoTwoDeclarationsOfOursAreAboutTheSameDeviceAndOneIsGeneric) {

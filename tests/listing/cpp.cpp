@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "runtime/machine/floating_point_mode.hpp"
 #include "tests/listing/opening.hpp"
 #include "tests/machine/random_program.hpp"
+#include "tests/temporary_folder.hpp"
 #include "wale/memory.hpp"
 
 namespace wale::listing::cpp_test {
@@ -186,10 +186,9 @@ void compare(const Subject& subject, RunProgram run, std::mt19937& random) {
 
 /// All subjects, compiled by one call of `compiler`, against the machine.
 void compare_all(const std::string& compiler) {
-  std::string folder = (fs::temp_directory_path() / "wale-cpp-XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const TemporaryFolder folder;
   static const auto all = subjects();
-  const std::string source = folder + "/programs.cpp", object = folder + "/programs.so";
+  const std::string source = folder / "programs.cpp", object = folder / "programs.so";
   {
     std::ofstream file(source);
     std::string drivers;
@@ -199,14 +198,16 @@ void compare_all(const std::string& compiler) {
     }
     file << "#include <cstring>\n#include <memory>\n\n" << drivers;
   }
+  if (const char* kept = std::getenv("WALE_KEEP_CPP"))
+    fs::copy_file(source, kept, fs::copy_options::overwrite_existing);
   // Nothing of this repository is where it looks for headers. Optimising harder changes no bit:
   // WALE_CPP_FLAGS="-O3 -march=x86-64-v3" says so in some minutes.
   const char* flags = std::getenv("WALE_CPP_FLAGS");
   const std::string command = compiler + " -std=c++20 " + (flags ? flags : "-O1") +
                               " -Wall -Wextra -Werror -ffp-contract=off -fPIC -shared -o " + object + " " + source +
-                              " 2>" + folder + "/errors";
+                              " 2>" + (folder / "errors");
   const int status = std::system(command.c_str());
-  std::ifstream errors(folder + "/errors");
+  std::ifstream errors(folder / "errors");
   ASSERT_EQ(status, 0) << std::string{std::istreambuf_iterator<char>(errors), {}}.substr(0, 4000);
   void* library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
   ASSERT_NE(library, nullptr) << dlerror();
@@ -219,8 +220,6 @@ void compare_all(const std::string& compiler) {
     if (testing::Test::HasFatalFailure()) break;
   }
   dlclose(library);
-  std::error_code ignored;
-  if (!std::getenv("WALE_KEEP_CPP")) fs::remove_all(folder, ignored);
   testing::Test::RecordProperty("programs", std::to_string(all.size()));
 }
 

@@ -1,42 +1,17 @@
 // Instructions know the line of Wale that they come from.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "schema/patch_program_format.hpp"
 #include "tests/listing/opening.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace wale::listing::places_test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own for one test, gone with it.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "wale-listing-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-
- private:
-  fs::path path_;
-};
 
 /// Every line that an instruction of the section comes from, once, in order.
 std::vector<std::uint32_t> lines_of(const PatchProgram& program, CodeSection section, std::size_t index,
@@ -56,7 +31,7 @@ std::vector<std::uint32_t> lines_of(const PatchProgram& program, CodeSection sec
 }
 
 TEST(Places, AreThoseOfTheAuthorsOwnFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const File file(folder.write("m.wale",
                                "wale 1\n"
                                "import std.friction\n"
@@ -83,7 +58,7 @@ TEST(Places, AreThoseOfTheAuthorsOwnFile) {
 }
 
 TEST(Places, OfAnImportedMaterialGoByTheModulesName) {
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("cloth/base.wale",
                "wale 1\nmaterial base {\n  physical {\n    param k = 3 N/m in 0 N/m .. 9 N/m\n    force = -k * hand\n"
                "  }\n}\n");
@@ -94,7 +69,7 @@ TEST(Places, OfAnImportedMaterialGoByTheModulesName) {
 }
 
 TEST(Places, DoNotDependOnTheFolder) {
-  const Folder one, other;
+  const TemporaryFolder one, other;
   const std::string base =
       "wale 1\nmaterial base {\n  physical {\n    force = -3 N/m * hand + lateral(grating(x, period: 2 mm), "
       "amplitude: 1 N)\n  }\n}\n";
