@@ -25,6 +25,7 @@
 #include "tests/qemu/usbip_port.hpp"
 #include "tests/usb/falcon_model.hpp"
 #include "tests/usb/pid_model.hpp"
+#include "tests/usb/profiles.hpp"
 
 namespace wale::test {
 namespace {
@@ -121,17 +122,6 @@ PidTransport::Options patient() {
   return options;
 }
 
-DeviceProfile profile(double diameter, double counts, double newton) {
-  DeviceProfile profile;
-  profile.name = "check";
-  profile.workspace_diameter = diameter;
-  profile.position_counts = counts;
-  profile.force_newton = newton;
-  profile.force_counts = 32767;
-  profile.rate = 900;
-  return profile;
-}
-
 template <class Opened>
 auto taken(Opened opened) {
   if (const auto* refusal = std::get_if<Refusal>(&opened)) demand(false, refusal->reason);
@@ -172,7 +162,7 @@ void check_joystick(const PidFamily& family) {
     const auto listed = list_usb_devices(*found.context);
     demand(listed.size() == 1 && listed[0].obstacle.empty(), "it is listed as usable: " + listed.at(0).can);
     demand(kernel_pushes(), "looking takes nothing from the kernel's driver");
-    auto device = taken(HidPidDevice::open(found.context, found.info, profile(0.2, 65534, 10), patient()));
+    auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient()));
     demand(!kernel_pushes(), "the kernel's driver has been detached");
     port->with<PidModel>([](PidModel& model) {
       model.log.clear();
@@ -217,7 +207,7 @@ void check_joystick(const PidFamily& family) {
   }
   {
     const Found found = find(family.vendor, family.product);
-    const auto device = taken(HidPidDevice::open(found.context, found.info, profile(0.2, 65534, 10), patient()));
+    const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient()));
     tick(200, [&](long) { device->command({2, 1}); });
     port.reset();
     await([&] { return device->was_lost(); }, "unplugged in the middle, it is lost");
@@ -225,7 +215,7 @@ void check_joystick(const PidFamily& family) {
   }
   port = plugged();
   const Found found = find(family.vendor, family.product);
-  const auto device = taken(HidPidDevice::open(found.context, found.info, profile(0.2, 65534, 10), patient()));
+  const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient()));
   await(
       [&] {
         device->command({3, 0});
@@ -246,7 +236,7 @@ void check_falcon() {
   model->moves = false;
   auto port = std::make_unique<UsbipPort>(std::move(model), 1);
   const auto open = [&](const Found& found) {
-    return taken(FalconDevice::open(found.context, found.info, profile(0.1, 1667, FalconModel::full_newton), options));
+    return taken(FalconDevice::open(found.context, found.info, falcon_profile(), options));
   };
   const auto is_pushed = [&](FalconDevice& device) {
     return [&] {

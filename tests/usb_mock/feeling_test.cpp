@@ -22,6 +22,8 @@
 
 #include "library/open_device.hpp"
 #include "runtime/stage/scheduling.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
 #include "wale/stage.hpp"
@@ -32,11 +34,6 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string corduroy = std::string(WALE_SOURCE_DIR) + "/library/fabric/corduroy.wale";
-
-template <class Condition>
-void wait_until(Condition holds) {
-  while (!holds()) std::this_thread::sleep_for(1ms);
-}
 
 std::vector<std::string> log_of(const std::shared_ptr<MockJoystick>& joystick) {
   return joystick->with_model([](PidModel& model) { return model.log; });
@@ -78,7 +75,7 @@ class Feeling : public testing::Test {
   /// What is plugged in, once there are so many.
   std::vector<PluggedIn> found(std::size_t count) const {
     std::vector<PluggedIn> all;
-    wait_until([&] { return (all = plugged_in(connections_)).size() == count; });
+    await([&] { return (all = plugged_in(connections_)).size() == count; });
     return all;
   }
   ChosenDevice chosen(const std::string& spelling, std::size_t plugged) const {
@@ -117,7 +114,7 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   std::shared_ptr<MockJoystick> again;
   long calls = 0, felt_again = 0;
   std::size_t under_way = 0;
-  RunOptions options{.seconds = 3600, .stop = &stop};
+  RunOptions options{.seconds = 120, .stop = &stop};
   options.progress = [&](const Progress& now) {
     ++calls;
     if (calls == 20) {
@@ -193,7 +190,7 @@ TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
     Stage stage(device);
     stage.place(program);
     long calls = 0;
-    RunOptions options{.seconds = 3600, .stop = &stop};
+    RunOptions options{.seconds = 120, .stop = &stop};
     options.progress = [&](const Progress&) { each(++calls); };
     return std::get<RunResult>(stage.run(options));
   };
@@ -230,7 +227,7 @@ TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
             "figures are assumed; `wale devices --identify 1-3` prints one to begin with");
   const Program program = built(device);
   auto joystick = opened(device, program);
-  wait_until([&] {
+  await([&] {
     joystick->command({5, 0});
     return stick->with_model([](PidModel& model) { return model.force().x; }) > 0.2;
   });
@@ -246,16 +243,15 @@ struct Outcome {
 };
 
 Outcome run_wale(const std::string& words) {
-  const std::string base = "/tmp/wale-usb-mock-" + std::to_string(getpid());
-  const int status = std::system(
-      (std::string(WALE_BINARY) + " " + words + " </dev/null >" + base + ".out 2>" + base + ".err").c_str());
+  const TemporaryFolder folder;
+  const std::string out = folder / "out", err = folder / "err";
+  const int status =
+      std::system((std::string(WALE_BINARY) + " " + words + " </dev/null >" + out + " 2>" + err).c_str());
   const auto text = [](const std::string& path) {
     std::ifstream file(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    unlink(path.c_str());
-    return bytes;
+    return std::string{std::istreambuf_iterator<char>(file), {}};
   };
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text(base + ".out"), text(base + ".err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text(out), text(err)};
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -304,7 +300,8 @@ TEST_F(Feeling, WhatIsNamedIsMeantReally) {
 TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
-  const std::string program = "/tmp/wale-usb-mock-" + std::to_string(getpid()) + ".wpp";
+  const TemporaryFolder folder;
+  const std::string program = folder / "corduroy.wpp";
   ASSERT_EQ(run_wale("build " + corduroy + " --device sandpaper -o " + program).status, 0);
   const Outcome named = run_wale("feel " + program + " --seconds 0.2 --device usb");
   EXPECT_EQ(named.status, 1);
@@ -316,7 +313,6 @@ TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
   EXPECT_TRUE(contains(by_itself.err, "is taken for openffboard, and the program is built for sandpaper"))
       << by_itself.err;
   EXPECT_TRUE(log_of(stick).empty());
-  unlink(program.c_str());
 }
 
 TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
@@ -361,14 +357,12 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
   for (const int block : {1, 2})
     for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
   // What was printed, in the folder of a material, is what that material is then felt on.
-  const auto folder = std::filesystem::temp_directory_path() / ("wale-usb-mock-" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
-  std::ofstream(folder / "devices.wale") << identified.out;
+  const TemporaryFolder folder;
+  folder.write("devices.wale", identified.out);
   std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
-  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale").string() + " --seconds 0.2 --json");
+  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json");
   EXPECT_TRUE(contains(felt.err, "at port 1-1), as my_openffboard")) << felt.err;
   EXPECT_EQ(nlohmann::json::parse(felt.out).at("profile"), "my_openffboard");
-  std::filesystem::remove_all(folder);
 
   const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
   EXPECT_EQ(weak.status, 1);
@@ -383,7 +377,7 @@ TEST_F(Feeling, IdentifyIsEndedAtOnceByCtrlC) {
   char* words[] = {binary.data(), verb.data(), option.data(), nullptr};
   pid_t child = 0;
   ASSERT_EQ(posix_spawn(&child, binary.c_str(), nullptr, nullptr, words, environ), 0);
-  wait_until([&] {
+  await([&] {
     const auto pushes = pushes_in(log_of(stick), 1);
     return !pushes.empty() && pushes.back() != 0;
   });
@@ -422,9 +416,9 @@ TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
   const auto joystick = opened(device, built(device));
   EXPECT_EQ(threads_with(loop_priority - 1), 2) << "that of libusb's events and that which submits forces";
   mock_.unplug(stick);
-  wait_until([&] { return joystick->sample().contact == Contact::lost; });
+  await([&] { return joystick->sample().contact == Contact::lost; });
   mock_.plug(PidModel(openffboard()), 1);
-  wait_until([&] {
+  await([&] {
     joystick->elapse(1);
     return joystick->sample().contact == Contact::good;
   });
