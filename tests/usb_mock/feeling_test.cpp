@@ -17,8 +17,9 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "library/open_device.hpp"
 #include "runtime/stage/scheduling.hpp"
@@ -242,17 +243,43 @@ struct Outcome {
   std::string out, err;
 };
 
-Outcome run_wale(const std::string& words) {
-  const TemporaryFolder folder;
-  const std::string out = folder / "out", err = folder / "err";
-  const int status =
-      std::system((std::string(WALE_BINARY) + " " + words + " </dev/null >" + out + " 2>" + err).c_str());
-  const auto text = [](const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), {}};
-  };
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text(out), text(err)};
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string{std::istreambuf_iterator<char>(file), {}};
 }
+
+/// `wale` with these words, killed in the end if it has not ended.
+class Running {
+ public:
+  explicit Running(const std::string& words) {
+    std::string shell = "/bin/sh", option = "-c";
+    std::string line = std::string("exec ") + WALE_BINARY + " " + words + " </dev/null >" + out_ + " 2>" + err_;
+    char* all[] = {shell.data(), option.data(), line.data(), nullptr};
+    if (posix_spawn(&child_, shell.c_str(), nullptr, nullptr, all, environ) != 0) throw std::runtime_error("no shell");
+  }
+  ~Running() {
+    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// On standard error, by now.
+  std::string said() const { return text_of(err_); }
+  void interrupt() const { kill(child_, SIGINT); }
+  /// Once it has ended.
+  Outcome outcome() {
+    int status = 0;
+    waitpid(std::exchange(child_, 0), &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text_of(out_), text_of(err_)};
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::string out_ = folder_ / "out", err_ = folder_ / "err";
+  pid_t child_ = 0;
+};
+
+Outcome run_wale(const std::string& words) { return Running(words).outcome(); }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -293,8 +320,51 @@ TEST_F(Feeling, WhatIsNamedIsMeantReally) {
   const std::size_t before = log_of(stick).size() + log_of(rhino_stick).size();
   EXPECT_EQ(device_of("simulated"), "simulated");
   EXPECT_EQ(device_of("simulated:openffboard"), "simulated");
-  EXPECT_EQ(device_of("adapt_ffb_joy"), "simulated") << "declared, and not plugged in";
+  EXPECT_EQ(device_of("sandpaper"), "simulated") << "declared, and nothing that could be plugged in";
   EXPECT_EQ(log_of(stick).size() + log_of(rhino_stick).size(), before) << "nothing was said to either";
+}
+
+TEST_F(Feeling, WhatIsNamedAndNotThereIsWaitedFor) {
+  mock_.plug(PidModel(rhino()), 2);
+  found(1);
+  const std::pair<const char*, const char*> asked[] = {{"openffboard", "no openffboard is plugged in"},
+                                                       {"1209:ffb0", "no device 1209:ffb0 is plugged in"},
+                                                       {"1-1", "nothing is plugged in at port 1-1"}};
+  for (const auto& [spelling, absent] : asked) {
+    Running feeling("feel " + corduroy + " --seconds 60 --json --device " + spelling);
+    await([&] { return contains(feeling.said(), absent) && contains(feeling.said(), ": waiting for it; Ctrl-C"); });
+    const auto stick = mock_.plug(PidModel(openffboard()), 1);
+    await([&] { return pushes_in(log_of(stick), 1).size() > 50; });
+    EXPECT_TRUE(contains(feeling.said(), "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard"));
+    feeling.interrupt();
+    const Outcome felt = feeling.outcome();
+    EXPECT_EQ(felt.status, 0) << felt.err;
+    EXPECT_EQ(nlohmann::json::parse(felt.out).at("device"), "OpenFFBoard (1209:ffb0 at port 1-1)");
+    EXPECT_EQ(first(log_of(stick), set_up_of_openffboard.size()), set_up_of_openffboard);
+    EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
+    mock_.unplug(stick);
+  }
+}
+
+TEST_F(Feeling, WaitingEnds) {
+  const Outcome late = run_wale("feel " + corduroy + " --seconds 0.3 --device 1209:ffb0");
+  EXPECT_EQ(late.status, 1);
+  EXPECT_TRUE(contains(late.err, "no device 1209:ffb0 is plugged in, and none was within 0.3 s")) << late.err;
+
+  Running ended("feel " + corduroy + " --device usb");
+  await([&] { return contains(ended.said(), ": waiting for it; Ctrl-C"); });
+  ended.interrupt();
+  const Outcome stopped = ended.outcome();
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_TRUE(contains(stopped.err, "stopped, and nothing was felt")) << stopped.err;
+
+  Running refused("feel " + corduroy + " --device openffboard");
+  await([&] { return contains(refused.said(), ": waiting for it; Ctrl-C"); });
+  const auto taken = mock_.plug(PidModel(openffboard()), 1, true);
+  const Outcome in_use = refused.outcome();
+  EXPECT_EQ(in_use.status, 1);
+  EXPECT_TRUE(contains(in_use.err, "cannot be used: another program has claimed it")) << in_use.err;
+  EXPECT_EQ(taken->claims, 0);
 }
 
 TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
@@ -373,18 +443,13 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
 TEST_F(Feeling, IdentifyIsEndedAtOnceByCtrlC) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
-  std::string binary = WALE_BINARY, verb = "devices", option = "--identify";
-  char* words[] = {binary.data(), verb.data(), option.data(), nullptr};
-  pid_t child = 0;
-  ASSERT_EQ(posix_spawn(&child, binary.c_str(), nullptr, nullptr, words, environ), 0);
+  Running identifying("devices --identify");
   await([&] {
     const auto pushes = pushes_in(log_of(stick), 1);
     return !pushes.empty() && pushes.back() != 0;
   });
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  identifying.interrupt();
+  EXPECT_EQ(identifying.outcome().status, 1);
   EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
   EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
 }

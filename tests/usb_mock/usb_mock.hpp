@@ -109,10 +109,11 @@ class UsbMock {
   UsbMock();
   ~UsbMock();
 
-  /// Plugs one in at a port, 1 .. 9, under a new address each time.
+  /// Plugs one in at a port, 1 .. 9, under a new address each time; as one that another program has claimed, if so.
   template <class Model>
-  std::shared_ptr<MockDevice<Model>> plug(Model model, int port) {
+  std::shared_ptr<MockDevice<Model>> plug(Model model, int port, bool is_claimed_elsewhere = false) {
     auto device = std::make_shared<MockDevice<Model>>(testbed_, std::move(model), port, ++address_);
+    device->is_claimed_elsewhere = is_claimed_elsewhere;
     show(device);
     return device;
   }
