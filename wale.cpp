@@ -8,7 +8,6 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,17 +17,11 @@
 #include "compiler/build_stage.hpp"
 #include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
-#include "compiler/modules/library_folders.hpp"
-#include "compiler/open_file.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/text/spelling.hpp"
-#include "library/device_report.hpp"
-#include "library/devices_known.hpp"
-#include "library/identify_device.hpp"
-#include "library/open_device.hpp"
-#include "library/plugged_report.hpp"
-#include "wale/library.hpp"
-#include "wale/simulated_pad.hpp"
+#include "library/device_to_feel.hpp"
+#include "library/devices_verb.hpp"
+#include "library/load_trace.hpp"
 
 namespace {
 
@@ -57,20 +50,6 @@ void offer(CLI::App& verb, Choice& choice, const char* device_option = "--device
   offer_library(verb, choice);
 }
 
-std::optional<Trace> load_trace(const std::string& path) {
-  const auto read = read_file(path);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
-    refuse(fmt::format("`{}` cannot be read: {}", path, problem->reason));
-    return std::nullopt;
-  }
-  auto trace = read_trace(std::get<ResolvedFile>(read).bytes);
-  if (const auto* error = std::get_if<TraceError>(&trace)) {
-    refuse(fmt::format("{}:{}: expected {}, found {}", path, error->line, error->expected, error->found));
-    return std::nullopt;
-  }
-  return std::get<Trace>(std::move(trace));
-}
-
 int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at,
            const std::string& trace_file, const std::string& out, bool json) {
   const auto programs = command::load_programs(choice, false);
@@ -80,8 +59,8 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
   std::vector<SampledHand> hands;
   if (!trace_file.empty()) {
     const auto trace = load_trace(trace_file);
-    if (!trace) return refused;
-    for (const auto& point : trace->points)
+    if (const auto* refusal = std::get_if<Refusal>(&trace)) return refuse(refusal->reason);
+    for (const auto& point : std::get<Trace>(trace).points)
       hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
   } else {
     QuantityReader reader;
@@ -100,86 +79,6 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
   return 0;
 }
 
-/// The devices that a file in this folder would know.
-std::vector<DescribedDevice> devices_here() {
-  SourceSet sources;
-  Diagnostics diagnostics;
-  const auto resolver = file_resolver(library_folders({}, std::getenv("WALE_LIBRARY")));
-  const CheckedModule module = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
-  command::print_diagnostics(stderr, diagnostics, sources);
-  return devices_known(module);
-}
-
-/// The device that is to be felt on, and the one to build for.
-struct DeviceToFeel {
-  Connections connections;  ///< open while something plugged in is used
-  ChosenDevice chosen;
-
-  /// What to build, and for what.
-  Choice built(Choice choice) const {
-    if (!chosen.profile.empty()) choice.device = chosen.profile;
-    return choice;
-  }
-};
-
-/// Chooses among what is plugged in and what is declared, and says so; nothing when what is wrong has been printed.
-std::optional<DeviceToFeel> device_to_feel(const FeelOptions& options) {
-  const OpenedFile file = open_file(options.choice.request());  // what is wrong with it is said when it is built
-  const std::vector<DescribedDevice> known = file.module ? devices_known(*file.module) : devices_here();
-  DeviceRequest request{.spelling = options.device.empty() ? "auto" : options.device,
-                        .built_for = file.program ? file.program->description().device.name : options.built_for,
-                        .only_simulated = options.virtual_time || options.hand};
-  DeviceToFeel device;
-  std::vector<PluggedIn> plugged;
-  if (!request.only_simulated && !request.spelling.starts_with("simulated")) {
-    device.connections = Connections::open();
-    plugged = plugged_in(device.connections, request.spelling);
-  }
-  auto chosen = choose_device(request, known, plugged);
-  if (const auto* refusal = std::get_if<Refusal>(&chosen)) {
-    refuse(refusal->reason);
-    return std::nullopt;
-  }
-  device.chosen = std::get<ChosenDevice>(std::move(chosen));
-  if (!device.chosen.said.empty() && (!options.device.empty() || device.chosen.is_worth_saying))
-    fmt::print(stderr, "wale: {}\n", device.chosen.said);
-  return device;
-}
-
-/// What was chosen, opened, or simulated in a hand that moves as asked; null when what is wrong has been printed.
-std::unique_ptr<Device> device_for(const FeelOptions& options, const DeviceToFeel& device,
-                                   const PatchProgram& program) {
-  const DeviceProfile& profile = program.device;
-  if (device.chosen.plugged) {
-    auto opened = open_device(device.connections, device.chosen, profile,
-                              [](const std::string& what) { fmt::print(stderr, "wale: {}\n", what); });
-    if (const auto* refusal = std::get_if<Refusal>(&opened)) {
-      refuse(refusal->reason);
-      return nullptr;
-    }
-    return std::get<std::unique_ptr<HotPluggedDevice>>(std::move(opened));
-  }
-  if (!device.chosen.profile.empty() && profile.name != device.chosen.profile) {
-    refuse(fmt::format("`{}` is built for `{}`; feel it there, or build it for `{}`", program.material, profile.name,
-                       device.chosen.profile));
-    return nullptr;
-  }
-  const auto person = std::get<SimulatedPerson>(Library().person());
-  Motion motion = person.lateral;
-  const std::string hand = options.hand.value_or("lateral");
-  if (hand == "circular")
-    motion = person.circular;
-  else if (hand == "rest")
-    motion = Rest{};
-  else if (hand != "lateral") {
-    auto trace = load_trace(hand);
-    if (!trace) return nullptr;
-    motion = *std::move(trace);
-  }
-  if (program.vibrates()) return std::make_unique<SimulatedPad>(profile, std::move(motion));
-  return std::make_unique<SimulatedJoystick>(profile, person.hand, std::move(motion));
-}
-
 /// Ctrl-C ends a run, and a question too, since reading is not taken up again.
 void stop_on_signals() {
   struct sigaction action {};
@@ -188,89 +87,49 @@ void stop_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+void say(const std::string& what) { fmt::print(stderr, "wale: {}\n", what); }
+
 /// What `feel` runs on.
 command::FeltOn felt_on(const FeelOptions& options, const DeviceToFeel& device) {
-  return {.is_felt = !device.chosen.plugged || device.chosen.plugged->kind != "pointer",
-          .built = [&device](Choice choice) { return device.built(std::move(choice)); },
-          .open = [&](const PatchProgram& program) { return device_for(options, device, program); },
+  const ChosenDevice& chosen = device.chosen;
+  return {.is_felt = !chosen.plugged || chosen.plugged->kind != "pointer",
+          .built =
+              [&](Choice choice) {
+                if (!chosen.profile.empty()) choice.device = chosen.profile;
+                return choice;
+              },
+          .open = [&](const PatchProgram& program) -> std::unique_ptr<Device> {
+            auto opened = open_to_feel(device, program, say);
+            if (const auto* refusal = std::get_if<Refusal>(&opened)) refuse(refusal->reason);
+            auto* joystick = std::get_if<std::unique_ptr<Device>>(&opened);
+            return joystick != nullptr ? std::move(*joystick) : nullptr;
+          },
           .manner =
               [&](const Device& opened) {
                 if (const auto* plugged = dynamic_cast<const HotPluggedDevice*>(&opened))
-                  return RunManner{in_words(*device.chosen.plugged), "yours", false, plugged->report()};
-                return RunManner{"simulated", options.hand.value_or("lateral"), options.virtual_time, std::nullopt};
+                  return RunManner{in_words(*chosen.plugged), "yours", false, plugged->report()};
+                return RunManner{"simulated", device.hand, options.virtual_time, std::nullopt};
               }};
 }
 
 /// Runs until it is over, or the person ends it.
 int feel(const FeelOptions& options) {
-  const auto device = device_to_feel(options);
-  if (!device) return refused;
   stop_on_signals();
-  const command::FeltOn on = felt_on(options, *device);
+  const auto device = device_to_feel({.file = options.choice.request(),
+                                      .spelling = options.device,
+                                      .built_for = options.built_for,
+                                      .hand = options.hand,
+                                      .virtual_time = options.virtual_time,
+                                      .seconds = options.seconds},
+                                     say, interrupted);
+  if (const auto* refusal = std::get_if<Refusal>(&device)) return refuse(refusal->reason);
+  const command::FeltOn on = felt_on(options, std::get<DeviceToFeel>(device));
   return options.blind ? command::feel_blind(options, on, interrupted) : command::feel(options, on, interrupted);
 }
 
-int devices(bool json) {
-  command::declared_everywhere();
-  const std::vector<DescribedDevice> known = devices_here();
-  const Connections connections = Connections::open();
-  const std::vector<PluggedIn> plugged = plugged_in(connections);
-  fmt::print("{}", json ? with_plugged(devices_json(known), plugged, known)
-                        : devices_text(known) + plugged_text(connections, plugged, known));
-  return 0;
-}
-
-/// Of a declaration of one's own: that of ours with `my_` before it, which it keeps when it is made anew.
-std::string own_name(const std::string& profile) { return profile.starts_with("my_") ? profile : "my_" + profile; }
-
-/// Finds out how a device that is plugged in lies on the desk, and prints a declaration that says so.
 int identify(const std::string& device, const std::string& max_force) {
-  IdentifyOptions options{.asks = isatty(fileno(stdin)) != 0};
-  if (!max_force.empty()) {
-    QuantityReader reader;
-    const auto most = reader.force("--max-force", max_force);
-    if (!most) {
-      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return refused;
-    }
-    if (!(*most > 0)) return refuse("the largest force allowed is more than nothing");
-    options.most_newton = *most;
-  }
-  const std::vector<DescribedDevice> known = devices_here();
-  const Connections connections = Connections::open();
-  const std::vector<PluggedIn> plugged = plugged_in(connections);
-  const auto choice = choose_device({.spelling = device.empty() ? "auto" : device}, known, plugged);
-  if (const auto* refusal = std::get_if<Refusal>(&choice)) return refuse(refusal->reason);
-  ChosenDevice chosen = std::get<ChosenDevice>(choice);
-  if (!chosen.plugged)
-    return refuse(chosen.is_worth_saying ? chosen.said : "no force-feedback device is plugged in; see `wale devices`");
-  DescribedDevice described = *matched_profile(*chosen.plugged, known).device;
-  if (described.profile.shaker) return refuse(fmt::format("`{}` only vibrates: it has no axes", chosen.profile));
-  DeviceWiring wiring = chosen.wiring;
-  chosen.wiring = DeviceWiring{};  // its own axes and motors, as they are
-  auto opened = open_device(connections, chosen, described.profile);
-  if (const auto* refusal = std::get_if<Refusal>(&opened)) return refuse(refusal->reason);
   stop_on_signals();
-  fmt::print(stderr, "identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged), chosen.profile);
-  const auto found = identify_device(
-      *std::get<std::unique_ptr<HotPluggedDevice>>(opened), options,
-      [](std::string_view request) { fmt::print(stderr, "{}\n", request); }, interrupted);
-  if (const auto* refusal = std::get_if<Refusal>(&found)) return refuse(refusal->reason);
-  const Identified& identified = std::get<Identified>(found);
-  fmt::print(stderr, "{}", identified_text(identified));
-  if (!identified.motors_settled) return refused;
-  wiring.axes = *identified.axes_settled;
-  wiring.motors = *identified.motors_settled;
-  if (const auto numbers = read_usb_numbers(chosen.plugged->numbers)) wiring.usb = {*numbers};
-  fmt::print("{}", device_declaration(described, own_name(chosen.profile), wiring,
-                                      {in_words(*chosen.plugged) + ", as `wale devices --identify` found it; its other "
-                                                                   "figures are",
-                                       "those of " + chosen.profile + "."}));
-  fmt::print(
-      stderr,
-      "in a file devices.wale in this folder, in that of your wale.project, or in one of WALE_LIBRARY, it is known "
-      "to every material there\n");
-  return 0;
+  return command::identify(device, max_force, interrupted);
 }
 
 constexpr const char* about =
@@ -404,10 +263,13 @@ int main(int argc, char** argv) {
   verb->add_option(
       "--device", feeling.device,
       "auto (default): the best one plugged in, else simulated; simulated; a name from `wale devices`: the "
-      "real one where it is plugged in; simulated:NAME; usb; 1209:ffb0; a port, 1-2");
+      "real one; simulated:NAME; usb; 1209:ffb0; a port, 1-2. One that is not there is waited for");
   verb->add_option("--hand", feeling.hand,
                    "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
-  verb->add_option("--seconds", feeling.seconds, "how long (default: 5; with --blind 3 for each of the two)");
+  verb->add_option(
+      "--seconds", feeling.seconds,
+      "how long (default: 5; with --blind 3 for each of the two), and how long a device that is not plugged in is "
+      "waited for at most (default: until Ctrl-C)");
   auto* virtual_time =
       verb->add_flag("--virtual-time", feeling.virtual_time, "as fast as possible, the same bit for bit each time");
   verb->add_option("--max-force", feeling.max_force, "the largest force allowed, as in \"3 N\"");
@@ -478,7 +340,8 @@ int main(int argc, char** argv) {
                    "the largest force of --identify, as in \"1 N\" (default: a fifth of its own)")
       ->needs(identifies);
   verb->footer("for example: wale devices --json; wale devices --identify > devices.wale");
-  verb->callback([&, identifies] { status = identifies->count() > 0 ? identify(identified, gentle) : devices(json); });
+  verb->callback(
+      [&, identifies] { status = identifies->count() > 0 ? identify(identified, gentle) : command::devices(json); });
 
   // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.
   if (argc == 1) {

@@ -33,9 +33,7 @@ std::vector<PluggedIn> find_hid_pid(const Connections& connections, const Plugge
 
 OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
                           const DeviceOptions& options) {
-  HidPidOptions hid;
-  hid.transport.priority = options.priority;
-  auto opened = HidPidDevice::open(connections.usb, plugged.usb, profile, hid);
+  auto opened = HidPidDevice::open(connections.usb, plugged.usb, profile, {.priority = options.priority});
   if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
   return std::move(std::get<std::unique_ptr<HidPidDevice>>(opened));
 }

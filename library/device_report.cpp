@@ -59,9 +59,10 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       "to feel on (wale feel --device NAME)\n"
       "  auto         the best that is plugged in, else simulated: what is taken unless you say otherwise\n"
       "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
-      "  a device to build for, by its name: the real one where it is plugged in, else simulated\n"
+      "  a device to build for, by its name: the real one; one that cannot be plugged in is simulated\n"
       "  simulated:NAME: that one, and never the real one\n"
-      "  usb, vendor and product (1209:ffb0), a port (1-2): what is plugged in, or nothing\n"
+      "  usb, vendor and product (1209:ffb0), a port (1-2): what is plugged in there\n"
+      "  a real one that is not there is waited for until it is plugged in\n"
       "\nto build for (wale build --device NAME)\n";
   for (const DescribedDevice& device : devices) {
     const DeviceProfile& profile = device.profile;

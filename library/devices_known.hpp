@@ -11,4 +11,7 @@ namespace wale {
 std::vector<DescribedDevice> devices_known(const CheckedModule& module);
 std::vector<DescribedDevice> devices_known(const Declarations& declarations);
 
+/// The devices that a file in this folder would know. What is wrong with their declarations is printed.
+std::vector<DescribedDevice> devices_here();
+
 }  // namespace wale

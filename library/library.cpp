@@ -61,20 +61,6 @@ std::variant<Program, Unavailable> Library::material(const std::string& file, co
   return compile_text(file, std::move(std::get<ResolvedFile>(read).bytes), name, device);
 }
 
-std::vector<DescribedDevice> devices_known(const Declarations& declarations) {
-  std::vector<DescribedDevice> devices;
-  const auto add = [&](const DeviceDeclaration& device) {
-    devices.push_back({device.profile, device.source, device.assumed, device.unknown, device.wiring, device.of_class});
-  };
-  for (const auto& [name, entry] : declarations.devices.own()) add(entry.what);
-  declarations.devices.each([&](const std::string& name, const DeviceDeclaration& device) {
-    if (!declarations.devices.own().contains(name)) add(device);
-  });
-  return devices;
-}
-
-std::vector<DescribedDevice> devices_known(const CheckedModule& module) { return devices_known(module.declarations()); }
-
 std::vector<DescribedDevice> Library::devices() const { return devices_known(parts_->common->declarations); }
 
 std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& name) const {

@@ -27,6 +27,8 @@ bool is_port(const std::string& text) {
          text.find_first_not_of("0123456789.-") == std::string::npos;
 }
 
+using Choice = std::variant<ChosenDevice, Absent, Refusal>;
+
 struct Candidate {
   const PluggedIn* plugged;
   MatchedProfile match;
@@ -43,19 +45,22 @@ class Chooser {
     });
   }
 
-  std::variant<ChosenDevice, Refusal> choose() const {
+  Choice choose() const {
     const std::string& asked = request_.spelling;
     if (asked == simulated) return ChosenDevice{};
     if (asked.starts_with("simulated:")) {
       const std::string name = asked.substr(std::string_view("simulated:").size());
-      if (declared(name)) return simulated_as(name, "");
+      if (declared(name)) return simulated_as(name);
       return unknown(name, "simulated:");
     }
     if (request_.only_simulated) return as_simulated();
     if (asked == "auto") return best_or_simulated();
     if (asked == "usb")
-      return real([](const Candidate& each) { return !each.plugged->numbers.empty(); },
-                  "no device on USB is plugged in");
+      return real(
+          [](const Candidate& each) {
+            return !each.plugged->numbers.empty() && should_be_usable(*each.plugged, each.match);
+          },
+          "no force device on USB is plugged in");
     if (read_usb_numbers(asked))
       return real([&](const Candidate& each) { return each.plugged->numbers == in_words(*read_usb_numbers(asked)); },
                   fmt::format("no device {} is plugged in", asked));
@@ -64,15 +69,21 @@ class Chooser {
                   fmt::format("nothing is plugged in at port {} that could be felt on", asked));
     if (declared(asked)) {
       const auto is_it = [&](const Candidate& each) {
-        return each.match.device != nullptr && each.match.device->profile.name == asked;
+        return each.match.device != nullptr && each.match.device->profile.name == asked &&
+               should_be_usable(*each.plugged, each.match);
       };
-      if (std::ranges::any_of(all_, is_it)) return real(is_it, "");
-      return simulated_as(
-          asked, declared(asked)->wiring.usb.empty() ? "" : fmt::format("no {} is plugged in: simulated", asked));
+      const DeviceWiring& wiring = declared(asked)->wiring;
+      const bool is_there = std::ranges::any_of(all_, is_it);
+      if (!is_there && wiring.usb.empty() && !wiring.is_generic) return simulated_as(asked);
+      if (!is_there && !request_.built_for.empty() && asked != request_.built_for) return other_than_built_for(asked);
+      return real(is_it, fmt::format("no {} is plugged in", asked), "simulated:" + asked);
     }
     if (device_kind(asked) != nullptr)
-      return real([&](const Candidate& each) { return each.plugged->kind == asked; },
-                  fmt::format("no device of the kind {} is plugged in", asked));
+      return real(
+          [&](const Candidate& each) {
+            return each.plugged->kind == asked && should_be_usable(*each.plugged, each.match);
+          },
+          fmt::format("no device of the kind {} is plugged in", asked));
     return unknown(asked, "");
   }
 
@@ -87,22 +98,24 @@ class Chooser {
     return request_.built_for.empty() || each.match.device->profile.name == request_.built_for;
   }
 
-  std::variant<ChosenDevice, Refusal> simulated_as(const std::string& profile, std::string said) const {
-    if (!request_.built_for.empty() && profile != request_.built_for)
-      return Refusal{fmt::format("the program is built for `{0}`, not for `{1}`: feel it there, or build it for `{1}`",
-                                 request_.built_for, profile),
-                     {}};
+  Refusal other_than_built_for(const std::string& profile) const {
+    return {fmt::format("the program is built for `{0}`, not for `{1}`: feel it there, or build it for `{1}`",
+                        request_.built_for, profile),
+            {}};
+  }
+
+  Choice simulated_as(const std::string& profile) const {
+    if (!request_.built_for.empty() && profile != request_.built_for) return other_than_built_for(profile);
     ChosenDevice chosen;
     chosen.profile = profile;
-    chosen.said = std::move(said);
     return chosen;
   }
 
   /// What is asked for, where no real device will do.
-  std::variant<ChosenDevice, Refusal> as_simulated() const {
+  Choice as_simulated() const {
     const std::string& asked = request_.spelling;
     if (asked == "auto") return ChosenDevice{};
-    if (declared(asked)) return simulated_as(asked, "");
+    if (declared(asked)) return simulated_as(asked);
     if (asked != "usb" && device_kind(asked) == nullptr && !read_usb_numbers(asked) && !is_port(asked))
       return unknown(asked, "");
     return Refusal{"a real device runs in real time, in a real hand: leave out --virtual-time and --hand", {}};
@@ -147,7 +160,7 @@ class Chooser {
 
   /// What is there of a sort, and nothing simulated.
   template <class IsMeant>
-  std::variant<ChosenDevice, Refusal> real(IsMeant is_meant, const std::string& nothing) const {
+  Choice real(IsMeant is_meant, const std::string& nothing, const std::string& instead = "simulated") const {
     std::optional<Refusal> refusal;
     for (const Candidate& each : all_) {
       if (!is_meant(each)) continue;
@@ -168,10 +181,10 @@ class Chooser {
       }
     }
     if (refusal) return *refusal;
-    return Refusal{nothing + "; `wale devices` lists what is, `--device simulated` needs nothing", {}};
+    return Absent{nothing, fmt::format("`--device {}`", instead)};
   }
 
-  std::variant<ChosenDevice, Refusal> best_or_simulated() const {
+  Choice best_or_simulated() const {
     ChosenDevice chosen;
     for (const Candidate& each : all_) {
       const DeviceKind* kind = device_kind(each.plugged->kind);
@@ -231,9 +244,9 @@ std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_vi
   return all;
 }
 
-std::variant<ChosenDevice, Refusal> choose_device(const DeviceRequest& request,
-                                                  const std::vector<DescribedDevice>& known,
-                                                  const std::vector<PluggedIn>& plugged) {
+std::variant<ChosenDevice, Absent, Refusal> choose_device(const DeviceRequest& request,
+                                                          const std::vector<DescribedDevice>& known,
+                                                          const std::vector<PluggedIn>& plugged) {
   return Chooser(request, known, plugged).choose();
 }
 

@@ -34,6 +34,12 @@ struct DeviceRequest {
   bool only_simulated = false;  ///< virtual time or a simulated hand's motion is asked for too
 };
 
+/// A real device is asked for, and nothing of its sort is plugged in.
+struct Absent {
+  std::string what;     ///< "no device 1209:ffb0 is plugged in"
+  std::string instead;  ///< what to ask for instead: "`--device simulated`"
+};
+
 /// What it comes to.
 struct ChosenDevice {
   std::string profile;               ///< the declared device to build for; empty: the program's own, simulated
@@ -45,12 +51,12 @@ struct ChosenDevice {
 };
 
 /// Chooses among what is plugged in and what is declared; the first of `known` go before the others. A device that is
-/// named and plugged in is meant really; one that is declared and not plugged in is simulated. `auto` takes the best
-/// real one, or the simulated one. Refused, with what to do: what nothing is called, what cannot be used, and what the
+/// named is meant really, unless its declaration is about none that could be plugged in. `auto` takes the best real
+/// one, or the simulated one. Refused, with what to do: what nothing is called, what cannot be used, and what the
 /// program was not built for.
-std::variant<ChosenDevice, Refusal> choose_device(const DeviceRequest& request,
-                                                  const std::vector<DescribedDevice>& known,
-                                                  const std::vector<PluggedIn>& plugged);
+std::variant<ChosenDevice, Absent, Refusal> choose_device(const DeviceRequest& request,
+                                                          const std::vector<DescribedDevice>& known,
+                                                          const std::vector<PluggedIn>& plugged);
 
 /// Opens a chosen device that is plugged in, by the profile of the program, with threads just below the real-time
 /// loop's priority where that is permitted. It is found again when it comes back after it was unplugged: at its port,

@@ -37,7 +37,7 @@ const PluggedIn mouse{.kind = "hid-pid",
                       .obstacle = "it is not a force device: nothing in its report descriptor is of usage page 0F"};
 
 struct Choice {
-  std::string device;  ///< its port; "simulated"; or "refused"
+  std::string device;  ///< its port; "simulated"; "absent"; or "refused"
   std::string profile, said;
 };
 
@@ -45,6 +45,7 @@ Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugge
   const std::vector<DescribedDevice> known = Library().devices();
   const auto chosen = choose_device(request, known, plugged);
   if (const auto* refusal = std::get_if<Refusal>(&chosen)) return {"refused", "", refusal->reason};
+  if (const auto* absent = std::get_if<Absent>(&chosen)) return {"absent", absent->instead, absent->what};
   const auto& device = std::get<ChosenDevice>(chosen);
   return {device.plugged ? device.plugged->port : "simulated", device.profile, device.said};
 }
@@ -74,7 +75,7 @@ TEST(Choosing, AutoTellsWhyOneThatIsThereIsNotTaken) {
   EXPECT_EQ(choosing_test::choice("auto", {forbidden, rhino}).device, "1-2");
 }
 
-TEST(Choosing, WhatIsNamedIsTheRealOneOrSimulatedWhereItIsOnlyDeclared) {
+TEST(Choosing, WhatIsNamedIsTheRealOneWhereThereCanBeOne) {
   const std::vector<PluggedIn> both{openffboard, rhino};
   EXPECT_EQ(choice("vpforce_rhino", both).device, "1-2");
   EXPECT_EQ(choice("ffff:2055", both).device, "1-2");
@@ -85,15 +86,21 @@ TEST(Choosing, WhatIsNamedIsTheRealOneOrSimulatedWhereItIsOnlyDeclared) {
   EXPECT_EQ(choice("simulated", both).device, "simulated");
   EXPECT_EQ(choice("simulated:vpforce_rhino", both).device, "simulated");
   EXPECT_EQ(choice("simulated:vpforce_rhino", both).profile, "vpforce_rhino");
-  const Choice declared = choice("arduino_ffb", both);
-  EXPECT_EQ(declared.device, "simulated");
-  EXPECT_EQ(declared.said, "no arduino_ffb is plugged in: simulated");
+  EXPECT_EQ(choice("sandpaper", both).device, "simulated");
   EXPECT_EQ(choice("sandpaper", both).said, "") << "there is no real one to miss";
 }
 
+TEST(Choosing, ARealOneThatIsNotThereIsAbsentAndNotSimulated) {
+  for (const char* spelling : {"usb", "hid-pid", "1209:ffb0", "1-7", "arduino_ffb", "usb_joystick"})
+    EXPECT_EQ(choice(spelling, {mouse}).device, "absent") << spelling;
+  const Choice declared = choice("arduino_ffb", {openffboard, rhino});
+  EXPECT_EQ(declared.said, "no arduino_ffb is plugged in");
+  EXPECT_EQ(declared.profile, "`--device simulated:arduino_ffb`") << "what to ask for instead";
+  EXPECT_EQ(choice("1209:ffb0", {rhino}).said, "no device 1209:ffb0 is plugged in");
+  EXPECT_EQ(choice("1209:ffb0", {rhino}).profile, "`--device simulated`");
+}
+
 TEST(Choosing, WhatCannotBeHadIsRefusedWithWhatToDo) {
-  for (const char* spelling : {"usb", "1209:ffb0", "1-7", "hid-pid"})
-    EXPECT_EQ(choice(spelling, {mouse}).device, "refused") << spelling;
   EXPECT_TRUE(contains(choice("1-3", {forbidden}).said, "no permission to open it"));
   EXPECT_TRUE(contains(choice("openffboard", {forbidden}).said, "no permission to open it")) << "not simulated instead";
   EXPECT_TRUE(contains(choice("2-1", {mouse}).said, "it is not a force device"));
@@ -113,6 +120,7 @@ TEST(Choosing, AProgramThatIsBuiltKeepsItsDevice) {
   EXPECT_EQ(refused.device, "refused");
   EXPECT_TRUE(contains(refused.said, "wale build FILE --device openffboard -o OUT.wpp")) << refused.said;
   EXPECT_EQ(built("simulated:falcon", "sandpaper", {}).device, "refused");
+  EXPECT_EQ(built("falcon", "sandpaper", {}).device, "refused") << "and not waited for in vain";
   EXPECT_EQ(built("simulated", "sandpaper", {openffboard}).device, "simulated");
 }
 

@@ -16,6 +16,8 @@
 #include <string>
 #include <thread>
 
+#include "tests/usb/profiles.hpp"
+
 // On a terminal of its own (a pty), whose other end the test holds: what is asked of it and told by it is bytes.
 
 namespace wale::test::pointer_device {
@@ -25,13 +27,10 @@ constexpr char taken[] = "\033[?1049h\033[2J\033[?25l\033[?1003h\033[?1006h";
 constexpr char given_back[] = "\033[?1016l\033[?1006l\033[?1003l\033[?25h\033[?1049l";
 
 DeviceProfile profile() {
-  DeviceProfile profile;
+  DeviceProfile profile = joystick_profile();
   profile.name = "pointer";
-  profile.workspace_diameter = 0.2;
   profile.position_counts = 1000;
-  profile.force_newton = 10;
   profile.force_counts = 2048;
-  profile.rate = 900;
   profile.patch_width = profile.patch_height = 0.12;
   return profile;
 }

@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "runtime/device/usb/falcon_device.hpp"
 #include "runtime/device/usb/hid_pid_device.hpp"
@@ -23,6 +25,7 @@
 #include "tests/qemu/usbip_port.hpp"
 #include "tests/usb/falcon_model.hpp"
 #include "tests/usb/pid_model.hpp"
+#include "tests/usb/profiles.hpp"
 
 namespace wale::test {
 namespace {
@@ -112,22 +115,11 @@ Found find(std::uint16_t vendor, std::uint16_t product) {
 // An emulated processor that others keep busy may take its time.
 constexpr unsigned patience = 5000;  // ms
 
-HidPidOptions patient() {
-  HidPidOptions options;
-  options.transport.timeout = options.transport.set_up_timeout = patience;
-  options.transport.session.command_silence = options.transport.session.input_silence = patience / 1000.0;
+PidTransport::Options patient() {
+  PidTransport::Options options;
+  options.timeout = options.set_up_timeout = patience;
+  options.session.command_silence = options.session.input_silence = patience / 1000.0;
   return options;
-}
-
-DeviceProfile profile(double diameter, double counts, double newton) {
-  DeviceProfile profile;
-  profile.name = "check";
-  profile.workspace_diameter = diameter;
-  profile.position_counts = counts;
-  profile.force_newton = newton;
-  profile.force_counts = 32767;
-  profile.rate = 900;
-  return profile;
 }
 
 template <class Opened>
@@ -170,7 +162,7 @@ void check_joystick(const PidFamily& family) {
     const auto listed = list_usb_devices(*found.context);
     demand(listed.size() == 1 && listed[0].obstacle.empty(), "it is listed as usable: " + listed.at(0).can);
     demand(kernel_pushes(), "looking takes nothing from the kernel's driver");
-    auto device = taken(HidPidDevice::open(found.context, found.info, profile(0.2, 65534, 10), patient()));
+    auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient()));
     demand(!kernel_pushes(), "the kernel's driver has been detached");
     port->with<PidModel>([](PidModel& model) {
       model.log.clear();
@@ -215,7 +207,7 @@ void check_joystick(const PidFamily& family) {
   }
   {
     const Found found = find(family.vendor, family.product);
-    const auto device = taken(HidPidDevice::open(found.context, found.info, profile(0.2, 65534, 10), patient()));
+    const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient()));
     tick(200, [&](long) { device->command({2, 1}); });
     port.reset();
     await([&] { return device->was_lost(); }, "unplugged in the middle, it is lost");
@@ -223,7 +215,7 @@ void check_joystick(const PidFamily& family) {
   }
   port = plugged();
   const Found found = find(family.vendor, family.product);
-  const auto device = taken(HidPidDevice::open(found.context, found.info, profile(0.2, 65534, 10), patient()));
+  const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient()));
   await(
       [&] {
         device->command({3, 0});
@@ -244,7 +236,7 @@ void check_falcon() {
   model->moves = false;
   auto port = std::make_unique<UsbipPort>(std::move(model), 1);
   const auto open = [&](const Found& found) {
-    return taken(FalconDevice::open(found.context, found.info, profile(0.1, 1667, FalconModel::full_newton), options));
+    return taken(FalconDevice::open(found.context, found.info, falcon_profile(), options));
   };
   const auto is_pushed = [&](FalconDevice& device) {
     return [&] {
@@ -282,11 +274,16 @@ void check_falcon() {
 }  // namespace
 }  // namespace wale::test
 
-int main() {
+/// check NAME...: openffboard, rhino, falcon; without one all of them.
+int main(int count, char** words) {
   using namespace wale::test;
-  check_joystick(openffboard());
-  check_joystick(rhino());
-  check_falcon();
+  const std::vector<std::string> named(words + 1, words + count);
+  const auto is_meant = [&](const char* name) {
+    return named.empty() || std::ranges::find(named, name) != named.end();
+  };
+  if (is_meant("openffboard")) check_joystick(openffboard());
+  if (is_meant("rhino")) check_joystick(rhino());
+  if (is_meant("falcon")) check_falcon();
   std::printf("all passed\n");
   return 0;
 }

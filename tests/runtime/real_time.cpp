@@ -15,6 +15,7 @@
 #include "runtime/stage/player.hpp"
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/programs.hpp"
+#include "tests/temporary_folder.hpp"
 #include "wale/simulated.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -137,9 +138,8 @@ TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
 }
 
 TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
-  std::string folder = "/tmp/wale-real-time-XXXXXX";
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
-  const std::string file = folder + "/a.wrec";
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.wrec";
   constexpr long beats = 3 * static_cast<long>(recording_format::ticks_per_chunk);
   {
     SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
@@ -159,8 +159,6 @@ TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
   const auto recording = Recording::open(file);
   ASSERT_TRUE(std::holds_alternative<Recording>(recording)) << std::get<Refusal>(recording).reason;
   EXPECT_EQ(std::get<Recording>(recording).ticks(), static_cast<std::size_t>(beats));
-  std::remove(file.c_str());
-  rmdir(folder.c_str());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ using namespace recorded;
 using namespace recording_format;
 
 TEST(Recording, HoldsWhatTheRunHad) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
   Stage stage(joystick);
   stage.place(corduroy(1.934f), {0.001f, 0});
@@ -72,7 +72,7 @@ TEST(Recording, HoldsWhatTheRunHad) {
 }
 
 TEST(Recording, ReplaysPatchesParametersAndSwapsAtTheirTicks) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Puppet device(roaming);
   Stage stage(device);
   stage.place(corduroy(1.934f));
@@ -117,7 +117,7 @@ TEST(Recording, ReplaysPatchesParametersAndSwapsAtTheirTicks) {
 }
 
 TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Puppet device([](long sample) {
     Reading reading = roaming(sample);
     if (sample % 1000 > 990) reading.contact = Contact::stale;
@@ -157,7 +157,7 @@ TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
 }
 
 TEST(Recording, ReplaysMovesAndHotMotors) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Puppet device(roaming);
   device.profile_.continuous_newton = 0.5;
   device.profile_.heating_seconds = 1;
@@ -187,7 +187,7 @@ TEST(Recording, ReplaysMovesAndHotMotors) {
 }
 
 TEST(Recording, ReplaysPads) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Program ribs = std::get<Program>(Program::load(example::pad(PositionSource::touch)));
   SimulatedPad pad(ribs.description().device, Lateral{0.02, 1});
   Stage stage(pad);
@@ -200,7 +200,7 @@ TEST(Recording, ReplaysPads) {
 
 /// Beats as a loop that is not always in time serves them, recorded without a stage.
 TEST(Recording, ReplaysSkippedPeriodsAndOverruns) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Puppet device(roaming);
   const Program program = bead(400);
   GuardCounts guards;
@@ -234,7 +234,7 @@ TEST(Recording, ReplaysSkippedPeriodsAndOverruns) {
 }
 
 TEST(Recording, ARealTimeRunReplaysToo) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
   Stage stage(joystick);
   stage.place(corduroy(1.934f));
@@ -250,7 +250,7 @@ TEST(Recording, ARealTimeRunReplaysToo) {
 }
 
 TEST(Recording, WhatDiffersIsToldWithItsTick) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
   Stage stage(joystick);
   stage.place(corduroy(1.934f));

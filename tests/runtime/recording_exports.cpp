@@ -12,6 +12,7 @@
 #include "tests/runtime/figures.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/schema/example_program.hpp"
+#include "tests/temporary_folder.hpp"
 #include "wale/recording.hpp"
 #include "wale/trace.hpp"
 
@@ -20,9 +21,8 @@ namespace {
 
 /// A recording of these ticks, made by hand.
 Recording recording_of(const DeviceProfile& device, const std::vector<RecordedTick>& ticks) {
-  std::string folder = "/tmp/wale-exports-XXXXXX";
-  if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  const std::string file = folder + "/a.wrec";
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.wrec";
   {
     RecordWriter writer(file, {.device = device, .most_newton = 5}, true);
     writer.publish(1);
@@ -30,8 +30,6 @@ Recording recording_of(const DeviceProfile& device, const std::vector<RecordedTi
     writer.end();
   }
   auto recording = Recording::open(file);
-  std::remove(file.c_str());
-  rmdir(folder.c_str());
   if (const auto* refusal = std::get_if<Refusal>(&recording)) throw std::runtime_error(refusal->reason);
   return std::get<Recording>(std::move(recording));
 }

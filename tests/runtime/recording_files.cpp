@@ -74,7 +74,7 @@ Killed killed(const std::string& file, bool virtual_time, std::size_t last) {
 }
 
 TEST(RecordingFile, IsWholeUpToTheLastTickWhenItsProcessIsKilled) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const bool virtual_time : {true, false}) {
     for (const std::size_t last : {std::size_t{1}, ticks_per_chunk, ticks_per_chunk + 1, 2 * ticks_per_chunk + 777}) {
       const std::string file = folder / (std::to_string(last) + (virtual_time ? "v.wrec" : "r.wrec"));
@@ -91,7 +91,7 @@ TEST(RecordingFile, IsWholeUpToTheLastTickWhenItsProcessIsKilled) {
 }
 
 std::vector<std::byte> some_recording() {
-  const Folder folder;
+  const TemporaryFolder folder;
   Puppet device(roaming);
   Stage stage(device);
   stage.place(corduroy(1.934f));
@@ -190,13 +190,13 @@ TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
   header.check = check_of(header);
   std::memcpy(newer.data(), &header, sizeof header);
   EXPECT_EQ(refused(Recording::read(newer, "x")), "`x`: it is of format 2, and this Wale reads up to 1: update Wale");
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(refused(Recording::open(folder / "none.wrec")),
             "`" + folder / "none.wrec" + "` cannot be read: No such file or directory");
 }
 
 TEST(RecordingFile, CannotBeMadeWhereItWouldTakeAnothersPlaceOrThereIsNone) {
-  const Folder folder;
+  const TemporaryFolder folder;
   Puppet device(roaming);
   Stage stage(device);
   stage.place(oil(1));
@@ -219,7 +219,7 @@ TEST(RecordingFile, CannotBeMadeWhereItWouldTakeAnothersPlaceOrThereIsNone) {
 }
 
 TEST(RecordingFile, OnAFullDiskTheRunGoesOnAndSaysWhatIsRecorded) {
-  const Folder folder;
+  const TemporaryFolder folder;
   rlimit usual{};
   getrlimit(RLIMIT_FSIZE, &usual);
   const auto old = std::signal(SIGXFSZ, SIG_IGN);

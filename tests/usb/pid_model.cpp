@@ -4,18 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "tests/usb/profiles.hpp"
+
 namespace wale::test {
 namespace {
 
-constexpr double full_newton = 10;
-
 DeviceProfile stick_profile() {
-  DeviceProfile profile;
-  profile.name = "model";
-  profile.workspace_diameter = 0.2;
-  profile.position_counts = 65534;
-  profile.force_newton = full_newton;
-  profile.force_counts = 32767;
+  DeviceProfile profile = joystick_profile();
   profile.rate = 1000;
   profile.speed_limit = 1;
   profile.mass = 0.3;
@@ -300,7 +295,7 @@ glm::dvec2 PidModel::force() const {
 void PidModel::step() {
   ++now_;
   if (!moves) return;
-  const glm::dvec2 now = force() * full_newton;
+  const glm::dvec2 now = force() * stick_.profile().force_newton;
   stick_.command({static_cast<float>(now.x), static_cast<float>(-now.y)});
   stick_.elapse(1);
 }

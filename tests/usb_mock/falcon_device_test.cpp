@@ -5,14 +5,16 @@
 
 #include <atomic>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <string>
 
 #include "runtime/device/usb/list_usb_devices.hpp"
 #include "tests/runtime/programs.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/usb/allocations.hpp"
 #include "tests/usb/falcon_model.hpp"
+#include "tests/usb/profiles.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "wale/stage.hpp"
 
@@ -23,37 +25,45 @@ namespace {
 
 constexpr std::size_t firmware_bytes = 5000;
 
-/// A file that is no firmware, but as long as one.
-std::filesystem::path firmware_file() {
-  static const std::filesystem::path path = [] {
-    char folder[] = "/tmp/wale_falcon_XXXXXX";
-    const std::filesystem::path file = std::filesystem::path(mkdtemp(folder)) / "firmware.bin";
-    std::ofstream out(file, std::ios::binary);
-    for (std::size_t i = 0; i < firmware_bytes; ++i) out.put(static_cast<char>(i * 31 >> 3));
-    return file;
-  }();
-  return path;
+/// What is no firmware, but as long as one.
+std::string bytes_of_firmware() {
+  std::string bytes;
+  for (std::size_t i = 0; i < firmware_bytes; ++i) bytes.push_back(static_cast<char>(i * 31 >> 3));
+  return bytes;
 }
 
-DeviceProfile falcon_profile() {
-  DeviceProfile profile;
-  profile.name = "falcon";
-  profile.workspace_diameter = 0.1;
-  profile.position_counts = 1667;
-  profile.force_newton = FalconModel::full_newton;
-  profile.force_counts = 4096;
-  profile.rate = 1000;
-  return profile;
-}
+/// The environment says otherwise as long as it lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* before = getenv(name)) before_ = before;
+    if (value != nullptr)
+      setenv(name, value, 1);
+    else
+      unsetenv(name);
+  }
+  ~Environment() {
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
 
 class FalconDriver : public MockedUsb {
  protected:
-  std::variant<std::unique_ptr<FalconDevice>, Refusal> open(int port, FalconOptions options = {}) {
-    if (options.firmware.empty() || options.firmware == falcon_firmware_path()) options.firmware = firmware_file();
+  std::variant<std::unique_ptr<FalconDevice>, Refusal> open(int port, FalconOptions options) {
+    if (options.firmware == falcon_firmware_path()) options.firmware = firmware_;
     return FalconDevice::open(context(), found(port), falcon_profile(), options);
   }
 
-  std::unique_ptr<FalconDevice> opened(int port, const FalconOptions& options = {}) {
+  std::unique_ptr<FalconDevice> opened(int port, const FalconOptions& options = falcon_in_mock_time()) {
     auto result = open(port, options);
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       ADD_FAILURE() << refusal->reason;
@@ -62,11 +72,14 @@ class FalconDriver : public MockedUsb {
     return std::move(std::get<std::unique_ptr<FalconDevice>>(result));
   }
 
-  std::string refusal(int port, const FalconOptions& options = {}) {
+  std::string refusal(int port, const FalconOptions& options = falcon_in_mock_time()) {
     auto result = open(port, options);
     const auto* refusal = std::get_if<Refusal>(&result);
     return refusal == nullptr ? "opened" : refusal->reason;
   }
+
+  TemporaryFolder folder_;
+  std::string firmware_ = folder_.write("firmware.bin", bytes_of_firmware());
 };
 
 template <class Mock>
@@ -77,18 +90,14 @@ glm::ivec3 torques(Mock& mock) {
 TEST_F(FalconDriver, AWholeLife) {
   const auto mock = mock_.plug(FalconModel(), 1);
   EXPECT_TRUE(is_falcon(found(1)));
-  // The mock's time does not wait for threads, and a handle that is held later than it moves swings: the plane is held
-  // in the tests of it, where time does.
-  FalconOptions options;
-  options.hold.stiffness = 0;
-  auto device = opened(1, options);
+  auto device = opened(1);
   ASSERT_NE(device, nullptr);
   EXPECT_EQ(device->counts().firmware_chunks, static_cast<long>((firmware_bytes + 61) / 62));
   mock->with_model([](FalconModel& model) {
     EXPECT_EQ(model.firmware.size(), firmware_bytes);
     EXPECT_EQ(model.firmware[1000], static_cast<std::uint8_t>(1000 * 31 >> 3));
     EXPECT_TRUE(model.is_homed);
-    model.hand = {0.01, -0.02, 0.12};
+    model.hand = {0.01, -0.02, 0.125};  // beside the plane, in which it is held
     model.logs = false;
   });
 
@@ -109,14 +118,14 @@ TEST_F(FalconDriver, AWholeLife) {
   EXPECT_EQ(counts.skipped_bytes, 0);
 
   // The handle is where the device says, in the plane, and the hand is pushed the way that was asked for.
-  await([&] {
+  run_until(mock_, [&] {
     device->command({1.5f, -1});
     const Reading reading = device->sample();
     const glm::dvec3 place = mock->with_model([](FalconModel& model) { return model.place; });
     const glm::dvec3 force = mock->with_model([](FalconModel& model) { return model.force(); });
     const double step = falcon_profile().position_step();
     return std::abs(reading.counts.x * step - place.x) < 2e-4 && std::abs(reading.counts.y * step - place.y) < 2e-4 &&
-           std::abs(force.x - 1.5) < 0.02 && std::abs(force.y + 1) < 0.02 && std::abs(force.z) < 0.05;
+           std::abs(force.x - 1.5) < 0.02 && std::abs(force.y + 1) < 0.02 && std::abs(place.z - 0.12) < 0.002;
   });
 
   device.reset();
@@ -136,7 +145,7 @@ TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
   FalconModel model({}, true);
   model.homes_after = -1;
   const auto mock = mock_.plug(std::move(model), 1);
-  FalconOptions options;
+  FalconOptions options = falcon_in_mock_time();
   std::string asked;
   options.ask = [&](const std::string& what) {
     asked = what;
@@ -159,7 +168,7 @@ TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
 
 TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
   mock_.plug(FalconModel(), 1);
-  FalconOptions options;
+  FalconOptions options = falcon_in_mock_time();
   options.firmware = "/nowhere/falcon.bin";
   const std::string reason = refusal(1, options);
   for (const char* part : {"0403:cb48: it runs no firmware", "/nowhere/falcon.bin", "libnifalcon",
@@ -171,17 +180,14 @@ TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
 }
 
 TEST(FalconFirmware, IsLookedForWhereTheEnvironmentSays) {
-  const std::string home = getenv("HOME") == nullptr ? "" : getenv("HOME");
-  unsetenv("XDG_DATA_HOME");
-  setenv("HOME", "/home/ada", 1);
-  EXPECT_EQ(falcon_firmware_path(), "/home/ada/.local/share/wale/falcon_firmware.bin");
-  setenv("XDG_DATA_HOME", "/data", 1);
-  EXPECT_EQ(falcon_firmware_path(), "/data/wale/falcon_firmware.bin");
-  setenv("WALE_FALCON_FIRMWARE", "/mine.bin", 1);
+  const TemporaryFolder home, data;
+  const Environment at_home("HOME", home.path().c_str()), nowhere("XDG_DATA_HOME", nullptr),
+      none("WALE_FALCON_FIRMWARE", nullptr);
+  EXPECT_EQ(falcon_firmware_path(), home / ".local/share/wale/falcon_firmware.bin");
+  const Environment elsewhere("XDG_DATA_HOME", data.path().c_str());
+  EXPECT_EQ(falcon_firmware_path(), data / "wale/falcon_firmware.bin");
+  const Environment mine("WALE_FALCON_FIRMWARE", "/mine.bin");
   EXPECT_EQ(falcon_firmware_path(), "/mine.bin");
-  unsetenv("XDG_DATA_HOME");
-  unsetenv("WALE_FALCON_FIRMWARE");
-  setenv("HOME", home.c_str(), 1);
 }
 
 TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
@@ -204,11 +210,9 @@ TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
 
   const auto again = mock_.plug(FalconModel(), 1);  // it was without power, and so without firmware
   await([&] { return arrived == 2; });
-  FalconOptions options;
-  options.hold.stiffness = 0;  // as above
-  const auto second = opened(1, options);
+  const auto second = opened(1);
   ASSERT_NE(second, nullptr);
-  await([&] {
+  run_until(mock_, [&] {
     second->sample();
     second->command({2, 0});
     return std::abs(again->with_model([](FalconModel& model) { return model.force(); }).x - 2) < 0.02;
@@ -218,13 +222,16 @@ TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
 TEST_F(FalconDriver, AStageIsFeltOnIt) {
   const auto mock = mock_.plug(FalconModel({}, true), 1);
   DeviceProfile profile = sandpaper();
-  auto result = FalconDevice::open(context(), found(1), profile);
+  auto result = FalconDevice::open(context(), found(1), profile, falcon_in_mock_time());
   ASSERT_TRUE(std::holds_alternative<std::unique_ptr<FalconDevice>>(result));
   const auto device = std::move(std::get<std::unique_ptr<FalconDevice>>(result));
   mock->with_model([](FalconModel& model) { model.hand = {0.02, 0, 0.12}; });
-  Stage stage(*device);
-  stage.place(spring(50));
-  const auto ran = stage.run({.seconds = 0.6});
+  const auto ran = [&] {
+    InStepDevice in_step(mock_, *device);
+    Stage stage(in_step);
+    stage.place(spring(50));
+    return stage.run({.seconds = 0.6});
+  }();
   ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
   const auto& ticks = std::get<RunResult>(ran).record.ticks;
   double hardest = 0;
@@ -278,16 +285,15 @@ TEST_F(FalconDriver, PlacesThatNoHandleHasAreNotPushedAt) {
 TEST_F(FalconDriver, IsListedWithWhatItNeeds) {
   const auto mock = mock_.plug(FalconModel(), 1);
   found(1);
-  setenv("WALE_FALCON_FIRMWARE", "/nowhere/falcon.bin", 1);
+  const Environment none("WALE_FALCON_FIRMWARE", "/nowhere/falcon.bin");
   auto listed = list_falcons(*context());
   ASSERT_EQ(listed.size(), 1u);
   EXPECT_TRUE(list_usb_devices(*context()).empty()) << "it is none of the HID class";
   EXPECT_EQ(listed[0].name, "Novint Falcon");
   EXPECT_EQ(listed[0].can, "three motors, used as two axes in a plane, 4096 steps of torque to each side");
   EXPECT_EQ(listed[0].obstacle.find("there is no firmware at /nowhere/falcon.bin"), 0u) << listed[0].obstacle;
-  setenv("WALE_FALCON_FIRMWARE", firmware_file().c_str(), 1);
+  const Environment there("WALE_FALCON_FIRMWARE", firmware_.c_str());
   EXPECT_EQ(list_falcons(*context())[0].obstacle, "");
-  unsetenv("WALE_FALCON_FIRMWARE");
   EXPECT_TRUE(mock->with_model([](FalconModel& model) { return model.log.empty(); }));
 }
 

@@ -17,11 +17,14 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "library/open_device.hpp"
 #include "runtime/stage/scheduling.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
 #include "wale/stage.hpp"
@@ -32,11 +35,6 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string corduroy = std::string(WALE_SOURCE_DIR) + "/library/fabric/corduroy.wale";
-
-template <class Condition>
-void wait_until(Condition holds) {
-  while (!holds()) std::this_thread::sleep_for(1ms);
-}
 
 std::vector<std::string> log_of(const std::shared_ptr<MockJoystick>& joystick) {
   return joystick->with_model([](PidModel& model) { return model.log; });
@@ -78,7 +76,7 @@ class Feeling : public testing::Test {
   /// What is plugged in, once there are so many.
   std::vector<PluggedIn> found(std::size_t count) const {
     std::vector<PluggedIn> all;
-    wait_until([&] { return (all = plugged_in(connections_)).size() == count; });
+    await([&] { return (all = plugged_in(connections_)).size() == count; });
     return all;
   }
   ChosenDevice chosen(const std::string& spelling, std::size_t plugged) const {
@@ -117,7 +115,7 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   std::shared_ptr<MockJoystick> again;
   long calls = 0, felt_again = 0;
   std::size_t under_way = 0;
-  RunOptions options{.seconds = 3600, .stop = &stop};
+  RunOptions options{.seconds = 120, .stop = &stop};
   options.progress = [&](const Progress& now) {
     ++calls;
     if (calls == 20) {
@@ -193,7 +191,7 @@ TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
     Stage stage(device);
     stage.place(program);
     long calls = 0;
-    RunOptions options{.seconds = 3600, .stop = &stop};
+    RunOptions options{.seconds = 120, .stop = &stop};
     options.progress = [&](const Progress&) { each(++calls); };
     return std::get<RunResult>(stage.run(options));
   };
@@ -230,7 +228,7 @@ TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
             "figures are assumed; `wale devices --identify 1-3` prints one to begin with");
   const Program program = built(device);
   auto joystick = opened(device, program);
-  wait_until([&] {
+  await([&] {
     joystick->command({5, 0});
     return stick->with_model([](PidModel& model) { return model.force().x; }) > 0.2;
   });
@@ -245,18 +243,43 @@ struct Outcome {
   std::string out, err;
 };
 
-Outcome run_wale(const std::string& words) {
-  const std::string base = "/tmp/wale-usb-mock-" + std::to_string(getpid());
-  const int status = std::system(
-      (std::string(WALE_BINARY) + " " + words + " </dev/null >" + base + ".out 2>" + base + ".err").c_str());
-  const auto text = [](const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    unlink(path.c_str());
-    return bytes;
-  };
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text(base + ".out"), text(base + ".err")};
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string{std::istreambuf_iterator<char>(file), {}};
 }
+
+/// `wale` with these words, killed in the end if it has not ended.
+class Running {
+ public:
+  explicit Running(const std::string& words) {
+    std::string shell = "/bin/sh", option = "-c";
+    std::string line = std::string("exec ") + WALE_BINARY + " " + words + " </dev/null >" + out_ + " 2>" + err_;
+    char* all[] = {shell.data(), option.data(), line.data(), nullptr};
+    if (posix_spawn(&child_, shell.c_str(), nullptr, nullptr, all, environ) != 0) throw std::runtime_error("no shell");
+  }
+  ~Running() {
+    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  /// On standard error, by now.
+  std::string said() const { return text_of(err_); }
+  void interrupt() const { kill(child_, SIGINT); }
+  /// Once it has ended.
+  Outcome outcome() {
+    int status = 0;
+    waitpid(std::exchange(child_, 0), &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text_of(out_), text_of(err_)};
+  }
+
+ private:
+  TemporaryFolder folder_;
+  std::string out_ = folder_ / "out", err_ = folder_ / "err";
+  pid_t child_ = 0;
+};
+
+Outcome run_wale(const std::string& words) { return Running(words).outcome(); }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -297,14 +320,58 @@ TEST_F(Feeling, WhatIsNamedIsMeantReally) {
   const std::size_t before = log_of(stick).size() + log_of(rhino_stick).size();
   EXPECT_EQ(device_of("simulated"), "simulated");
   EXPECT_EQ(device_of("simulated:openffboard"), "simulated");
-  EXPECT_EQ(device_of("adapt_ffb_joy"), "simulated") << "declared, and not plugged in";
+  EXPECT_EQ(device_of("sandpaper"), "simulated") << "declared, and nothing that could be plugged in";
   EXPECT_EQ(log_of(stick).size() + log_of(rhino_stick).size(), before) << "nothing was said to either";
+}
+
+TEST_F(Feeling, WhatIsNamedAndNotThereIsWaitedFor) {
+  mock_.plug(PidModel(rhino()), 2);
+  found(1);
+  const std::pair<const char*, const char*> asked[] = {{"openffboard", "no openffboard is plugged in"},
+                                                       {"1209:ffb0", "no device 1209:ffb0 is plugged in"},
+                                                       {"1-1", "nothing is plugged in at port 1-1"}};
+  for (const auto& [spelling, absent] : asked) {
+    Running feeling("feel " + corduroy + " --seconds 60 --json --device " + spelling);
+    await([&] { return contains(feeling.said(), absent) && contains(feeling.said(), ": waiting for it; Ctrl-C"); });
+    const auto stick = mock_.plug(PidModel(openffboard()), 1);
+    await([&] { return pushes_in(log_of(stick), 1).size() > 50; });
+    EXPECT_TRUE(contains(feeling.said(), "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard"));
+    feeling.interrupt();
+    const Outcome felt = feeling.outcome();
+    EXPECT_EQ(felt.status, 0) << felt.err;
+    EXPECT_EQ(nlohmann::json::parse(felt.out).at("device"), "OpenFFBoard (1209:ffb0 at port 1-1)");
+    EXPECT_EQ(first(log_of(stick), set_up_of_openffboard.size()), set_up_of_openffboard);
+    EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
+    mock_.unplug(stick);
+  }
+}
+
+TEST_F(Feeling, WaitingEnds) {
+  const Outcome late = run_wale("feel " + corduroy + " --seconds 0.3 --device 1209:ffb0");
+  EXPECT_EQ(late.status, 1);
+  EXPECT_TRUE(contains(late.err, "no device 1209:ffb0 is plugged in, and none was within 0.3 s")) << late.err;
+
+  Running ended("feel " + corduroy + " --device usb");
+  await([&] { return contains(ended.said(), ": waiting for it; Ctrl-C"); });
+  ended.interrupt();
+  const Outcome stopped = ended.outcome();
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_TRUE(contains(stopped.err, "stopped, and nothing was felt")) << stopped.err;
+
+  Running refused("feel " + corduroy + " --device openffboard");
+  await([&] { return contains(refused.said(), ": waiting for it; Ctrl-C"); });
+  const auto taken = mock_.plug(PidModel(openffboard()), 1, true);
+  const Outcome in_use = refused.outcome();
+  EXPECT_EQ(in_use.status, 1);
+  EXPECT_TRUE(contains(in_use.err, "cannot be used: another program has claimed it")) << in_use.err;
+  EXPECT_EQ(taken->claims, 0);
 }
 
 TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
-  const std::string program = "/tmp/wale-usb-mock-" + std::to_string(getpid()) + ".wpp";
+  const TemporaryFolder folder;
+  const std::string program = folder / "corduroy.wpp";
   ASSERT_EQ(run_wale("build " + corduroy + " --device sandpaper -o " + program).status, 0);
   const Outcome named = run_wale("feel " + program + " --seconds 0.2 --device usb");
   EXPECT_EQ(named.status, 1);
@@ -316,7 +383,6 @@ TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
   EXPECT_TRUE(contains(by_itself.err, "is taken for openffboard, and the program is built for sandpaper"))
       << by_itself.err;
   EXPECT_TRUE(log_of(stick).empty());
-  unlink(program.c_str());
 }
 
 TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
@@ -361,14 +427,12 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
   for (const int block : {1, 2})
     for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
   // What was printed, in the folder of a material, is what that material is then felt on.
-  const auto folder = std::filesystem::temp_directory_path() / ("wale-usb-mock-" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
-  std::ofstream(folder / "devices.wale") << identified.out;
+  const TemporaryFolder folder;
+  folder.write("devices.wale", identified.out);
   std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
-  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale").string() + " --seconds 0.2 --json");
+  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json");
   EXPECT_TRUE(contains(felt.err, "at port 1-1), as my_openffboard")) << felt.err;
   EXPECT_EQ(nlohmann::json::parse(felt.out).at("profile"), "my_openffboard");
-  std::filesystem::remove_all(folder);
 
   const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
   EXPECT_EQ(weak.status, 1);
@@ -379,18 +443,13 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
 TEST_F(Feeling, IdentifyIsEndedAtOnceByCtrlC) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
-  std::string binary = WALE_BINARY, verb = "devices", option = "--identify";
-  char* words[] = {binary.data(), verb.data(), option.data(), nullptr};
-  pid_t child = 0;
-  ASSERT_EQ(posix_spawn(&child, binary.c_str(), nullptr, nullptr, words, environ), 0);
-  wait_until([&] {
+  Running identifying("devices --identify");
+  await([&] {
     const auto pushes = pushes_in(log_of(stick), 1);
     return !pushes.empty() && pushes.back() != 0;
   });
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  identifying.interrupt();
+  EXPECT_EQ(identifying.outcome().status, 1);
   EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
   EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
 }
@@ -422,9 +481,9 @@ TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
   const auto joystick = opened(device, built(device));
   EXPECT_EQ(threads_with(loop_priority - 1), 2) << "that of libusb's events and that which submits forces";
   mock_.unplug(stick);
-  wait_until([&] { return joystick->sample().contact == Contact::lost; });
+  await([&] { return joystick->sample().contact == Contact::lost; });
   mock_.plug(PidModel(openffboard()), 1);
-  wait_until([&] {
+  await([&] {
     joystick->elapse(1);
     return joystick->sample().contact == Contact::good;
   });

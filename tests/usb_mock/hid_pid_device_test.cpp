@@ -16,11 +16,12 @@
 #include "runtime/device/usb/list_usb_devices.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/usb/allocations.hpp"
+#include "tests/usb/profiles.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "wale/stage.hpp"
 
 // Unmodified libusb and all of the driver, against devices that are not there. What is asserted is counts, order and
-// bytes, never how long anything took: waiting has no end of its own but the test's.
+// bytes, never how long anything took.
 
 namespace wale::test {
 namespace {
@@ -29,21 +30,10 @@ using namespace std::chrono_literals;
 
 constexpr char push_until_killed[] = "--push-until-killed";
 
-DeviceProfile profile() {
-  DeviceProfile profile;
-  profile.name = "mock";
-  profile.workspace_diameter = 0.2;
-  profile.position_counts = 65534;
-  profile.force_newton = 10;
-  profile.force_counts = 32767;
-  profile.rate = 900;
-  return profile;
-}
-
 class UsbDriver : public MockedUsb {
  protected:
-  std::unique_ptr<HidPidDevice> opened(int port, const HidPidOptions& options = {}) const {
-    auto result = HidPidDevice::open(context(), found(port), profile(), options);
+  std::unique_ptr<HidPidDevice> opened(int port, const PidTransport::Options& options = in_mock_time()) const {
+    auto result = HidPidDevice::open(context(), found(port), joystick_profile(), options);
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       ADD_FAILURE() << refusal->reason;
       return nullptr;
@@ -51,10 +41,10 @@ class UsbDriver : public MockedUsb {
     return std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
   }
 
-  std::string refusal(int port) const {
-    HidPidOptions options;
-    options.transport.set_up_timeout = 100;
-    auto result = HidPidDevice::open(context(), found(port), profile(), options);
+  std::string refusal(int port, unsigned timeout = unhurried) const {
+    PidTransport::Options options = in_mock_time();
+    options.timeout = options.set_up_timeout = timeout;
+    auto result = HidPidDevice::open(context(), found(port), joystick_profile(), options);
     const auto* refusal = std::get_if<Refusal>(&result);
     return refusal == nullptr ? "opened" : refusal->reason;
   }
@@ -131,6 +121,7 @@ TEST_F(UsbDriver, AWholeLife) {
 
   // Each tick's force says which tick it is of: x grows, y (to the user, so of the other sign) grows with it.
   constexpr long ticks = 10'000;
+  const Force last(static_cast<float>(ticks / 32767.0 * 10));
   run_ticks(mock_, ticks, [&](long tick) {
     const auto newton = static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10);
     const long before = allocations;
@@ -140,7 +131,8 @@ TEST_F(UsbDriver, AWholeLife) {
     ASSERT_EQ(allocations, before);
     ASSERT_NEAR(exerted.x, newton, 10.0 / 32767 / 2);
   });
-  await([&] {
+  run_until(mock_, [&] {
+    device->command(last);
     return joystick->with_model([&](PidModel& model) {
       return model.effects[1].magnitude == ticks / 32767.0 && model.effects[2].magnitude == -ticks / 32767.0;
     });
@@ -161,11 +153,12 @@ TEST_F(UsbDriver, AWholeLife) {
   EXPECT_GT(counts.inputs, 100);
 
   // The stick is where the device says.
-  await([&] {
+  run_until(mock_, [&] {
+    device->command(last);
     const Reading reading = device->sample();
     const glm::dvec2 position = joystick->with_model([](PidModel& model) { return model.position(); });
-    return std::abs(reading.counts.x * profile().position_step() - position.x) < 0.002 &&
-           std::abs(reading.counts.y * profile().position_step() - position.y) < 0.002;
+    return std::abs(reading.counts.x * joystick_profile().position_step() - position.x) < 0.002 &&
+           std::abs(reading.counts.y * joystick_profile().position_step() - position.y) < 0.002;
   });
 
   device.reset();
@@ -183,16 +176,19 @@ TEST_F(UsbDriver, AWholeLife) {
 
 TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
-  auto result = HidPidDevice::open(context(), found(1), sandpaper());
+  auto result = HidPidDevice::open(context(), found(1), sandpaper(), in_mock_time());
   const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
-  Stage stage(*device);
-  stage.place(spring(50));
   long calls = 0;
-  RunOptions options{.seconds = 0.8};
-  options.progress = [&](const Progress&) {
-    if (++calls == 3) stage.place(oil(5));
-  };
-  const auto ran = stage.run(options);
+  const auto ran = [&] {
+    InStepDevice in_step(mock_, *device);
+    Stage stage(in_step);
+    stage.place(spring(50));
+    RunOptions options{.seconds = 0.8};
+    options.progress = [&](const Progress&) {
+      if (++calls == 3) stage.place(oil(5));
+    };
+    return stage.run(options);
+  }();
   ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
   EXPECT_GE(calls, 3);
   await([&] { return joystick->with_model([](PidModel& model) { return model.force(); }) == glm::dvec2(0); });
@@ -235,7 +231,7 @@ TEST_F(UsbDriver, EachFamilyIsFelt) {
     const auto joystick = mock_.plug(PidModel(family), ++port);
     const auto device = opened(port);
     ASSERT_NE(device, nullptr) << family.name;
-    await([&] {
+    run_until(mock_, [&] {
       device->command({5, 2.5});
       const glm::dvec2 force = joystick->with_model([](PidModel& model) { return model.force(); });
       return std::abs(force.x - 0.5) < 0.02 && std::abs(force.y + 0.25) < 0.02;  // HID's y is to the user
@@ -266,7 +262,7 @@ TEST_F(UsbDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
   await([&] { return arrived == 2; });
   const auto second = opened(1);
   ASSERT_NE(second, nullptr);
-  await([&] {
+  run_until(mock_, [&] {
     second->command({2, 0});
     return std::abs(again->with_model([](PidModel& model) { return model.force(); }).x - 0.2) < 1e-3;
   });
@@ -282,12 +278,16 @@ TEST_F(UsbDriver, TwoAtOnce) {
     second->command({0, -4});
     if (first != nullptr && mock_.frames() % 100 == 0) second->sample();
   });
-  await([&] { return std::abs(left->with_model([](PidModel& model) { return model.force(); }).x - 0.4) < 1e-3; });
-  await([&] { return std::abs(right->with_model([](PidModel& model) { return model.force(); }).y - 0.4) < 0.02; });
+  run_until(mock_, [&] {
+    first->command({4, 0});
+    second->command({0, -4});
+    return std::abs(left->with_model([](PidModel& model) { return model.force(); }).x - 0.4) < 1e-3 &&
+           std::abs(right->with_model([](PidModel& model) { return model.force(); }).y - 0.4) < 0.02;
+  });
   first.reset();
   EXPECT_EQ(left->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
   EXPECT_FALSE(second->was_lost());
-  await([&] {
+  run_until(mock_, [&] {
     second->command({0, 4});
     return std::abs(right->with_model([](PidModel& model) { return model.force(); }).y + 0.4) < 0.02;
   });
@@ -298,7 +298,8 @@ TEST_F(UsbDriver, IsLetGoInAnyOrder) {
   std::unique_ptr<HidPidDevice> device;
   {
     auto own = UsbContext::open();
-    auto result = HidPidDevice::open(std::get<std::shared_ptr<UsbContext>>(own), found(1), profile());
+    auto result =
+        HidPidDevice::open(std::get<std::shared_ptr<UsbContext>>(own), found(1), joystick_profile(), in_mock_time());
     device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
   }
   device->command({1, 1});  // outlives its context's last other owner
@@ -328,7 +329,8 @@ TEST_F(UsbDriver, SaysWhyItCannotBeUsed) {
                                      std::to_string(damaged.descriptor.size()) + ": a collection is not ended");
   EXPECT_EQ(refused(PidModel(arduino(), {.room = 0}), 4),
             "2341:8036: it has no room for an effect: another program may hold them");
-  EXPECT_EQ(refused(PidModel(arduino(), {.silent = true}), 5), "2341:8036: it does not answer in time");
+  mock_.plug(PidModel(arduino(), {.silent = true}), 5);
+  EXPECT_EQ(refusal(5, 100), "2341:8036: it does not answer in time");
   EXPECT_EQ(refused(PidModel(arduino(), {.short_load = true}), 6),
             "2341:8036: what it says of a new effect is nonsense");
   EXPECT_EQ(refused(PidModel(arduino(), {.no_inputs_after = 0, .stalls_polls = true}), 7),
@@ -340,18 +342,21 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
   struct Case {
     Faults faults;
     const char* reason;
+    unsigned timeout = unhurried;
   };
   const Case cases[] = {
       {{.stall_outputs_after = 100}, "it refuses a report that its descriptor declares"},
-      {{.silent_outputs_after = 100}, "it does not answer in time"},
+      {{.silent_outputs_after = 100}, "it does not answer in time", 100},
       {{.bad_inputs_after = 100}, "its input reports are not what its descriptor declares"},
       {{.short_inputs_after = 100}, "its input reports are not what its descriptor declares"},
-      {{.no_inputs_after = 100, .deaf_to_polls = true}, "it does not answer in time"},
+      {{.no_inputs_after = 100, .deaf_to_polls = true}, "it does not answer in time", 100},
   };
   int port = 0;
   for (const Case& fault : cases) {
     const auto joystick = mock_.plug(PidModel(openffboard(), fault.faults), ++port);
-    auto device = opened(port);
+    PidTransport::Options options = in_mock_time();
+    options.timeout = fault.timeout;
+    auto device = opened(port, options);
     ASSERT_NE(device, nullptr);
     long tick = 0;
     await([&] {
@@ -370,7 +375,7 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
 [[noreturn]] void push_for_ever() {
   auto context = std::get<std::shared_ptr<UsbContext>>(UsbContext::open());
   for (const UsbDeviceInfo& info : context->devices()) {
-    auto result = HidPidDevice::open(context, info, profile());
+    auto result = HidPidDevice::open(context, info, joystick_profile());
     const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
     while (true) {
       device->command({3, 0});

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "runtime/device/usb/hid_pid_device.hpp"
+#include "tests/usb/profiles.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 
 // Joysticks that do not do as they say, or not when they should, through unmodified libusb: what is felt stays in order
@@ -13,26 +14,15 @@
 namespace wale::test::misbehaving {
 namespace {
 
-DeviceProfile ten_newton() {
-  DeviceProfile profile;
-  profile.name = "mock";
-  profile.workspace_diameter = 0.2;
-  profile.position_counts = 65534;
-  profile.force_newton = 10;
-  profile.force_counts = 32767;
-  profile.rate = 900;
-  return profile;
-}
-
 class MisbehavingUsb : public MockedUsb {
  protected:
-  std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(int port) {
-    HidPidOptions options;
-    options.transport.set_up_timeout = 300;
-    return HidPidDevice::open(context(), found(port), ten_newton(), options);
+  std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(int port, unsigned timeout = unhurried) {
+    PidTransport::Options options = in_mock_time();
+    options.timeout = timeout;
+    return HidPidDevice::open(context(), found(port), joystick_profile(), options);
   }
-  std::unique_ptr<HidPidDevice> opened(int port) {
-    auto result = open(port);
+  std::unique_ptr<HidPidDevice> opened(int port, unsigned timeout = unhurried) {
+    auto result = open(port, timeout);
     if (const auto* refusal = std::get_if<Refusal>(&result)) {
       ADD_FAILURE() << refusal->reason;
       return nullptr;
@@ -64,17 +54,29 @@ void expect_rising(const std::vector<int>& forces) {
   }
 }
 
-/// Pushes to the right, in each tick by a step more: 1 / 32767 of the device's force.
-void push_harder_and_harder(UsbMock& mock, HidPidDevice& device, long ticks) {
-  run_ticks(mock, ticks, [&](long tick) {
-    device.sample();
-    device.command({static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10), 0});
-  });
-}
-
 template <class Mock>
 glm::dvec2 force_of(Mock& mock) {
   return mock->with_model([](PidModel& model) { return model.force(); });
+}
+
+/// To the right, so many steps of 1 / 32767 of the device's force.
+Force steps(long count) { return {static_cast<float>(static_cast<double>(count) / 32767 * 10), 0}; }
+
+/// Pushes to the right, in each tick by a step more.
+void push_harder_and_harder(UsbMock& mock, HidPidDevice& device, long ticks) {
+  run_ticks(mock, ticks, [&](long tick) {
+    device.sample();
+    device.command(steps(tick + 1));
+  });
+}
+
+/// And stays at that until it is felt.
+template <class Mock>
+void push_until_felt(UsbMock& usb, Mock& mock, HidPidDevice& device, long count) {
+  run_until(usb, [&] {
+    device.command(steps(count));
+    return std::abs(force_of(mock).x - static_cast<double>(count) / 32767) < 1e-9;
+  });
 }
 
 TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen) {
@@ -83,16 +85,15 @@ TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen
   ASSERT_NE(device, nullptr);
   constexpr long ticks = 10'000;
   push_harder_and_harder(mock_, *device, ticks);
-  await([&] { return std::abs(force_of(mock).x - ticks / 32767.0) < 1e-9; });
+  push_until_felt(mock_, mock, *device, ticks);
   EXPECT_FALSE(device->was_lost()) << device->reason();
   const auto counts = device->counts();
   const auto log = mock->with_model([](PidModel& model) { return model.log; });
   const auto forces = forces_to(1, log);
   expect_rising(forces);
   EXPECT_EQ(static_cast<long>(forces.size()), counts.forces_sent[0]);
-  EXPECT_GT(counts.overwritten, ticks / 3)
-      << "it takes three frames for each: most commands are never sent, none queues";
-  EXPECT_LT(counts.forces_sent[0], ticks / 2);
+  EXPECT_GT(counts.overwritten, 0);
+  EXPECT_LE(counts.forces_sent[0], ticks / 3 + 10) << "three frames for each: most are never sent, none queues";
   EXPECT_GT(counts.bad_inputs, 50);
   EXPECT_GT(counts.inputs, counts.bad_inputs);
   EXPECT_GT(counts.refreshes, 10);
@@ -104,7 +105,7 @@ TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen
 
 TEST_F(MisbehavingUsb, OneThatBecomesTooLateIsLost) {
   const auto mock = mock_.plug(PidModel(openffboard()), 1);
-  auto device = opened(1);
+  auto device = opened(1, 1000);
   ASSERT_NE(device, nullptr);
   push_harder_and_harder(mock_, *device, 100);
   mock->with_model([](PidModel& model) { model.faults.late = 100'000; });
@@ -124,7 +125,7 @@ TEST_F(MisbehavingUsb, WithoutAnOutEndpointAllGoesByTheControlEndpoint) {
   auto device = opened(1);
   ASSERT_NE(device, nullptr);
   push_harder_and_harder(mock_, *device, 500);
-  await([&] { return std::abs(force_of(mock).x - 500 / 32767.0) < 1e-9; });
+  push_until_felt(mock_, mock, *device, 500);
   const auto log = mock->with_model([](PidModel& model) { return model.log; });
   for (const std::string& line : log) EXPECT_NE(line.substr(0, 3), "OUT");
   expect_rising(forces_to(1, log));
@@ -183,11 +184,10 @@ TEST_F(MisbehavingUsb, OneThatStallsDoesNotDisturbTheOtherNorTheOneAfterIt) {
   auto first = opened(1), second = opened(2);
   ASSERT_TRUE(first != nullptr && second != nullptr);
   run_ticks(mock_, 2000, [&](long tick) {
-    const auto newton = static_cast<float>(static_cast<double>(tick + 1) / 32767 * 10);
-    first->command({newton, 0});
-    second->command({newton, 0});
+    first->command(steps(tick + 1));
+    second->command(steps(tick + 1));
   });
-  await([&] { return std::abs(force_of(good).x - 2000 / 32767.0) < 1e-9; });
+  push_until_felt(mock_, good, *second, 2000);
   await([&] { return first->was_lost(); });
   EXPECT_FALSE(second->was_lost());
   expect_rising(forces_to(1, good->with_model([](PidModel& model) { return model.log; })));
@@ -196,7 +196,7 @@ TEST_F(MisbehavingUsb, OneThatStallsDoesNotDisturbTheOtherNorTheOneAfterIt) {
   bad->with_model([](PidModel& model) { model.faults = {}; });
   first = opened(1);
   ASSERT_NE(first, nullptr) << "and usable again";
-  await([&] {
+  run_until(mock_, [&] {
     first->command({5, 0});
     return std::abs(force_of(bad).x - 0.5) < 1e-3;
   });

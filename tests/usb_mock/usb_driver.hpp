@@ -4,28 +4,86 @@
 
 #include <chrono>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "runtime/device/usb/falcon_device.hpp"
+#include "runtime/device/usb/hid_pid_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
+#include "wale/device.hpp"
 
 namespace wale::test {
 
-/// Waits until `holds`.
+/// Waits until `holds`, with frames that pass by themselves; throws std::runtime_error when it has looked so often, a
+/// millisecond or more apart, that it never will.
 template <class Condition>
-void await(Condition holds) {
-  while (!holds()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+void await(Condition holds, int line = __builtin_LINE()) {
+  constexpr int most_looks = 60'000;
+  for (int look = 0; look < most_looks; ++look) {
+    if (holds()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  throw std::runtime_error("awaited in vain in line " + std::to_string(line));
 }
 
-/// Ticks as fast as the mock's frames come, as a loop of their rate would.
+/// Ticks in step with the mock's frames, as a loop of their rate does that is never late.
 template <class Serve>
 void run_ticks(UsbMock& mock, long ticks, Serve serve) {
+  const UsbMock::InStep in_step(mock);
   for (long tick = 0; tick < ticks; ++tick) {
-    const long frame = mock.frames();
     serve(tick);
-    while (mock.frames() == frame) std::this_thread::sleep_for(std::chrono::microseconds(50));
+    mock.pass_frame();
   }
+}
+
+/// As `run_ticks`, until `holds`; throws std::runtime_error when that takes more than a minute of the mock's time.
+template <class Condition>
+void run_until(UsbMock& mock, Condition holds, int line = __builtin_LINE()) {
+  const UsbMock::InStep in_step(mock);
+  constexpr int most_ticks = 60'000;
+  for (int tick = 0; tick < most_ticks; ++tick) {
+    if (holds()) return;
+    mock.pass_frame();
+  }
+  throw std::runtime_error("ticked in vain in line " + std::to_string(line));
+}
+
+/// A device whose ticks are the mock's frames, for a loop that is not the test's own.
+class InStepDevice final : public Device {
+ public:
+  /// Both outlive it.
+  InStepDevice(UsbMock& mock, Device& device) : mock_(mock), device_(device), in_step_(mock) {}
+
+  const DeviceProfile& profile() const noexcept override { return device_.profile(); }
+  void elapse(long periods) noexcept override { device_.elapse(periods); }
+  Reading sample() noexcept override { return device_.sample(); }
+  Force command(Force force) noexcept override {
+    const Force exerted = device_.command(force);
+    mock_.pass_frame();
+    return exerted;
+  }
+
+ private:
+  UsbMock& mock_;
+  Device& device_;
+  UsbMock::InStep in_step_;
+};
+
+/// For drivers in this process: they go by the mock's time, and their transfers may take as long as they like.
+constexpr unsigned unhurried = 30'000;  // ms
+inline PidTransport::Options in_mock_time() {
+  PidTransport::Options options;
+  options.timeout = options.set_up_timeout = unhurried;
+  options.now = mock_microseconds;
+  return options;
+}
+inline FalconOptions falcon_in_mock_time() {
+  FalconOptions options;
+  options.transport.timeout = options.transport.set_up_timeout = unhurried;
+  options.transport.now = mock_microseconds;
+  return options;
 }
 
 /// A mock of USB, and unmodified libusb that sees it.
@@ -40,12 +98,16 @@ class MockedUsb : public testing::Test {
 
   /// The device at a port, once libusb sees it.
   UsbDeviceInfo found(int port) const {
-    while (true) {
+    UsbDeviceInfo found;
+    await([&] {
       for (const UsbDeviceInfo& info : context_->devices()) {
-        if (info.port == "1-" + std::to_string(port)) return info;
+        if (info.port != "1-" + std::to_string(port)) continue;
+        found = info;
+        return true;
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+      return false;
+    });
+    return found;
   }
 
   UsbMock mock_;

@@ -18,7 +18,9 @@ namespace {
 
 constexpr unsigned long disconnect_claim = 0x8108551b;  // USBDEVFS_DISCONNECT_CLAIM with its argument's size
 constexpr std::uint8_t in_bit = 0x80;
-constexpr std::chrono::microseconds frame_time(300);  // the model takes it for a millisecond
+constexpr std::chrono::milliseconds frame_time(1);  // at least, of frames that pass by themselves
+
+std::atomic<std::int64_t> microseconds_passed{0};
 
 std::string in_hex(const std::vector<std::uint8_t>& bytes) {
   std::string text;
@@ -84,16 +86,52 @@ MockUsbDevice::~MockUsbDevice() {
   g_signal_handler_disconnect(handler_, connection_);
   umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
   g_object_unref(handler_);
-  const auto forget = [](const std::deque<Urb>& queue) {
-    for (const Urb& urb : queue) {
-      g_object_unref(urb.urb);
-      if (urb.buffer != nullptr) g_object_unref(urb.buffer);
-    }
-  };
-  for (const auto& [endpoint, queue] : endpoints_) forget(queue);
-  forget(controls_);
-  forget(done_);
+  for (const auto& [endpoint, queue] : endpoints_) std::ranges::for_each(queue, release);
+  std::ranges::for_each(controls_, release);
+  std::ranges::for_each(done_, release);
+  set_unserved(nullptr);
   close(fifo_);
+}
+
+void MockUsbDevice::release(const Urb& urb) {
+  g_object_unref(urb.urb);
+  if (urb.buffer != nullptr) g_object_unref(urb.buffer);
+  if (urb.client != nullptr) g_object_unref(urb.client);
+}
+
+/// Who has closed the device, or was killed, has nothing under way any more, as usbfs sees to. Under the lock.
+void MockUsbDevice::forget_the_closed() {
+  const auto forget_in = [](std::deque<Urb>& queue) {
+    std::erase_if(queue, [](const Urb& urb) {
+      if (umockdev_ioctl_client_get_connected(urb.client)) return false;
+      release(urb);
+      return true;
+    });
+  };
+  for (auto& [endpoint, queue] : endpoints_) forget_in(queue);
+  forget_in(controls_);
+  forget_in(done_);
+  if (unserved_ != nullptr && !umockdev_ioctl_client_get_connected(unserved_)) set_unserved(nullptr);
+  show_whether_ready();
+}
+
+void MockUsbDevice::set_unserved(UMockdevIoctlClient* client) {
+  if (client == unserved_) return;
+  if (client != nullptr) g_object_ref(client);
+  if (unserved_ != nullptr) g_object_unref(unserved_);
+  unserved_ = client;
+  served_.notify_all();
+}
+
+bool MockUsbDevice::is_served() {
+  const std::lock_guard lock(mutex_);
+  forget_the_closed();
+  return is_gone_ || unserved_ == nullptr;
+}
+
+bool MockUsbDevice::wait_until_served() {
+  std::unique_lock lock(mutex_);
+  return served_.wait_for(lock, std::chrono::seconds(30), [&] { return is_gone_ || unserved_ == nullptr; });
 }
 
 /// Ready is what has something to reap.
@@ -110,6 +148,7 @@ void MockUsbDevice::end(const Urb& urb, int status, int length) {
   urb_of(urb.urb).status = status;
   urb_of(urb.urb).actual_length = length;
   done_.push_back(urb);
+  set_unserved(urb.client);
 }
 
 void MockUsbDevice::frame() {
@@ -172,7 +211,7 @@ void MockUsbDevice::control(const Urb& urb) {
   end(urb, 0, static_cast<int>(given));
 }
 
-int MockUsbDevice::submit(UMockdevIoctlData* argument) {
+int MockUsbDevice::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
   Urb urb;
   urb.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
   if (urb.urb == nullptr) return EFAULT;  // who asked has been killed since
@@ -185,6 +224,7 @@ int MockUsbDevice::submit(UMockdevIoctlData* argument) {
       return EFAULT;
     }
   }
+  urb.client = UMOCKDEV_IOCTL_CLIENT(g_object_ref(client));
   if (wanted.type == USBDEVFS_URB_TYPE_CONTROL) {
     const auto frames = model_->control_frames(set_up(urb));
     if (frames == 0) {
@@ -219,7 +259,10 @@ int MockUsbDevice::discard(UMockdevIoctlData* argument) {
 }
 
 int MockUsbDevice::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
-  if (done_.empty()) return is_gone_ ? ENODEV : EAGAIN;
+  if (done_.empty()) {
+    set_unserved(nullptr);
+    return is_gone_ ? ENODEV : EAGAIN;
+  }
   const Urb urb = done_.front();
   done_.pop_front();
   UMockdevIoctlData* pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
@@ -227,8 +270,7 @@ int MockUsbDevice::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument
   show_whether_ready();
   umockdev_ioctl_client_complete(client, 0, 0);
   if (pointer != nullptr) g_object_unref(pointer);
-  g_object_unref(urb.urb);
-  if (urb.buffer != nullptr) g_object_unref(urb.buffer);
+  release(urb);
   return 0;
 }
 
@@ -267,7 +309,7 @@ void MockUsbDevice::answer(UMockdevIoctlClient* client) {
   } else if (request == USBDEVFS_IOCTL) {
     ++drivers_back;  // the kernel's driver is connected again
   } else if (request == USBDEVFS_SUBMITURB) {
-    error = submit(argument);
+    error = submit(client, argument);
     show_whether_ready();
   } else if (request == USBDEVFS_DISCARDURB) {
     error = discard(argument);
@@ -281,6 +323,8 @@ void MockUsbDevice::answer(UMockdevIoctlClient* client) {
   umockdev_ioctl_client_complete(client, error == 0 ? 0 : -1, error);
 }
 
+std::int64_t mock_microseconds() noexcept { return microseconds_passed.load(std::memory_order_relaxed); }
+
 UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
   thread_ = std::thread([this] {
     auto next = std::chrono::steady_clock::now();
@@ -288,10 +332,37 @@ UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
       next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up
       std::this_thread::sleep_until(next);
       const std::lock_guard lock(mutex_);
-      for (const auto& device : devices_) device->frame();
-      ++frames_;
+      if (in_step_ == 0 && is_served()) frame();
     }
   });
+}
+
+/// Under the lock.
+bool UsbMock::is_served() {
+  return std::ranges::all_of(devices_, [](const auto& device) { return device->is_served(); });
+}
+
+/// Under the lock.
+void UsbMock::frame() {
+  microseconds_passed.fetch_add(1000, std::memory_order_relaxed);
+  for (const auto& device : devices_) device->frame();
+  ++frames_;
+}
+
+void UsbMock::pass_frame() {
+  const auto wait_until_served = [&] {
+    std::unique_lock lock(mutex_);
+    const auto devices = devices_;
+    lock.unlock();
+    if (!std::ranges::all_of(devices, [](const auto& device) { return device->wait_until_served(); }))
+      throw std::runtime_error("a transfer has ended, and the driver does not take it");
+  };
+  wait_until_served();
+  {
+    const std::lock_guard lock(mutex_);
+    frame();
+  }
+  wait_until_served();
 }
 
 UsbMock::~UsbMock() {

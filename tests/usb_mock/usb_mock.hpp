@@ -3,6 +3,7 @@
 #include <umockdev.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -29,6 +30,10 @@ class MockUsbDevice {
 
   /// One frame: at most one packet for each endpoint.
   void frame();
+  /// Whether the driver has taken whatever has ended, and has asked for more in vain: what it does about that is done.
+  bool is_served();
+  /// Waits for that; false: it has waited for long.
+  bool wait_until_served();
   /// Whatever is on its way ends, and nothing is taken any more.
   void unplug();
 
@@ -40,6 +45,7 @@ class MockUsbDevice {
 
  protected:
   std::mutex mutex_;
+  std::condition_variable served_;
   std::unique_ptr<UsbModel> model_;
 
  private:
@@ -47,15 +53,19 @@ class MockUsbDevice {
   struct Urb {
     UMockdevIoctlData* urb = nullptr;
     UMockdevIoctlData* buffer = nullptr;
-    long due = 0;  // of a control transfer: the frame in which it ends
+    UMockdevIoctlClient* client = nullptr;  // whose it is
+    long due = 0;                           // of a control transfer: the frame in which it ends
   };
 
   static gboolean when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   void answer(UMockdevIoctlClient* client);
-  int submit(UMockdevIoctlData* argument);
+  void forget_the_closed();
+  void set_unserved(UMockdevIoctlClient* client);
+  int submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   int discard(UMockdevIoctlData* argument);
   int reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   void end(const Urb& urb, int status, int length);
+  static void release(const Urb& urb);
   static UsbModel::SetUp set_up(const Urb& urb);
   void control(const Urb& urb);
   void show_whether_ready();
@@ -66,6 +76,7 @@ class MockUsbDevice {
   gulong connection_ = 0;
   std::map<std::uint8_t, std::deque<Urb>> endpoints_;
   std::deque<Urb> controls_, done_;
+  UMockdevIoctlClient* unserved_ = nullptr;  // for whom one has ended, until it has asked for more in vain
   long frame_ = 0;
   int fifo_ = -1;
   bool is_shown_ready_ = true, is_gone_ = false;
@@ -87,32 +98,56 @@ class MockDevice final : public MockUsbDevice {
 };
 using MockJoystick = MockDevice<PidModel>;
 
-/// A testbed with devices, and the thread whose frames move them.
+/// The models' time, for a driver in this process: a millisecond for each frame that has passed.
+std::int64_t mock_microseconds() noexcept;
+
+/// A testbed with devices, and what makes their frames pass. A frame passes only when every device is served, so that a
+/// driver that has to wait for the processor misses none: by themselves, a millisecond each or slower, or one by one,
+/// by the test's thread, while it keeps `InStep`.
 class UsbMock {
  public:
   UsbMock();
   ~UsbMock();
 
-  /// Plugs one in at a port, 1 .. 9, under a new address each time.
+  /// Plugs one in at a port, 1 .. 9, under a new address each time; as one that another program has claimed, if so.
   template <class Model>
-  std::shared_ptr<MockDevice<Model>> plug(Model model, int port) {
+  std::shared_ptr<MockDevice<Model>> plug(Model model, int port, bool is_claimed_elsewhere = false) {
     auto device = std::make_shared<MockDevice<Model>>(testbed_, std::move(model), port, ++address_);
+    device->is_claimed_elsewhere = is_claimed_elsewhere;
     show(device);
     return device;
   }
   void unplug(const std::shared_ptr<MockUsbDevice>& device);
+
+  /// While it lives frames pass only by `pass_frame`, of the thread that made it.
+  class InStep {
+   public:
+    explicit InStep(UsbMock& mock) : mock_(mock) { ++mock_.in_step_; }
+    ~InStep() { --mock_.in_step_; }
+    InStep(const InStep&) = delete;
+    InStep& operator=(const InStep&) = delete;
+
+   private:
+    UsbMock& mock_;
+  };
+  /// One frame, and what the driver does about it on its event thread. Throws std::runtime_error where the driver does
+  /// not take what has ended.
+  void pass_frame();
 
   /// Frames since the beginning.
   long frames() const { return frames_.load(); }
 
  private:
   void show(std::shared_ptr<MockUsbDevice> device);
+  bool is_served();
+  void frame();
 
   UMockdevTestbed* testbed_;
   std::mutex mutex_;
   std::vector<std::shared_ptr<MockUsbDevice>> devices_;
   int address_ = 1;
   std::atomic<bool> ends_{false};
+  std::atomic<int> in_step_{0};
   std::atomic<long> frames_{0};
   std::thread thread_;
 };

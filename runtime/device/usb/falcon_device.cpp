@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "runtime/device/usb/usb_transfers.hpp"
-
 namespace wale {
 
 bool is_falcon(const UsbDeviceInfo& info) { return info.vendor == falcon::vendor && info.product == falcon::product; }
@@ -43,13 +41,14 @@ FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, DevicePro
       profile_(std::move(profile)),
       plane_(profile_.force_newton, options.hold),
       is_held_(options.hold.stiffness > 0),
+      now_(options.transport.now),
       stale_after_(static_cast<std::int64_t>(options.stale_after * 1e6)) {}
 
 Reading FalconDevice::sample() noexcept {
   const FalconTransport::Seen seen = transport_->seen();
   const bool is_lost = transport_->was_lost();
-  is_good_ = !is_lost && seen.is_running && microseconds_now() - seen.heard <= stale_after_ &&
-             plane_.see(seen.encoders, seen.heard);
+  is_good_ =
+      !is_lost && seen.is_running && now_() - seen.heard <= stale_after_ && plane_.see(seen.encoders, seen.heard);
   Reading reading;
   const glm::dvec2 counts = plane_.position() / profile_.position_step();
   reading.counts = {static_cast<int>(std::lround(counts.x)), static_cast<int>(std::lround(counts.y))};
@@ -65,7 +64,7 @@ Force FalconDevice::command(Force force) noexcept {
     transport_->command({});
     return Force(0);
   }
-  const falcon::FalconPlane::Push push = plane_.push(force, microseconds_now());
+  const falcon::FalconPlane::Push push = plane_.push(force, now_());
   transport_->command(push.torques);
   return {static_cast<float>(push.force.x), static_cast<float>(push.force.y)};
 }

@@ -68,6 +68,7 @@ class FalconDevice final : public PluggedDevice {
   DeviceProfile profile_;
   falcon::FalconPlane plane_;
   bool is_held_;
+  MicrosecondClock now_;
   std::int64_t stale_after_;
   bool is_good_ = false;
 };

@@ -51,6 +51,7 @@ FalconTransport::FalconTransport(std::shared_ptr<UsbContext> context, libusb_dev
       handle_(handle),
       timeout_(options.timeout),
       set_up_timeout_(options.set_up_timeout),
+      now_(options.now),
       session_(std::move(options.session)) {
   for (Slot& slot : slots_) {
     slot.owner = this;
@@ -127,9 +128,9 @@ void FalconTransport::pump() {
   const std::uint64_t wanted = wanted_.load(std::memory_order_acquire);
   if (const auto number = static_cast<std::uint16_t>(number_in(wanted, 3)); number != taken_) {
     taken_ = number;
-    session_.command({number_in(wanted, 0), number_in(wanted, 1), number_in(wanted, 2)}, microseconds_now());
+    session_.command({number_in(wanted, 0), number_in(wanted, 1), number_in(wanted, 2)}, now_());
   }
-  while (const auto transfer = session_.next(microseconds_now())) submit(*transfer);
+  while (const auto transfer = session_.next(now_())) submit(*transfer);
   publish();
 }
 
@@ -160,7 +161,7 @@ void FalconTransport::submit(const falcon::Transfer& transfer) {
   slot.is_busy = true;
   if (const int error = libusb_submit_transfer(slot.usb); error != 0) {
     slot.is_busy = false;
-    session_.finish(transfer, outcome_of_submitting(error), {}, microseconds_now());
+    session_.finish(transfer, outcome_of_submitting(error), {}, now_());
   }
 }
 
@@ -176,7 +177,7 @@ void FalconTransport::ended(Slot& slot) {
   } else if (outcome == Outcome::done && got < slot.wanted.size) {
     outcome = Outcome::failed;
   }
-  session_.finish(slot.wanted, outcome, came_in, microseconds_now());
+  session_.finish(slot.wanted, outcome, came_in, now_());
   if (!closes_) pump();
   publish();
 }

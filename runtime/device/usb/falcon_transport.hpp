@@ -11,6 +11,7 @@
 
 #include "runtime/device/falcon/falcon_session.hpp"
 #include "runtime/device/usb/usb_context.hpp"
+#include "runtime/device/usb/usb_transfers.hpp"
 
 struct libusb_device_handle;
 struct libusb_transfer;
@@ -23,8 +24,9 @@ class FalconTransport {
  public:
   struct Options {
     falcon::FalconSessionOptions session;
-    unsigned timeout = 50;           ///< ms, of each packet
-    unsigned set_up_timeout = 1000;  ///< ms, of each control request
+    unsigned timeout = 50;                    ///< ms, of each packet
+    unsigned set_up_timeout = 1000;           ///< ms, of each control request
+    MicrosecondClock now = microseconds_now;  ///< by which silences are told, and the handle's speed
   };
 
   /// Claims the device and sets it up as far as homing: without firmware of its own that takes some seconds. A refusal
@@ -47,7 +49,7 @@ class FalconTransport {
     falcon::Encoders encoders{};
     std::uint8_t buttons = 0;
     bool is_running = false;  ///< homed, so that the encoders mean a place
-    std::int64_t heard = 0;   ///< microseconds of a steady clock
+    std::int64_t heard = 0;   ///< microseconds of the options' clock
   };
   /// The newest answer. Real-time: two atomic loads.
   Seen seen() const noexcept;
@@ -81,6 +83,7 @@ class FalconTransport {
   std::shared_ptr<UsbContext> context_;
   libusb_device_handle* handle_;
   unsigned timeout_, set_up_timeout_;
+  MicrosecondClock now_;
 
   mutable std::mutex mutex_;  // of all below that is not atomic; never taken by the real-time thread
   std::condition_variable changed_;

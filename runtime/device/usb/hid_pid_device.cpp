@@ -6,6 +6,8 @@
 namespace wale {
 namespace {
 
+constexpr int hid_signs[2] = {1, -1};  // of HID's axes along ours: its y points to the user (HID 1.11 section 5.9)
+
 int scaled_counts(std::int32_t raw, const hid::Number& range, double counts, int sign) noexcept {
   const double length = static_cast<double>(range.maximum - range.minimum);
   const double centre = (static_cast<double>(range.maximum) + static_cast<double>(range.minimum)) / 2;
@@ -17,14 +19,14 @@ int scaled_counts(std::int32_t raw, const hid::Number& range, double counts, int
 std::variant<std::unique_ptr<HidPidDevice>, Refusal> HidPidDevice::open(std::shared_ptr<UsbContext> context,
                                                                         const UsbDeviceInfo& info,
                                                                         DeviceProfile profile,
-                                                                        const HidPidOptions& options) {
+                                                                        const PidTransport::Options& options) {
   Refusal refusal{
       in_words(info.vendor, info.product) + ": it is not a force device: it has no interface of the HID class", {}};
   bool is_first = true;
   for (const UsbHidInterface& interface : info.hid) {
-    auto opened = PidTransport::open(context, info, interface, options.transport);
+    auto opened = PidTransport::open(context, info, interface, options);
     if (auto* transport = std::get_if<std::unique_ptr<PidTransport>>(&opened)) {
-      return std::unique_ptr<HidPidDevice>(new HidPidDevice(std::move(*transport), std::move(profile), options.signs));
+      return std::unique_ptr<HidPidDevice>(new HidPidDevice(std::move(*transport), std::move(profile)));
     }
     // A keyboard beside the joystick is not what stands in the way.
     Refusal& why = std::get<Refusal>(opened);
@@ -34,15 +36,15 @@ std::variant<std::unique_ptr<HidPidDevice>, Refusal> HidPidDevice::open(std::sha
   return refusal;
 }
 
-HidPidDevice::HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile, const AxisSigns& signs)
-    : transport_(std::move(transport)), profile_(std::move(profile)), signs_(signs) {}
+HidPidDevice::HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile)
+    : transport_(std::move(transport)), profile_(std::move(profile)) {}
 
 Reading HidPidDevice::sample() noexcept {
   const PidTransport::Seen seen = transport_->seen();
   const hid::PidLayout::Input& input = transport_->layout().input;
   Reading reading;
-  reading.counts.x = scaled_counts(seen.x, input.x, profile_.position_counts, signs_.position_x);
-  reading.counts.y = scaled_counts(seen.y, input.y, profile_.position_counts, signs_.position_y);
+  reading.counts.x = scaled_counts(seen.x, input.x, profile_.position_counts, hid_signs[0]);
+  reading.counts.y = scaled_counts(seen.y, input.y, profile_.position_counts, hid_signs[1]);
   reading.button = seen.button;
   reading.contact = transport_->was_lost() ? Contact::lost : Contact::good;
   return reading;
@@ -51,11 +53,10 @@ Reading HidPidDevice::sample() noexcept {
 Force HidPidDevice::command(Force force) noexcept {
   const auto full = static_cast<double>(transport_->layout().set_constant_force.full());
   glm::vec2 wanted(0), exerted(0);
-  const int signs[2] = {signs_.force_x, signs_.force_y};
   for (int axis = 0; axis < 2; ++axis) {
     const double fraction = force[axis] / profile_.force_newton;
     const auto counts = hid::magnitude_counts(transport_->layout(), fraction);  // not-a-number is none
-    wanted[axis] = static_cast<float>(signs[axis] * static_cast<double>(counts) / full);
+    wanted[axis] = static_cast<float>(hid_signs[axis] * static_cast<double>(counts) / full);
     exerted[axis] = static_cast<float>(static_cast<double>(counts) / full * profile_.force_newton);
   }
   if (transport_->was_lost()) return Force(0);

@@ -13,20 +13,10 @@
 
 namespace wale {
 
-/// How a device's own axes lie in the workspace, whose x points to the right and whose y away from the user: 1 or -1.
-/// HID's y points to the user; a device whose motors are wired otherwise than its encoders needs other signs.
-struct AxisSigns {
-  int position_x = 1, position_y = -1;
-  int force_x = 1, force_y = -1;
-};
-
-struct HidPidOptions {
-  PidTransport::Options transport;
-  AxisSigns signs;
-};
-
 /// A force-feedback joystick of USB's PID class, whatever its report descriptor makes of it. Positions are scaled from
 /// the descriptor's range to the profile's counts, forces from the profile's peak force to the descriptor's range.
+/// HID's y points to the user, and is turned: here x points to the right and y away. How a device lies on the desk
+/// beyond that is its `DeviceWiring`, which is up to whoever uses it.
 ///
 /// Where two axes have an effect each, each packet carries one axis: they alternate when both change, which halves the
 /// rate of each. A device that is lost (`was_lost`) pushes no more and stays where it was last seen.
@@ -37,7 +27,7 @@ class HidPidDevice final : public PluggedDevice {
   /// what its descriptor lacks.
   static std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(std::shared_ptr<UsbContext> context,
                                                                    const UsbDeviceInfo& info, DeviceProfile profile,
-                                                                   const HidPidOptions& options = {});
+                                                                   const PidTransport::Options& options = {});
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long) noexcept override {}
@@ -56,11 +46,10 @@ class HidPidDevice final : public PluggedDevice {
   const hid::PidLayout& layout() const { return transport_->layout(); }
 
  private:
-  HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile, const AxisSigns& signs);
+  HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile);
 
   std::unique_ptr<PidTransport> transport_;
   DeviceProfile profile_;
-  AxisSigns signs_;
 };
 
 }  // namespace wale

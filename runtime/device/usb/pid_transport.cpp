@@ -9,8 +9,6 @@
 #include <bit>
 #include <chrono>
 
-#include "runtime/device/usb/usb_transfers.hpp"
-
 namespace wale {
 namespace {
 
@@ -52,6 +50,7 @@ PidTransport::PidTransport(std::shared_ptr<UsbContext> context, libusb_device_ha
       interface_(interface),
       timeout_(options.timeout),
       set_up_timeout_(options.set_up_timeout),
+      now_(options.now),
       session_(hid::HidInterface{interface.number, interface.report_descriptor_bytes, interface.out_endpoint != 0},
                options.session) {
   const auto add = [&](bool is_input, std::size_t bytes) {
@@ -159,7 +158,7 @@ void PidTransport::write_forces() {
       const std::uint64_t wanted = wanted_.load(std::memory_order_acquire);
       session_.command({std::bit_cast<float>(static_cast<std::uint32_t>(wanted >> 32)),
                         std::bit_cast<float>(static_cast<std::uint32_t>(wanted))},
-                       microseconds_now());
+                       now_());
     }
     pump();
   }
@@ -167,7 +166,7 @@ void PidTransport::write_forces() {
 
 /// Submits what the session wants. Under the lock.
 void PidTransport::pump() {
-  while (const auto transfer = session_.next(microseconds_now())) submit(*transfer);
+  while (const auto transfer = session_.next(now_())) submit(*transfer);
   if (!listens_ && session_.state() == hid::PidSession::State::running) listen();
   publish();
 }
@@ -175,7 +174,7 @@ void PidTransport::pump() {
 void PidTransport::submit(const hid::Transfer& transfer) {
   const auto free =
       std::find_if(slots_.begin(), slots_.end(), [](const auto& slot) { return !slot->is_input && !slot->is_busy; });
-  if (free == slots_.end()) return session_.finish(transfer, hid::Outcome::failed, {}, microseconds_now());
+  if (free == slots_.end()) return session_.finish(transfer, hid::Outcome::failed, {}, now_());
   Slot& slot = **free;
   slot.wanted = transfer;
   const auto when_ended = [](libusb_transfer* usb) {
@@ -198,7 +197,7 @@ void PidTransport::submit(const hid::Transfer& transfer) {
   slot.is_busy = true;
   if (const int error = libusb_submit_transfer(slot.usb); error != 0) {
     slot.is_busy = false;
-    session_.finish(transfer, outcome_of_submitting(error), {}, microseconds_now());
+    session_.finish(transfer, outcome_of_submitting(error), {}, now_());
   }
 }
 
@@ -229,7 +228,7 @@ void PidTransport::ended(Slot& slot) {
   const std::lock_guard lock(mutex_);
   const libusb_transfer& usb = *slot.usb;
   slot.is_busy = false;
-  const std::int64_t now = microseconds_now();
+  const std::int64_t now = now_();
   const auto got = static_cast<std::size_t>(std::max(0, usb.actual_length));
   hid::Outcome outcome = outcome_of(usb.status);
   if (slot.is_input) {

@@ -17,6 +17,7 @@
 
 #include "runtime/device/hid_pid/pid_session.hpp"
 #include "runtime/device/usb/usb_context.hpp"
+#include "runtime/device/usb/usb_transfers.hpp"
 
 struct libusb_device_handle;
 struct libusb_transfer;
@@ -33,6 +34,7 @@ class PidTransport {
     unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
     /// SCHED_FIFO, of the thread that submits forces: best just below that of the loop, where permitted; 0: ordinary.
     int priority = 0;
+    MicrosecondClock now = microseconds_now;  ///< by which refreshes and silences are due
   };
 
   /// Claims the interface, detaching the kernel's driver, which gets it back in the end, and sets the device up: a few
@@ -93,6 +95,7 @@ class PidTransport {
   libusb_device_handle* handle_;
   UsbHidInterface interface_;
   unsigned timeout_, set_up_timeout_;
+  MicrosecondClock now_;
 
   mutable std::mutex mutex_;  // of all below that is not atomic; never taken by the real-time thread
   std::condition_variable changed_;

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "schema/device_profile.hpp"
+#include "tests/usb/falcon_model.hpp"
+
+namespace wale::test {
+
+/// What a driver needs of a joystick of 16 bits: no mass, damping or friction.
+inline DeviceProfile joystick_profile() {
+  return {.name = "joystick",
+          .workspace_diameter = 0.2,
+          .position_counts = 65534,
+          .force_newton = 10,
+          .force_counts = 32767,
+          .rate = 900};
+}
+
+/// And of the model of a Falcon.
+inline DeviceProfile falcon_profile() {
+  return {.name = "falcon",
+          .workspace_diameter = 0.1,
+          .position_counts = 1667,
+          .force_newton = FalconModel::full_newton,
+          .force_counts = 4096,
+          .rate = 1000};
+}
+
+}  // namespace wale::test
