@@ -39,9 +39,9 @@ class MaterialChecker {
     if (!node_.physical_span && node_.derived_from)
       material_.layers.physical = sources.text(tree_.span(*node_.derived_from));
     material_.layers.documentation = node_.documentation;
-    material_.carriers = checker_.carriers();
+    material_.carriers = std::move(checker_.carriers());
     material_.open_spans = checker_.open_spans();
-    material_.states = checker_.states();
+    material_.states = std::move(checker_.states());
     material_.periods = checker_.periods();
     return std::move(material_);
   }

@@ -16,6 +16,11 @@ StatementChecker::StatementChecker(CheckedMaterial& material, ExpressionChecker&
 
 void StatementChecker::check(const std::vector<AssembledStatement>& statements) {
   scope_.reserve(statements.size());
+  const auto is_parameter = [](const AssembledStatement& each) {
+    return std::holds_alternative<ParamStatement>(each.statement->what);
+  };
+  const auto parameters = static_cast<std::size_t>(std::ranges::count_if(statements, is_parameter));
+  if (material_.parameters.empty()) material_.parameters.reserve(parameters);
   for (const auto& assembled : statements) {
     statement_ = &assembled;
     checker_.read(*assembled.home);

@@ -71,8 +71,8 @@ class StatementChecker {
 
   std::string free_name(const std::string& name, const std::function<bool(const std::string&)>& taken) const;
   void declare(const Word& name, const Value& value);
-  void declare_failed(const Word& name);
-  void report(Code code, Span span, std::string message, Advice advice);
+  [[gnu::cold]] void declare_failed(const Word& name);
+  [[gnu::cold]] void report(Code code, Span span, std::string message, Advice advice);
 
   CheckedMaterial& material_;
   ExpressionChecker& checker_;
@@ -108,7 +108,7 @@ class ShowChecker {
   void colour(const SyntaxTree& tree, const Call& call);
   bool is_of_place(const Value& value);
   std::optional<std::uint32_t> colour_code(const SyntaxTree& tree, ExprId expr);
-  void report(Code code, Span span, std::string message, Advice advice);
+  [[gnu::cold]] void report(Code code, Span span, std::string message, Advice advice);
 
   CheckedMaterial& material_;
   ExpressionChecker& checker_;

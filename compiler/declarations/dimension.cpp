@@ -6,16 +6,6 @@
 
 namespace wale {
 
-Dimension operator*(Dimension a, const Dimension& b) {
-  for (std::size_t i = 0; i < Dimension::capacity; ++i) a.twelfths[i] += b.twelfths[i];
-  return a;
-}
-
-Dimension operator/(Dimension a, const Dimension& b) {
-  for (std::size_t i = 0; i < Dimension::capacity; ++i) a.twelfths[i] -= b.twelfths[i];
-  return a;
-}
-
 std::optional<Dimension> power(Dimension a, int numerator, int denominator) {
   for (auto& exponent : a.twelfths) {
     const long scaled = long{exponent} * numerator;

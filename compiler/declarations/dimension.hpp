@@ -28,8 +28,14 @@ struct Dimension {
   Words words() const { return std::bit_cast<Words>(twelfths); }
 };
 
-Dimension operator*(Dimension a, const Dimension& b);
-Dimension operator/(Dimension a, const Dimension& b);
+inline Dimension operator*(Dimension a, const Dimension& b) {
+  for (std::size_t i = 0; i < Dimension::capacity; ++i) a.twelfths[i] += b.twelfths[i];
+  return a;
+}
+inline Dimension operator/(Dimension a, const Dimension& b) {
+  for (std::size_t i = 0; i < Dimension::capacity; ++i) a.twelfths[i] -= b.twelfths[i];
+  return a;
+}
 /// `a` to the power numerator / denominator, or nothing when an exponent is no whole number of twelfths.
 std::optional<Dimension> power(Dimension a, int numerator, int denominator = 1);
 

@@ -13,8 +13,8 @@ namespace wale {
 /// and the rule that have to do with it. Where a proposal alone will do, a text is enough.
 class Advice {
  public:
-  Advice(std::string help) : about_{.help = std::move(help)} {}
-  Advice(const char* help) : Advice(std::string(help)) {}
+  [[gnu::cold]] Advice(std::string help) : about_{.help = std::move(help)} {}
+  [[gnu::cold]] Advice(const char* help) : Advice(std::string(help)) {}
 
   /// Another place to look at: "declared here first".
   Advice see(Span span, std::string label) &&;
@@ -27,14 +27,14 @@ class Advice {
   /// Puts something before the proposal.
   Advice behind(const std::string& text) &&;
 
-  Diagnostic about(Code code, Span span, std::string message) &&;
+  [[gnu::cold]] Diagnostic about(Code code, Span span, std::string message) &&;
 
  private:
   Diagnostic about_;
 };
 
 /// "Did you mean `X`?" with the fix that writes it (`respell`), or `otherwise` when no candidate is near.
-Advice did_you_mean(Span span, std::string_view word, const std::vector<std::string>& candidates, Advice otherwise,
-                    bool may_be_safe = true);
+[[gnu::cold]] Advice did_you_mean(Span span, std::string_view word, const std::vector<std::string>& candidates,
+                                  Advice otherwise, bool may_be_safe = true);
 
 }  // namespace wale

@@ -75,13 +75,16 @@ struct Diagnostic {
 };
 
 /// What the stages report to. Nothing is printed here.
+///
+/// To report is rare, and `[[gnu::cold]]` says so: compilers then put what leads to it, the making of the message, away
+/// from what every file goes through.
 class Diagnostics {
  public:
   /// More errors than this are of no use to anybody, and a file of 4 MB could have hundreds of thousands.
   static constexpr std::size_t most_errors = 1000;
 
   /// A thing is said once: the same message at the same place again is dropped. So is everything after `most_errors`.
-  void report(Diagnostic diagnostic);
+  [[gnu::cold]] void report(Diagnostic diagnostic);
   /// By file, then by place, what is at one place in the order of reporting.
   void sort();
   bool has_errors() const { return errors_ > 0; }

@@ -185,9 +185,11 @@ Value BuiltinFunctions::within() const {
   if (!number(0) || !number(1) || !number(2)) return failed();
   for (const std::size_t bound : {1, 2})
     if (value(bound).dimension != value(0).dimension) return mismatched(bound, 0);
-  for (const std::size_t each : {0, 1, 2}) checker.ask_of(value(each).x);
+  using Question = WrittenOut::Question;
+  for (const std::size_t bound : {1, 2}) checker.ask_of(value(bound).x);
   const auto known = constant_value(terms(), value(0).x);
   const auto low = constant_value(terms(), value(1).x), high = constant_value(terms(), value(2).x);
+  if (low && high) checker.ask({Question::About::range, value(0).x, *low, *high});
   if (known && low && high && !(*known >= *low && *known <= *high)) {
     const std::string unit = checker.names().unit(value(0).dimension);
     const std::string suffix = unit.empty() ? "" : " " + unit;
@@ -215,7 +217,7 @@ Value BuiltinFunctions::gradient() const {
 
 Value BuiltinFunctions::peak() const {
   if (!number(0)) return failed();
-  checker.ask_of(value(0).x);
+  checker.ask({WrittenOut::Question::About::change, value(0).x});
   if (const auto dependence = terms().dependence(value(0).x); dependence.changing())
     return checker.report(
         Code::wrong_rate, actuals[0].span,

@@ -34,8 +34,13 @@ Advice ExpressionChecker::spelling_mend(const Word& word, const Scope* scope, bo
   return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
 }
 
-bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
-                                       const std::vector<std::string_view>& formals, Scope& scope,
+std::vector<std::string> ExpressionChecker::Formals::spellings() const {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < size_; ++i) all.emplace_back((*this)[i]);
+  return all;
+}
+
+bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call, const Formals& formals, Scope& scope,
                                        std::vector<Actual>& actuals) {
   actuals.assign(formals.size(), {});
   bool good = true;
@@ -45,12 +50,12 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
     const Value value = check(tree, argument.value, scope);
     std::size_t index = position;
     if (argument.name) {
-      index = static_cast<std::size_t>(std::ranges::find(formals, argument.name->text) - formals.begin());
+      index = formals.find(argument.name->text);
       if (index == formals.size()) {
         report(Code::unknown_argument, argument.name->span,
                fmt::format("`{}` takes no argument `{}`", call.callee.text, argument.name->text), "",
-               did_you_mean(argument.name->span, argument.name->text, {formals.begin(), formals.end()},
-                            fmt::format("it takes: {}", fmt::join(formals, ", "))));
+               did_you_mean(argument.name->span, argument.name->text, formals.spellings(),
+                            fmt::format("it takes: {}", fmt::join(formals.spellings(), ", "))));
         good = false;
         continue;
       }
@@ -61,7 +66,8 @@ bool ExpressionChecker::bind_arguments(const SyntaxTree& tree, const Call& call,
                fmt::format("`{}` takes {} argument{}, and this is one more", call.callee.text, formals.size(),
                            formals.size() == 1 ? "" : "s"),
                "",
-               formals.empty() ? "write it without arguments" : fmt::format("it takes: {}", fmt::join(formals, ", ")));
+               formals.size() == 0 ? "write it without arguments"
+                                   : fmt::format("it takes: {}", fmt::join(formals.spellings(), ", ")));
         good = false;
         continue;
       }
@@ -163,16 +169,14 @@ Value ExpressionChecker::call_function(const SyntaxTree& tree, ExprId expr, cons
   const auto& parameters = function.node->parameters;
   const OpenFrame open(*this);
   Frame& frame = *open;
-  auto& formals = frame.formals;
   const auto& actuals = frame.actuals;
-  formals.clear();
-  for (const auto& parameter : parameters) formals.push_back(parameter.name.text);
+  const Formals formals = parameters;
   const bool bound = bind_arguments(tree, call, formals, scope, frame.actuals);
   bool good = bound;
   for (std::size_t i = 0; i < formals.size(); ++i) {
     if (!actuals[i].given && !parameters[i].default_value && bound) {
       report(Code::missing_argument, span, fmt::format("`{}` needs its argument `{}`", call.callee.text, formals[i]),
-             "", fmt::format("it takes: {}", fmt::join(formals, ", ")));
+             "", fmt::format("it takes: {}", fmt::join(formals.spellings(), ", ")));
       good = false;
     }
     const auto dimension = dimension_of(parameters[i], *function.home);
@@ -202,21 +206,17 @@ Value ExpressionChecker::call_with(const Declared<FunctionDecl>& function, std::
   return expanded(function, *open, scope, span);
 }
 
-/// The function's body with the frame's actual arguments.
+/// The function's body with the frame's actual arguments; gives those that are missing their defaults.
 Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, Frame& frame, const Scope& scope, Span span) {
   const auto& declaration = *function.node;
-  const std::vector<Actual>& actuals = frame.actuals;
-  Scope& inner = frame.names;
-  inner.clear();
-  inner.hand = scope.hand;
   bool good = true;
   const auto* outside_names = std::exchange(declarations_, function.home);
-  for (std::size_t i = 0; i < actuals.size(); ++i) {
+  for (std::size_t i = 0; i < frame.actuals.size(); ++i) {
     const auto& formal = declaration.parameters[i];
-    Value value = actuals[i].value;
-    if (!actuals[i].given) {
+    Value& value = frame.actuals[i].value;
+    if (!frame.actuals[i].given) {
       Scope defaults;
-      defaults.hand = inner.hand;
+      defaults.hand = scope.hand;
       value = check(*function.tree, *formal.default_value, defaults);
       value.span = span;
     }
@@ -230,8 +230,7 @@ Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, Frame&
     }
     if (formal.name.text == "period" && value.type == Value::Type::number &&
         value.dimension == declarations_->dimension("length"))
-      periods_.push_back({value.x, blame(actuals[i].given ? actuals[i].span : span)});
-    inner.declare(formal.name.text, value, formal.name.span);
+      periods_.push_back({value.x, blame(frame.actuals[i].given ? frame.actuals[i].span : span)});
     good = good && !value.failed();
   }
   Value result = failed(span);
@@ -239,18 +238,24 @@ Value ExpressionChecker::expanded(const Declared<FunctionDecl>& function, Frame&
     enter_call(span);
     callees_.push_back({declaration.name.text});
     deepest_ = std::max(deepest_, callees_.size());
-    result = body(function, frame);
+    result = body(function, frame, scope.hand);
     leave_call();
     callees_.pop_back();
   }
   declarations_ = outside_names;
   result.span = span;
-  if (!result.failed()) record_carrier(declaration, inner, result, span);
+  if (!result.failed()) record_carrier(declaration, frame.actuals, result, span);
   return result;
 }
 
-void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span) {
+void ExpressionChecker::record_carrier(const FunctionDecl& function, const std::vector<Actual>& actuals,
+                                       const Value& result, Span span) {
   if (result.type != Value::Type::vector) return;
+  const auto actual = [&](std::string_view name) -> const Value* {
+    for (std::size_t i = actuals.size(); i-- > 0;)  // of two formals with one name, which is an error, the last
+      if (function.parameters[i].name.text == name) return &actuals[i].value;
+    return nullptr;
+  };
   // A function with an argument that may be left open renders a percept: that argument is the carrier's size.
   for (const auto& formal : function.parameters) {
     if (!formal.default_value) continue;
@@ -263,7 +268,7 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
     surroundings_.declarations.percepts.each(
         [&](const std::string&, const Percept& percept) { renders = renders || is_carrier(percept.carrier); });
     if (!renders) continue;
-    const Value& size = formals.at(formal.name.text).value;
+    const Value& size = *actual(formal.name.text);
     Carrier carrier{.name = fmt::format("{} {}", words[0], words[1]),
                     .size = size.x,
                     .open = terms_[size.x].kind == TermKind::open,
@@ -274,22 +279,22 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, Scope& form
                     .span = blame(span),
                     .size_span = blame(size.span)};
     ask_of(size.x);
-    const auto* height = formals.find("height");
-    if (height) ask_of(height->value.x);
+    const Value* height = actual("height");
+    if (height) ask_of(height->x);
     if (const auto fixed = carrier.open ? std::nullopt : constant_value(terms_, size.x); fixed && *fixed < 0) {
       if (!height) continue;  // what pushes along with the motion, or away, is nothing that a percept tells of
       report(Code::value_out_of_range, span, fmt::format("`{}` is less than nothing", formal.name.text), "",
              "give its size; to push the other way, turn the height around with a minus");
       continue;
     }
-    if (height && !terms_.dependence(height->value.x).on(Dependence::position)) {
+    if (height && !terms_.dependence(height->x).on(Dependence::position)) {
       report(Code::flat_height, span, "this height is the same everywhere, and a flat height pushes nothing", "",
              "let it change with `x` or `y`, as in `grating(x, period: 2.5 mm)`");
       continue;
     }
     if (height) {
-      carrier.relief = height->value.x;
-      carrier.relief_dimension = height->value.dimension;
+      carrier.relief = height->x;
+      carrier.relief_dimension = height->dimension;
     }
     carriers_.push_back(carrier);
   }

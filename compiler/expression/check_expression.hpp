@@ -90,13 +90,33 @@ class ExpressionChecker {
     friend bool operator==(const Callee&, const Callee&) = default;
   };
 
-  /// What a call works with: its arguments, what the function calls them, and the names that its body sees.
+  /// What a function calls its arguments.
+  class Formals {
+   public:
+    Formals(const std::vector<std::string_view>& names) : size_(names.size()), names_(names.data()) {}
+    Formals(const std::vector<FormalParameter>& parameters)
+        : size_(parameters.size()), parameters_(parameters.data()) {}
+
+    std::size_t size() const { return size_; }
+    std::string_view operator[](std::size_t i) const { return names_ ? names_[i] : parameters_[i].name.text; }
+    /// The place of that name, or the size.
+    std::size_t find(std::string_view name) const {
+      std::size_t i = 0;
+      while (i < size_ && (*this)[i] != name) ++i;
+      return i;
+    }
+    [[gnu::cold]] std::vector<std::string> spellings() const;
+
+   private:
+    std::size_t size_;
+    const std::string_view* names_ = nullptr;
+    const FormalParameter* parameters_ = nullptr;
+  };
+
+  /// What a call works with: its arguments, and the names that the function's body sees when it is read.
   struct Frame {
-    std::vector<std::string_view> formals;
     std::vector<Actual> actuals;
     Scope names;
-    std::vector<WrittenOut::Kind> kinds;  ///< of the names
-    std::vector<TermId> parts;            ///< that the names stand for
   };
   /// A frame while a call is read. It is used again for later calls: nearly everything in an expression is a call.
   class OpenFrame {
@@ -128,7 +148,7 @@ class ExpressionChecker {
                       Scope& scope);
   Value call_field(const SyntaxTree& tree, ExprId expr, const Call& call, const Value& field, Scope& scope);
   Value curve(const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope);
-  Value unknown_function(const Call& call, Scope& scope);
+  [[gnu::cold]] Value unknown_function(const Call& call, Scope& scope);
   bool may_expand(std::string_view name, Span callee, Span span);
   std::optional<Dimension> dimension_of(const FormalParameter& formal, const Declarations& home) const;
   std::uint32_t add_table(HeightTable table);
@@ -136,23 +156,25 @@ class ExpressionChecker {
   std::optional<Value> constant_named(const Word& word);
   std::optional<Value> part_of_vector(const Word& word, Scope& scope);
   bool has_meaning(std::string_view name, const Scope& scope) const;
-  bool bind_arguments(const SyntaxTree& tree, const Call& call, const std::vector<std::string_view>& formals,
-                      Scope& scope, std::vector<Actual>& actuals);
+  bool bind_arguments(const SyntaxTree& tree, const Call& call, const Formals& formals, Scope& scope,
+                      std::vector<Actual>& actuals);
   Value expanded(const Declared<FunctionDecl>& function, Frame& frame, const Scope& scope, Span span);
   // written_out.cpp: bodies that are the same in all materials
   using Traces = std::array<std::size_t, 8>;
   Traces traces() const;  ///< how much reading expressions has left behind, besides terms
-  Value body(const Declared<FunctionDecl>& function, Frame& frame);
-  static bool list_parts(Frame& frame);
+  Value body(const Declared<FunctionDecl>& function, Frame& frame, bool hand);
+  bool list_parts(const std::vector<Actual>& actuals);
+  bool answers(const std::vector<WrittenOut::Question>& questions);
   bool write_out(TermId first, std::size_t first_asked, const std::vector<TermId>& parts, const Value& result,
                  WrittenOut& body) const;
-  Value written(const WrittenOut& body, const std::vector<TermId>& parts);
-  /// What comes out does not only depend on what the term is made of, but on what it is worth.
-  void ask_of(TermId term) {
-    if (writing_out_ > 0) asked_.push_back(term);
+  Value written(const WrittenOut& body);
+  /// What comes out does not only depend on what the term is made of, but on the answer.
+  void ask(const WrittenOut::Question& question) {
+    if (writing_out_ > 0) asked_.push_back(question);
   }
+  void ask_of(TermId term) { ask({WrittenOut::Question::About::worth, term}); }
 
-  void record_carrier(const FunctionDecl& function, Scope& formals, const Value& result, Span span);
+  void record_carrier(const FunctionDecl& function, const std::vector<Actual>& actuals, const Value& result, Span span);
 
   Value add_or_compare(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
                        Span span);
@@ -161,18 +183,18 @@ class ExpressionChecker {
   Value raise(const Value& base, const Value& exponent, Span span);
 
   Value failed(Span span) const;
-  Value report(Code code, Span span, std::string message, std::string label = {}, Advice advice = "");
-  void say(Diagnostic diagnostic);
-  void report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value,
-                        const Dimension& expected);
-  Advice dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
-                        const Dimension& found);
-  Advice factor_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
-                     const Dimension& ratio);
-  Advice spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise);
-  Value ambiguous_unit(const Word& word, Span declared);
-  void mismatched_sides(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right, Scope& scope,
-                        Span span);
+  [[gnu::cold]] Value report(Code code, Span span, std::string message, std::string label = {}, Advice advice = "");
+  [[gnu::cold]] void say(Diagnostic diagnostic);
+  [[gnu::cold]] void report_dimension(const SyntaxTree& tree, ExprId expr, Scope& scope, const Value& value,
+                                      const Dimension& expected);
+  [[gnu::cold]] Advice dimension_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
+                                      const Dimension& found);
+  [[gnu::cold]] Advice factor_mend(const SyntaxTree& tree, ExprId expr, Scope& scope, const Dimension& expected,
+                                   const Dimension& ratio);
+  [[gnu::cold]] Advice spelling_mend(const Word& word, const Scope* scope, bool functions, Advice otherwise);
+  [[gnu::cold]] Value ambiguous_unit(const Word& word, Span declared);
+  [[gnu::cold]] void mismatched_sides(const SyntaxTree& tree, const Binary& node, const Value& left, const Value& right,
+                                      Scope& scope, Span span);
   /// A definition is read because it is used at `span`: what it adds from another file comes from the outermost use,
   /// unless all that this checker reads is attributed to some place already.
   void enter_call(Span span) {
@@ -187,8 +209,9 @@ class ExpressionChecker {
   /// Where to point: inside a function of another file, at the call that led there.
   Span blame(Span span) const { return call_sites_.empty() || at_home(span) ? span : call_sites_.front(); }
   bool at_home(Span span) const { return !call_sites_.empty() && span.source == call_sites_.front().source; }
-  std::string inside(Span span) const;       ///< " (inside `grating`)", where the place does not say so
-  std::string called_from(Span span) const;  ///< "called on line 12", for a place inside a function of the same file
+  [[gnu::cold]] std::string inside(Span span) const;  ///< " (inside `grating`)", where the place does not say so
+  [[gnu::cold]] std::string called_from(
+      Span span) const;  ///< "called on line 12", for a place inside a function of the same file
   const DimensionNames& names() const { return declarations_->names(); }
   const Unit* unit(const NameKey& name) const { return declarations_->units.find(name); }
 
@@ -210,10 +233,12 @@ class ExpressionChecker {
   std::vector<Callee> callees_;
   std::vector<std::unique_ptr<const Field>> fields_;  ///< that values point to
   std::vector<std::unique_ptr<Frame>> frames_;
-  std::size_t open_frames_ = 0;  ///< the first of `frames_`
-  std::size_t writing_out_ = 0;  ///< bodies within one another
-  std::vector<TermId> asked_;    ///< while they are
-  std::size_t deepest_ = 0;      ///< how many callees there have been at a time since one of them began
+  std::size_t open_frames_ = 0;              ///< the first of `frames_`
+  std::size_t writing_out_ = 0;              ///< bodies within one another
+  std::vector<WrittenOut::Question> asked_;  ///< while they are
+  std::vector<WrittenOut::Kind> kinds_;      ///< of the arguments of the call that is read
+  std::vector<TermId> parts_;                ///< that they consist of
+  std::size_t deepest_ = 0;                  ///< how many callees there have been at a time since one of them began
 };
 
 /// What makes a value change while the hand rests, in words.

@@ -1,6 +1,9 @@
 #include "compiler/expression/written_out.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -10,6 +13,13 @@
 namespace wale {
 
 namespace {
+
+/// Whether two terms that stand alone come to the same.
+bool is_same(const Term& one, const Term& other) {
+  return one.kind == other.kind && one.operation == other.operation && one.a == other.a && one.b == other.b &&
+         one.c == other.c && one.index == other.index &&
+         std::bit_cast<std::uint64_t>(one.value) == std::bit_cast<std::uint64_t>(other.value);
+}
 
 /// Whether a term is the same in every material, but for its operands.
 bool stands_alone(const Term& term) {
@@ -56,21 +66,32 @@ ExpressionChecker::Traces ExpressionChecker::traces() const {
           tables_.size()};
 }
 
-/// The value of a function's body, of which the frame's names are the arguments.
-Value ExpressionChecker::body(const Declared<FunctionDecl>& function, Frame& frame) {
-  const auto read = [&] { return check(*function.tree, function.node->body, frame.names); };
+/// The value of a function's body with the frame's actual arguments, which are all there.
+Value ExpressionChecker::body(const Declared<FunctionDecl>& function, Frame& frame, bool hand) {
+  const FunctionDecl& declaration = *function.node;
+  const auto read = [&] {
+    frame.names.clear();
+    frame.names.hand = hand;
+    frame.names.reserve(frame.actuals.size());
+    for (std::size_t i = 0; i < frame.actuals.size(); ++i)
+      frame.names.declare(declaration.parameters[i].name.text, frame.actuals[i].value,
+                          declaration.parameters[i].name.span);
+    return check(*function.tree, declaration.body, frame.names);
+  };
   WrittenOutFunctions* const known = surroundings_.written_out;
   // Terms of what every file knows come from where the author calls it, wherever in the body they are written.
   const auto place = terms_.attributed();
   const bool is_author = place && place->source < first_embedded_source;
-  if (!known || !known->covers(function) || !is_author || !list_parts(frame)) return read();
+  if (!known || !known->covers(function) || !is_author || !list_parts(frame.actuals)) return read();
 
-  if (const WrittenOut* found = known->find(*function.node, frame.kinds, frame.names.hand)) {
+  if (const WrittenOut* found = known->find(declaration, kinds_, hand)) {
     const bool fits =
-        terms_.size() + found->steps.size() <= most_terms && callees_.size() - 1 + found->depth <= deepest_call;
-    return found->always_alike && fits ? written(*found, frame.parts) : read();
+        terms_.size() + found->terms.size() <= most_terms && callees_.size() - 1 + found->depth <= deepest_call;
+    return found->always_alike && fits && answers(found->questions) ? written(*found) : read();
   }
   // What is read now is written out; so may be a call that it stands in.
+  const std::vector<TermId> parts = parts_;
+  WrittenOut body{.arguments = kinds_, .hand = hand};
   const Traces before = traces();
   const auto first = static_cast<TermId>(terms_.size());
   const std::size_t first_asked = asked_.size(), depth = callees_.size();
@@ -78,26 +99,39 @@ Value ExpressionChecker::body(const Declared<FunctionDecl>& function, Frame& fra
   ++writing_out_;
   const Value result = read();
   if (!result.failed()) {
-    WrittenOut body{.arguments = frame.kinds, .hand = frame.names.hand, .depth = deepest_ - depth + 1};
-    body.always_alike = traces() == before && write_out(first, first_asked, frame.parts, result, body);
-    known->keep(*function.node, std::move(body));
+    body.depth = deepest_ - depth + 1;
+    body.always_alike = traces() == before && write_out(first, first_asked, parts, result, body);
+    known->keep(declaration, std::move(body));
   }
   deepest_ = std::max(deepest_, deepest_before);
   if (--writing_out_ == 0) asked_.clear();
   return result;
 }
 
-/// What kinds of arguments they are, and the terms that they consist of; false where that is not all there is to them.
-bool ExpressionChecker::list_parts(Frame& frame) {
-  frame.kinds.clear();
-  frame.parts.clear();
-  for (const auto& binding : frame.names.bindings()) {
-    const Value& value = binding.value;
+/// Leaves in `kinds_` what kinds of arguments they are, and in `parts_` the terms that they consist of; false where
+/// that is not all there is to them.
+bool ExpressionChecker::list_parts(const std::vector<Actual>& actuals) {
+  kinds_.clear();
+  parts_.clear();
+  for (const auto& [value, span, given] : actuals) {
     const bool vector = value.type == Value::Type::vector;
     if (!vector && value.type != Value::Type::number && value.type != Value::Type::boolean) return false;
-    frame.kinds.push_back({value.type, value.dimension});
-    frame.parts.push_back(value.x);
-    if (vector) frame.parts.push_back(value.y);
+    kinds_.push_back({value.type, value.dimension});
+    parts_.push_back(value.x);
+    if (vector) parts_.push_back(value.y);
+  }
+  return true;
+}
+
+/// Whether the parts answer no to all of them. Whoever is being written out asks the same of its own arguments.
+bool ExpressionChecker::answers(const std::vector<WrittenOut::Question>& questions) {
+  for (WrittenOut::Question each : questions) {
+    each.term = parts_[each.term];
+    const Term& term = terms_[each.term];
+    if (each.about == WrittenOut::Question::About::change ? term.dependence.changing()
+                                                          : term.known() && !each.admits(term.value))
+      return false;
+    ask(each);
   }
   return true;
 }
@@ -106,52 +140,82 @@ bool ExpressionChecker::list_parts(Frame& frame) {
 /// something has asked what an argument is worth, or they use what is neither of the body nor an argument.
 bool ExpressionChecker::write_out(TermId first, std::size_t first_asked, const std::vector<TermId>& parts,
                                   const Value& result, WrittenOut& body) const {
+  using Origins = std::uint64_t;  // the parts of arguments that something depends on, a bit each
+  const bool vector = result.type == Value::Type::vector;
+  if (!vector && result.type != Value::Type::number && result.type != Value::Type::boolean) return false;
+  if (parts.size() > std::numeric_limits<Origins>::digits) return false;
   body.parts = parts.size();
-  const auto number_of = [&](TermId id) -> std::optional<TermId> {
-    if (id >= first) return static_cast<TermId>(id - first + parts.size());
+  std::vector<bool> used(terms_.size() - first);  // of the terms from `first` on, as are the next two
+  std::vector<Origins> origins;
+  std::vector<TermId> numbers;
+  const auto use = [&](TermId id) {
+    if (id >= first) used[id - first] = true;
+  };
+  use(result.x);
+  if (vector) use(result.y);
+  for (std::size_t i = used.size(); i-- > 0;)
+    if (used[i])
+      for (const TermId operand : operands(terms_[static_cast<TermId>(first + i)])) use(operand);
+  const auto part_of = [&](TermId id) -> std::optional<TermId> {
     if (std::ranges::count(parts, id) != 1) return std::nullopt;  // of two arguments that are the same, either
     return static_cast<TermId>(std::ranges::find(parts, id) - parts.begin());
   };
-  std::vector<bool> of_arguments;  // whether the term of the body depends on any
+  const auto number_of = [&](TermId id) { return id >= first ? std::optional(numbers[id - first]) : part_of(id); };
+  const auto origins_of = [&](TermId id) -> std::optional<Origins> {
+    if (id >= first) return origins[id - first];
+    const auto part = part_of(id);
+    return part ? std::optional(Origins{1} << *part) : std::nullopt;
+  };
+
   for (TermId id = first; id < terms_.size(); ++id) {
-    if (!stands_alone(terms_[id])) return false;
-    const TermOperands used = operands(terms_[id]);
-    WrittenOut::Step step{terms_[id], used.size()};
-    step.term.span = {};
-    if (step.term.kind != TermKind::literal) step.term.value = 0;
-    bool depends = false;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      const auto number = number_of(used[i]);
-      if (!number) return false;
-      (i == 0 ? step.term.a : i == 1 ? step.term.b : step.term.c) = *number;
-      depends = depends || *number < parts.size() || of_arguments[*number - parts.size()];
+    Term term = terms_[id];
+    if (!stands_alone(term)) return false;
+    Origins all = 0;
+    TermId* const places[] = {&term.a, &term.b, &term.c};
+    for (std::size_t i = 0; i < term.operands; ++i) {
+      const auto number = number_of(*places[i]);
+      const auto origin = origins_of(*places[i]);
+      if (!number || !origin) return false;
+      *places[i] = *number;
+      all |= *origin;
     }
-    of_arguments.push_back(depends);
-    body.steps.push_back(step);
+    origins.push_back(all);
+    numbers.push_back(0);
+    if (!used[id - first]) continue;  // an exponent that has become products
+    term.span = {};
+    if (term.kind != TermKind::literal) term.value = 0;
+    const auto same = std::ranges::find_if(body.terms, [&](const Term& other) { return is_same(term, other); });
+    numbers.back() = static_cast<TermId>(parts.size() + static_cast<std::size_t>(same - body.terms.begin()));
+    if (same == body.terms.end()) body.terms.push_back(term);
   }
-  for (std::size_t i = first_asked; i < asked_.size(); ++i)
-    if (asked_[i] < first || of_arguments[asked_[i] - first]) return false;
-  const bool vector = result.type == Value::Type::vector;
-  if (!vector && result.type != Value::Type::number && result.type != Value::Type::boolean) return false;
+
+  for (std::size_t i = first_asked; i < asked_.size(); ++i) {
+    WrittenOut::Question question = asked_[i];
+    const auto origin = origins_of(question.term);
+    if (!origin) return false;
+    if (*origin == 0) continue;
+    const bool of_part = question.term < first;
+    if (question.about == WrittenOut::Question::About::worth) return false;
+    if (question.about == WrittenOut::Question::About::range && !of_part) return false;
+    // What changes does so because of something that it is made from.
+    for (TermId part = 0; part < parts.size(); ++part) {
+      if ((*origin >> part & 1) == 0) continue;
+      question.term = part;
+      if (std::ranges::find(body.questions, question) == body.questions.end()) body.questions.push_back(question);
+    }
+  }
   const auto x = number_of(result.x), y = vector ? number_of(result.y) : TermId{0};
   if (!x || !y) return false;
   body.result = {.type = result.type, .x = *x, .y = *y, .dimension = result.dimension};
   return true;
 }
 
-/// A body that is known, with these parts of arguments.
-Value ExpressionChecker::written(const WrittenOut& body, const std::vector<TermId>& parts) {
-  const auto first = static_cast<TermId>(terms_.size());
+/// A body that is known, with the parts of arguments that have been listed.
+Value ExpressionChecker::written(const WrittenOut& body) {
+  const TermId first = terms_.add(body.terms, parts_);
   const auto here = [&](TermId number) {
-    return number < body.parts ? parts[number] : static_cast<TermId>(first + (number - body.parts));
+    return number < body.parts ? parts_[number] : static_cast<TermId>(first + (number - body.parts));
   };
-  for (const auto& [term, operands] : body.steps) {
-    Term own = term;
-    if (operands > 0) own.a = here(term.a);
-    if (operands > 1) own.b = here(term.b);
-    if (operands > 2) own.c = here(term.c);
-    terms_.add(own);
-  }
   deepest_ = std::max(deepest_, callees_.size() - 1 + body.depth);
   Value result = body.result;
   result.x = here(result.x);

@@ -19,11 +19,19 @@ struct WrittenOut {
 
     friend bool operator==(const Kind&, const Kind&) = default;
   };
-  /// The first operands of a term may be parts of arguments, numbered from 0 on (a vector has two), or else terms of
-  /// the body: the first of them has the number `parts`.
-  struct Step {
-    Term term;
-    std::size_t operands = 0;
+  /// What reading a body asks of a term besides what it is made of.
+  struct Question {
+    enum class About {
+      worth,   ///< anything
+      change,  ///< whether it changes while the hand rests, which would be an error
+      range,   ///< whether it is known and not in low .. high, which would be one
+    };
+    About about = About::worth;
+    TermId term = 0;
+    double low = 0, high = 0;
+
+    bool admits(double value) const { return value >= low && value <= high; }
+    friend bool operator==(const Question&, const Question&) = default;
   };
 
   std::vector<Kind> arguments;
@@ -31,10 +39,12 @@ struct WrittenOut {
   /// Whether there is anything to go by: a body whose terms depend on what the arguments are worth, or that leaves more
   /// behind than terms, is read anew at each call.
   bool always_alike = false;
-  std::size_t parts = 0;  ///< of all arguments
-  std::vector<Step> steps;
-  Value result;           ///< of terms that are numbered likewise
-  std::size_t depth = 0;  ///< how deep the functions are that it calls, 1 where there are none
+  /// To be answered by no, or else it is read anew; of parts of arguments, numbered from 0 on (a vector has two).
+  std::vector<Question> questions;
+  std::size_t parts = 0;    ///< of all arguments
+  std::vector<Term> terms;  ///< each once, their operands numbered as `Terms::add` takes them
+  Value result;             ///< of terms that are numbered likewise
+  std::size_t depth = 0;    ///< how deep the functions are that it calls, 1 where there are none
 };
 
 /// The bodies of the functions that every file knows, written out once for each kind of arguments that they are called

@@ -69,7 +69,22 @@ constexpr auto own_dependence = [] {
 }  // namespace
 
 inline void Terms::find_dependence(Term& term) const {
+  if (term.kind == TermKind::operation) {  // as most are
+    const auto number = static_cast<std::size_t>(term.operation);
+    const int count = operation_table[number].operands;
+    Dependence all = own_dependence[number];
+    if (count > 0) all |= dependence(term.a);
+    if (count > 1) all |= dependence(term.b);
+    if (count > 2) all |= dependence(term.c);
+    term.dependence = all;
+    term.operands = static_cast<std::uint8_t>(count);
+    // What the operation does not take is 0, which is some term too.
+    if (all.known())
+      term.value = result_in_double(term.operation, terms_[term.a].value, terms_[term.b].value, terms_[term.c].value);
+    return;
+  }
   switch (term.kind) {
+    case TermKind::operation:
     case TermKind::literal: term.dependence = {}; return;
     case TermKind::input: term.dependence = dependence_of_input(term.input()); return;
     case TermKind::state: term.dependence = Dependence::state; return;
@@ -78,20 +93,6 @@ inline void Terms::find_dependence(Term& term) const {
     case TermKind::magnitude:
     case TermKind::carrier: term.dependence = Dependence::parameter; return;
     case TermKind::open: term.dependence = Dependence::open | Dependence::parameter; return;
-    case TermKind::operation: {
-      const auto number = static_cast<std::size_t>(term.operation);
-      const int count = operation_table[number].operands;
-      Dependence all = own_dependence[number];
-      if (count > 0) all |= dependence(term.a);
-      if (count > 1) all |= dependence(term.b);
-      if (count > 2) all |= dependence(term.c);
-      term.dependence = all;
-      term.operands = static_cast<std::uint8_t>(count);
-      // What the operation does not take is 0, which is some term too.
-      if (all.known())
-        term.value = result_in_double(term.operation, terms_[term.a].value, terms_[term.b].value, terms_[term.c].value);
-      return;
-    }
     case TermKind::component:
     case TermKind::gradient:
       term.dependence = dependence(term.a);
@@ -146,6 +147,24 @@ TermId Terms::apply(Operation operation, TermId a, TermId b, Span span) {
 
 TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span) {
   return add({.kind = TermKind::operation, .operation = operation, .a = a, .b = b, .c = c, .span = span});
+}
+
+TermId Terms::add(std::span<const Term> body, std::span<const TermId> parts) {
+  const auto first = static_cast<TermId>(terms_.size());
+  const auto operand = [&](TermId number) {
+    return number < parts.size() ? parts[number] : static_cast<TermId>(first + (number - parts.size()));
+  };
+  terms_.insert(terms_.end(), body.begin(), body.end());
+  for (std::size_t id = first; id < terms_.size(); ++id) {
+    Term& term = terms_[id];
+    if (place_) term.span = *place_;
+    if (term.operands == 0) continue;  // nothing else is left to be found
+    term.a = operand(term.a);
+    if (term.operands > 1) term.b = operand(term.b);
+    if (term.operands > 2) term.c = operand(term.c);
+    find_dependence(term);
+  }
+  return first;
 }
 
 TermId Terms::append(const Terms& others) {

@@ -19,18 +19,6 @@ struct Spelling {
   TokenKind kind;
 };
 
-constexpr Spelling reserved_words[] = {
-    {"if", TokenKind::word_if},   {"then", TokenKind::word_then}, {"else", TokenKind::word_else},
-    {"in", TokenKind::word_in},   {"on", TokenKind::word_on},     {"from", TokenKind::word_from},
-    {"and", TokenKind::word_and}, {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
-};
-
-constexpr std::size_t longest_reserved_word = [] {
-  std::size_t longest = 0;
-  for (const Spelling& each : reserved_words) longest = std::max(longest, each.text.size());
-  return longest;
-}();
-
 /// Spellings that begin alike stand together, the longer ones first, so that `<=` is not read as `<` and `=`.
 constexpr Spelling punctuation[] = {
     {"..", TokenKind::range},
@@ -70,31 +58,62 @@ constexpr auto first_spelling = [] {
   return first;
 }();
 
-/// By first byte: whether a reserved word begins with it.
-constexpr auto begins_reserved_word = [] {
-  std::array<bool, 256> table{};
-  for (const Spelling& each : reserved_words) table[static_cast<unsigned char>(each.text.front())] = true;
+/// By byte: what it is where no other spelling begins with it; `unreadable` of the others. One that a lookalike begins
+/// with must not be doubled.
+constexpr auto lone_symbols = [] {
+  std::array<TokenKind, 256> table{};
+  table.fill(TokenKind::unreadable);
+  for (const Spelling& each : punctuation) {
+    const char first = each.text.front();
+    const auto begins_so = [&](const Spelling& other) { return other.text.front() == first; };
+    if (each.text.size() == 1 && std::count_if(std::begin(punctuation), std::end(punctuation), begins_so) == 1)
+      table[static_cast<unsigned char>(first)] = each.kind;
+  }
   return table;
 }();
 
+/// By byte: whether a text that is what stands there goes no further: it ends, or a letter of it is written otherwise.
+constexpr auto ends_plain_text = [] {
+  std::array<bool, 256> table{};
+  for (const char c : {'"', '\\', '\n', '\0'}) table[static_cast<unsigned char>(c)] = true;
+  return table;
+}();
+
+/// A word of up to four letters as a number, to be compared at once.
+constexpr std::uint32_t packed(std::string_view word) {
+  std::uint32_t number = 0;
+  for (const char c : word) number = number << 8 | static_cast<unsigned char>(c);
+  return number;
+}
+
+/// What a word is: a name, or one of the words that cannot be names, all of which are short.
 TokenKind kind_of_word(std::string_view word) {
-  if (word.size() > longest_reserved_word || !begins_reserved_word[static_cast<unsigned char>(word.front())])
-    return TokenKind::name;
-  const auto found = std::ranges::find(reserved_words, word, &Spelling::text);
-  return found == std::end(reserved_words) ? TokenKind::name : found->kind;
+  if (word.size() > sizeof(std::uint32_t)) return TokenKind::name;
+  switch (packed(word)) {
+    case packed("if"): return TokenKind::word_if;
+    case packed("then"): return TokenKind::word_then;
+    case packed("else"): return TokenKind::word_else;
+    case packed("in"): return TokenKind::word_in;
+    case packed("on"): return TokenKind::word_on;
+    case packed("from"): return TokenKind::word_from;
+    case packed("and"): return TokenKind::word_and;
+    case packed("or"): return TokenKind::word_or;
+    case packed("not"): return TokenKind::word_not;
+    default: return TokenKind::name;
+  }
 }
 
 bool is_bracket(TokenKind kind) { return kind >= TokenKind::left_parenthesis && kind <= TokenKind::right_brace; }
 
 /// What a token can be that begins with a byte, so that each byte is asked about once.
-enum class Beginning : std::uint8_t { other, newline, name, number, slash, quote };
+enum class Beginning : std::uint8_t { other, name, number, symbol, slash, quote };
 constexpr auto beginnings = [] {
   std::array<Beginning, 256> table{};
   for (int c = 0; c < 128; ++c) {
+    if (lone_symbols[c] != TokenKind::unreadable) table[c] = Beginning::symbol;
     if (begins_name(static_cast<char>(c))) table[c] = Beginning::name;
     if (is_digit(static_cast<char>(c))) table[c] = Beginning::number;
   }
-  table['\n'] = Beginning::newline;
   table['/'] = Beginning::slash;
   table['"'] = Beginning::quote;
   return table;
@@ -102,11 +121,38 @@ constexpr auto beginnings = [] {
 
 }  // namespace
 
+bool continues(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::comma:
+    case TokenKind::equals:
+    case TokenKind::range:
+    case TokenKind::plus:
+    case TokenKind::minus:
+    case TokenKind::star:
+    case TokenKind::slash:
+    case TokenKind::caret:
+    case TokenKind::less:
+    case TokenKind::less_equal:
+    case TokenKind::greater:
+    case TokenKind::greater_equal:
+    case TokenKind::plus_minus:
+    case TokenKind::word_and:
+    case TokenKind::word_or:
+    case TokenKind::word_not:
+    case TokenKind::word_if:
+    case TokenKind::word_then:
+    case TokenKind::word_else: return true;
+    default: return false;
+  }
+}
+
 Tokens Lexer::run() {
   if (is_readable()) {
-    result_.tokens.reserve(text_.size() / 4);      // about as many as there are
+    result_.tokens.reserve(text_.size() / 4);  // about as many as there are
+    result_.numbers.reserve(text_.size() / 32);
+    result_.texts.reserve(text_.size() / 128);
     if (decode(text_, 0).code == 0xFEFF) at_ = 3;  // the byte order mark that some editors write
-    while (at_ < text_.size() && diagnostics_.all().size() < error_limit) next();
+    while (at_ < text_.size() && !is_full_) next();
   } else {
     at_ = text_.size();
   }
@@ -151,15 +197,20 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
 }
 
 void Lexer::next() {
-  while (here() == ' ') ++at_;
+  const char* at = text_.data() + at_;
+  for (; *at == ' ' || *at == '\n'; ++at) starts_line_ = starts_line_ || *at == '\n';
+  at_ = static_cast<std::size_t>(at - text_.data());
   if (at_ == text_.size()) return;
-  switch (beginnings[static_cast<unsigned char>(here())]) {
-    case Beginning::newline:
-      starts_line_ = true;
-      ++at_;
-      return;
+  switch (beginnings[static_cast<unsigned char>(*at)]) {
     case Beginning::name: return name();
-    case Beginning::number: return number();
+    case Beginning::number:
+      if (!plain_number()) number();
+      return;
+    case Beginning::symbol: {
+      const auto byte = static_cast<unsigned char>(here());
+      if (begins_lookalike[byte] && after() == here()) break;
+      return add_symbol(lone_symbols[byte], 1);
+    }
     case Beginning::quote: return text(1);
     case Beginning::slash:
       if (after() == '/') return line_comment();
@@ -204,6 +255,34 @@ void Lexer::block_comment() {
   }
   if (text_.substr(at_, end - at_).find('\n') != std::string_view::npos) starts_line_ = true;
   at_ = end + 2;
+}
+
+/// Takes a number that digits and perhaps a point are all of, as nearly all are; false where there is more to it.
+bool Lexer::plain_number() {
+  // Quotients of whole numbers below 2^53 and powers of ten up to 10^22 are rounded once, so they are exactly what
+  // from_chars makes of the digits.
+  constexpr std::size_t most_digits = 15;
+  constexpr double powers_of_ten[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                      1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const char* const begin = text_.data() + at_;
+  const char* end = begin;
+  std::uint64_t whole = 0;
+  const auto digits = [&] {
+    const char* const first = end;
+    for (; is_digit(*end); ++end) whole = 10 * whole + static_cast<std::uint64_t>(*end - '0');
+    return static_cast<std::size_t>(end - first);
+  };
+  std::size_t count = digits(), decimals = 0;
+  if (*end == '.' && is_digit(end[1])) {
+    ++end;
+    decimals = digits();
+    count += decimals;
+  }
+  if (count > most_digits || *end == '.' || *end == 'e' || *end == 'E' || *end == 'x') return false;
+  at_ += static_cast<std::size_t>(end - begin);
+  add(TokenKind::number, at_ - static_cast<std::size_t>(end - begin),
+      add_number(static_cast<double>(whole) / powers_of_ten[decimals]));
+  return true;
 }
 
 void Lexer::number() {
@@ -251,8 +330,9 @@ void Lexer::exponent() {
 void Lexer::name() {
   const std::size_t begin = at_;
   do {
-    ++at_;
-    while (continues_name(here())) ++at_;
+    const char* end = text_.data() + at_ + 1;
+    while (continues_name(*end)) ++end;
+    at_ = static_cast<std::size_t>(end - text_.data());
   } while (is_dot_in_name());
   if (here() < 0 && is_foreign_letter(decode(text_, at_).code)) {
     at_ = begin;
@@ -266,7 +346,7 @@ void Lexer::text(std::size_t quote_bytes) {
   const std::size_t begin = at_, inside = at_ + quote_bytes;
   const bool typographic = quote_bytes > 1;
   at_ = inside;
-  while (!typographic && here() != '"' && here() != '\\' && here() != '\n' && at_ < text_.size()) ++at_;
+  while (!typographic && !ends_plain_text[static_cast<unsigned char>(here())]) ++at_;
   if (typographic || here() != '"') return rewritten_text(begin, inside, typographic);
   ++at_;
   add_text(begin, text_.substr(inside, at_ - 1 - inside));  // as nearly always: what stands there
@@ -325,14 +405,24 @@ bool Lexer::symbol() {
     if (each.text.front() != first) break;
     if (each.text.size() > 1 && !starts(each.text)) continue;
     if ((each.kind == TokenKind::part_x || each.kind == TokenKind::part_y) && !is_part()) continue;
-    const std::size_t begin = at_;
-    at_ += each.text.size();
-    const auto index = static_cast<std::uint32_t>(result_.tokens.size());
-    add(each.kind, begin);
-    if (is_bracket(each.kind)) match_brackets(each.kind, index);
+    add_symbol(each.kind, each.text.size());
     return true;
   }
   return false;
+}
+
+void Lexer::add_symbol(TokenKind kind, std::size_t bytes) {
+  const auto index = static_cast<std::uint32_t>(result_.tokens.size());
+  at_ += bytes;
+  add(kind, at_ - bytes);
+  if (is_bracket(kind)) match_brackets(kind, index);
+}
+
+/// Whether a line that begins with such a token is not the rest of the one above.
+bool Lexer::is_statement_line(TokenKind kind) const {
+  // No statement begins with these, so they may also begin the second line of a long conditional.
+  if (kind == TokenKind::word_then || kind == TokenKind::word_else) return false;
+  return !result_.tokens.empty() && !continues(result_.tokens.back().kind);
 }
 
 /// Whether `.x` here is a part of what the parenthesis right before it closes.
@@ -389,6 +479,7 @@ void Lexer::report(Code code, std::size_t begin, std::size_t end, std::string me
                        .facts = std::move(facts),
                        .rule = std::move(rule),
                        .fixes = std::move(fixes)});
+  is_full_ = diagnostics_.all().size() >= error_limit;
 }
 
 Tokens lex(const SourceSet& sources, SourceId source, Diagnostics& diagnostics) {

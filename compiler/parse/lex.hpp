@@ -55,9 +55,20 @@ enum class TokenKind : std::uint8_t {
   unreadable,  ///< already reported; whatever needs it gives up silently
 };
 
+/// Whether a line that ends in such a token goes on in the next.
+bool continues(TokenKind kind);
+
+/// Whether a statement ends before a token.
+enum class StatementEnd : std::uint8_t {
+  no,
+  outside_parentheses,  ///< the token begins a line that is not the rest of the one above
+  yes,                  ///< `;`, `}` or the end of the file
+};
+
 struct Token {
   TokenKind kind = TokenKind::end;
-  bool starts_line = false;          ///< a newline stands before it
+  bool starts_line = false;  ///< a newline stands before it
+  StatementEnd ends_statement = StatementEnd::no;
   std::uint32_t begin = 0, end = 0;  ///< bytes of the source
   /// Of a number or text: its index in `numbers` or `texts`. Of a name: 0, or one more than the index of its corrected
   /// spelling in `texts`. Of a bracket: the token that closes it, or 0 when none does.

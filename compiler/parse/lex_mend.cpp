@@ -104,14 +104,6 @@ void Lexer::foreign_name() {
   add(TokenKind::name, begin);
 }
 
-/// By first byte: whether a lookalike may begin with it, as with any that is not ASCII.
-constexpr auto begins_lookalike = [] {
-  std::array<bool, 256> table{};
-  for (std::size_t byte = 0x80; byte < table.size(); ++byte) table[byte] = true;
-  for (const Lookalike& each : lookalikes) table[static_cast<unsigned char>(each.text.front())] = true;
-  return table;
-}();
-
 /// Lookalikes are not ASCII, or else doubled, or `!=`; the rest need not be held against all of them.
 bool Lexer::may_be_lookalike() const {
   const auto c = static_cast<unsigned char>(text_[at_]);

@@ -19,7 +19,7 @@ namespace wale {
 class Lexer {
  public:
   Lexer(const SourceSet& sources, SourceId source, Diagnostics& diagnostics)
-      : source_(source), diagnostics_(diagnostics) {
+      : source_(source), diagnostics_(diagnostics), is_full_(diagnostics.all().size() >= error_limit) {
     result_.source = sources.kept(source);
     text_ = result_.source->text;
   }
@@ -34,6 +34,7 @@ class Lexer {
   void line_comment();
   void block_comment();
   void number();
+  bool plain_number();
   void digits();
   void exponent();
   void name();
@@ -42,16 +43,24 @@ class Lexer {
   void text(std::size_t quote_bytes);
   void rewritten_text(std::size_t begin, std::size_t inside, bool typographic);
   char escape();
+  void add_symbol(TokenKind kind, std::size_t bytes);
   bool symbol();
   bool is_part() const;
   void match_brackets(TokenKind kind, std::uint32_t index);
   void add_text(std::size_t begin, std::string_view value);
   std::uint32_t add_number(double value);
-  void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
-    result_.tokens.push_back(
-        {kind, starts_line_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(at_), value});
+  [[gnu::always_inline]] inline void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
+    result_.tokens.push_back({kind, starts_line_, statement_end(kind), static_cast<std::uint32_t>(begin),
+                              static_cast<std::uint32_t>(at_), value});
     starts_line_ = false;
   }
+  /// Of a token of that kind here.
+  StatementEnd statement_end(TokenKind kind) const {
+    if (kind == TokenKind::end || kind == TokenKind::semicolon || kind == TokenKind::right_brace)
+      return StatementEnd::yes;
+    return starts_line_ && is_statement_line(kind) ? StatementEnd::outside_parentheses : StatementEnd::no;
+  }
+  [[gnu::noinline]] bool is_statement_line(TokenKind kind) const;
 
   // lex_mend.cpp: what is no token, and what was evidently meant
   std::vector<Fix> leading_zero(std::size_t begin) const;
@@ -80,12 +89,13 @@ class Lexer {
   Span span(std::size_t begin, std::size_t end) const {
     return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
   }
-  void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
-              std::vector<Fix> fixes = {}, std::vector<Fact> facts = {}, std::string rule = {});
+  [[gnu::cold]] void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
+                            std::vector<Fix> fixes = {}, std::vector<Fact> facts = {}, std::string rule = {});
 
   std::string_view text_;  ///< of `result_.source`
   SourceId source_;
   Diagnostics& diagnostics_;
+  bool is_full_;  ///< of errors: the rest is not read
   Tokens result_;
   std::size_t at_ = 0;
   bool starts_line_ = true;

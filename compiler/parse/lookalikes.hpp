@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "compiler/parse/lex.hpp"
@@ -39,6 +40,14 @@ inline constexpr Lookalike lookalikes[] = {
     {"‘", "a typographic quote", "`'`", TokenKind::prime},
     {"′", "a prime", "`'`", TokenKind::prime},
 };
+
+/// By first byte: whether one of them may begin with it, as with any that is not ASCII.
+inline constexpr auto begins_lookalike = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t byte = 0x80; byte < table.size(); ++byte) table[byte] = true;
+  for (const Lookalike& each : lookalikes) table[static_cast<unsigned char>(each.text.front())] = true;
+  return table;
+}();
 
 /// Characters that stand for an ASCII spelling of two tokens or of a name.
 struct Abbreviation {

@@ -62,6 +62,8 @@ SyntaxTree parse(const SourceSet& sources, SourceId source, Diagnostics& diagnos
   });
   tree.exprs.reserve(tokens.tokens.size() / 2);  // about as many as there are
   tree.expr_spans.reserve(tokens.tokens.size() / 2);
+  tree.suffix_factors.reserve(tokens.tokens.size() / 8);
+  tree.call_arguments.reserve(tokens.tokens.size() / 16);
   if (is_text && found.all().size() < error_limit) Parser(sources, tokens, tree, found).file();
   tree.text = tokens.source;
   tree.rewritten = tokens.rewritten;

@@ -6,31 +6,6 @@
 
 namespace wale {
 
-bool continues(TokenKind kind) {
-  switch (kind) {
-    case TokenKind::comma:
-    case TokenKind::equals:
-    case TokenKind::range:
-    case TokenKind::plus:
-    case TokenKind::minus:
-    case TokenKind::star:
-    case TokenKind::slash:
-    case TokenKind::caret:
-    case TokenKind::less:
-    case TokenKind::less_equal:
-    case TokenKind::greater:
-    case TokenKind::greater_equal:
-    case TokenKind::plus_minus:
-    case TokenKind::word_and:
-    case TokenKind::word_or:
-    case TokenKind::word_not:
-    case TokenKind::word_if:
-    case TokenKind::word_then:
-    case TokenKind::word_else: return true;
-    default: return false;
-  }
-}
-
 namespace {
 
 bool ends_value(TokenKind kind) {
@@ -44,13 +19,6 @@ bool Parser::is_word(std::size_t index, std::string_view word) const {
   const Token& candidate = token(index);
   return candidate.kind == TokenKind::name && candidate.end - candidate.begin == word.size() &&
          text_.substr(candidate.begin, word.size()) == word;
-}
-
-/// Whether the line that begins with the token is not the rest of the one above.
-bool Parser::line_ends_statement(std::size_t index) const {
-  // No statement begins with these, so they may also begin the second line of a long conditional.
-  if (kind(index) == TokenKind::word_then || kind(index) == TokenKind::word_else) return false;
-  return index > 0 && !continues(kind(index - 1));
 }
 
 /// Whether a line that begins at the token can only be a new statement. Asked where an expression is incomplete, so

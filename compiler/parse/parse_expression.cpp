@@ -13,7 +13,7 @@ namespace {
 struct InfixOperator {
   TokenKind token;
   BinaryOperator op;
-  int precedence;
+  int precedence = 0;  ///< of what is no infix operator
 };
 
 /// Higher binds tighter. `not` stands between `and` and the comparisons; a power binds tighter still, and to the right:
@@ -33,19 +33,12 @@ constexpr InfixOperator infix_operators[] = {
     {TokenKind::slash, BinaryOperator::divide, product_precedence},
 };
 
-/// By kind of token: where in `infix_operators` it is, or its size.
-constexpr auto infix_places = [] {
-  std::array<std::uint8_t, static_cast<std::size_t>(TokenKind::unreadable) + 1> places{};
-  places.fill(std::size(infix_operators));
-  for (std::size_t i = 0; i < std::size(infix_operators); ++i)
-    places[static_cast<std::size_t>(infix_operators[i].token)] = static_cast<std::uint8_t>(i);
-  return places;
+/// By kind of token.
+constexpr auto infix = [] {
+  std::array<InfixOperator, static_cast<std::size_t>(TokenKind::unreadable) + 1> table{};
+  for (const InfixOperator& each : infix_operators) table[static_cast<std::size_t>(each.token)] = each;
+  return table;
 }();
-
-const InfixOperator* infix(TokenKind kind) {
-  const std::size_t place = infix_places[static_cast<std::size_t>(kind)];
-  return place == std::size(infix_operators) ? nullptr : &infix_operators[place];
-}
 
 /// How well a number is known, where a declaration says so: these words are no units.
 constexpr std::string_view evidence_words[] = {"measured", "published",   "estimated",
@@ -78,20 +71,20 @@ ExprId Parser::operation(int least_precedence) {
   } else {
     left = signed_operand();
   }
-  while (!ends_statement(at_)) {
-    const InfixOperator* found = infix(here().kind);
-    if (found == nullptr || found->precedence < least_precedence || found->precedence > most_precedence) break;
+  for (;;) {
+    const InfixOperator& found = infix[static_cast<std::size_t>(here().kind)];
+    if (found.precedence == 0 || found.precedence < least_precedence || found.precedence > most_precedence) break;
+    if (ends_statement(at_)) break;
     advance();
-    const ExprId right = operation(found->precedence + 1);
-    left = add(Binary{found->op, left, right}, joined(tree_.span(left), tree_.span(right)), {left, right});
+    const ExprId right = operation(found.precedence + 1);
+    left = add(Binary{found.op, left, right}, joined(tree_.span(left), tree_.span(right)), {left, right});
     // `a < b < c` compares a truth with a number; nobody means that.
-    if (found->precedence <= comparison_precedence) most_precedence = conjunction_precedence;
+    if (found.precedence <= comparison_precedence) most_precedence = conjunction_precedence;
   }
   return left;
 }
 
-void Parser::nest() {
-  if (++nesting_ <= deepest_nesting) return;
+void Parser::nested_too_deep() {
   complain_at(Code::nested_too_deep, span_of(here()),
               fmt::format("an expression nested more than {} deep", deepest_nesting), {}, {},
               "name parts of it with `let`", {}, {}, limit_fact(deepest_nesting));
@@ -111,18 +104,20 @@ ExprId Parser::complement() {
 /// Everything else that nests passes through here, so this is where depth is counted.
 ExprId Parser::signed_operand() {
   nest();
-  const std::size_t begin = at_;
-  ExprId result;
-  if (at(TokenKind::minus) || at(TokenKind::plus)) {
-    const UnaryOperator op = at(TokenKind::minus) ? UnaryOperator::negate : UnaryOperator::plus;
-    advance();
-    const ExprId operand = signed_operand();
-    result = add(Unary{op, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
-  } else {
-    result = power();
-  }
+  const TokenKind sign = here().kind;
+  const bool is_signed = (sign == TokenKind::minus || sign == TokenKind::plus) && !ends_statement(at_);
+  const ExprId result = is_signed ? negated() : power();
   --nesting_;
   return result;
+}
+
+/// With its sign.
+ExprId Parser::negated() {
+  const std::size_t begin = at_;
+  const UnaryOperator op = at(TokenKind::minus) ? UnaryOperator::negate : UnaryOperator::plus;
+  advance();
+  const ExprId operand = signed_operand();
+  return add(Unary{op, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
 }
 
 /// `-2^2` is -4, `2^-1` a half, `2^3^2` two to the ninth.
@@ -153,6 +148,11 @@ ExprId Parser::operand() {
       default: break;
     }
   }
+  no_operand(next_statement);
+}
+
+/// What stands where a value was due.
+void Parser::no_operand(bool next_statement) {
   const std::string message = "expected a value" + after_previous();
   if (next_statement) {
     const Span end = span_of(token(at_ - 1));
@@ -202,6 +202,8 @@ bool Parser::is_suffix_name(std::size_t index) const {
 
 /// One of the names behind a number: `N`, `/ s`, `m^2`, `s^-1`. `/ x^2.5` is an ordinary division and left alone.
 bool Parser::suffix_factor() {
+  const TokenKind first = here().kind;
+  if (first != TokenKind::name && first != TokenKind::slash && first != TokenKind::percent) return false;
   const bool divides = at(TokenKind::slash);
   const std::size_t name = at_ + (divides ? 1 : 0);
   if (!is_suffix_name(name)) return false;
@@ -346,19 +348,11 @@ ExprId Parser::conditional() {
   return add(Conditional{condition, yes, no}, since(begin), {condition, yes, no});
 }
 
-ExprId Parser::add(const Expr& expr, Span span, std::initializer_list<ExprId> children) {
-  std::uint32_t height = 1;
-  for (const ExprId child : children) height = std::max(height, heights_[child] + 1);
-  if (height > highest_expression) {
-    complain_at(Code::nested_too_deep, span,
-                fmt::format("an expression of more than {} steps in a row", highest_expression), {}, {},
-                "name parts of it with `let`", {}, {}, limit_fact(highest_expression));
-    throw Abandon{};
-  }
-  tree_.exprs.push_back(expr);
-  tree_.expr_spans.push_back(span);
-  heights_.push_back(height);
-  return static_cast<ExprId>(tree_.exprs.size() - 1);
+void Parser::grown_too_high(Span span) {
+  complain_at(Code::nested_too_deep, span,
+              fmt::format("an expression of more than {} steps in a row", highest_expression), {}, {},
+              "name parts of it with `let`", {}, {}, limit_fact(highest_expression));
+  throw Abandon{};
 }
 
 }  // namespace wale

@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,9 +15,6 @@ namespace wale {
 
 /// Thrown where a statement cannot be read any further, caught where the next one begins. Never leaves the parser.
 struct Abandon {};
-
-/// Whether a line that ends in such a token goes on in the next.
-bool continues(TokenKind kind);
 
 /// How deep parentheses, calls, signs, powers and conditionals may stand in each other.
 constexpr std::size_t deepest_nesting = 200;
@@ -42,6 +40,8 @@ class Parser {
         tree_(tree),
         diagnostics_(diagnostics) {
     heights_.reserve(tree.exprs.capacity());
+    open_arguments_.reserve(few);
+    open_parentheses_.reserve(few);
   }
 
   void file();
@@ -67,7 +67,7 @@ class Parser {
   bool is_leading_word() const;
   void material_section(MaterialDecl& material, bool& misplaced);
   bool has_sections_below() const;
-  void stray_statement(MaterialDecl& material, bool& misplaced);
+  [[gnu::cold]] void stray_statement(MaterialDecl& material, bool& misplaced);
   PerceptStatement percept_statement();
   PhysicalStatement physical_statement();
   PhysicalKeyword physical_keyword();
@@ -83,7 +83,7 @@ class Parser {
   std::optional<Range> optional_range();
   Range range();
   void open_block();
-  void missing_brace(std::size_t open);
+  [[gnu::cold]] void missing_brace(std::size_t open);
   bool ends_block_by_mistake(bool in_section) const;
   template <class Body>
   Span block(bool in_section, Body body);
@@ -93,7 +93,12 @@ class Parser {
   ExprId operation(int least_precedence);
   ExprId complement();
   ExprId signed_operand();
-  void nest();
+  ExprId negated();
+  void nest() {
+    if (++nesting_ > deepest_nesting) nested_too_deep();
+  }
+  [[noreturn, gnu::cold]] void nested_too_deep();
+  [[noreturn, gnu::cold]] void no_operand(bool next_statement);
   ExprId power();
   ExprId operand();
   ExprId number();
@@ -106,7 +111,9 @@ class Parser {
   bool is_suffix_name(std::size_t index) const;
   void close_parenthesis(std::string_view expected);
   std::string unclosed_parenthesis() const;
-  ExprId add(const Expr& expr, Span span, std::initializer_list<ExprId> children = {});
+  template <class Node>
+  ExprId add(const Node& node, Span span, std::initializer_list<ExprId> children = {});
+  [[noreturn, gnu::cold]] void grown_too_high(Span span);
 
   // parse_mend.cpp: what a program can mend of it
   std::vector<Fix> fixes_here() const;
@@ -129,12 +136,9 @@ class Parser {
   bool followed_by(TokenKind next) const { return kind(at_ + 1) == next && !ends_statement(at_ + 1); }
   bool is_word(std::size_t index, std::string_view word) const;
   bool ends_statement(std::size_t index) const {
-    const Token& next = token(index);
-    if (next.kind == TokenKind::end || next.kind == TokenKind::semicolon || next.kind == TokenKind::right_brace)
-      return true;
-    return next.starts_line && open_parentheses_.empty() && line_ends_statement(index);
+    const StatementEnd ends = token(index).ends_statement;
+    return ends != StatementEnd::no && (ends == StatementEnd::yes || open_parentheses_.empty());
   }
-  bool line_ends_statement(std::size_t index) const;
   bool begins_statement(std::size_t index) const;
   bool begins_declaration(std::size_t index) const;
   void advance() { at_ += at_ + 1 < tokens_.size() ? 1 : 0; }
@@ -147,7 +151,7 @@ class Parser {
     return true;
   }
   /// Says that a token is missing here; whoever asks goes on as if it had been there.
-  void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
+  [[gnu::cold]] void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
   Span since(std::size_t first_token) const;
@@ -156,32 +160,35 @@ class Parser {
   std::string_view spelling(const Token& token) const;
   std::string shown(const Token& token) const;
   std::string found_here() const;
-  std::string after_previous() const;
+  [[gnu::cold]] std::string after_previous() const;
   std::string_view documentation_here();
 
   /// Reports what stands here, or the place just after the last token when the statement has ended.
-  void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
-                std::vector<SecondarySpan> secondary = {});
-  void complain_at(Code code, Span span, std::string message, std::string expected, std::string found, std::string help,
-                   std::vector<Fix> fixes = {}, std::vector<SecondarySpan> secondary = {},
-                   std::vector<Fact> facts = {});
-  [[noreturn]] void fail(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
-                         std::vector<SecondarySpan> secondary = {});
+  [[gnu::cold]] void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
+                              std::vector<SecondarySpan> secondary = {});
+  [[gnu::cold]] void complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
+                                 std::string help, std::vector<Fix> fixes = {},
+                                 std::vector<SecondarySpan> secondary = {}, std::vector<Fact> facts = {});
+  [[noreturn, gnu::cold]] void fail(std::string message, std::string expected, std::string help,
+                                    std::vector<Fix> fixes = {}, std::vector<SecondarySpan> secondary = {});
   ExprId erroneous(std::size_t first_token) { return add(Erroneous{}, since(first_token)); }
-  std::string mend_here() const;
+  [[gnu::cold]] std::string mend_here() const;
   void end_statement();
-  [[noreturn]] void give_up();
+  [[noreturn, gnu::cold]] void give_up();
   void count_statement();
   bool is_stray_brace() const;
-  void skip_statement();
+  [[gnu::cold]] void skip_statement();
   /// Reads one statement and stands at the beginning of the next, whatever happens.
   template <class Body>
   void statement(Body body);
 
+  /// That are open at once, as a rule.
+  static constexpr std::size_t few = 8;
+
   const SourceSet& sources_;
   std::string_view text_;  ///< of the file
   Tokens& input_;
-  const std::vector<Token>& tokens_;
+  std::span<const Token> tokens_;
   SyntaxTree& tree_;
   Diagnostics& diagnostics_;
   std::vector<std::uint32_t> heights_;         ///< of the tree below every expression
@@ -198,6 +205,17 @@ class Parser {
   bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
   bool in_force_ = false;    ///< `limit` ends a unit: `k * 5 mm limit 2 N`
 };
+
+template <class Node>
+ExprId Parser::add(const Node& node, Span span, std::initializer_list<ExprId> children) {
+  std::uint32_t height = 1;
+  for (const ExprId child : children) height = std::max(height, heights_[child] + 1);
+  if (height > highest_expression) grown_too_high(span);
+  tree_.exprs.emplace_back(node);
+  tree_.expr_spans.push_back(span);
+  heights_.push_back(height);
+  return static_cast<ExprId>(tree_.exprs.size() - 1);
+}
 
 template <class Body>
 void Parser::statement(Body body) {

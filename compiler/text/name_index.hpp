@@ -67,7 +67,7 @@ class NameIndex {
   const T* find(const NameKey& key) const {
     if (size_ == 0) return nullptr;
     for (std::size_t at = key.hash();; ++at) {
-      const Slot& slot = slots_[at & (slots_.size() - 1)];
+      const Slot& slot = slots_[at & mask_];
       if (!slot.taken) return nullptr;
       if (slot.key == key) return &slot.what;
     }
@@ -95,17 +95,19 @@ class NameIndex {
 
   void place(const NameKey& key, T what) {
     std::size_t at = key.hash();
-    while (slots_[at & (slots_.size() - 1)].taken) ++at;
-    slots_[at & (slots_.size() - 1)] = {key, std::move(what), true};
+    while (slots_[at & mask_].taken) ++at;
+    slots_[at & mask_] = {key, std::move(what), true};
   }
   void enlarge() {
     const std::vector<Slot> before = std::move(slots_);
     slots_ = std::vector<Slot>(before.empty() ? 16 : 2 * before.size());
+    mask_ = slots_.size() - 1;
     for (const Slot& slot : before)
       if (slot.taken) place(slot.key, slot.what);
   }
 
   std::vector<Slot> slots_;  ///< a power of two, at most half of them taken
+  std::size_t mask_ = 0;     ///< one less than there are slots
   std::size_t size_ = 0;
 };
 
