@@ -35,7 +35,7 @@ constexpr auto shapes = [] {
 class Emitter {
  public:
   Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material)
-      : graph_(lowered.graph), lowered_(lowered), material_(material), nothing_(static_cast<NodeId>(graph_.size())) {}
+      : graph_(lowered.graph), lowered_(lowered), material_(material) {}
 
   PatchProgram emit() {
     program_.material = material_.name;
@@ -49,7 +49,7 @@ class Emitter {
     program_.fates = material_.fates;
     program_.layers = material_.layers;
 
-    section_nodes_.reserve(lowered_.percepts.size() + 8);
+    section_steps_.reserve(lowered_.percepts.size() + 8);
     program_.percepts.reserve(lowered_.percepts.size());
     plan();
     emit_setup();
@@ -151,7 +151,11 @@ class Emitter {
       return runs;
     };
     places.sections.push_back(runs_of(setup_nodes_));
-    for (const auto& nodes : section_nodes_) places.sections.push_back(runs_of(nodes));
+    for (const auto& steps : section_steps_) {
+      std::vector<NodeId> nodes;
+      for (const Step* step : steps) nodes.push_back(static_cast<NodeId>(step - steps_.data()));
+      places.sections.push_back(runs_of(nodes));
+    }
     return places;
   }
 
@@ -163,16 +167,16 @@ class Emitter {
   /// What sections see of a node, each of them anew. A component is a register of its sample, which stands for it. What
   /// is no operand is result 0 of `nothing_`.
   struct Step {
-    std::array<NodeId, 3> operands{};  ///< of a component its sample
-    std::array<RegisterNumber, 3>
-        results{};  ///< which of that one's registers; of `nothing_` a table's number or a grid's
+    std::array<Step*, 3> operands{};  ///< of a component its sample
+    /// Which of that one's registers; of `nothing_` a table's number or a grid's.
+    std::array<RegisterNumber, 3> results{};
     Operation operation = Operation::add;
     std::uint8_t width = 0;  ///< registers
-    std::uint32_t location =
-        0;  ///< the first of them; there may be more than a program may have: `emit` refuses it then
+    /// The first of them; there may be more than a program may have: `emit` refuses it then.
+    std::uint32_t location = 0;
     /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
     std::uint32_t wanted = not_needed;
-    std::uint8_t last_uses = 0;  ///< which operands nobody uses after it in that section, a bit each
+    std::array<bool, 3> last_uses{};  ///< whether nobody uses the operand after it in that section
   };
 
   /// Finds what is needed at all, then lays out constants, parameters and setup results.
@@ -207,11 +211,11 @@ class Emitter {
 
   /// Says what is needed, and what sections are to know of it.
   void find_needed() {
-    steps_.assign(graph_.size() + 1, Step{.operands = {nothing_, nothing_, nothing_}});
+    steps_.assign(graph_.size(), Step{.operands = {&nothing_, &nothing_, &nothing_}});
+    backwards_.resize(steps_.size());
     for (auto* nodes : {&constant_nodes_, &parameter_nodes_, &state_nodes_, &setup_nodes_}) nodes->reserve(64);
     Step* const steps = steps_.data();
     const auto need = [steps](NodeId id) { steps[id].wanted = in_no_section; };
-    need(nothing_);
     for (const NodeId id : {lowered_.force[0], lowered_.force[1], lowered_.ceiling[0], lowered_.ceiling[1]}) need(id);
     if (lowered_.relief) need(*lowered_.relief);
     if (lowered_.colour) std::ranges::for_each(*lowered_.colour, need);
@@ -220,10 +224,19 @@ class Emitter {
     for (const auto& operands : lowered_.marks) std::ranges::for_each(operands, need);
     for (const auto& percept : lowered_.percepts) need(percept.amplitude), need(percept.magnitude), need(percept.level);
 
-    for (NodeId id = nothing_; id-- > 0;) {
+    for (auto id = static_cast<NodeId>(steps_.size()); id-- > 0;) {
       Step& step = steps[id];
       if (step.wanted == not_needed) continue;
       const Node& node = graph_[id];
+      if (node.kind == Node::Kind::operation) {  // as most are
+        look_at(node, step);
+        for (Step* operand : step.operands) operand->wanted = in_no_section;
+        if (node.rate == Rate::tick)
+          step.wanted = 0;
+        else
+          setup_nodes_.push_back(id);
+        continue;
+      }
       switch (node.kind) {
         case Node::Kind::constant: constant_nodes_.push_back(id); break;
         case Node::Kind::input: step.location = node.index; break;
@@ -235,28 +248,22 @@ class Emitter {
           step.width = 1;
           setup_nodes_.push_back(id);
           break;
-        case Node::Kind::operation:
-          look_at(node, step);
-          need(step.operands[0]), need(step.operands[1]), need(step.operands[2]);
-          if (node.rate == Rate::tick)
-            step.wanted = 0;
-          else
-            setup_nodes_.push_back(id);
+        case Node::Kind::operation: break;
       }
     }
     std::ranges::reverse(constant_nodes_);
   }
 
   /// Fills in the step of an operation; there are no operands in it yet.
-  void look_at(const Node& node, Step& step) const {
+  void look_at(const Node& node, Step& step) {
     const Shape shape = shapes[static_cast<std::size_t>(node.operation)];
     step.operation = node.operation;
     step.width = shape.results;
     const auto take = [&](std::size_t i, NodeId id) {
       const Node& operand = graph_[id];
-      step.operands[i] = id;
+      step.operands[i] = &steps_[id];
       if (operand.kind != Node::Kind::component) return;
-      step.operands[i] = operand.a;
+      step.operands[i] = &steps_[operand.a];
       step.results[i] = static_cast<RegisterNumber>(operand.index);
     };
     if (node.operands > 0) take(0, node.a);
@@ -272,13 +279,13 @@ class Emitter {
     return static_cast<RegisterNumber>(steps_[node.a].location + node.index);
   }
 
-  /// Writes the instruction of a step whose operands are those.
-  static void write(Instruction& instruction, const Step& step, const Step& a, const Step& b, const Step& c) {
+  /// Writes the instruction of a step whose operands are found there.
+  static void write(Instruction& instruction, const Step& step, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     instruction.operation = static_cast<std::uint8_t>(step.operation);
     instruction.destination = static_cast<RegisterNumber>(step.location);
-    instruction.a = static_cast<RegisterNumber>(a.location + step.results[0]);
-    instruction.b = static_cast<RegisterNumber>(b.location + step.results[1]);
-    instruction.c = static_cast<RegisterNumber>(c.location + step.results[2]);
+    instruction.a = static_cast<RegisterNumber>(a + step.results[0]);
+    instruction.b = static_cast<RegisterNumber>(b + step.results[1]);
+    instruction.c = static_cast<RegisterNumber>(c + step.results[2]);
   }
 
   void emit_setup() {
@@ -288,8 +295,8 @@ class Emitter {
       const Node& node = graph_[id];
       if (node.kind == Node::Kind::operation) {
         const Step& step = steps_[id];
-        write(program_.setup.emplace_back(), step, steps_[step.operands[0]], steps_[step.operands[1]],
-              steps_[step.operands[2]]);
+        const auto [a, b, c] = step.operands;
+        write(program_.setup.emplace_back(), step, a->location, b->location, c->location);
         continue;
       }
       Peak peak;
@@ -308,55 +315,59 @@ class Emitter {
 
   /// What a section has to work out for its roots, the last first. Values are asked for from the last to the first, so
   /// whoever is first to ask for one is last to use it: `last_uses` says of which operands.
-  std::vector<NodeId> backwards_from(const std::vector<NodeId>& roots) {
-    const auto section = static_cast<std::uint32_t>(section_nodes_.size() + 1);
-    Step* const steps = steps_.data();
+  const std::vector<Step*>& backwards_from(const std::vector<NodeId>& roots) {
+    const auto section = static_cast<std::uint32_t>(section_steps_.size() + 1);
     std::size_t pending = 0;  // asked for and not looked at yet
-    const auto want = [&](NodeId id) -> unsigned {
-      if (steps[id].wanted >= section) return 0;
-      steps[id].wanted = section;
-      ++pending;
-      return 1;
+    const auto want = [&](Step& step) {
+      const bool first = step.wanted < section;
+      step.wanted = std::max(step.wanted, section);
+      pending += first;
+      return first;
     };
-    NodeId end = 0;
+    std::size_t end = 0;
     for (const NodeId root : roots) {
       const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
-      if (want(id) != 0) end = std::max(end, id + 1);
+      if (want(steps_[id])) end = std::max<std::size_t>(end, id + 1);
     }
-    std::vector<NodeId> backwards(end);
-    NodeId* next = backwards.data();
-    for (NodeId id = end; pending > 0;) {
-      Step& step = steps[--id];
-      if (step.wanted != section) continue;
+    Step** next = backwards_.data();
+    for (Step* step = steps_.data() + end; pending > 0;) {
+      if ((--step)->wanted != section) continue;
       --pending;
-      *next++ = id;
-      const unsigned a = want(step.operands[0]), b = want(step.operands[1]), c = want(step.operands[2]);
-      step.last_uses = static_cast<std::uint8_t>(a | b << 1 | c << 2);
+      *next++ = step;
+      step->last_uses[0] = want(*step->operands[0]);
+      step->last_uses[1] = want(*step->operands[1]);
+      step->last_uses[2] = step->operands[2] != &nothing_ && want(*step->operands[2]);  // hardly ever
     }
-    backwards.resize(static_cast<std::size_t>(next - backwards.data()));
-    return backwards;
+    return section_steps_.emplace_back(backwards_.data(), next);
   }
 
   /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `steps_` the
   /// temporaries of its values; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
-    const std::vector<NodeId>& backwards = section_nodes_.emplace_back(backwards_from(roots));
-    Temporaries temporaries;
+    const std::vector<Step*>& backwards = backwards_from(roots);
     std::vector<Instruction> code(backwards.size());
-    Instruction* next = code.data();
-    Step* const steps = steps_.data();
+    if (!write_code<FewTemporaries>(backwards, code.data())) write_code<Temporaries>(backwards, code.data());
+    return code;
+  }
+
+  /// Writes an instruction for each step, the last step first. False where such temporaries do not do.
+  template <typename SomeTemporaries>
+  bool write_code(const std::vector<Step*>& backwards, Instruction* next) {
+    SomeTemporaries temporaries;
     const auto first = static_cast<std::uint32_t>(first_temporary_);
-    for (const NodeId *begin = backwards.data(), *each = begin + backwards.size(); each != begin;) {
-      Step& step = steps[*--each];
-      const Step &a = steps[step.operands[0]], &b = steps[step.operands[1]], &c = steps[step.operands[2]];
+    for (Step *const *begin = backwards.data(), *const *each = begin + backwards.size(); each != begin;) {
+      Step& step = **--each;
+      const Step &a = *step.operands[0], &b = *step.operands[1], &c = *step.operands[2];
+      const std::uint32_t at_a = a.location, at_b = b.location, at_c = c.location;
+      if (!temporaries.has_room(step.width)) return false;
       step.location = first + static_cast<std::uint32_t>(temporaries.take(step.width));
-      write(*next++, step, a, b, c);
-      if ((step.last_uses & 1) != 0) temporaries.give_back(a.location - first, a.width);
-      if ((step.last_uses & 2) != 0) temporaries.give_back(b.location - first, b.width);
-      if ((step.last_uses & 4) != 0) temporaries.give_back(c.location - first, c.width);
+      write(*next++, step, at_a, at_b, at_c);
+      temporaries.give_back_if(step.last_uses[0], at_a - first, a.width);
+      temporaries.give_back_if(step.last_uses[1], at_b - first, b.width);
+      if (step.last_uses[2]) temporaries.give_back(at_c - first, c.width);
     }
     most_temporaries_ = std::max(most_temporaries_, temporaries.most());
-    return code;
+    return true;
   }
 
   const Graph& graph_;
@@ -365,14 +376,15 @@ class Emitter {
   PatchProgram program_;
 
   /// Stands for the operands that an operation does not have: register 0, which no section sets.
-  const NodeId nothing_;
-  std::vector<Step> steps_;  ///< by node, and of `nothing_`
+  Step nothing_{.wanted = in_no_section};
+  std::vector<Step> steps_;       ///< by node
+  std::vector<Step*> backwards_;  ///< room for those of a section
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
   RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program that has none
   std::vector<NodeId> constant_nodes_, parameter_nodes_, state_nodes_;  ///< those that are needed
   std::vector<NodeId> setup_nodes_;                                     ///< what setup works out, an instruction each
-  std::vector<std::vector<NodeId>> section_nodes_;  ///< of the other sections, the last first; in the format's order
+  std::vector<std::vector<Step*>> section_steps_;  ///< of the other sections, the last first; in the format's order
 };
 
 }  // namespace

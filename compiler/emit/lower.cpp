@@ -24,37 +24,42 @@ std::vector<TermId> roots_of(const SolvedMaterial& material) {
 /// The terms that the roots are worked out from, in the order in which they become nodes: what was solved for as it was
 /// put together, then what each root needs besides. Operands stand before their users, here too.
 std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& terms, TermId solutions_end) {
-  enum class Mark : char { none, asked_for, entered };
-  std::vector<Mark> marks(terms.size(), Mark::none);
-  std::vector<TermId> order, others;
-  others.reserve(terms.size());
+  enum Mark : char { none, asked_for, entered };
+  std::vector<char> marks(terms.size(), none);
+  std::vector<TermId> others(terms.size());
+  std::size_t count = 0, waiting = 0;  // of what is no solution
+  char* const mark = marks.data();
+  const auto ask = [&](TermId id) {
+    waiting += mark[id] == none && id >= solutions_end ? 1 : 0;
+    mark[id] = std::max<char>(mark[id], asked_for);
+  };
+  const auto ask_for_operands = [&](const Term& term) {
+    if (term.operands > 0) ask(term.a);
+    if (term.operands > 1) ask(term.b);
+    if (term.operands > 2) ask(term.c);
+  };
   for (const TermId root : roots) {
-    if (marks[root] != Mark::none) continue;
-    marks[root] = Mark::asked_for;
-    const auto first = static_cast<std::ptrdiff_t>(others.size());
-    std::size_t waiting = root >= solutions_end ? 1 : 0;  // of what is no solution
+    const std::size_t first = count;
+    ask(root);
     for (TermId id = root; waiting > 0; --id) {
-      if (marks[id] != Mark::asked_for) continue;
+      if (mark[id] != asked_for) continue;
       --waiting;
-      marks[id] = Mark::entered;
-      others.push_back(id);
-      for (const TermId operand : operands(terms[id])) {
-        if (marks[operand] != Mark::none) continue;
-        marks[operand] = Mark::asked_for;
-        if (operand >= solutions_end) ++waiting;
-      }
+      mark[id] = entered;
+      others[count++] = id;
+      ask_for_operands(terms[id]);
     }
-    std::reverse(others.begin() + first, others.end());
+    std::reverse(others.data() + first, others.data() + count);
   }
   // By now it is known which of the solutions anybody needs.
+  std::vector<TermId> order;
   order.reserve(terms.size());
   for (TermId id = solutions_end; id-- > 0;) {
-    if (marks[id] != Mark::asked_for) continue;
+    if (mark[id] != asked_for) continue;
     order.push_back(id);
-    for (const TermId operand : operands(terms[id])) marks[operand] = Mark::asked_for;
+    ask_for_operands(terms[id]);
   }
   std::ranges::reverse(order);
-  order.insert(order.end(), others.begin(), others.end());
+  order.insert(order.end(), others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
   return order;
 }
 
@@ -78,18 +83,20 @@ LoweredMaterial lower(const SolvedMaterial& material) {
   for (const TermId id : needed) {
     const Term& term = terms[id];
     graph.attribute(term.span == Span{} ? material.span : term.span);
+    if (term.kind == TermKind::operation) {  // as most are
+      nodes[id] = graph.apply(term.operation, nodes[term.a], nodes[term.b], nodes[term.c], term.index);
+      continue;
+    }
     switch (term.kind) {
       case TermKind::literal: nodes[id] = graph.constant(static_cast<float>(term.value)); break;
-      case TermKind::input: nodes[id] = graph.input(term.input(), term.span); break;
-      case TermKind::parameter: nodes[id] = graph.parameter(term.index, term.span); break;
-      case TermKind::state: nodes[id] = graph.state(term.index, term.span); break;
-      case TermKind::operation:
-        nodes[id] = graph.apply(term.operation, nodes[term.a], nodes[term.b], nodes[term.c], term.index, term.span);
-        break;
+      case TermKind::input: nodes[id] = graph.input(term.input()); break;
+      case TermKind::parameter: nodes[id] = graph.parameter(term.index); break;
+      case TermKind::state: nodes[id] = graph.state(term.index); break;
       case TermKind::settled: nodes[id] = nodes[term.a]; break;
-      case TermKind::component: nodes[id] = graph.component(nodes[term.a], term.index, term.span); break;
+      case TermKind::component: nodes[id] = graph.component(nodes[term.a], term.index); break;
       case TermKind::gradient: nodes[id] = derivative[term.index](nodes[term.a]); break;
-      case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height, term.span); break;
+      case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height); break;
+      case TermKind::operation:
       case TermKind::open:
       case TermKind::cells:
       case TermKind::magnitude:
@@ -100,8 +107,9 @@ LoweredMaterial lower(const SolvedMaterial& material) {
   const auto& vibration = material.device.shaker;
   lowered.ceiling.fill(graph.constant(static_cast<float>(material.device.most())));
   if (vibration) lowered.ceiling[1] = graph.constant(static_cast<float>(vibration->frequency_high));
+  graph.attribute(material.force_span);
   for (std::size_t axis = 0; axis < 2; ++axis)
-    lowered.force[axis] = graph.output_limit(nodes[material.force[axis]], lowered.ceiling[axis], material.force_span);
+    lowered.force[axis] = graph.output_limit(nodes[material.force[axis]], lowered.ceiling[axis]);
   const auto node_of = [&](TermId id) { return nodes[id]; };
   if (material.relief) lowered.relief = node_of(*material.relief);
   if (material.colour)

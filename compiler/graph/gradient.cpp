@@ -43,23 +43,25 @@ Expression operator/(Expression a, Expression b) { return a.zero() ? a : apply(O
   return {a.graph, a.graph->apply(Operation::select, a.id, b.id, c.id)};
 }
 
-/// The derivative of the result r of an operation of a, b, c, whose derivatives are da, db, dc.
-Expression derivative_of(Operation operation, Graph& graph, Expression r, Expression a, Expression b, Expression c,
-                         Expression da, Expression db, Expression dc) {
+/// The derivative of the result r of an operation of a, b, c, whose derivatives are da, db, dc; 0 of a look-up.
+[[gnu::noinline]] NodeId derivative_of(Graph& graph, const Node& node, NodeId result, NodeId derivative_a,
+                                       NodeId derivative_b, NodeId derivative_c) {
+  const Expression r{&graph, result}, a{&graph, node.a}, b{&graph, node.b}, c{&graph, node.c};
+  const Expression da{&graph, derivative_a}, db{&graph, derivative_b}, dc{&graph, derivative_c};
   [[maybe_unused]] const auto number = [&](double value) {
     return Expression{&graph, graph.constant(static_cast<float>(value))};
   };
   // clang-format off
-  switch (operation) {
+  switch (node.operation) {
 #define INSTRUCTION(number_, name, fields, results, cost, meaning, range, derivative) \
-  case Operation::name: return derivative;
+  case Operation::name: return (derivative).id;
 #define SPECIAL(number_, name, fields, results, cost) \
   case Operation::name: break;
 #include "schema/instruction.def"
   }
   // clang-format on
   (void)r, (void)a, (void)b, (void)c, (void)da, (void)db, (void)dc;
-  return number(0);
+  return number(0).id;
 }
 
 }  // namespace
@@ -107,51 +109,43 @@ NodeId Derivatives::of_component(const Node& node) {
   return sum.id;
 }
 
-NodeId Derivatives::operator()(NodeId of) {
-  Graph& graph = graph_;
-  const NodeId zero = graph.constant(0);
+/// What has to be derived for one node; of all else that it is worked out from the derivative is known then.
+void Derivatives::find_needed(NodeId of, NodeId zero) {
   if (known_.size() <= of) known_.resize(of + 1, none);
-  if (known_[of] != none) return known_[of];
-  // What has to be derived, the last first; as long as it waits it is known as `awaited`.
-  std::vector<NodeId> needed;
-  needed.reserve(of + 1);
-  known_[of] = awaited;
-  std::size_t pending = 1;
-  for (NodeId id = of + 1; pending > 0;) {
-    if (known_[--id] != awaited) continue;
-    --pending;
-    known_[id] = zero;  // unless there is more to say, below
-    if (graph[id].rate != Rate::tick) continue;
-    needed.push_back(id);
-    for (const NodeId operand : graph.operands(id)) {
-      if (known_[operand] != none) continue;
-      known_[operand] = awaited;
-      ++pending;
-    }
+  needed_.clear();
+  NodeId* const known = known_.data();
+  std::size_t waiting = 0;  // as long as a node waits it is known as `awaited`
+  const auto ask = [&](NodeId id) {
+    if (known[id] != none) return;
+    known[id] = awaited;
+    ++waiting;
+  };
+  ask(of);
+  for (NodeId id = of + 1; waiting > 0;) {
+    if (known[--id] != awaited) continue;
+    --waiting;
+    known[id] = zero;  // unless there is more to say
+    const Node& node = graph_[id];
+    if (node.rate != Rate::tick) continue;
+    needed_.push_back(id);
+    if (node.operands > 0) ask(node.a);
+    if (node.operands > 1) ask(node.b);
+    if (node.operands > 2) ask(node.c);
   }
+}
 
-  for (auto next = needed.rbegin(); next != needed.rend(); ++next) {
+NodeId Derivatives::operator()(NodeId of) {
+  find_needed(of, graph_.constant(0));
+  for (auto next = needed_.rbegin(); next != needed_.rend(); ++next) {
     const NodeId id = *next;
-    const Node node = graph[id];  // a copy: the graph grows below
-    graph.attribute(node.span);
-    switch (node.kind) {
-      case Node::Kind::input:
-      case Node::Kind::state:
-        if (moves(node)) known_[id] = graph.constant(1);
-        break;
-      case Node::Kind::component: known_[id] = of_component(node); break;
-      case Node::Kind::operation: {
-        const auto term = [&](NodeId operand) { return Expression{&graph, operand}; };
-        const bool looks_up = node.operation == Operation::sample || node.operation == Operation::recall ||
-                              node.operation == Operation::cell;
-        if (!looks_up)
-          known_[id] = derivative_of(node.operation, graph, term(id), term(node.a), term(node.b), term(node.c),
-                                     term(known_[node.a]), term(known_[node.b]), term(known_[node.c]))
-                           .id;
-        break;
-      }
-      default: break;
-    }
+    const Node node = graph_[id];  // a copy: the graph grows below
+    graph_.attribute(node.span);
+    if (node.kind == Node::Kind::operation)
+      known_[id] = derivative_of(graph_, node, id, known_[node.a], known_[node.b], known_[node.c]);
+    else if (node.kind == Node::Kind::component)
+      known_[id] = of_component(node);
+    else if (moves(node))
+      known_[id] = graph_.constant(1);
   }
   return known_[of];
 }

@@ -11,18 +11,24 @@ namespace wale {
 
 namespace {
 
-/// Whether they are one value. Where it came from does not make it what it is, and the rate follows from the rest.
-bool same(const Node& a, const Node& b) {
-  return a.a == b.a && a.b == b.b && a.c == b.c && a.index == b.index && a.operation == b.operation && a.kind == b.kind;
-}
+/// What makes a node the value that it is. Where it came from does not, and the rate follows from the rest.
+struct Identity {
+  std::uint64_t first_two, rest;  ///< operands a and b; c and the index
+  std::uint16_t what;             ///< kind and operation
 
-/// Of what `same` compares. Each multiplication carries what is below to what is above, which is what counts.
-inline std::size_t hash_of(const Node& node) {
-  std::uint64_t hash = (std::uint64_t{node.a} << 32 | node.b) * 0x9e3779b97f4a7c15u;
-  hash ^= std::uint64_t{node.c} << 32 | node.index;
-  hash += static_cast<std::uint64_t>(node.operation) << 8 | static_cast<std::uint64_t>(node.kind);
-  return hash * 0xbf58476d1ce4e5b9u >> 32;
-}
+  explicit Identity(const Node& node)
+      : first_two(node.a | std::uint64_t{node.b} << 32),
+        rest(node.c | std::uint64_t{node.index} << 32),
+        what(static_cast<std::uint16_t>(static_cast<unsigned>(node.kind) | static_cast<unsigned>(node.operation)
+                                                                               << 8)) {}
+
+  friend bool operator==(const Identity&, const Identity&) = default;
+
+  /// A number below 2^bits. Each multiplication carries what is below to what is above, which is what counts.
+  std::size_t hash(unsigned bits) const {
+    return (((first_two * 0x9e3779b97f4a7c15u) ^ rest) + what) * 0xbf58476d1ce4e5b9u >> (64 - bits);
+  }
+};
 
 /// What `Graph::apply` asks of an operation.
 struct Working {
@@ -44,134 +50,128 @@ constexpr auto workings = [] {
 }  // namespace
 
 void Graph::reserve(std::size_t nodes) {
-  if (nodes <= nodes_.size()) return;
-  nodes_.resize(std::bit_ceil(nodes));
+  if (nodes <= room_) return;
+  room_ = std::bit_ceil(std::max<std::size_t>(nodes, 128));
+  slot_bits_ = static_cast<unsigned>(std::bit_width(room_));
+  nodes_.resize(room_);
   const std::vector<NodeId> shared = std::move(table_);
-  table_.assign(2 * nodes_.size(), none);
+  table_.assign(2 * room_, none);
   const std::size_t last = table_.size() - 1;
   for (const NodeId id : shared) {
     if (id == none) continue;
-    std::size_t at = hash_of(nodes_[id]) & last;
+    std::size_t at = Identity(nodes_[id]).hash(slot_bits_);
     while (table_[at] != none) at = (at + 1) & last;
     table_[at] = id;
   }
 }
 
-NodeId Graph::add(const Node& node) {
-  if (size_ == nodes_.size()) [[unlikely]]
-    return add_with_more_room(node);
+/// The node that is there already, or this one. For those of which a program has hundreds, this is part of who asks.
+[[gnu::always_inline]] inline NodeId Graph::shared(const Node& node) {
+  if (size_ == room_) [[unlikely]]
+    reserve(size_ + 1);
+  const Identity wanted(node);
   NodeId* const slots = table_.data();
-  const std::size_t last = table_.size() - 1;
-  std::size_t at = hash_of(node) & last;
+  const std::size_t last = 2 * room_ - 1;
+  std::size_t at = wanted.hash(slot_bits_);
   for (; slots[at] != none; at = (at + 1) & last)
-    if (same(nodes_[slots[at]], node)) return slots[at];
+    if (Identity(nodes_[slots[at]]) == wanted) return slots[at];
   const auto added = static_cast<NodeId>(size_++);
   slots[at] = added;
   Node& entered = nodes_[added];
   entered = node;
-  if (node.span == Span{}) entered.span = place_;
+  entered.span = place_;
   return added;
 }
 
-NodeId Graph::add_with_more_room(const Node& node) {
-  reserve(std::max<std::size_t>(128, 2 * size_));
-  return add(node);
-}
+NodeId Graph::add(const Node& node) { return shared(node); }
 
 NodeId Graph::constant(float value) {
-  return add({.kind = Node::Kind::constant, .index = std::bit_cast<std::uint32_t>(value)});
+  return shared({.kind = Node::Kind::constant, .index = std::bit_cast<std::uint32_t>(value)});
 }
 
-NodeId Graph::input(Input input, Span span) {
+NodeId Graph::input(Input input) {
   const bool patch = input == Input::patch_half_width || input == Input::patch_half_height ||
                      input == Input::patch_rim || input == Input::seconds_per_tick;
   return add({.kind = Node::Kind::input,
               .rate = patch ? Rate::setup : Rate::tick,
-              .index = static_cast<std::uint32_t>(input),
-              .span = span});
+              .index = static_cast<std::uint32_t>(input)});
 }
 
-NodeId Graph::parameter(std::uint32_t index, Span span) {
-  return add({.kind = Node::Kind::parameter, .rate = Rate::setup, .index = index, .span = span});
+NodeId Graph::parameter(std::uint32_t index) {
+  return add({.kind = Node::Kind::parameter, .rate = Rate::setup, .index = index});
 }
 
-NodeId Graph::state(std::uint32_t index, Span span) {
-  return add({.kind = Node::Kind::state, .rate = Rate::tick, .index = index, .span = span});
+NodeId Graph::state(std::uint32_t index) {
+  return add({.kind = Node::Kind::state, .rate = Rate::tick, .index = index});
 }
 
 NodeId Graph::folded(Operation operation, NodeId a, NodeId b, NodeId c) {
   const int count = facts(operation).operands;  // what it does not take may be no constant
-  return constant(result_of(operation, count > 0 ? nodes_[a].value() : 0, count > 1 ? nodes_[b].value() : 0,
-                            count > 2 ? nodes_[c].value() : 0));
+  return constant(
+      result_of(operation, nodes_[a].value(), count > 1 ? nodes_[b].value() : 0, count > 2 ? nodes_[c].value() : 0));
 }
 
-NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table, const Span& span) {
-  auto [count, rate] = workings[static_cast<std::size_t>(operation)];
-  if (count > 0) rate = std::max(rate, nodes_[a].rate);
-  if (count > 1) rate = std::max(rate, nodes_[b].rate);
-  if (count > 2) rate = std::max(rate, nodes_[c].rate);
-  if (rate == Rate::constant) return folded(operation, a, b, c);  // only constants are worked out once
-
-  // Only what is exact for every float is simplified: the value must not depend on what the compiler knew.
+/// What is there already and has the value for every float, or `none`. Nothing else is simplified: the value must not
+/// depend on what the compiler knew.
+inline NodeId Graph::simpler(Operation operation, NodeId a, NodeId b, NodeId c) const {
   switch (operation) {
-    case Operation::multiply:
-      if (is_constant(b, 1)) return a;
-      if (is_constant(a, 1)) return b;
-      break;
-    case Operation::divide:
-      if (is_constant(b, 1)) return a;
-      break;
-    case Operation::subtract:
-      if (is_constant(b, 0)) return a;
-      break;
+    case Operation::multiply: return is_constant(b, 1) ? a : is_constant(a, 1) ? b : none;
+    case Operation::divide: return is_constant(b, 1) ? a : none;
+    case Operation::subtract: return is_constant(b, 0) ? a : none;
     case Operation::negate:
-      if (nodes_[a].kind == Node::Kind::operation && nodes_[a].operation == Operation::negate) return nodes_[a].a;
-      break;
-    case Operation::select:
-      if (nodes_[a].kind == Node::Kind::constant) return nodes_[a].value() != 0 ? b : c;
-      break;
-    default: break;
+      return nodes_[a].kind == Node::Kind::operation && nodes_[a].operation == Operation::negate ? nodes_[a].a : none;
+    case Operation::select: return nodes_[a].kind != Node::Kind::constant ? none : nodes_[a].value() != 0 ? b : c;
+    default: return none;
   }
-  return add({.kind = Node::Kind::operation,
-              .operation = operation,
-              .rate = rate,
-              .operands = count,
-              .a = a,
-              .b = count > 1 ? b : 0,
-              .c = count > 2 ? c : 0,
-              .index = table,
-              .span = span});
 }
 
-NodeId Graph::component(NodeId sample, std::uint32_t index, Span span) {
-  return add({.kind = Node::Kind::component,
-              .rate = nodes_[sample].rate,
-              .operands = 1,
-              .a = sample,
-              .index = index,
-              .span = span});
+NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint32_t table) {
+  const auto [count, own] = workings[static_cast<std::size_t>(operation)];
+  Rate least = nodes_[a].rate, most = std::max(own, least);
+  const auto take = [&](NodeId operand) {
+    least = std::min(least, nodes_[operand].rate);
+    most = std::max(most, nodes_[operand].rate);
+  };
+  if (count > 1)
+    take(b);
+  else
+    b = 0;
+  if (count > 2)
+    take(c);
+  else
+    c = 0;
+  if (most == Rate::constant) return folded(operation, a, b, c);  // only constants are worked out once
+  if (least == Rate::constant || operation == Operation::negate)
+    if (const NodeId there = simpler(operation, a, b, c); there != none) return there;
+  return shared({.kind = Node::Kind::operation,
+                 .operation = operation,
+                 .rate = most,
+                 .operands = count,
+                 .a = a,
+                 .b = b,
+                 .c = c,
+                 .index = table});
 }
 
-NodeId Graph::peak(NodeId value, NodeId half_width, NodeId half_height, Span span) {
+NodeId Graph::component(NodeId sample, std::uint32_t index) {
+  return add({.kind = Node::Kind::component, .rate = nodes_[sample].rate, .operands = 1, .a = sample, .index = index});
+}
+
+NodeId Graph::peak(NodeId value, NodeId half_width, NodeId half_height) {
   if (nodes_[value].rate != Rate::tick) return value;  // the same everywhere on the patch
-  return add({.kind = Node::Kind::peak,
-              .rate = Rate::setup,
-              .operands = 3,
-              .a = value,
-              .b = half_width,
-              .c = half_height,
-              .span = span});
+  return add(
+      {.kind = Node::Kind::peak, .rate = Rate::setup, .operands = 3, .a = value, .b = half_width, .c = half_height});
 }
 
-NodeId Graph::output_limit(NodeId value, NodeId ceiling, Span span) {
-  if (size_ == nodes_.size()) reserve(2 * size_);
+NodeId Graph::output_limit(NodeId value, NodeId ceiling) {
+  if (size_ == room_) reserve(size_ + 1);
   nodes_[size_] = {.kind = Node::Kind::operation,
                    .operation = Operation::limit,
                    .rate = Rate::tick,
                    .operands = 2,
                    .a = value,
                    .b = ceiling,
-                   .span = span};
+                   .span = place_};
   return static_cast<NodeId>(size_++);
 }
 

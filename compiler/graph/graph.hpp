@@ -60,19 +60,19 @@ class Graph {
   /// Makes room for so many nodes; there may be more.
   void reserve(std::size_t nodes);
 
-  /// From now on, what is made without a span comes from this one.
-  void attribute(Span place) { place_ = place; }
+  /// From now on, what is made comes from this place. A value that is made twice comes from the first.
+  void attribute(const Span& place) { place_ = place; }
 
   NodeId constant(float value);
-  NodeId input(Input input, Span span = {});
-  NodeId parameter(std::uint32_t index, Span span = {});
-  NodeId state(std::uint32_t index, Span span = {});
-  NodeId apply(Operation operation, NodeId a, NodeId b = 0, NodeId c = 0, std::uint32_t table = 0,
-               const Span& span = {});
-  NodeId component(NodeId sample, std::uint32_t index, Span span = {});
-  NodeId peak(NodeId value, NodeId half_width, NodeId half_height, Span span = {});
+  NodeId input(Input input);
+  NodeId parameter(std::uint32_t index);
+  NodeId state(std::uint32_t index);
+  /// Any operation but `peak`; operands that it does not take are ignored.
+  NodeId apply(Operation operation, NodeId a, NodeId b = 0, NodeId c = 0, std::uint32_t table = 0);
+  NodeId component(NodeId sample, std::uint32_t index);
+  NodeId peak(NodeId value, NodeId half_width, NodeId half_height);
   /// The `limit` that ends an output: never folded or shared, and always worked out in the tick.
-  NodeId output_limit(NodeId value, NodeId ceiling, Span span = {});
+  NodeId output_limit(NodeId value, NodeId ceiling);
 
   bool is_constant(NodeId id, float value) const {
     return nodes_[id].kind == Node::Kind::constant && nodes_[id].index == std::bit_cast<std::uint32_t>(value);
@@ -85,15 +85,17 @@ class Graph {
   }
 
  private:
+  NodeId shared(const Node& node);
   NodeId add(const Node& node);
-  NodeId add_with_more_room(const Node& node);
   NodeId folded(Operation operation, NodeId a, NodeId b, NodeId c);
+  NodeId simpler(Operation operation, NodeId a, NodeId b, NodeId c) const;
 
   static constexpr NodeId none = ~NodeId{0};
 
-  std::vector<Node> nodes_;  ///< the first `size_` of these: the rest is room for more
-  std::size_t size_ = 0;
-  /// Finds equal nodes: two slots for each that there is room for, a power of two, each a node or `none`. A node stands
+  std::vector<Node> nodes_;          ///< the first `size_` of these: the rest is room for more
+  std::size_t size_ = 0, room_ = 0;  ///< the room is a power of two, once there is some
+  unsigned slot_bits_ = 0;
+  /// Finds equal nodes: two slots for each that there is room for, 2^slot_bits_, each a node or `none`. A node stands
   /// in the first free slot from the one that its hash names.
   std::vector<NodeId> table_;
   Span place_;
@@ -123,13 +125,15 @@ class Derivatives {
   static constexpr NodeId none = ~NodeId{0}, awaited = none - 1;
 
   bool moves(const Node& node) const;
+  void find_needed(NodeId of, NodeId zero);
   NodeId of_component(const Node& node);
   NodeId slope_of_slope(const Node& sample, std::uint32_t slope, int coordinate);
 
   Graph& graph_;
   By by_;
   std::optional<float> difference_;
-  std::vector<NodeId> known_;  ///< by node; `none` where nobody has asked
+  std::vector<NodeId> known_;   ///< by node; `none` where nobody has asked
+  std::vector<NodeId> needed_;  ///< by the one that is asked for, the last first
 };
 
 }  // namespace wale

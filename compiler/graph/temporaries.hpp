@@ -11,6 +11,8 @@ namespace wale {
 /// Hands out the temporary registers of one piece of code and takes them back after their last use.
 class Temporaries {
  public:
+  /// For so many neighbours: always.
+  static constexpr bool has_room(std::size_t) { return true; }
   /// The lowest register that is free.
   std::size_t take() {
     std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
@@ -26,6 +28,10 @@ class Temporaries {
   std::size_t take(std::size_t count) { return count == 1 ? take() : take_neighbours(count); }
   void give_back(std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
+  }
+  /// Only if they are given back; else `first` may be any number.
+  void give_back_if(bool given, std::size_t first, std::size_t count) {
+    if (given) give_back(first, count);
   }
   std::size_t most() const { return most_; }
 
@@ -51,6 +57,25 @@ class Temporaries {
 
   std::vector<std::uint64_t> free_{~std::uint64_t{0}};  ///< a bit for each register
   std::size_t most_ = 0;
+};
+
+/// The same for code that gets along with few of them, each by itself, as nearly all does.
+class FewTemporaries {
+ public:
+  bool has_room(std::size_t count) const { return free_ != 0 && count == 1; }
+  std::size_t take(std::size_t) {
+    const int first = std::countr_zero(free_);
+    free_ &= free_ - 1;
+    touched_ |= ~free_;
+    return static_cast<std::size_t>(first);
+  }
+  void give_back(std::size_t first, std::size_t) { free_ |= std::uint64_t{1} << first % 64; }
+  /// Without a branch, since nobody could foretell it.
+  void give_back_if(bool given, std::size_t first, std::size_t) { free_ |= std::uint64_t{given} << first % 64; }
+  std::size_t most() const { return static_cast<std::size_t>(std::bit_width(touched_)); }
+
+ private:
+  std::uint64_t free_ = ~std::uint64_t{0}, touched_ = 0;  ///< a bit for each register
 };
 
 }  // namespace wale
