@@ -10,7 +10,10 @@
 #include <string_view>
 
 #include "compiler/describe/describe_extracted.hpp"
+#include "compiler/extract/cues.hpp"
+#include "compiler/extract/dependence.hpp"
 #include "compiler/measure/rehearsal.hpp"
+#include "runtime/machine/parallel.hpp"
 
 namespace wale {
 
@@ -99,8 +102,8 @@ std::string why_no_texture(const PatchProgram& program, const Measured& force) {
   return fmt::format("its force depends on {}, so it is not one texture", text);
 }
 
-/// How it pushes, how stable the loop is, and what its force tells.
-void describe_force(Description& description, const Bank& bank, const Declarations* declarations) {
+/// How it pushes and how stable the loop is.
+void describe_pushing(Description& description, const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   description.force = measure(bank);
   // What a program remembers pushes too, once it has something to remember.
@@ -113,8 +116,27 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
   description.grade = grade(bank);
+}
+
+/// That, and what its force tells, which takes about as long: neither needs the other.
+void describe_force(Description& description, const Bank& bank, const Declarations* declarations) {
+  const PatchProgram& program = bank.program().description();
+  Extraction found;
+  const auto work = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t task = begin; task < end; ++task)
+      if (task == 0)
+        describe_pushing(description, bank);
+      else
+        found = extract(bank, *declarations);
+  };
+  const std::size_t tasks = declarations ? 2 : 1;
+  // Of what is the same everywhere there is so little to read that it is not worth a thread.
+  if (depends_on_place(program))
+    in_parallel(tasks, work);
+  else
+    work(0, tasks);
   description.no_percept = why_no_texture(program, description.force);
-  if (declarations) describe_extracted(description, bank, *declarations);
+  if (declarations) describe_extracted(description, bank, found, *declarations);
 }
 
 /// How it shakes a pad.

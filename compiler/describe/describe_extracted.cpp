@@ -108,8 +108,8 @@ void tell_intervals(DescribedPercept& percept, double scatter, double spread, do
   percept.near_threshold = percept.level < near_threshold;
 }
 
-void describe_extracted(Description& description, const Bank& bank, const Declarations& declarations) {
-  const Extraction found = extract(bank, declarations);
+void describe_extracted(Description& description, const Bank& bank, const Extraction& found,
+                        const Declarations& declarations) {
   const Cues cues = cues_of(bank, found);
   description.texture = texture_of(cues, found, description.force.max_newton, declarations);
   const DeviceDeclaration* device = declarations.devices.find(description.device.name);

@@ -2,6 +2,7 @@
 
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/extract/extract.hpp"
 
 namespace wale {
 
@@ -11,8 +12,9 @@ namespace wale {
 void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
                     double near_threshold);
 
-/// Adds to a description what the program's force alone tells: the percepts that it has no record of, by the maps that
-/// set levels on its device, and its texture with the rules that classify it.
-void describe_extracted(Description& description, const Bank& bank, const Declarations& declarations);
+/// Adds to a description what the program's force alone tells, as it was `found` in it: the percepts that it has no
+/// record of, by the maps that set levels on its device, and its texture with the rules that classify it.
+void describe_extracted(Description& description, const Bank& bank, const Extraction& found,
+                        const Declarations& declarations);
 
 }  // namespace wale

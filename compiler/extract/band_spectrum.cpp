@@ -9,6 +9,9 @@
 namespace wale {
 namespace {
 
+/// Waves that are as strong as the strongest but for rounding go in one order, those along x first: rounding does not
+/// choose among them.
+constexpr float as_strong_as = 0.9999f;
 constexpr std::ptrdiff_t reach_of_peak = 2;  // coefficients on either side that the window spreads one wave over
 
 }  // namespace
@@ -101,8 +104,13 @@ std::vector<WaveComponent> BandSpectrum::components(std::size_t most, double lea
     return left[static_cast<std::size_t>((row % rows + rows) % rows * columns + std::min(column, columns - 1))];
   };
   while (found.size() < most) {
-    const auto top = std::ranges::max_element(left) - left.begin();
-    const std::ptrdiff_t column = top % columns, row = top / columns;
+    const float least = as_strong_as * *std::ranges::max_element(left);
+    std::ptrdiff_t column = columns, row = 0;
+    for (std::ptrdiff_t i = 0; column == columns; ++i) {
+      row = (rows - i) % rows;
+      const float* line = left.data() + row * columns;
+      column = std::find_if(line, line + columns, [&](float power) { return power >= least; }) - line;
+    }
     if (at(column, row) <= 0) break;
     double sum = 0;
     for (std::ptrdiff_t down = -reach_of_peak; down <= reach_of_peak; ++down)

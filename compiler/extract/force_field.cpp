@@ -4,26 +4,39 @@
 #include <cmath>
 #include <span>
 
+#include "runtime/machine/parallel.hpp"
+
 namespace wale {
 namespace {
 
-constexpr std::size_t hands_at_once = 8192;  // they stay in the cache
+constexpr std::size_t hands_at_once = 2048;  // they stay in the cache
+/// More than this, in units of cost over all hands, is worth another thread: about a millisecond.
+constexpr double worth_another_thread = 4e6;
 
 }  // namespace
 
 ForceField sample_force_field(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, std::size_t side) {
   ForceField field{side, centre, size / static_cast<double>(side), std::vector<Force>(side * side)};
   const std::size_t lines = std::clamp<std::size_t>(hands_at_once / side, 1, side);
-  std::vector<Hand> hands(lines * side);
-  for (std::size_t first = 0; first < side; first += lines) {
-    const std::size_t count = std::min(lines, side - first);
-    for (std::size_t row = 0; row < count; ++row)
-      for (std::size_t column = 0; column < side; ++column) {
-        Hand& hand = hands[row * side + column];
-        hand.position = hand.workspace = glm::vec2(field.place(column, first + row));
-      }
-    tick_all(bank, std::span(hands).first(count * side), std::span(field.forces).subspan(first * side, count * side));
-  }
+  // Every line has forces of its own, so that it does not matter which thread works out which.
+  const auto sample = [&](std::size_t begin, std::size_t end) {
+    std::vector<Hand> hands(std::min(lines, end - begin) * side);
+    for (std::size_t first = begin; first < end; first += lines) {
+      const std::size_t count = std::min(lines, end - first);
+      for (std::size_t row = 0; row < count; ++row)
+        for (std::size_t column = 0; column < side; ++column) {
+          Hand& hand = hands[row * side + column];
+          hand.position = hand.workspace = glm::vec2(field.place(column, first + row));
+        }
+      tick_all(bank, std::span(hands).first(count * side), std::span(field.forces).subspan(first * side, count * side));
+    }
+  };
+  const PatchProgram& program = bank.program().description();
+  const auto cost = static_cast<double>(cost_of(program.enter) + cost_of(program.tick));
+  if (static_cast<double>(side * side) * cost < worth_another_thread)
+    sample(0, side);
+  else
+    in_parallel(side, sample);
   return field;
 }
 

@@ -16,6 +16,9 @@ Spectrum fourier(std::size_t side, std::span<const std::complex<float>> values);
 /// Back: the values whose transform is given.
 Spectrum inverse_fourier(std::size_t side, std::span<const std::complex<float>> coefficients);
 
+/// The transforms of lines of `count` values, one after the other.
+Spectrum fourier_of_lines(std::size_t count, std::span<const std::complex<float>> values);
+
 /// The transform of a line of values.
 Spectrum fourier_of_line(std::span<const std::complex<float>> values);
 

@@ -34,24 +34,30 @@ double let_through_by_means(double periods) {
   return angle == 0 ? 1 : std::pow(std::sin(every * angle) / (every * std::sin(angle)), times);
 }
 
+/// Adds `count` forces, times a weight, to others that they do not overlap.
+void add_weighted(const Force* __restrict from, float weight, Force* __restrict to, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += weight * from[i];
+}
+
 }  // namespace
 
 SlowForce::SlowForce(const ForceField& field) : side_(field.side), centre_(field.centre), spacing_(field.spacing) {
   static constexpr std::array<float, taps> weights = weights_of_means();
   const std::size_t coarse = side_ / every;
   const auto around = [&](std::size_t index) { return index % side_; };
-  std::vector<Force> rows(side_ * coarse), both(coarse * coarse, Force(0));
-  for (std::size_t row = 0; row < side_; ++row)
-    for (std::size_t column = 0; column < coarse; ++column) {
-      Force sum(0);
-      for (std::size_t k = 0; k < taps; ++k)
-        sum += weights[k] * field.forces[row * side_ + around(every * column + k + side_ - before)];
-      rows[row * coarse + column] = sum;
-    }
+  // Whole lines first, of which the processor adds several places at once; then along the few that are left.
+  std::vector<Force> lines(coarse * side_, Force(0)), both(coarse * coarse);
   for (std::size_t row = 0; row < coarse; ++row)
     for (std::size_t k = 0; k < taps; ++k)
-      for (std::size_t column = 0; column < coarse; ++column)
-        both[row * coarse + column] += weights[k] * rows[around(every * row + k + side_ - before) * coarse + column];
+      add_weighted(field.forces.data() + around(every * row + k + side_ - before) * side_, weights[k],
+                   lines.data() + row * side_, side_);
+  for (std::size_t row = 0; row < coarse; ++row)
+    for (std::size_t column = 0; column < coarse; ++column) {
+      const Force* line = lines.data() + row * side_;
+      Force sum(0);
+      for (std::size_t k = 0; k < taps; ++k) sum += weights[k] * line[around(every * column + k + side_ - before)];
+      both[row * coarse + column] = sum;
+    }
   spectrum_ = fourier(coarse, as_complex(both));
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <utility>
 
 #include "compiler/extract/band_spectrum.hpp"
@@ -56,36 +55,48 @@ glm::dvec2 busiest_place(const ForceField& whole) {
   return found;
 }
 
-/// Whether a good part of a texture has periods so near to the spacing (m) of another field that they seem slow there:
-/// such as go along its lines or its columns.
-bool deceives(const ForceField& close, glm::dvec2 spacing) {
-  const std::vector<float> window = hann_window(close.side);
-  const auto count = static_cast<double>(close.side);
-  double deceiving = 0, all = 0;
-  for (const int axis : {0, 1}) {
-    const double extent = close.extent()[axis], waves = extent / spacing[axis], more = extent / seems_slow;
-    for (std::size_t line = every_line / 2; line < close.side; line += every_line) {
-      std::vector<glm::dvec2> values(close.side);
-      for (std::size_t i = 0; i < close.side; ++i) {
-        const Force force = close.forces[axis == 0 ? line * close.side + i : i * close.side + line];
-        values[i] = static_cast<double>(window[i]) * glm::dvec2(force);
-        all += glm::dot(values[i], values[i]) * count / 2;
-      }
-      for (double periods = std::ceil(waves - more); periods <= std::min(waves + more, count / 2); ++periods) {
-        // A recurrence spares the sines.
-        const double angle = 2 * std::numbers::pi * periods / count;
-        const glm::dvec2 turn{std::cos(angle), std::sin(angle)};
-        glm::dvec2 at{1, 0}, cosines{0}, sines{0};
-        for (const glm::dvec2& value : values) {
-          cosines += at.x * value, sines += at.y * value;
-          at = {at.x * turn.x - at.y * turn.y, at.x * turn.y + at.y * turn.x};
+/// What periods a texture has along some of its lines and of its columns.
+class LinePeriods {
+ public:
+  explicit LinePeriods(const ForceField& close) : extent_(close.extent()), count_(close.side) {
+    const std::vector<float> window = hann_window(count_);
+    for (const int axis : {0, 1}) {
+      std::vector<std::complex<float>> values;
+      for (std::size_t line = every_line / 2; line < count_; line += every_line)
+        for (std::size_t i = 0; i < count_; ++i) {
+          const Force force = window[i] * close.forces[axis == 0 ? line * count_ + i : i * count_ + line];
+          values.emplace_back(force.x, force.y);
+          all_ += squared(force);
         }
-        deceiving += glm::dot(cosines, cosines) + glm::dot(sines, sines);
-      }
+      power_[axis].resize(count_ / 2 + 1);
+      const Spectrum spectrum = fourier_of_lines(count_, values);
+      // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image.
+      for (std::size_t line = 0; line < spectrum.size(); line += count_)
+        for (std::size_t periods = 0; periods <= count_ / 2; ++periods)
+          power_[axis][periods] +=
+              0.5 * (std::norm(spectrum[line + periods]) + std::norm(spectrum[line + (count_ - periods) % count_]));
     }
   }
-  return deceiving > deceptive * all;
-}
+
+  /// Whether a good part of it has periods so near to the spacing (m) of another field that they seem slow there: such
+  /// as go along its lines or its columns.
+  bool deceive(glm::dvec2 spacing) const {
+    double deceiving = 0;
+    const double half = 0.5 * static_cast<double>(count_);
+    for (const int axis : {0, 1}) {
+      const double waves = extent_[axis] / spacing[axis], more = extent_[axis] / seems_slow;
+      for (double periods = std::max(0.0, std::ceil(waves - more)); periods <= std::min(waves + more, half); ++periods)
+        deceiving += power_[axis][static_cast<std::size_t>(periods)];
+    }
+    return deceiving > deceptive * half * all_;
+  }
+
+ private:
+  glm::dvec2 extent_;
+  std::size_t count_;
+  std::array<std::vector<double>, 2> power_;  // by periods over the extent
+  double all_ = 0;
+};
 
 }  // namespace
 
@@ -104,8 +115,9 @@ StaticForce::StaticForce(const Bank& bank) {
   busiest = glm::clamp(busiest_place(without(first, linear_part(first))), -room, room);
   close = sample_force_field(bank, busiest, window, close_side);
   std::size_t side = whole_sides.back();
+  const LinePeriods periods(close);
   for (const std::size_t each : whole_sides)
-    if (!deceives(close, inside / static_cast<double>(each))) {
+    if (!periods.deceive(inside / static_cast<double>(each))) {
       side = each;
       break;
     }

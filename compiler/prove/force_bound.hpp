@@ -24,8 +24,8 @@ struct ForceBound {
 inline constexpr long usual_effort = 400'000;
 
 /// The bound over `domain`: by ranges in one pass, then by splitting the domain where the bound is largest, along the
-/// quantity that lowers it most, until it is within a thousandth of what the search found, the effort is spent, or an
-/// eighth of it has gained nothing.
+/// quantity that lowers it most, until it is within a thousandth of what the search found, the effort is spent, or a
+/// thirty-second part of it has gained nothing.
 ForceBound force_bound(const Program& program, const Domain& domain, long effort = usual_effort);
 
 /// The bound over everything that the runtime lets a program see, of what it can remember by then.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "runtime/machine/arithmetic.hpp"
 #include "wale/batch.hpp"
@@ -14,10 +16,12 @@ namespace {
 constexpr std::size_t starts = 1024;      ///< hands for each choice of parameters
 constexpr std::size_t neighbours = 128;   ///< hands of one step around the best
 constexpr int steps = 14;                 ///< each half as wide as the one before
-constexpr int passes = 4;                 ///< of all steps, the first of which may lead out of a dead end again
+constexpr int passes = 4;                 ///< of all steps, the first of which may lead out of a dead end again ...
+constexpr double gaining = 1.0001;        ///< ... as long as one brings so much more, which is what is told
 constexpr std::size_t refined = 4;        ///< of the choices of parameters, the best
 constexpr double near_enough = 0.9;       ///< of what is looked for
-constexpr double setup_budget = 3e7;      ///< units of cost, for the peaks of all choices together
+constexpr double budget = 1.6e7;          ///< units of cost over all points of peaks and all hands: some milliseconds
+constexpr double single = 4;              ///< what a hand by itself costs more than one of many
 constexpr std::size_t most_choices = 32;  ///< of parameters
 constexpr std::size_t strokes = 16, stroke_ticks = 256;
 constexpr double longest = 60;  ///< s; how late a hand is looked at
@@ -73,49 +77,61 @@ class Search {
   }
 
   LargestForce run() {
-    std::vector<LargestForce> found;
+    std::vector<Tried> tried;
     bool hoped = false;
     for (const Choice& choice : choices()) {
-      found.push_back(best_of(choice));
-      if (enough(found.back())) return found.back();
+      Tried& now = tried.emplace_back(best_of(choice));
+      if (enough(now.best)) return now.best;
       // The first that comes near may get there at once, which spares the peaks of all further choices.
-      if (hoped || found.back().newton < near_enough * enough_) continue;
+      if (hoped || now.best.newton < near_enough * enough_) continue;
       hoped = true;
-      LargestForce nearer = found.back();
-      refine(Bank(program_, nearer.parameters, nearer.size), nearer);
-      if (enough(nearer)) return nearer;
+      refine(now);
+      if (enough(now.best)) return now.best;
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const LargestForce& a, const LargestForce& b) { return a.newton > b.newton; });
-    found.resize(std::min(found.size(), refined));
-    LargestForce best = found.front();
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const Tried& a, const Tried& b) { return a.best.newton > b.best.newton; });
+    tried.erase(tried.begin() + static_cast<std::ptrdiff_t>(std::min(tried.size(), refined)), tried.end());
+    LargestForce best = tried.front().best;
     const auto consider = [&best](const LargestForce& other) {
       if (other.newton > best.newton) best = other;
     };
-    for (LargestForce& each : found) {
-      const Bank bank(program_, each.parameters, each.size);
-      refine(bank, each);
-      consider(each);
+    for (Tried& each : tried) {
+      if (&each != &tried.front() && left_ <= 0) break;
+      refine(each);
+      consider(each.best);
       if (enough(best)) return best;
-      if (remembers_) consider(stroked({bank}));
     }
-    // What was remembered under one setting of the parameters is felt under another.
-    if (remembers_ && !live_.empty()) {
-      std::vector<Bank> banks;
-      for (const LargestForce& each : found) banks.emplace_back(program_, each.parameters, found.front().size);
+    if (remembers_) {
+      // What was remembered under one setting of the parameters is felt under another.
+      std::vector<Bank> banks = {tried.front().bank};
+      for (const Tried& each : std::span(tried).subspan(1))
+        if (!live_.empty() && each.best.size.width == banks.front().size().width) banks.push_back(each.bank);
       consider(stroked(std::move(banks)));
     }
     return refined_parameters(best);
   }
 
  private:
-  /// How many banks the budget allows.
-  std::size_t affordable() const {
+  /// A choice that was tried.
+  struct Tried {
+    Bank bank;
+    LargestForce best;
+    bool refined = false;
+  };
+
+  double cost_of_setup() const {
     double cost = static_cast<double>(cost_of(description_.setup));
-    for (const Peak& peak : description_.peaks) {
-      cost += peak.points * (1.0 + static_cast<double>(cost_of(peak.code)));
-    }
-    return static_cast<std::size_t>(std::clamp(setup_budget / (cost + 1), 3.0, static_cast<double>(most_choices)));
+    for (const Peak& peak : description_.peaks) cost += peak.points * (1.0 + static_cast<double>(cost_of(peak.code)));
+    return cost;
+  }
+  double cost_of_hand() const {
+    return 1.0 + static_cast<double>(cost_of(description_.enter) + cost_of(description_.tick));
+  }
+
+  /// How many choices half of the budget allows.
+  std::size_t affordable() const {
+    const double each = cost_of_setup() + starts * cost_of_hand();
+    return static_cast<std::size_t>(std::clamp(budget / 2 / each, 3.0, static_cast<double>(most_choices)));
   }
 
   /// The program's defaults, the corners of its parameters' ranges that are likeliest to matter, then any within.
@@ -234,23 +250,26 @@ class Search {
     }
   }
 
-  LargestForce best_of(const Choice& choice) const {
-    const Bank bank(program_, choice.parameters, choice.size);
-    LargestForce best{0, {}, choice.parameters, choice.size};
+  Tried best_of(const Choice& choice) {
+    Tried tried{Bank(program_, choice.parameters, choice.size), {0, {}, choice.parameters, choice.size}};
     const std::vector<Hand> hands = starting_hands(choice.size);
     std::vector<Force> forces(hands.size());
-    tick_all(bank, hands, forces);
-    look_at(hands, forces, best);
-    return best;
+    tick_all(tried.bank, hands, forces);
+    look_at(hands, forces, tried.best);
+    left_ -= cost_of_setup() + starts * cost_of_hand();
+    return tried;
   }
 
-  void refine(const Bank& bank, LargestForce& best) const {
-    if (moving_.empty()) return;
+  void refine(Tried& tried) {
+    if (moving_.empty() || std::exchange(tried.refined, true)) return;
+    LargestForce& best = tried.best;
     Dice dice(3);
-    Batch batch(bank, neighbours);  // as tick_all, with one block to work in for all steps
+    Batch batch(tried.bank, neighbours);  // as tick_all, with one block to work in for all steps
     std::vector<Hand> hands;
     std::vector<Force> forces(neighbours);
+    double before = 0;
     for (int step = 0; step < passes * steps && !enough(best); ++step) {
+      if (step % steps == 0 && std::exchange(before, gaining * best.newton) > best.newton) break;
       const double width = std::ldexp(0.25, -(step % steps));
       hands.clear();
       for (std::size_t i = 0; i < neighbours; ++i) {
@@ -270,12 +289,14 @@ class Search {
       batch.enter(hands);
       batch.tick(hands, forces);
       look_at(hands, forces, best);
+      left_ -= neighbours * cost_of_hand();
     }
   }
 
   /// The hand goes from place to place while the program remembers, at steady speeds and by leaps. Each time any of the
   /// banks, all of one patch size, takes over.
-  LargestForce stroked(std::vector<Bank> banks) const {
+  LargestForce stroked(std::vector<Bank> banks) {
+    left_ -= strokes * stroke_ticks * single * cost_of_hand();
     const PatchSize size = banks.front().size();
     LargestForce best{0, {}, {}, size, true};
     Dice dice(17);
@@ -320,23 +341,24 @@ class Search {
   }
 
   /// One parameter after the other, at the best hand and around it.
-  LargestForce refined_parameters(LargestForce best) const {
+  LargestForce refined_parameters(LargestForce best) {
     if (best.after_a_stroke) return best;
-    std::size_t left = affordable();
+    std::size_t left = most_choices;
     for (double width = 0.5; width > 0.01; width *= 0.5) {
       for (const std::size_t i : live_) {
         for (const double direction : {-1.0, 1.0}) {
-          if (left == 0) return best;
+          if (left == 0 || left_ <= 0) return best;
           const Interval& range = domain_.parameters[i];
           const double step = direction * width * (static_cast<double>(range.high) - range.low);
-          LargestForce tried = best;
-          tried.parameters[i] = std::clamp(static_cast<float>(best.parameters[i] + step), range.low, range.high);
-          if (tried.parameters[i] == best.parameters[i]) continue;
+          LargestForce other = best;
+          other.parameters[i] = std::clamp(static_cast<float>(best.parameters[i] + step), range.low, range.high);
+          if (other.parameters[i] == best.parameters[i]) continue;
           --left;
-          Bank bank(program_, tried.parameters, tried.size);
-          tried.newton = size_of(tick(bank, tried.hand));
-          refine(bank, tried);
-          if (tried.newton > best.newton) best = tried;
+          left_ -= cost_of_setup();
+          Tried tried{Bank(program_, other.parameters, other.size), other};
+          tried.best.newton = size_of(tick(tried.bank, other.hand));
+          refine(tried);
+          if (tried.best.newton > best.newton) best = tried.best;
           if (enough(best)) return best;
         }
       }
@@ -351,6 +373,7 @@ class Search {
   std::vector<Input> moving_;      ///< inputs that the force depends on
   std::vector<std::size_t> live_;  ///< parameters likewise
   bool remembers_ = false;
+  double left_ = budget;
 };
 
 }  // namespace

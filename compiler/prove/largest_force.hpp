@@ -19,7 +19,7 @@ struct LargestForce {
 /// Looks for the largest |force| over hands, parameters and patch sizes within `domain`: many starts by blocks of
 /// lanes, then ever smaller steps around the best of them; programs that remember are also stroked tick by tick. The
 /// same result everywhere. Ends where it has found `enough` (N): a search need not go on that has come to what is
-/// proved. A few milliseconds, and as many setups as cost about 30 ms more, three at least.
+/// proved. Some milliseconds, counted in instructions and not by a clock; three choices of parameters at least.
 LargestForce largest_force(const Program& program, const ForceSlice& slice, const Domain& domain, double enough);
 
 }  // namespace wale

@@ -57,7 +57,7 @@ void DescribeExtracted(benchmark::State& state, Program (*make)()) {
   const Description plain = describe(bank);
   for (auto _ : state) {
     Description description = plain;
-    describe_extracted(description, bank, declarations());
+    describe_extracted(description, bank, extract(bank, declarations()), declarations());
     benchmark::DoNotOptimize(description);
   }
 }
