@@ -99,7 +99,7 @@ command::FeltOn felt_on(const FeelOptions& options, const DeviceToFeel& device) 
                 return choice;
               },
           .open = [&](const PatchProgram& program) -> std::unique_ptr<Device> {
-            auto opened = open_to_feel(device, program, say);
+            auto opened = open_to_feel(device, program, say, interrupted);
             if (const auto* refusal = std::get_if<Refusal>(&opened)) refuse(refusal->reason);
             auto* joystick = std::get_if<std::unique_ptr<Device>>(&opened);
             return joystick != nullptr ? std::move(*joystick) : nullptr;
@@ -337,7 +337,7 @@ int main(int argc, char** argv) {
                          ->type_name("[DEVICE]")
                          ->excludes(as_json);
   verb->add_option("--max-force", gentle,
-                   "the largest force of --identify, as in \"1 N\" (default: a fifth of its own)")
+                   "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of its own)")
       ->needs(identifies);
   verb->footer("for example: wale devices --json; wale devices --identify > devices.wale");
   verb->callback(

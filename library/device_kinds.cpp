@@ -60,6 +60,7 @@ OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugge
                          const DeviceOptions& options) {
   FalconOptions falcon;
   falcon.ask = options.ask;
+  falcon.stop = options.stop;
   auto opened = FalconDevice::open(connections.usb, plugged.usb, profile, falcon);
   if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
   return std::move(std::get<std::unique_ptr<FalconDevice>>(opened));

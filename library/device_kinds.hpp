@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <span>
@@ -40,6 +41,7 @@ struct DeviceOptions {
   int priority = 0;  ///< SCHED_FIFO, of the threads that serve the device, where permitted; 0: ordinary
   /// Told what the person is to do before it can be used, where there is something; empty: nobody is asked.
   std::function<void(const std::string&)> ask = {};
+  const std::atomic<bool>* stop = nullptr;  ///< true: nobody is waited for any more; null: never
 };
 
 /// One driver: what it finds, and how it opens it. Everything that chooses, lists, identifies and opens devices goes

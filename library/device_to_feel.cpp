@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -27,10 +26,12 @@ std::variant<ChosenDevice, Refusal> wait_for(const Absent& absent, const Connect
   constexpr int most_looks = 20;  // at what has just been plugged in: permissions come a moment after it
   const auto begun = Clock::now();
   std::vector<UsbDeviceInfo> seen;
-  int looks = 1;  // something may have come before the first of them
+  int looks = 1;         // something may have come before the first of them
+  std::string obstacle;  // of what has come and cannot be used
   while (!stop.load(std::memory_order_relaxed)) {
     if (seconds && std::chrono::duration<double>(Clock::now() - begun).count() >= *seconds)
-      return Refusal{fmt::format("{}, and none was within {:.4g} s", absent.what, *seconds), {}};
+      return Refusal{
+          obstacle.empty() ? fmt::format("{}, and none was within {:.4g} s", absent.what, *seconds) : obstacle, {}};
     std::this_thread::sleep_for(between_looks);
     auto now = connections.usb->devices();
     if (now != seen) looks = most_looks;
@@ -39,7 +40,9 @@ std::variant<ChosenDevice, Refusal> wait_for(const Absent& absent, const Connect
     --looks;
     Choice choice = choose_device(request, known, plugged_in(connections, request.spelling));
     if (auto* chosen = std::get_if<ChosenDevice>(&choice)) return std::move(*chosen);
-    if (auto* refusal = std::get_if<Refusal>(&choice); refusal != nullptr && looks == 0) return std::move(*refusal);
+    const auto* refusal = std::get_if<Refusal>(&choice);
+    obstacle = refusal != nullptr ? refusal->reason : "";
+    if (refusal != nullptr && looks == 0) return *refusal;
   }
   return Refusal{"stopped, and nothing was felt", {}};
 }
@@ -88,10 +91,10 @@ std::variant<DeviceToFeel, Refusal> device_to_feel(const DeviceWanted& wanted, c
 }
 
 std::variant<std::unique_ptr<Device>, Refusal> open_to_feel(const DeviceToFeel& device, const PatchProgram& program,
-                                                            const Say& say) {
+                                                            const Say& say, const std::atomic<bool>& stop) {
   const DeviceProfile& profile = program.device;
   if (device.chosen.plugged) {
-    auto opened = open_device(device.connections, device.chosen, profile, say);
+    auto opened = open_device(device.connections, device.chosen, profile, say, &stop);
     if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
     return std::get<std::unique_ptr<HotPluggedDevice>>(std::move(opened));
   }

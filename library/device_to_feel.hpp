@@ -38,8 +38,9 @@ using Say = std::function<void(const std::string&)>;
 std::variant<DeviceToFeel, Refusal> device_to_feel(const DeviceWanted& wanted, const Say& say,
                                                    const std::atomic<bool>& stop);
 
-/// What was chosen, opened, or simulated in a hand that moves as asked, for a program. The connections outlive it.
+/// What was chosen, opened, or simulated in a hand that moves as asked, for a program. The connections and `stop`
+/// outlive it.
 std::variant<std::unique_ptr<Device>, Refusal> open_to_feel(const DeviceToFeel& device, const PatchProgram& program,
-                                                            const Say& say);
+                                                            const Say& say, const std::atomic<bool>& stop);
 
 }  // namespace wale

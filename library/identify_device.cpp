@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace wale {
@@ -53,6 +54,13 @@ std::string identified_text(const Identified& found) {
   return text;
 }
 
+DeviceWiring rewired(DeviceWiring wiring, const Identified& found) {
+  if (found.motors_settled->front().axis != wiring.motors.front().axis) std::swap(wiring.gain[0], wiring.gain[1]);
+  wiring.axes = *found.axes_settled;
+  wiring.motors = *found.motors_settled;
+  return wiring;
+}
+
 namespace {
 
 /// Settings of a declaration, in the order and with the units that a person would choose.
@@ -95,7 +103,7 @@ std::string device_declaration(const DescribedDevice& device, const std::string&
   const auto axes = [](const std::array<SignedAxis, 2>& both) { return in_words(both[0]) + ", " + in_words(both[1]); };
   writer.add("axes", axes(wiring.axes));
   writer.add("motors", axes(wiring.motors));
-  if (wiring.gain != std::array<double, 2>{1, 1})
+  if (wiring.gain != std::array<double, 2>{1, 1} || std::ranges::find(device.unknown, "gain") != device.unknown.end())
     writer.figure("gain", number(wiring.gain[0]) + ", " + number(wiring.gain[1]));
   const auto millimetres = [](double metres) { return number(1e3 * metres) + " mm"; };
   writer.figure("workspace", "disc(" + millimetres(profile.workspace_diameter) + ")");

@@ -22,6 +22,10 @@ std::variant<Identified, Refusal> identify_device(Device& device, const Identify
 /// What was found out, for a person: what each motor moves, at what force, and what the person showed.
 std::string identified_text(const Identified& found);
 
+/// The same device with its axes and motors as they were found, which are settled: a gain is its motor's, wherever that
+/// pushes.
+DeviceWiring rewired(DeviceWiring wiring, const Identified& found);
+
 /// A file that declares a device like `device`, with another name and wiring, for whoever builds for it:
 /// figures that were assumed still are. The comments are lines without `//`.
 std::string device_declaration(const DescribedDevice& device, const std::string& name, const DeviceWiring& wiring,

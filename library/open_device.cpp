@@ -253,10 +253,11 @@ std::variant<ChosenDevice, Absent, Refusal> choose_device(const DeviceRequest& r
 std::variant<std::unique_ptr<HotPluggedDevice>, Refusal> open_device(const Connections& connections,
                                                                      const ChosenDevice& chosen,
                                                                      const DeviceProfile& profile,
-                                                                     std::function<void(const std::string&)> ask) {
+                                                                     std::function<void(const std::string&)> ask,
+                                                                     const std::atomic<bool>* stop) {
   const PluggedIn& plugged = *chosen.plugged;
   const DeviceKind& kind = *device_kind(plugged.kind);
-  const DeviceOptions options{.priority = loop_priority - 1, .ask = std::move(ask)};
+  const DeviceOptions options{.priority = loop_priority - 1, .ask = std::move(ask), .stop = stop};
   if (connections.usb) connections.usb->set_priority(options.priority);  // not permitted: as punctual as may be
   std::set<std::string> others;                                          // where another of its like was
   for (const PluggedIn& each : alike(connections, kind, plugged))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -60,10 +61,12 @@ std::variant<ChosenDevice, Absent, Refusal> choose_device(const DeviceRequest& r
 
 /// Opens a chosen device that is plugged in, by the profile of the program, with threads just below the real-time
 /// loop's priority where that is permitted. It is found again when it comes back after it was unplugged: at its port,
-/// or at another one where none like it was. `ask` is told what the person is to do meanwhile, from whatever thread.
+/// or at another one where none like it was. `ask` is told what the person is to do meanwhile, from whatever thread;
+/// `stop`, once true, ends whatever waits for a person, and outlives the device.
 std::variant<std::unique_ptr<HotPluggedDevice>, Refusal> open_device(const Connections& connections,
                                                                      const ChosenDevice& chosen,
                                                                      const DeviceProfile& profile,
-                                                                     std::function<void(const std::string&)> ask = {});
+                                                                     std::function<void(const std::string&)> ask = {},
+                                                                     const std::atomic<bool>* stop = nullptr);
 
 }  // namespace wale

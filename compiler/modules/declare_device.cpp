@@ -219,6 +219,8 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     read_motors(reader, profile);
   }
   read_wiring(reader, profile, device.wiring);
+  if (const auto* gain = vibrates ? nullptr : reader.setting("gain"); gain && is_unknown(*gain))
+    device.unknown.emplace_back("gain");
   for (const auto& setting : record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed") && (device.assumed.empty() || device.assumed.back() != setting.key.text))

@@ -229,6 +229,20 @@ TEST(Choosing, NoTwoDeclarationsOfOursAreAboutTheSameDeviceAndOneIsGeneric) {
   EXPECT_EQ(generic, 1);
 }
 
+TEST(Choosing, AGainGoesWithItsMotor) {
+  DeviceWiring before;
+  before.motors = {{{1, -1}, {0, 1}}};  // its y motor pushes to the left: half as hard as it should
+  before.gain = {0.5, 2};
+  Identified found;
+  found.axes_settled = found.motors_settled = std::array<SignedAxis, 2>{{{0, 1}, {1, 1}}};
+  const DeviceWiring after = rewired(before, found);
+  EXPECT_EQ(after.motors, *found.motors_settled);
+  EXPECT_EQ(after.axes, *found.axes_settled);
+  EXPECT_EQ(after.gain, (std::array<double, 2>{2, 0.5}));
+  found.motors_settled = before.motors;
+  EXPECT_EQ(rewired(before, found).gain, before.gain);
+}
+
 TEST(Choosing, APrintedDeclarationIsTheDeviceWithItsWiring) {
   DeviceWiring wiring;
   wiring.usb = {{0x1209, 0xffb0}};
@@ -249,6 +263,12 @@ TEST(Choosing, APrintedDeclarationIsTheDeviceWithItsWiring) {
               std::set<std::string>(device.assumed.begin(), device.assumed.end()));
     EXPECT_EQ(again.of_class, device.of_class);
     EXPECT_EQ(again.source, device.source);
+    DescribedDevice unweighed = device;
+    unweighed.unknown.emplace_back("gain");
+    const Declared said(device_declaration(unweighed, "mine", wiring, {}));
+    ASSERT_EQ(said.complaints(), "");
+    const auto unknown = devices_known(said.module).front().unknown;
+    EXPECT_NE(std::ranges::find(unknown, "gain"), unknown.end());
   }
 }
 

@@ -158,12 +158,17 @@ TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
     each.homes_after = -1;
     each.is_homed = false;
   });
+  const std::string not_homed =
+      "0403:cb48: its encoders have not found their zeros: push the handle all the way in and pull it all the way out";
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.homing_patience = 1e9;
+  options.ask = [&](const std::string&) { stop = true; };
+  EXPECT_EQ(refusal(1, options), not_homed) << "nobody wants it any more";
+  options.stop = nullptr;
   options.ask = {};
   options.homing_patience = 0.05;
-  EXPECT_EQ(
-      refusal(1, options),
-      "0403:cb48: its encoders have not found their zeros: push the handle all the way in and pull it all the way "
-      "out");
+  EXPECT_EQ(refusal(1, options), not_homed);
 }
 
 TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {

@@ -421,6 +421,7 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
   EXPECT_TRUE(contains(identified.out, "  axes      x, y\n") || contains(identified.out, "  axes x, y\n"))
       << identified.out;
   EXPECT_TRUE(contains(identified.out, "motors x, y")) << identified.out;
+  EXPECT_TRUE(contains(identified.out, "  gain unknown\n")) << identified.out;
   EXPECT_TRUE(contains(identified.err, "Keep your hand off the handle"));
   EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
   // A fifth of its force at most: 6554 of 32767.

@@ -221,6 +221,7 @@ TEST_F(UsbDriver, AKilledProcessIsFeltNoLonger) {
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_TRUE(WIFSIGNALED(status));
+  joystick->close_all();
   await([&] { return force() == glm::dvec2(0); });
   EXPECT_TRUE(joystick->with_model([](PidModel& model) { return model.effects[1].plays; })) << "nobody stopped it";
 }

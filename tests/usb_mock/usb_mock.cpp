@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <linux/usbdevice_fs.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +15,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "runtime/stage/scheduling.hpp"
+
 namespace wale::test {
 namespace {
 
@@ -21,6 +25,14 @@ constexpr std::uint8_t in_bit = 0x80;
 constexpr std::chrono::milliseconds frame_time(1);  // at least, of frames that pass by themselves
 
 std::atomic<std::int64_t> microseconds_passed{0};
+
+/// What stands for the kernel, which waits for no processor, goes before the drivers that wait for it. False: that is
+/// not permitted, and they may have to wait.
+bool go_before_all_others() {
+  sched_param parameters{};
+  parameters.sched_priority = loop_priority + 1;
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
+}
 
 std::string in_hex(const std::vector<std::uint8_t>& bytes) {
   std::string text;
@@ -86,10 +98,7 @@ MockUsbDevice::~MockUsbDevice() {
   g_signal_handler_disconnect(handler_, connection_);
   umockdev_testbed_detach_ioctl(testbed_, node_.c_str(), nullptr);
   g_object_unref(handler_);
-  for (const auto& [endpoint, queue] : endpoints_) std::ranges::for_each(queue, release);
-  std::ranges::for_each(controls_, release);
-  std::ranges::for_each(done_, release);
-  set_unserved(nullptr);
+  close_all();
   close(fifo_);
 }
 
@@ -130,8 +139,14 @@ bool MockUsbDevice::is_served() {
 }
 
 bool MockUsbDevice::wait_until_served() {
+  constexpr int most_looks = 300;
   std::unique_lock lock(mutex_);
-  return served_.wait_for(lock, std::chrono::seconds(30), [&] { return is_gone_ || unserved_ == nullptr; });
+  for (int look = 0; look < most_looks; ++look) {
+    forget_the_closed();
+    constexpr std::chrono::milliseconds between_looks(100);
+    if (served_.wait_for(lock, between_looks, [&] { return is_gone_ || unserved_ == nullptr; })) return true;
+  }
+  return false;
 }
 
 /// Ready is what has something to reap.
@@ -189,6 +204,19 @@ void MockUsbDevice::unplug() {
   };
   for (auto& [endpoint, queue] : endpoints_) end_all(queue);
   end_all(controls_);
+  show_whether_ready();
+}
+
+void MockUsbDevice::close_all() {
+  const std::lock_guard lock(mutex_);
+  const auto forget_all = [](std::deque<Urb>& queue) {
+    std::ranges::for_each(queue, release);
+    queue.clear();
+  };
+  for (auto& [endpoint, queue] : endpoints_) forget_all(queue);
+  forget_all(controls_);
+  forget_all(done_);
+  set_unserved(nullptr);
   show_whether_ready();
 }
 
@@ -280,6 +308,8 @@ gboolean MockUsbDevice::when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* clie
 }
 
 void MockUsbDevice::answer(UMockdevIoctlClient* client) {
+  thread_local const bool is_before_all_others = go_before_all_others();
+  static_cast<void>(is_before_all_others);
   const std::lock_guard lock(mutex_);
   const gulong request = umockdev_ioctl_client_get_request(client);
   UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
@@ -327,6 +357,7 @@ std::int64_t mock_microseconds() noexcept { return microseconds_passed.load(std:
 
 UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
   thread_ = std::thread([this] {
+    go_before_all_others();
     auto next = std::chrono::steady_clock::now();
     while (!ends_) {
       next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up

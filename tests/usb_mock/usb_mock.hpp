@@ -36,6 +36,8 @@ class MockUsbDevice {
   bool wait_until_served();
   /// Whatever is on its way ends, and nothing is taken any more.
   void unplug();
+  /// Nobody has it open any more, as after a process that was killed: that the kernel would see, and this cannot.
+  void close_all();
 
   const std::string& syspath() const { return syspath_; }
   const std::string& node() const { return node_; }

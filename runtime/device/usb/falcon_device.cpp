@@ -1,5 +1,6 @@
 #include "runtime/device/usb/falcon_device.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -25,7 +26,12 @@ std::variant<std::unique_ptr<FalconDevice>, Refusal> FalconDevice::open(std::sha
   constexpr double at_once = 0.2;  // s, in which one that was homed before says so
   if (!transport->was_lost() && !transport->wait_until_homed(at_once) && !transport->was_lost()) {
     if (options.ask) options.ask("push the Falcon's handle all the way in, then pull it all the way out");
-    transport->wait_until_homed(options.homing_patience);
+    constexpr double between_looks = 0.1;  // s
+    const auto is_wanted = [&] { return options.stop == nullptr || !options.stop->load(std::memory_order_relaxed); };
+    for (double waited = 0; waited < options.homing_patience && is_wanted() && !transport->was_lost();
+         waited += between_looks) {
+      if (transport->wait_until_homed(std::min(between_looks, options.homing_patience - waited))) break;
+    }
   }
   if (transport->was_lost()) return refused(transport->reason());
   if (!transport->seen().is_running) {

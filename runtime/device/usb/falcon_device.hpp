@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -26,6 +27,8 @@ struct FalconOptions {
   std::filesystem::path firmware = falcon_firmware_path();
   /// s, for which somebody is waited for who homes it.
   double homing_patience = 60;
+  /// Becomes true when nobody wants it any more, so that nobody is waited for; null: never. Outlives the opening.
+  const std::atomic<bool>* stop = nullptr;
   /// Told what the person is to do; on the thread that opens.
   std::function<void(const std::string&)> ask = {};
   /// s after the newest answer from which on the position counts as an old one.
