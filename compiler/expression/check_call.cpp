@@ -296,7 +296,7 @@ void ExpressionChecker::record_carrier(const FunctionDecl& function, const std::
       carrier.relief = height->x;
       carrier.relief_dimension = height->dimension;
     }
-    carriers_.push_back(carrier);
+    carriers_.push_back(std::move(carrier));
   }
 }
 

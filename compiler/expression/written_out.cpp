@@ -35,6 +35,10 @@ bool stands_alone(const Term& term) {
   }
 }
 
+/// What is called after more terms than this is read each time, as few materials have it: to write out a body costs a
+/// copy of them.
+constexpr std::size_t most_terms_before = 4096;
+
 }  // namespace
 
 const WrittenOut* WrittenOutFunctions::find(const FunctionDecl& function,
@@ -82,7 +86,8 @@ Value ExpressionChecker::body(const Declared<FunctionDecl>& function, Frame& fra
   // Terms of what every file knows come from where the author calls it, wherever in the body they are written.
   const auto place = terms_.attributed();
   const bool is_author = place && place->source < first_embedded_source;
-  if (!known || !known->covers(function) || !is_author || !list_parts(frame.actuals)) return read();
+  const bool is_small = terms_.size() <= most_terms_before;
+  if (!known || !known->covers(function) || !is_author || !is_small || !list_parts(frame.actuals)) return read();
 
   if (const WrittenOut* found = known->find(declaration, kinds_, hand)) {
     const bool fits =
@@ -90,17 +95,25 @@ Value ExpressionChecker::body(const Declared<FunctionDecl>& function, Frame& fra
     return found->always_alike && fits && answers(found->questions) ? written(*found) : read();
   }
   // What is read now is written out; so may be a call that it stands in.
-  const std::vector<TermId> parts = parts_;
   WrittenOut body{.arguments = kinds_, .hand = hand};
+  const std::vector<TermId> parts = parts_;
+  const Terms terms_before = terms_;
   const Traces before = traces();
-  const auto first = static_cast<TermId>(terms_.size());
   const std::size_t first_asked = asked_.size(), depth = callees_.size();
   const std::size_t deepest_before = std::exchange(deepest_, depth);
   ++writing_out_;
-  const Value result = read();
+  Value result = read();
   if (!result.failed()) {
+    const auto first = static_cast<TermId>(terms_before.size());
     body.depth = deepest_ - depth + 1;
     body.always_alike = traces() == before && write_out(first, first_asked, parts, result, body);
+    if (body.always_alike) {  // the terms are the same, whether this is the first call or not
+      terms_ = terms_before;
+      asked_.resize(first_asked);
+      parts_ = parts;
+      answers(body.questions);
+      result = written(body);
+    }
     known->keep(declaration, std::move(body));
   }
   deepest_ = std::max(deepest_, deepest_before);
@@ -111,14 +124,21 @@ Value ExpressionChecker::body(const Declared<FunctionDecl>& function, Frame& fra
 /// Leaves in `kinds_` what kinds of arguments they are, and in `parts_` the terms that they consist of; false where
 /// that is not all there is to them.
 bool ExpressionChecker::list_parts(const std::vector<Actual>& actuals) {
+  constexpr std::size_t few = 8;  // as nearly always
   kinds_.clear();
   parts_.clear();
+  kinds_.reserve(few);
+  parts_.reserve(few);
   for (const auto& [value, span, given] : actuals) {
     const bool vector = value.type == Value::Type::vector;
     if (!vector && value.type != Value::Type::number && value.type != Value::Type::boolean) return false;
     kinds_.push_back({value.type, value.dimension});
+    const auto is_new = [&](TermId part) { return std::ranges::find(parts_, part) == parts_.end(); };
+    if (!is_new(value.x)) return false;
     parts_.push_back(value.x);
-    if (vector) parts_.push_back(value.y);
+    if (!vector) continue;
+    if (!is_new(value.y)) return false;
+    parts_.push_back(value.y);
   }
   return true;
 }
@@ -157,8 +177,8 @@ bool ExpressionChecker::write_out(TermId first, std::size_t first_asked, const s
     if (used[i])
       for (const TermId operand : operands(terms_[static_cast<TermId>(first + i)])) use(operand);
   const auto part_of = [&](TermId id) -> std::optional<TermId> {
-    if (std::ranges::count(parts, id) != 1) return std::nullopt;  // of two arguments that are the same, either
-    return static_cast<TermId>(std::ranges::find(parts, id) - parts.begin());
+    const auto found = std::ranges::find(parts, id);
+    return found == parts.end() ? std::nullopt : std::optional(static_cast<TermId>(found - parts.begin()));
   };
   const auto number_of = [&](TermId id) { return id >= first ? std::optional(numbers[id - first]) : part_of(id); };
   const auto origins_of = [&](TermId id) -> std::optional<Origins> {

@@ -68,7 +68,7 @@ constexpr auto own_dependence = [] {
 
 }  // namespace
 
-inline void Terms::find_dependence(Term& term) const {
+[[gnu::always_inline]] inline void Terms::find_dependence(Term& term) const {
   if (term.kind == TermKind::operation) {  // as most are
     const auto number = static_cast<std::size_t>(term.operation);
     const int count = operation_table[number].operands;
@@ -155,14 +155,14 @@ TermId Terms::add(std::span<const Term> body, std::span<const TermId> parts) {
     return number < parts.size() ? parts[number] : static_cast<TermId>(first + (number - parts.size()));
   };
   terms_.insert(terms_.end(), body.begin(), body.end());
-  for (std::size_t id = first; id < terms_.size(); ++id) {
-    Term& term = terms_[id];
-    if (place_) term.span = *place_;
-    if (term.operands == 0) continue;  // nothing else is left to be found
-    term.a = operand(term.a);
-    if (term.operands > 1) term.b = operand(term.b);
-    if (term.operands > 2) term.c = operand(term.c);
-    find_dependence(term);
+  const Span place = place_.value_or(Span{});
+  for (auto term = terms_.begin() + first; term != terms_.end(); ++term) {
+    term->span = place;
+    if (term->operands == 0) continue;  // nothing else is left to be found
+    term->a = operand(term->a);
+    if (term->operands > 1) term->b = operand(term->b);
+    if (term->operands > 2) term->c = operand(term->c);
+    find_dependence(*term);
   }
   return first;
 }

@@ -146,20 +146,6 @@ bool continues(TokenKind kind) {
   }
 }
 
-Tokens Lexer::run() {
-  if (is_readable()) {
-    result_.tokens.reserve(text_.size() / 4);  // about as many as there are
-    result_.numbers.reserve(text_.size() / 32);
-    result_.texts.reserve(text_.size() / 128);
-    if (decode(text_, 0).code == 0xFEFF) at_ = 3;  // the byte order mark that some editors write
-    while (at_ < text_.size() && !is_full_) next();
-  } else {
-    at_ = text_.size();
-  }
-  add(TokenKind::end, at_);
-  return std::move(result_);
-}
-
 bool Lexer::is_readable() {
   if (text_.size() > largest_source) {
     report(
@@ -196,9 +182,64 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
   return at;
 }
 
-void Lexer::next() {
+// What nearly all of a text is, in one piece: names, numbers, symbols of one character, and the space between them.
+
+[[gnu::always_inline]] inline void Lexer::name() {
+  const std::size_t begin = at_;
+  do {
+    const char* end = text_.data() + at_ + 1;
+    while (continues_name(*end)) ++end;
+    at_ = static_cast<std::size_t>(end - text_.data());
+  } while (is_dot_in_name());
+  if (here() < 0 && is_foreign_letter(decode(text_, at_).code)) {
+    at_ = begin;
+    return foreign_name();
+  }
+  add(kind_of_word({text_.data() + begin, at_ - begin}), begin);
+}
+
+/// Takes a number that digits and perhaps a point are all of, as nearly all are; false where there is more to it.
+[[gnu::always_inline]] inline bool Lexer::plain_number() {
+  // Quotients of whole numbers below 2^53 and powers of ten up to 10^22 are rounded once, so they are exactly what
+  // from_chars makes of the digits.
+  constexpr std::size_t most_digits = 15;
+  static constexpr double powers_of_ten[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                             1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const char* const begin = text_.data() + at_;
+  const char* end = begin;
+  std::uint64_t whole = 0;
+  const auto pass_digits = [&] {
+    const char* const first = end;
+    for (; is_digit(*end); ++end) whole = 10 * whole + static_cast<std::uint64_t>(*end - '0');
+    return static_cast<std::size_t>(end - first);
+  };
+  std::size_t count = pass_digits(), decimals = 0;
+  if (*end == '.' && is_digit(end[1])) {
+    ++end;
+    decimals = pass_digits();
+    count += decimals;
+  }
+  if (count > most_digits || *end == '.' || *end == 'e' || *end == 'E' || *end == 'x') return false;
+  at_ += static_cast<std::size_t>(end - begin);
+  add(TokenKind::number, at_ - static_cast<std::size_t>(end - begin),
+      add_number(static_cast<double>(whole) / powers_of_ten[decimals]));
+  return true;
+}
+
+[[gnu::always_inline]] inline void Lexer::add_symbol(TokenKind kind, std::size_t bytes) {
+  const auto index = static_cast<std::uint32_t>(result_.tokens.size());
+  at_ += bytes;
+  add(kind, at_ - bytes);
+  if (is_bracket(kind)) match_brackets(kind, index);
+}
+
+[[gnu::always_inline]] inline void Lexer::next() {
   const char* at = text_.data() + at_;
-  for (; *at == ' ' || *at == '\n'; ++at) starts_line_ = starts_line_ || *at == '\n';
+  for (;; ++at) {
+    while (*at == ' ') ++at;
+    if (*at != '\n') break;
+    starts_line_ = true;
+  }
   at_ = static_cast<std::size_t>(at - text_.data());
   if (at_ == text_.size()) return;
   switch (beginnings[static_cast<unsigned char>(*at)]) {
@@ -231,6 +272,20 @@ void Lexer::next() {
   }
 }
 
+Tokens Lexer::run() {
+  if (is_readable()) {
+    result_.tokens.reserve(text_.size() / 4);  // about as many as there are
+    result_.numbers.reserve(text_.size() / 32);
+    result_.texts.reserve(text_.size() / 128);
+    if (decode(text_, 0).code == 0xFEFF) at_ = 3;  // the byte order mark that some editors write
+    while (at_ < text_.size() && !is_full_) next();
+  } else {
+    at_ = text_.size();
+  }
+  add(TokenKind::end, at_);
+  return std::move(result_);
+}
+
 void Lexer::line_comment() {
   const std::size_t end = std::min(text_.find('\n', at_), text_.size());
   const std::string_view comment = text_.substr(at_, end - at_);
@@ -255,34 +310,6 @@ void Lexer::block_comment() {
   }
   if (text_.substr(at_, end - at_).find('\n') != std::string_view::npos) starts_line_ = true;
   at_ = end + 2;
-}
-
-/// Takes a number that digits and perhaps a point are all of, as nearly all are; false where there is more to it.
-bool Lexer::plain_number() {
-  // Quotients of whole numbers below 2^53 and powers of ten up to 10^22 are rounded once, so they are exactly what
-  // from_chars makes of the digits.
-  constexpr std::size_t most_digits = 15;
-  constexpr double powers_of_ten[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                      1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  const char* const begin = text_.data() + at_;
-  const char* end = begin;
-  std::uint64_t whole = 0;
-  const auto digits = [&] {
-    const char* const first = end;
-    for (; is_digit(*end); ++end) whole = 10 * whole + static_cast<std::uint64_t>(*end - '0');
-    return static_cast<std::size_t>(end - first);
-  };
-  std::size_t count = digits(), decimals = 0;
-  if (*end == '.' && is_digit(end[1])) {
-    ++end;
-    decimals = digits();
-    count += decimals;
-  }
-  if (count > most_digits || *end == '.' || *end == 'e' || *end == 'E' || *end == 'x') return false;
-  at_ += static_cast<std::size_t>(end - begin);
-  add(TokenKind::number, at_ - static_cast<std::size_t>(end - begin),
-      add_number(static_cast<double>(whole) / powers_of_ten[decimals]));
-  return true;
 }
 
 void Lexer::number() {
@@ -325,20 +352,6 @@ void Lexer::exponent() {
   if (at == text_.size() || !is_digit(text_[at])) return;
   at_ = at;
   digits();
-}
-
-void Lexer::name() {
-  const std::size_t begin = at_;
-  do {
-    const char* end = text_.data() + at_ + 1;
-    while (continues_name(*end)) ++end;
-    at_ = static_cast<std::size_t>(end - text_.data());
-  } while (is_dot_in_name());
-  if (here() < 0 && is_foreign_letter(decode(text_, at_).code)) {
-    at_ = begin;
-    return foreign_name();
-  }
-  add(kind_of_word(text_.substr(begin, at_ - begin)), begin);
 }
 
 /// A text whose opening quote is `quote_bytes` long; one that opens typographically may close so.
@@ -409,13 +422,6 @@ bool Lexer::symbol() {
     return true;
   }
   return false;
-}
-
-void Lexer::add_symbol(TokenKind kind, std::size_t bytes) {
-  const auto index = static_cast<std::uint32_t>(result_.tokens.size());
-  at_ += bytes;
-  add(kind, at_ - bytes);
-  if (is_bracket(kind)) match_brackets(kind, index);
 }
 
 /// Whether a line that begins with such a token is not the rest of the one above.

@@ -55,7 +55,7 @@ class Lexer {
     starts_line_ = false;
   }
   /// Of a token of that kind here.
-  StatementEnd statement_end(TokenKind kind) const {
+  [[gnu::always_inline]] inline StatementEnd statement_end(TokenKind kind) const {
     if (kind == TokenKind::end || kind == TokenKind::semicolon || kind == TokenKind::right_brace)
       return StatementEnd::yes;
     return starts_line_ && is_statement_line(kind) ? StatementEnd::outside_parentheses : StatementEnd::no;

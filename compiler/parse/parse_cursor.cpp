@@ -58,12 +58,6 @@ bool Parser::begins_declaration(std::size_t index) const {
   }
 }
 
-Word Parser::take_word() {
-  const Word word{spelling(here()), span_of(here())};
-  advance();
-  return word;
-}
-
 /// The name that a declaration gives to something: "param", "state" and the like say what for.
 Word Parser::declared_name(std::string_view declares) {
   const bool reserved = here().kind >= TokenKind::word_if && here().kind <= TokenKind::word_not;
@@ -92,17 +86,6 @@ void Parser::missing(std::string_view spelling, std::string help, std::vector<Fi
   if (here().kind == TokenKind::unreadable && !ends_statement(at_)) throw Abandon{};
   complain(fmt::format("expected {}{}", spelling, after_previous()), std::string(spelling), std::move(help),
            std::move(fixes));
-}
-
-Span Parser::since(std::size_t first_token) const {
-  const Token& first = token(first_token);
-  const Token& last = token(at_ > first_token ? at_ - 1 : first_token);
-  return {tree_.source, first.begin, std::max(first.begin, last.end)};
-}
-
-std::string_view Parser::spelling(const Token& token) const {
-  if (token.kind == TokenKind::name && token.value > 0) return input_.texts[token.value - 1];
-  return text_.substr(token.begin, token.end - token.begin);
 }
 
 /// A token as messages quote it: cut short, since it may be a text of any length.

@@ -65,7 +65,7 @@ ExprId Parser::expression() {
 ExprId Parser::operation(int least_precedence) {
   int most_precedence = product_precedence;
   ExprId left;
-  if (at(TokenKind::word_not) && least_precedence <= comparison_precedence) {
+  if (here().kind == TokenKind::word_not && least_precedence <= comparison_precedence && !ends_statement(at_)) {
     left = complement();
     most_precedence = conjunction_precedence;
   } else {
@@ -120,9 +120,15 @@ ExprId Parser::negated() {
   return add(Unary{op, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
 }
 
-/// `-2^2` is -4, `2^-1` a half, `2^3^2` two to the ninth.
 ExprId Parser::power() {
-  ExprId base = operand();
+  const ExprId base = operand();
+  const TokenKind next = here().kind;
+  const bool goes_on = next == TokenKind::caret || next == TokenKind::part_x || next == TokenKind::part_y;
+  return goes_on ? raised(base) : base;
+}
+
+/// What stands behind a value: parts of a vector, an exponent. `-2^2` is -4, `2^-1` a half, `2^3^2` two to the ninth.
+ExprId Parser::raised(ExprId base) {
   while (at(TokenKind::part_x) || at(TokenKind::part_y)) {
     const char part = at(TokenKind::part_x) ? 'x' : 'y';
     const Span span = joined(tree_.span(base), span_of(here()));
@@ -142,7 +148,7 @@ ExprId Parser::operand() {
     switch (here().kind) {
       case TokenKind::number: return number();
       case TokenKind::text: return text();
-      case TokenKind::name: return name_or_call();
+      case TokenKind::name: return followed_by(TokenKind::left_parenthesis) ? call() : name();
       case TokenKind::left_parenthesis: return parenthesised();
       case TokenKind::word_if: return conditional();
       default: break;
@@ -236,12 +242,13 @@ ExprId Parser::text() {
   return add(literal, since(begin));
 }
 
-ExprId Parser::name_or_call() {
+ExprId Parser::name() {
+  const Word name = take_word();
+  return add(NameUse{name.text}, name.span);
+}
+
+ExprId Parser::call() {
   const std::size_t begin = at_;
-  if (!followed_by(TokenKind::left_parenthesis)) {
-    const Word name = take_word();
-    return add(NameUse{name.text}, name.span);
-  }
   Call call{take_word(), {}};
   const std::size_t first_argument = open_arguments_.size();
   open_parentheses_.push_back(at_);

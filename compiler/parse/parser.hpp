@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -100,10 +101,12 @@ class Parser {
   [[noreturn, gnu::cold]] void nested_too_deep();
   [[noreturn, gnu::cold]] void no_operand(bool next_statement);
   ExprId power();
+  ExprId raised(ExprId base);
   ExprId operand();
   ExprId number();
   ExprId text();
-  ExprId name_or_call();
+  ExprId name();
+  ExprId call();
   Argument argument();
   ExprId parenthesised();
   ExprId conditional();
@@ -129,7 +132,7 @@ class Parser {
 
   // parse_cursor.cpp: where the parser stands, what it says, where it goes on
   const Token& here() const { return tokens_[at_]; }
-  const Token& token(std::size_t index) const { return index < tokens_.size() ? tokens_[index] : tokens_.back(); }
+  const Token& token(std::size_t index) const { return tokens_[std::min(index, tokens_.size() - 1)]; }
   TokenKind kind(std::size_t index) const { return token(index).kind; }
   /// A token of that kind stands here and belongs to this statement.
   bool at(TokenKind kind) const { return here().kind == kind && !ends_statement(at_); }
@@ -142,7 +145,11 @@ class Parser {
   bool begins_statement(std::size_t index) const;
   bool begins_declaration(std::size_t index) const;
   void advance() { at_ += at_ + 1 < tokens_.size() ? 1 : 0; }
-  Word take_word();
+  Word take_word() {
+    const Token& taken = here();
+    advance();
+    return {spelling(taken), span_of(taken)};
+  }
   Word declared_name(std::string_view declares);
   /// Takes a token of that kind if one is here.
   bool take(TokenKind kind) {
@@ -154,10 +161,17 @@ class Parser {
   [[gnu::cold]] void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
-  Span since(std::size_t first_token) const;
+  /// From a token to the one before this, or that token alone.
+  Span since(std::size_t first_token) const {
+    const std::uint32_t begin = tokens_[first_token].begin;
+    return {tree_.source, begin, std::max(begin, tokens_[at_ > first_token ? at_ - 1 : first_token].end)};
+  }
   Span joined(Span first, Span last) const { return {first.source, first.begin, last.end}; }
   /// A token as it is read: as it stands in the text, or corrected by the lexer.
-  std::string_view spelling(const Token& token) const;
+  std::string_view spelling(const Token& token) const {
+    if (token.kind == TokenKind::name && token.value > 0) return input_.texts[token.value - 1];
+    return {text_.data() + token.begin, token.end - token.begin};
+  }
   std::string shown(const Token& token) const;
   std::string found_here() const;
   [[gnu::cold]] std::string after_previous() const;
