@@ -1,6 +1,7 @@
 #include "compiler/solve/law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compiler/expression/check_expression.hpp"
@@ -225,7 +226,9 @@ std::optional<TermId> Law::solved_for(const Occurrences& counts, Terms& terms, T
 
 double Law::solved_for(const Occurrences& counts, double given, const std::vector<double>& couples) const {
   const TermId last = std::max(map_.left, map_.right);
-  std::vector<double> worth(last + 1);
+  std::array<double, 64> room{};  // for nearly every law
+  std::vector<double> more(last < room.size() ? 0 : last + 1);
+  double* const worth = more.empty() ? room.data() : more.data();
   for (TermId id = 0; id <= last; ++id) {
     const Term& term = map_.terms[id];
     if (term.known())
