@@ -24,6 +24,7 @@ class Solver {
          Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
       : material_(material),
         declarations_(module.declarations()),
+        written_out_(module.modules.common->written_out.get()),
         sources_(sources),
         resolver_(resolver),
         diagnostics_(diagnostics),
@@ -111,7 +112,7 @@ class Solver {
     }
     terms_ = material_.terms;
     open_terms_ = &terms_;
-    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_}, terms_, tables_);
+    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_, written_out_}, terms_, tables_);
     checker.states() = states_;
     const std::size_t errors_before = diagnostics_.error_count();
     std::vector<Span> spans;
@@ -372,6 +373,7 @@ class Solver {
 
   const CheckedMaterial& material_;
   const Declarations& declarations_;
+  WrittenOutFunctions* const written_out_;  ///< what is known of functions from other materials, if anything is
   const SourceSet& sources_;
   Resolver& resolver_;
   Diagnostics& diagnostics_;
