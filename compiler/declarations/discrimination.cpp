@@ -10,16 +10,24 @@ namespace {
 /// The `threshold` declarations of this cue tell of forces, in newtons.
 constexpr std::string_view force_cue = "amplitude";
 
+/// Every threshold, what every file knows first.
+template <typename Visit>
+void each_threshold(const Declarations& declarations, const Visit& visit) {
+  if (declarations.common) each_threshold(*declarations.common, visit);
+  for (const Threshold& threshold : declarations.own_thresholds) visit(threshold);
+}
+
 }  // namespace
 
 Discrimination::Discrimination(const Declarations& declarations, std::string_view cue, std::string device,
                                double exerts)
     : device_(std::move(device)) {
   double least_force = 0;
-  for (const Threshold* each : declarations.thresholds()) {
-    if (each->cue == cue) thresholds_.push_back(each);
-    if (each->cue == force_cue) least_force = std::max(least_force, each->floor);
-  }
+  thresholds_.reserve(8);  // there may be more
+  each_threshold(declarations, [&](const Threshold& each) {
+    if (each.cue == cue) thresholds_.push_back(&each);
+    if (each.cue == force_cue) least_force = std::max(least_force, each.floor);
+  });
   if (exerts > 0) least_ = least_force / exerts;
   std::ranges::stable_sort(thresholds_, {}, [&](const Threshold* each) {
     return std::tuple(each->device != device_, each->evidence, each->weber);

@@ -113,6 +113,7 @@ NodeId Derivatives::of_component(const Node& node) {
 void Derivatives::find_needed(NodeId of, NodeId zero) {
   if (known_.size() <= of) known_.resize(of + 1, none);
   needed_.clear();
+  needed_.reserve(graph_.size());
   NodeId* const known = known_.data();
   std::size_t waiting = 0;  // as long as a node waits it is known as `awaited`
   const auto ask = [&](NodeId id) {

@@ -23,6 +23,7 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
   const std::string& by = named.empty() && rule != device.realise.end() ? rule->second.by : named;
   MapChoice choice;
   std::vector<const Map*> tied;
+  tied.reserve(8);  // there may be more
   declarations.each_map([&](const Map& map) {
     if (map.percept != percept.name || (!by.empty() && map.name != by)) return;
     const bool of_carrier = map.from == percept.argument() && map.dimension == percept.carrier_dimension;

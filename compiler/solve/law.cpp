@@ -1,6 +1,7 @@
 #include "compiler/solve/law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "compiler/expression/check_expression.hpp"
@@ -130,6 +131,20 @@ TermId through_knots(Terms& terms, TermId at, const std::vector<std::array<doubl
   return value;
 }
 
+/// So many values, 0 at first. For nearly every law's terms there is room in itself.
+template <typename T>
+class Room {
+ public:
+  explicit Room(std::size_t size) {
+    if (size > few_.size()) more_.resize(size);
+  }
+  T* data() { return more_.empty() ? few_.data() : more_.data(); }
+
+ private:
+  std::array<T, 48> few_{};
+  std::vector<T> more_;
+};
+
 template <typename Build>
 double number_of(Build build) {
   Terms terms;
@@ -202,7 +217,8 @@ bool Law::stands_alone(const Occurrences& counts) const {
 std::optional<TermId> Law::solved_for(const Occurrences& counts, Terms& terms, TermId given,
                                       const Sizes& couples) const {
   const TermId last = std::max(map_.left, map_.right);
-  std::vector<TermId> copies(last + 1);
+  Room<TermId> room(last + 1);
+  TermId* const copies = room.data();
   for (TermId id = 0; id <= last; ++id) {
     Term term = map_.terms[id];
     if (counts[id] > 0) continue;
@@ -225,7 +241,8 @@ std::optional<TermId> Law::solved_for(const Occurrences& counts, Terms& terms, T
 
 double Law::solved_for(const Occurrences& counts, double given, const std::vector<double>& couples) const {
   const TermId last = std::max(map_.left, map_.right);
-  std::vector<double> worth(last + 1);
+  Room<double> room(last + 1);
+  double* const worth = room.data();
   for (TermId id = 0; id <= last; ++id) {
     const Term& term = map_.terms[id];
     if (term.known())

@@ -178,7 +178,7 @@ PerceptRecord PerceptSolver::record(const Told& told) const {
   record.slope = map.slope;
   record.anchor = map.anchor;
   record.handle = is_of(map, device_) ? map.handle : Evidence::transferred;
-  record.map = fmt::format("{} from {}", map.percept, map.from);
+  record.map = map.percept + " from " + map.from;
   record.device = map.device;
   record.source = map.source;
   record.unit = unit(percept);

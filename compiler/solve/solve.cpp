@@ -24,6 +24,7 @@ class Solver {
          Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
       : material_(material),
         declarations_(module.declarations()),
+        written_out_(module.modules.common->written_out.get()),
         sources_(sources),
         resolver_(resolver),
         diagnostics_(diagnostics),
@@ -34,12 +35,7 @@ class Solver {
     solved_.span = material_.span;
     const DeviceDeclaration* device = declarations_.devices.find(device_name);
     if (!device) {
-      const auto candidates = declarations_.devices.spellings();
-      const auto near = nearest_spelling(device_name, candidates);
-      std::string known;
-      for (const auto& candidate : candidates) known += (known.empty() ? "" : ", ") + candidate;
-      report(Code::unknown_device, material_.span, fmt::format("nothing declares a device `{}`", device_name),
-             near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", known));
+      report_unknown_device(device_name);
       return std::move(solved_);
     }
     device_ = device;
@@ -53,7 +49,6 @@ class Solver {
     solved_.patch_rim =
         std::min(device_->profile.patch_rim, 0.25 * std::min(solved_.patch_width, solved_.patch_height));
 
-    open_terms_ = material_.terms;
     carriers_ = material_.carriers;
     open_spans_ = material_.open_spans;
     tables_ = material_.tables;
@@ -65,7 +60,7 @@ class Solver {
     if (!force_ && !realise_percepts()) return std::move(solved_);
 
     PerceptSolver percepts(material_, declarations_, *device_, diagnostics_);
-    percepts.plan(open_terms_, carriers_, *force_, realised_, lost_, solved_.parameters);
+    percepts.plan(*open_terms_, carriers_, *force_, realised_, lost_, solved_.parameters);
     for (std::size_t i = 0; i < open_spans_.size(); ++i)
       if (const auto open = static_cast<std::uint32_t>(i);
           !percepts.settled(open) && !material_.blended_opens.contains(open))
@@ -80,6 +75,15 @@ class Solver {
   }
 
  private:
+  [[gnu::cold, gnu::noinline]] void report_unknown_device(const std::string& name) {
+    const auto candidates = declarations_.devices.spellings();
+    const auto near = nearest_spelling(name, candidates);
+    std::string known;
+    for (const auto& candidate : candidates) known += (known.empty() ? "" : ", ") + candidate;
+    report(Code::unknown_device, material_.span, fmt::format("nothing declares a device `{}`", name),
+           near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", known));
+  }
+
   /// A patch is felt as far as the device reaches: one text is for wide devices and for narrow ones.
   void cut_patch(double workspace) {
     const double width = solved_.patch_width, height = solved_.patch_height;
@@ -106,7 +110,9 @@ class Solver {
              "add `physical { force = … }` or `perceptual { roughness … }`");
       return false;
     }
-    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_}, open_terms_, tables_);
+    terms_ = material_.terms;
+    open_terms_ = &terms_;
+    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_, written_out_}, terms_, tables_);
     checker.states() = states_;
     const std::size_t errors_before = diagnostics_.error_count();
     std::vector<Span> spans;
@@ -127,7 +133,7 @@ class Solver {
     }
     if (!force_ && vibrates && diagnostics_.error_count() == errors_before) {
       // The rest of the material, its picture and what it says, is there all the same.
-      const TermId none = open_terms_.literal(0);
+      const TermId none = terms_.literal(0);
       force_ = {none, none};
     }
     if (!force_) {
@@ -148,7 +154,7 @@ class Solver {
 
   /// Adds the force that stands for a percept on this device.
   void realise(const AskedPercept& asked, const Realisation& rule, ExpressionChecker& checker) {
-    open_terms_.attribute(asked.span);  // not to the device's file
+    terms_.attribute(asked.span);  // not to the device's file
     checker.read(*rule.home);
     Scope scope;
     scope.hand = true;
@@ -158,8 +164,8 @@ class Solver {
     realised_[asked.name] = sources_.text(rule.tree->span(rule.force));
     solved_.active_watt += rule.active_watt;
     if (force_)
-      force_ = {open_terms_.apply(Operation::add, (*force_)[0], value.x),
-                open_terms_.apply(Operation::add, (*force_)[1], value.y)};
+      force_ = {terms_.apply(Operation::add, (*force_)[0], value.x),
+                terms_.apply(Operation::add, (*force_)[1], value.y)};
     else
       force_ = {value.x, value.y};
   }
@@ -167,20 +173,20 @@ class Solver {
   /// Adds what stands for a percept on a device that vibrates.
   void realise_by_shaking(const AskedPercept& asked, const Realisation& rule, ExpressionChecker& checker,
                           std::vector<Span>& spans) {
-    open_terms_.attribute(asked.span);
+    terms_.attribute(asked.span);
     checker.read(*rule.home);
-    const TermId size = open_terms_.add(
-        {.kind = TermKind::open, .index = static_cast<std::uint32_t>(spans.size()), .span = asked.span});
+    const TermId size =
+        terms_.add({.kind = TermKind::open, .index = static_cast<std::uint32_t>(spans.size()), .span = asked.span});
     const auto period = texture_period(material_, *declarations_.percepts.find(asked.name));
-    Scope scope = shaking_scope(open_terms_, size, period ? *period : open_terms_.literal(rule.period), *device_,
-                                declarations_, asked.span);
+    Scope scope = shaking_scope(terms_, size, period ? *period : terms_.literal(rule.period), *device_, declarations_,
+                                asked.span);
     const Value amplitude =
         checker.check_as(*rule.tree, rule.force, scope, Value::Type::number, declarations_.dimension("acceleration"));
     const Value rate =
         checker.check_as(*rule.tree, *rule.rate, scope, Value::Type::number, declarations_.dimension("frequency"));
     if (amplitude.failed() || rate.failed()) return;
     const auto of_the_hand = [&](const Value& value) {
-      return open_terms_.dependence(value.x).on(Dependence::position | Dependence::velocity | Dependence::moment);
+      return terms_.dependence(value.x).on(Dependence::position | Dependence::velocity | Dependence::moment);
     };
     if (!device_->profile.has_position() && (of_the_hand(amplitude) || of_the_hand(rate)))
       return lose(asked, fmt::format("`{}` does not know where the hand is", device_->profile.name));
@@ -197,7 +203,7 @@ class Solver {
                          .size_span = asked.span});
     realised_[asked.name] =
         fmt::format("{} at {}", sources_.text(rule.tree->span(rule.force)), sources_.text(rule.tree->span(*rule.rate)));
-    if (force_) shaking = together(open_terms_, {(*force_)[0], (*force_)[1]}, shaking);
+    if (force_) shaking = together(terms_, {(*force_)[0], (*force_)[1]}, shaking);
     force_ = {shaking.amplitude, shaking.rate};
   }
 
@@ -263,7 +269,7 @@ class Solver {
   void report_open(std::uint32_t open) {
     const Percept* percept = nullptr;
     for (const auto& carrier : carriers_)
-      if (carrier.open && open_terms_[carrier.size].index == open)
+      if (carrier.open && (*open_terms_)[carrier.size].index == open)
         declarations_.percepts.each([&](const std::string&, const Percept& each) {
           if (each.carrier == carrier.name) percept = &each;
         });
@@ -312,7 +318,7 @@ class Solver {
     const double step = device_->profile.position_step();
     std::set<std::pair<std::uint32_t, std::uint32_t>> said;
     for (const auto& period : material_.periods) {
-      const auto length = constant_value(open_terms_, period.length, &material_.parameters);
+      const auto length = constant_value(*open_terms_, period.length, &material_.parameters);
       if (!length || *length >= 2 * step || !said.emplace(period.span.source, period.span.begin).second) continue;
       report(Code::under_resolution, period.span,
              fmt::format("a period of {:.3g} mm is less than two counts of the encoder of `{}` ({:.3g} mm each)",
@@ -326,20 +332,22 @@ class Solver {
   /// Puts the solved expressions in place of what was open.
   void substitute(PerceptSolver& percepts) {
     Terms& terms = solved_.terms;
-    terms.reserve(open_terms_.size() + open_terms_.size() / 4 + 128);  // and what is solved
-    TermCopier copier(open_terms_, terms);
+    const Terms& author = *open_terms_;
+    terms.reserve(author.size() + author.size() / 4 + 128);  // and what is solved
+    TermCopier copier(author, terms);
     const std::map<std::uint32_t, TermId> sizes = percepts.sizes(solved_, copier);
     std::vector<std::pair<TermId, TermId>> solutions;
-    for (TermId id = 0; id < open_terms_.size(); ++id) {
-      const Term& term = open_terms_[id];
+    for (TermId id = 0, end = static_cast<TermId>(author.size()); id < end; ++id) {
+      const Term& term = author[id];
+      if (term.kind != TermKind::open && term.kind != TermKind::cells) continue;
       if (term.kind == TermKind::open) {
         if (const auto size = sizes.find(term.index); size != sizes.end()) solutions.emplace_back(id, size->second);
-      } else if (term.kind == TermKind::cells) {
+      } else {
         const Grid& memory = solved_.memories[term.index / 2];
         solutions.emplace_back(id, terms.literal(term.index % 2 == 0 ? memory.columns : memory.rows));
       }
     }
-    const TermId first = solved_.solutions_end = terms.append(open_terms_);
+    const TermId first = solved_.solutions_end = terms.append(author);
     for (const auto& [open, solution] : solutions) terms.settle(first + open, solution);
 
     solved_.force = {first + (*force_)[0], first + (*force_)[1]};
@@ -359,18 +367,20 @@ class Solver {
     solved_.tables = std::move(tables_);
   }
 
-  void report(Code code, Span span, std::string message, Advice advice) {
+  [[gnu::cold, gnu::noinline]] void report(Code code, Span span, std::string message, Advice advice) {
     diagnostics_.report(std::move(advice).about(code, span, std::move(message)));
   }
 
   const CheckedMaterial& material_;
   const Declarations& declarations_;
+  WrittenOutFunctions* const written_out_;  ///< what is known of functions from other materials, if anything is
   const SourceSet& sources_;
   Resolver& resolver_;
   Diagnostics& diagnostics_;
   const DeviceDeclaration* device_ = nullptr;
   SolvedMaterial solved_;
-  Terms open_terms_;
+  Terms terms_;  ///< the material's and those of a realisation, where there is one
+  const Terms* open_terms_ = &material_.terms;
   std::vector<Carrier> carriers_;
   std::vector<Span> open_spans_;
   std::vector<HeightTable> tables_;

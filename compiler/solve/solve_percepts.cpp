@@ -76,9 +76,9 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
   for (const auto& asked : material_.percepts)
     if (!lost.contains(asked.name)) match(asked);
   // What nobody asked for is told all the same, where it is alone of its kind and a map is there.
-  declarations_.percepts.each([&](const std::string& name, const Percept&) {
+  declarations_.percepts.each([&](const std::string& name, const Percept& declared) {
+    if (!declared.has_reference) return;
     const Percept& percept = this->percept(name);
-    if (!percept.has_reference) return;
     if (std::ranges::any_of(told_, [&](const Told& told) { return told.percept == &percept; })) return;
     std::vector<std::size_t> mine;
     for (const std::size_t i : candidates_)

@@ -69,7 +69,8 @@ class PerceptSolver {
   void match(const AskedPercept& asked);
   std::string chosen_by(const std::string& percept) const;  ///< the map that the device's rule names; may be empty
   const Map* map_for(const Percept& percept, const AskedPercept& asked);
-  void report_choice(const Percept& percept, const AskedPercept& asked, const MapChoice& choice, const std::string& by);
+  [[gnu::cold]] void report_choice(const Percept& percept, const AskedPercept& asked, const MapChoice& choice,
+                                   const std::string& by);
   void solve_size(Told& told, std::vector<Parameter>& parameters);
   static void add_level(const std::string& name, double level, const std::string& of,
                         std::vector<Parameter>& parameters);
@@ -108,7 +109,7 @@ class PerceptSolver {
   void settle(const Carrier& carrier) {
     if (carrier.open) settled_.insert((*terms_)[carrier.size].index);
   }
-  void report(Code code, Span span, std::string message, Advice advice) {
+  [[gnu::cold, gnu::noinline]] void report(Code code, Span span, std::string message, Advice advice) {
     diagnostics_.report(std::move(advice).about(code, span, std::move(message)));
   }
 

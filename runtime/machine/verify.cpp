@@ -59,18 +59,23 @@ constexpr auto legal_fields = [] {
   return table;
 }();
 
+/// Which registers the code of one section may write and read.
+struct Registers {
+  RegisterNumber first_destination = 0;  ///< it writes from here
+  std::size_t destination_count = 0;     ///< on, so many
+  std::uint32_t stamp = 0;               ///< what `Verifier::readable_` says of what it alone may read
+};
+
 /// What the code of one section may do.
 struct Section {
   std::string name;
   CodeSection kind = CodeSection::setup;
-  std::size_t index = 0;                 ///< of the peak or the prediction
-  Inputs inputs = 0;                     ///< that it may read
-  RegisterNumber first_destination = 0;  ///< it writes from here
-  std::size_t destination_count = 0;     ///< on, so many registers
-  bool peaks = false;                    ///< it may hold `peak` instructions
-  bool grids = false;                    ///< it may hold `recall` and `cell` instructions
-  bool states = false;                   ///< it may read states
-  std::uint32_t stamp = 0;               ///< what `Verifier::readable_` says of what it alone may read
+  std::size_t index = 0;  ///< of the peak or the prediction
+  Inputs inputs = 0;      ///< that it may read
+  Registers registers;
+  bool peaks = false;   ///< it may hold `peak` instructions
+  bool grids = false;   ///< it may hold `recall` and `cell` instructions
+  bool states = false;  ///< it may read states
 };
 
 /// Follows code in order and refuses the first instruction that breaks a rule.
@@ -100,20 +105,19 @@ class Verifier {
  private:
   Section temporary_section(std::string name, CodeSection kind, std::size_t index, Inputs inputs,
                             bool remembers = false) {
-    return {std::move(name),      kind,  index,     inputs,    first_temporary_,
-            program_.temporaries, false, remembers, remembers, ++stamp_};
+    const Registers registers{first_temporary_, program_.temporaries, ++stamp_};
+    return {std::move(name), kind, index, inputs, registers, false, remembers, remembers};
   }
 
   void verify_setup() {
-    const Section setup{
-        "setup", CodeSection::setup, 0, patch_inputs, first_setup_, program_.setup_registers, true, false, false,
-        always};
+    const Registers registers{first_setup_, program_.setup_registers, always};
+    const Section setup{"setup", CodeSection::setup, 0, patch_inputs, registers, true, false, false};
     begin(setup);
     const Code code = program_.setup;
     std::vector<char> invoked(program_.peaks.size());
     for (std::size_t number = 0; number < code.size(); ++number) {
       const Instruction& instruction = code[number];
-      check(setup, code, number);
+      if (!is_legal(instruction, registers)) refuse_illegal(setup, code, number);
       if (instruction.operation == static_cast<std::uint8_t>(Operation::peak)) {
         if (invoked[instruction.a]) {
           refuse_at(setup, code, number, place(setup, number, instruction), " runs peak ", instruction.a,
@@ -123,7 +127,7 @@ class Verifier {
         verify_peak(instruction.a);
         begin(setup);
       }
-      define(setup, instruction);
+      define(instruction, always);
       note_ceiling(instruction);
     }
     for (std::size_t i = 0; i < invoked.size(); ++i) {
@@ -140,7 +144,7 @@ class Verifier {
     const Section section =
         temporary_section("peak " + std::to_string(index), CodeSection::peak, index, picture_inputs);
     Section extents{section.name, section.kind, section.index, patch_inputs};
-    extents.stamp = ++stamp_;
+    extents.registers.stamp = ++stamp_;
     begin(extents);
     require_result(extents, peak.half_width, "half width");
     require_result(extents, peak.half_height, "half height");
@@ -207,18 +211,19 @@ class Verifier {
 
   void run(const Section& section, Code code) {
     begin(section);
+    const Registers registers = section.registers;  // a copy, which nothing that is written below can change
     for (std::size_t number = 0; number < code.size(); ++number) {
-      check(section, code, number);
-      define(section, code[number]);
+      if (!is_legal(code[number], registers)) refuse_illegal(section, code, number);
+      define(code[number], registers.stamp);
     }
   }
 
   /// From now on, inputs and states are readable that the section may read, and what earlier sections wrote is not.
   void begin(const Section& section) {
     for (RegisterNumber input = 0; input < first_constant; ++input)
-      readable_[input] = (section.inputs >> input & 1) != 0 ? section.stamp : never;
+      readable_[input] = (section.inputs >> input & 1) != 0 ? section.registers.stamp : never;
     std::fill(readable_.begin() + first_state_, readable_.begin() + first_temporary_,
-              section.states ? section.stamp : never);
+              section.states ? section.registers.stamp : never);
     ends_[static_cast<std::size_t>(Field::nothing)] = 1;  // zero
     ends_[static_cast<std::size_t>(Field::reg)] = register_count_;
     ends_[static_cast<std::size_t>(Field::table)] = program_.tables.size();
@@ -226,23 +231,22 @@ class Verifier {
     ends_[static_cast<std::size_t>(Field::peak)] = section.peaks ? program_.peaks.size() : 0;
   }
 
-  /// The instruction against the table of legal fields and what the section may do.
-  void check(const Section& section, Code code, std::size_t number) const {
-    const Instruction& instruction = code[number];
+  /// The instruction against the table of legal fields and what the section at work may do.
+  bool is_legal(const Instruction& instruction, const Registers& registers) const {
     const LegalFields& legal = legal_fields[instruction.operation];
+    const std::uint32_t* const readable = readable_.data();
     const auto names = [&](Field field, RegisterNumber operand) {
       return operand < ends_[static_cast<std::size_t>(field)] &&
-             (field != Field::reg || readable_[operand] >= section.stamp);
+             (field != Field::reg || readable[operand] >= registers.stamp);
     };
-    const bool writes_its_own =
-        instruction.destination >= section.first_destination &&
-        instruction.destination + std::size_t{legal.results} <= section.first_destination + section.destination_count;
-    if (!(legal.known && writes_its_own && names(legal.operands[0], instruction.a) &&
-          names(legal.operands[1], instruction.b) && names(legal.operands[2], instruction.c)))
-      refuse_illegal(section, code, number);
+    const bool writes_its_own = instruction.destination >= registers.first_destination &&
+                                instruction.destination + std::size_t{legal.results} <=
+                                    registers.first_destination + registers.destination_count;
+    return legal.known && writes_its_own && names(legal.operands[0], instruction.a) &&
+           names(legal.operands[1], instruction.b) && names(legal.operands[2], instruction.c);
   }
 
-  /// Says what is wrong with an instruction that `check` found to be illegal.
+  /// Says what is wrong with an instruction that is not legal.
   [[noreturn, gnu::noinline]] void refuse_illegal(const Section& section, Code code, std::size_t number) const {
     const Instruction& instruction = code[number];
     const LegalFields& legal = legal_fields[instruction.operation];
@@ -283,12 +287,12 @@ class Verifier {
     }
     refuse_at(section, code, number, place(section, number, instruction), " writes register ", instruction.destination,
               legal.results > 1 ? " and those after it" : "", ", and ", section.name, " may write only ",
-              section.destination_count, " registers from ", section.first_destination, " on");
+              section.registers.destination_count, " registers from ", section.registers.first_destination, " on");
   }
 
   /// Whether the register has a meaning for the section at this point of its code.
   bool may_read(const Section& section, RegisterNumber number) const {
-    return number < register_count_ && readable_[number] >= section.stamp;
+    return number < register_count_ && readable_[number] >= section.registers.stamp;
   }
 
   /// The rest of a sentence about a register that may not be read.
@@ -308,10 +312,10 @@ class Verifier {
     }
   }
 
-  void define(const Section& section, const Instruction& instruction) {
+  void define(const Instruction& instruction, std::uint32_t stamp) {
     std::uint32_t* result = readable_.data() + instruction.destination;
-    *result = section.stamp;  // nearly always that is all
-    for (int i = legal_fields[instruction.operation].results; --i > 0;) *++result = section.stamp;
+    *result = stamp;  // nearly always that is all
+    for (int i = legal_fields[instruction.operation].results; --i > 0;) *++result = stamp;
   }
 
   /// Keeps up to date below what the setup registers are proved to lie.
