@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <span>
 #include <string_view>
@@ -102,39 +104,46 @@ std::string why_no_texture(const PatchProgram& program, const Measured& force) {
   return fmt::format("its force depends on {}, so it is not one texture", text);
 }
 
-/// How it pushes and how stable the loop is.
-void describe_pushing(Description& description, const Bank& bank) {
-  const PatchProgram& program = bank.program().description();
-  description.force = measure(bank);
+/// The force that it was seen to push with.
+Measured measured(const Bank& bank) {
+  Measured force = measure(bank);
   // What a program remembers pushes too, once it has something to remember.
-  if (remembers(program))
-    for (const Force force : rehearse(bank).forces)
-      if (const float size = std::hypot(force.x, force.y); size > description.force.max_newton)
-        description.force.max_newton = size;
-  description.bound = force_bound(bank.program());
-  const Proof proof = prove(bank.program());
-  description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
-  description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
-  description.grade = grade(bank);
+  if (remembers(bank.program().description()))
+    for (const Force felt : rehearse(bank).forces)
+      force.max_newton = std::max(force.max_newton, std::hypot(felt.x, felt.y));
+  return force;
 }
 
-/// That, and what its force tells, which takes about as long: neither needs the other.
+/// What is proved of it.
+void describe_bounds(Description& description, const Program& program) {
+  description.bound = force_bound(program);
+  const Proof proof = prove(program);
+  description.limit_matters = proof.limit_matters(0) || proof.limit_matters(1);
+  description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
+}
+
+/// How it pushes, how stable the loop is, and what its force tells.
 void describe_force(Description& description, const Bank& bank, const Declarations* declarations) {
   const PatchProgram& program = bank.program().description();
   Extraction found;
-  const auto work = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t task = begin; task < end; ++task)
-      if (task == 0)
-        describe_pushing(description, bank);
-      else
-        found = extract(bank, *declarations);
+  // None needs another; those that take longest come first.
+  const std::array<std::function<void()>, 4> tasks = {
+      [&] {
+        if (declarations) found = extract(bank, *declarations);
+      },
+      [&] { description.grade = grade(bank); },
+      [&] { describe_bounds(description, bank.program()); },
+      [&] { description.force = measured(bank); },
   };
-  const std::size_t tasks = declarations ? 2 : 1;
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&](std::size_t, std::size_t) {
+    for (std::size_t task = next++; task < tasks.size(); task = next++) tasks[task]();
+  };
   // Of what is the same everywhere there is so little to read that it is not worth a thread.
   if (depends_on_place(program))
-    in_parallel(tasks, work);
+    in_parallel(tasks.size(), work);
   else
-    work(0, tasks);
+    work(0, 1);
   description.no_percept = why_no_texture(program, description.force);
   if (declarations) describe_extracted(description, bank, found, *declarations);
 }

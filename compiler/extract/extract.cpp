@@ -5,6 +5,7 @@
 
 #include "compiler/extract/dependence.hpp"
 #include "compiler/extract/tolerances.hpp"
+#include "runtime/machine/parallel.hpp"
 
 namespace wale {
 namespace {
@@ -31,19 +32,33 @@ bool pushes_away(const StaticForce& force) {
 
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps) {
   if (bank.program().description().vibrates()) return {};  // it has no force to read
-  const StaticForce force(bank);
   Extraction found;
-  found.force = pushes_away(force) ? -force.largest : force.largest;
-  found.texture = texture_force(bank, force, textures, least_of_field * force.largest);
-  found.bumps = texture_force(bank, force, bumps, std::max(least_force, least_of_texture * found.texture.amplitude));
-  // A face bends the force, unless it remembers and gave way to the hands that were set down behind it.
-  if (force.bent >= least_force || remembers_anything(bank.program().description())) found.wall = wall_face(bank);
-  if (!found.wall) found.stiffness = even_stiffness(force);
+  std::optional<StaticForce> still;
+  const bool remembers = remembers_anything(bank.program().description());
+  const auto read_still = [&] {
+    const StaticForce& force = still.emplace(bank);
+    found.force = pushes_away(force) ? -force.largest : force.largest;
+    found.texture = texture_force(bank, force, textures, least_of_field * force.largest);
+    found.bumps = texture_force(bank, force, bumps, std::max(least_force, least_of_texture * found.texture.amplitude));
+  };
+  const auto read_moving = [&] {
+    // A face bends the force, unless it remembers and gave way to the hands that were set down behind it.
+    if (remembers || still->bent >= least_force) found.wall = wall_face(bank);
+    found.opposing = opposing_force(bank);
+    found.inertia = inertia(bank);
+    found.vibration = vibration(bank);
+  };
+  const auto read = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) part == 0 ? read_still() : read_moving();
+  };
+  // Strokes tick by tick take as long as all that is still.
+  if (remembers)
+    in_parallel(2, read);
+  else
+    read(0, 2);
+  if (!found.wall) found.stiffness = even_stiffness(*still);
   // A hill that the patch does not hold twice is not told from a spring that gives way.
-  if (found.bumps.period > longest_bump * force.whole.extent().x) found.bumps = {};
-  found.opposing = opposing_force(bank);
-  found.inertia = inertia(bank);
-  found.vibration = vibration(bank);
+  if (found.bumps.period > longest_bump * still->whole.extent().x) found.bumps = {};
   return found;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t hands_at_once = 2048;  // they stay in the cache
 /// More than this, in units of cost over all hands, is worth another thread: about a millisecond.
-constexpr double worth_another_thread = 4e6;
+constexpr double worth_another_thread = 2e6;
 
 }  // namespace
 

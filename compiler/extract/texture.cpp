@@ -69,6 +69,7 @@ bool seen_closely(const StaticForce& force, const PeriodBand& band) {
 /// How strong a texture is, of a field that has nothing slower; this share of its amplitude counts.
 void tell_size(TextureForce& texture, const ForceField& field, double share) {
   std::vector<float> sizes;
+  sizes.reserve(field.forces.size());
   double sum = 0, squares = 0;
   each_inside(field.side, [&](std::size_t i) {
     const float size = std::sqrt(squared(field.forces[i])) * static_cast<float>(share);

@@ -19,10 +19,11 @@ namespace wale {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t candidates = 12;   // of each kind whose required damping is worked out
-constexpr std::size_t tiles = 4;         // of the patch along each side, for the mean of the curl
-constexpr double significant = 4;        // standard errors of a mean
-constexpr double share_of_slope = 0.02;  // of the usual slope: curl below is rounding and clipping
+constexpr std::size_t candidates = 12;       // of each kind whose required damping is worked out
+constexpr std::size_t hands_at_once = 1024;  // looked at: what is found of them stays in the cache
+constexpr std::size_t tiles = 4;             // of the patch along each side, for the mean of the curl
+constexpr double significant = 4;            // standard errors of a mean
+constexpr double share_of_slope = 0.02;      // of the usual slope: curl below is rounding and clipping
 constexpr double share_of_hand = 0.01;   // of what the hand takes up itself at its pace: less energy than that is none
 constexpr double share_of_work = 0.01;   // of what went either way: energy below is rounding
 constexpr double sharp_over_step = 1.5;  // a slope so much above what a step between counts gives is a tip
@@ -108,6 +109,25 @@ class Grader {
     return std::span(states_).subspan(hand * program_.states.size(), program_.states.size());
   }
 
+  /// Some hands at a time, from number `first` on, and what is remembered where they are.
+  std::size_t hands_from(std::size_t first) const { return std::min(hands_at_once, hands_.size() - first); }
+  std::span<const float> states_from(std::size_t first) const {
+    return std::span(states_).subspan(first * program_.states.size(), hands_from(first) * program_.states.size());
+  }
+
+  /// Lets each of the hands be a little otherwise, and visits its number with what the force is like then.
+  template <typename Move, typename Visit>
+  void each_moved(const Move& move, const Visit& visit) {
+    std::vector<Hand> moved;
+    for (std::size_t first = 0; first < hands_.size(); first += moved.size()) {
+      const auto from = hands_.begin() + static_cast<std::ptrdiff_t>(first);
+      moved.assign(from, from + static_cast<std::ptrdiff_t>(hands_from(first)));
+      std::ranges::for_each(moved, move);
+      const auto at = slopes_.by_place(moved, states_from(first));
+      for (std::size_t i = 0; i < moved.size(); ++i) visit(first + i, at[i]);
+    }
+  }
+
   void find_stiffness() {
     steepest_ = find_steepest(slopes_, {hands_, states_, at_}, extent_);
     grade_.stiffness = steepest_.stiffness;
@@ -120,21 +140,19 @@ class Grader {
     const auto count = static_cast<float>(device_.position_step());
     double wave_number_squared = 0;  // rad^2 / m^2
     for (const glm::vec2 direction : {glm::vec2(count, 0), glm::vec2(0, count)}) {
-      std::vector<Hand> moved(hands_.begin(), hands_.end());
-      for (Hand& hand : moved) hand.position += direction, hand.workspace += direction;
-      const auto at = slopes_.by_place(moved, states_);
       double slopes = 0, changes = 0;
-      for (std::size_t i = 0; i < moved.size(); ++i) {
-        const double step = glm::length(at[i].force - at_[i].force);
+      const auto move = [&](Hand& hand) { hand.position += direction, hand.workspace += direction; };
+      each_moved(move, [&](std::size_t i, const ProgramSlopes::ByPlace& at) {
+        const double step = glm::length(at.force - at_[i].force);
         if (step > grade_.step_newton) grade_.step_newton = step, worst_step_ = hands_[i];
         double slope = 0, change = 0;
         for (std::size_t row = 0; row < 2; ++row)
           for (std::size_t column = 0; column < 2; ++column) {
-            const double here = at_[i].linear.direct.place[row][column], there = at[i].linear.direct.place[row][column];
+            const double here = at_[i].place[row][column], there = at.place[row][column];
             slope += here * here, change += (there - here) * (there - here);
           }
         if (std::isfinite(slope) && std::isfinite(change)) slopes += slope, changes += change;
-      }
+      });
       const double share = slopes > 0 ? std::sqrt(changes / slopes) : 0;
       const double wave_number = 2 / count * std::asin(std::min(1.0, share / 2));
       wave_number_squared += wave_number * wave_number;
@@ -177,7 +195,7 @@ class Grader {
     for (std::size_t i = 0; i < hands_.size(); ++i) {
       const Hand& hand = hands_[i];
       if (hand.velocity != glm::vec2(0.0f)) continue;
-      const auto& place = at_[i].linear.direct.place;
+      const auto& place = at_[i].place;
       const double curl = place[1][0] - place[0][1];
       if (!std::isfinite(curl)) continue;
       const auto tile = [](float along, float half) {
@@ -186,7 +204,8 @@ class Grader {
       };
       Sum& sum = sums[tile(hand.position.y, extent_.y) * tiles + tile(hand.position.x, extent_.x)];
       sum.count += 1, sum.sum += curl, sum.squares += curl * curl;
-      squares += steepness(at_[i]) * steepness(at_[i]);
+      const double steep = steepness(place);
+      squares += steep * steep;
       ++counted;
     }
     const double usual_slope = counted > 0 ? std::sqrt(squares / static_cast<double>(counted)) : 0;
@@ -208,15 +227,13 @@ class Grader {
   /// What the force adds when the same hand moves, against what it is at rest. Likewise.
   void find_motion_power() {
     if (!slopes_.depends_on_motion() || exploration_) return;
-    std::vector<Hand> resting(hands_.begin(), hands_.end());
-    for (Hand& hand : resting)
+    const auto rest = [](Hand& hand) {
       hand.velocity = hand.raw_velocity = hand.acceleration = hand.raw_acceleration = glm::vec2(0.0f);
-    const auto still = slopes_.by_place(resting, states_);
+    };
     double worst = 0;
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-      const glm::dvec2 velocity(hands_[i].velocity);
-      worst = std::max(worst, glm::dot(at_[i].force - still[i].force, velocity));
-    }
+    each_moved(rest, [&](std::size_t i, const ProgramSlopes::ByPlace& still) {
+      worst = std::max(worst, glm::dot(at_[i].force - still.force, glm::dvec2(hands_[i].velocity)));
+    });
     if (worst <= least_watt()) return;
     grade_.energy.motion_watt = worst;
     grade_.energy.reasons.push_back("it pushes along the hand's motion");
@@ -252,28 +269,24 @@ class Grader {
     std::vector<float> states = steepest_.states;
     if (slopes_.depends_on_motion() || !program_.states.empty()) {
       // Those of the lattice where either kind of slope, or both together, is greatest; and some of all others.
-      const auto all = slopes_.at(hands_, states_);
-      if (all.empty()) return false;
-      const auto motion = [&](std::size_t i) {
-        const HandSlopes& direct = all[i].linear.direct;
-        return spectral_norm(direct.velocity) + spectral_norm(direct.raw_velocity);
-      };
       const double half = 0.5 / device_.rate;
-      std::vector<std::size_t> order(hands_.size());
-      for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+      std::vector<double> motion(hands_.size()), both(hands_.size());
+      for (std::size_t first = 0; first < hands_.size(); first += hands_at_once) {
+        const auto some = slopes_.at(std::span(hands_).subspan(first, hands_from(first)), states_from(first));
+        if (some.empty()) return false;
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          const HandSlopes& direct = some[i].linear.direct;
+          const double norm = spectral_norm(direct.velocity) + spectral_norm(direct.raw_velocity);
+          motion[first + i] = std::isfinite(norm) ? norm : 0;
+          both[first + i] = motion[first + i] + half * steepness(direct.place);
+        }
+      }
       const auto add = [&](std::size_t i) {
         hands.push_back(hands_[i]);
         states.insert(states.end(), states_of(i).begin(), states_of(i).end());
       };
-      const auto add_greatest = [&](const auto& measure) {
-        const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(candidates, order.size()));
-        std::ranges::partial_sort(order, end, [&](std::size_t a, std::size_t b) {
-          return std::pair(measure(a), b) > std::pair(measure(b), a);
-        });
-        std::for_each(order.begin(), end, add);
-      };
-      add_greatest(motion);
-      add_greatest([&](std::size_t i) { return motion(i) + half * steepness(all[i]); });
+      std::ranges::for_each(greatest_of(motion, candidates), add);
+      std::ranges::for_each(greatest_of(both, candidates), add);
       for (std::size_t i = 0; i < candidates; ++i) add(i * hands_.size() / candidates);
     }
     const LoopTiming timing(device_);
@@ -282,7 +295,7 @@ class Grader {
     // Many places are alike, in oil all of them; of equals the first is named as the worst.
     std::vector<std::size_t> different;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (is_smooth(all[i].linear) && steepness(all[i]) <= sharp_over_step * grade_.stiffness &&
+      if (is_smooth(all[i].linear) && steepness(all[i].linear.direct.place) <= sharp_over_step * grade_.stiffness &&
           std::ranges::none_of(different, [&](std::size_t j) { return all[j].linear == all[i].linear; }))
         different.push_back(i);
     std::vector<double> of_different(different.size());
@@ -348,7 +361,7 @@ class Grader {
   glm::vec2 extent_{0.0f};
   std::vector<Hand> hands_;
   std::vector<float> states_;
-  std::vector<ProgramSlopes::At> at_;  ///< by place, beside `hands_`
+  std::vector<ProgramSlopes::ByPlace> at_;  ///< by place, beside `hands_`
   SteepPlaces steepest_;
   Hand worst_step_;
   double largest_force_ = 0;

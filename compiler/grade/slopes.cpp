@@ -146,13 +146,14 @@ std::vector<ProgramSlopes::At> ProgramSlopes::at(std::span<const Hand> hands, st
   return all;
 }
 
-std::vector<ProgramSlopes::At> ProgramSlopes::by_place(std::span<const Hand> hands, std::span<const float> states) {
+std::vector<ProgramSlopes::ByPlace> ProgramSlopes::by_place(std::span<const Hand> hands,
+                                                            std::span<const float> states) {
   place_field_->evaluate(hands, states, values_);
-  std::vector<At> all(hands.size());
+  std::vector<ByPlace> all(hands.size());
   for (std::size_t hand = 0; hand < hands.size(); ++hand) {
     const auto value = [&](std::size_t root) { return static_cast<double>(values_[root * hands.size() + hand]); };
     all[hand].force = {value(0), value(1)};
-    all[hand].linear.direct.place = {{{value(2), value(4)}, {value(3), value(5)}}};
+    all[hand].place = {{{value(2), value(4)}, {value(3), value(5)}}};
   }
   return all;
 }

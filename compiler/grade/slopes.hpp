@@ -29,8 +29,12 @@ class ProgramSlopes {
   /// One for each hand; `states` as for `LiftedField::evaluate`. None when the machine has not registers enough for so
   /// many derivatives.
   std::vector<At> at(std::span<const Hand> hands, std::span<const float> states);
-  /// Force and slope by place alone, which is quicker: `linear` has nothing else.
-  std::vector<At> by_place(std::span<const Hand> hands, std::span<const float> states);
+  struct ByPlace {
+    glm::dvec2 force{0.0};
+    Slopes place{};  ///< N/m
+  };
+  /// Force and slope by place alone, which is quicker.
+  std::vector<ByPlace> by_place(std::span<const Hand> hands, std::span<const float> states);
 
   bool depends_on_motion() const { return depends_on_motion_; }
   /// On time, or on states that change though neither the hand nor anything that it drives drives them.

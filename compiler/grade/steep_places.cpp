@@ -14,21 +14,27 @@ constexpr std::size_t directions = 8;  // of each step
 constexpr int climbs = 14;             // each with half the step of the one before
 
 /// The steepest of the hands, by number; of equally steep ones the first.
-std::vector<std::size_t> steepest_of(std::span<const ProgramSlopes::At> at) {
-  std::vector<std::size_t> numbers(at.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  const std::size_t count = std::min(climbers, numbers.size());
-  std::ranges::partial_sort(
-      numbers, numbers.begin() + static_cast<std::ptrdiff_t>(count),
-      [&](std::size_t a, std::size_t b) { return std::pair(steepness(at[a]), b) > std::pair(steepness(at[b]), a); });
-  numbers.resize(count);
-  return numbers;
+std::vector<std::size_t> steepest_of(std::span<const ProgramSlopes::ByPlace> at) {
+  std::vector<double> steep(at.size());
+  std::ranges::transform(at, steep.begin(), steepness, &ProgramSlopes::ByPlace::place);
+  return greatest_of(steep, climbers);
 }
 
 }  // namespace
 
-double steepness(const ProgramSlopes::At& at) {
-  const double norm = spectral_norm(at.linear.direct.place);
+std::vector<std::size_t> greatest_of(std::span<const double> values, std::size_t most) {
+  std::vector<std::size_t> numbers(values.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+  const std::size_t count = std::min(most, numbers.size());
+  std::ranges::partial_sort(
+      numbers, numbers.begin() + static_cast<std::ptrdiff_t>(count),
+      [&](std::size_t a, std::size_t b) { return values[a] > values[b] || (values[a] == values[b] && a < b); });
+  numbers.resize(count);
+  return numbers;
+}
+
+double steepness(const Slopes& by_place) {
+  const double norm = spectral_norm(by_place);
   return std::isfinite(norm) ? norm : 0;
 }
 
@@ -44,7 +50,7 @@ SteepPlaces find_steepest(ProgramSlopes& slopes, const LookedAt& looked_at, glm:
     best.hands.push_back(looked_at.hands[i]);
     const auto states = states_of(looked_at.states, i);
     best.states.insert(best.states.end(), states.begin(), states.end());
-    steepest.push_back(steepness(looked_at.at[i]));
+    steepest.push_back(steepness(looked_at.at[i].place));
   }
   // At first as far as the hands are apart that were looked at all over the patch.
   glm::vec2 step = extent / std::sqrt(static_cast<float>(lattice_hands));
@@ -64,7 +70,7 @@ SteepPlaces find_steepest(ProgramSlopes& slopes, const LookedAt& looked_at, glm:
       }
     const auto at = slopes.by_place(tried, tried_states);
     for (std::size_t i = 0; i < tried.size(); ++i)
-      if (const double here = steepness(at[i]); here > steepest[i / directions])
+      if (const double here = steepness(at[i].place); here > steepest[i / directions])
         steepest[i / directions] = here, best.hands[i / directions] = tried[i];
   }
   const auto top = static_cast<std::size_t>(std::ranges::max_element(steepest) - steepest.begin());

@@ -12,13 +12,16 @@ namespace wale {
 inline constexpr std::size_t lattice_hands = 4096;
 
 /// The spectral norm of the force's slope by place, N/m; 0 where there is none, as at the middle of a cone.
-double steepness(const ProgramSlopes::At& at);
+double steepness(const Slopes& by_place);
+
+/// The numbers of the greatest values, `most` at most, the greatest first; of equals the first of them first.
+std::vector<std::size_t> greatest_of(std::span<const double> values, std::size_t most);
 
 /// Hands where a program has been looked at.
 struct LookedAt {
   std::span<const Hand> hands;
   std::span<const float> states;  ///< hand by hand
-  std::span<const ProgramSlopes::At> at;
+  std::span<const ProgramSlopes::ByPlace> at;
 };
 
 /// The steepest places that were found, not in order.

@@ -14,7 +14,7 @@ namespace {
 /// A bound this much above what was found is as good as exact.
 constexpr double close_enough = 1.001;
 /// The share of the effort after which it is given up, if all that time the bound has not come down by a thousandth.
-constexpr long patience = 32;
+constexpr long patience = 16;
 /// What an evaluation costs besides its instructions, in instructions.
 constexpr long evaluation_overhead = 40;
 

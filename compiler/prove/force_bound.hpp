@@ -25,7 +25,7 @@ inline constexpr long usual_effort = 400'000;
 
 /// The bound over `domain`: by ranges in one pass, then by splitting the domain where the bound is largest, along the
 /// quantity that lowers it most, until it is within a thousandth of what the search found, the effort is spent, or a
-/// thirty-second part of it has gained nothing.
+/// sixteenth of it has gained nothing.
 ForceBound force_bound(const Program& program, const Domain& domain, long effort = usual_effort);
 
 /// The bound over everything that the runtime lets a program see, of what it can remember by then.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "runtime/machine/arithmetic.hpp"
@@ -101,11 +100,14 @@ class Search {
       consider(each.best);
       if (enough(best)) return best;
     }
-    if (remembers_) {
-      // What was remembered under one setting of the parameters is felt under another.
-      std::vector<Bank> banks = {tried.front().bank};
-      for (const Tried& each : std::span(tried).subspan(1))
-        if (!live_.empty() && each.best.size.width == banks.front().size().width) banks.push_back(each.bank);
+    if (remembers_)
+      for (const Tried& each : tried)
+        if (&each == &tried.front() || left_ > 0) consider(stroked({each.bank}));
+    // What was remembered under one setting of the parameters is felt under another.
+    if (remembers_ && !live_.empty()) {
+      std::vector<Bank> banks;
+      for (const Tried& each : tried)
+        if (each.bank.size() == tried.front().bank.size()) banks.push_back(each.bank);
       consider(stroked(std::move(banks)));
     }
     return refined_parameters(best);

@@ -31,7 +31,6 @@ class Reaching {
   Domain run() {
     bounds_ = whole_.states;
     bounds_.insert(bounds_.end(), whole_.cells.begin(), whole_.cells.end());
-    if (bounds_.empty()) return whole_;
     begin_ = begin();
     Remembered now = begin_;
     for (int tick = 0;; ++tick) {
@@ -117,6 +116,10 @@ class Reaching {
 
 }  // namespace
 
-Domain reachable_domain(const Program& program) { return Reaching(program).run(); }
+Domain reachable_domain(const Program& program) {
+  const PatchProgram& description = program.description();
+  if (description.states.empty() && description.grids.empty()) return whole_domain(description);
+  return Reaching(program).run();
+}
 
 }  // namespace wale

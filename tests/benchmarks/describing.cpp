@@ -3,6 +3,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <ctime>
 
 #include "compiler/describe/describe.hpp"
@@ -86,6 +89,39 @@ void Describe(benchmark::State& state, Program (*make)()) {
   planes += seconds_of_a_plane(bank);
   state.counters["planes"] = seconds / static_cast<double>(state.iterations()) / (0.5 * planes);
 }
+
+/// Every material of the library once: how long half of them take at most, all but a twentieth, and the slowest, ms.
+void DescribeLibrary(benchmark::State& state) {
+  std::vector<Program> programs;
+  const auto resolver = file_resolver({WALE_SOURCE_DIR "/library"});
+  for (const auto& [path, text] : shipped_files()) {
+    if (!path.starts_with(WALE_SOURCE_DIR "/library/")) continue;
+    SourceSet sources;
+    Diagnostics diagnostics;
+    const SourceId source = sources.add(path, text);
+    const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
+    for (const CheckedMaterial& material : module.materials)
+      if (auto program =
+              compile_material(module, material.name, default_device, sources, source, *resolver, diagnostics))
+        programs.push_back(*std::move(program));
+  }
+  std::vector<double> took(programs.size(), HUGE_VAL);
+  for (auto _ : state)
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+      const Bank bank(programs[i]);
+      const auto begin = std::chrono::steady_clock::now();
+      benchmark::DoNotOptimize(describe(bank, &declarations()));
+      const std::chrono::duration<double, std::milli> now = std::chrono::steady_clock::now() - begin;
+      took[i] = std::min(took[i], now.count());
+    }
+  std::ranges::sort(took);
+  state.counters["median"] = took[took.size() / 2];
+  state.counters["p95"] = took[took.size() * 95 / 100];
+  state.counters["slowest"] = took.back();
+  state.counters["above_10_ms"] =
+      static_cast<double>(std::ranges::count_if(took, [](double time) { return time > 10; }));
+}
+BENCHMARK(DescribeLibrary)->Unit(benchmark::kMillisecond);
 
 #define EACH_MATERIAL(what)                                                       \
   BENCHMARK_CAPTURE(what, corduroy, corduroy)->Unit(benchmark::kMillisecond);     \

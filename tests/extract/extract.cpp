@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 
 #include "compiler/extract/fourier.hpp"
 #include "tests/standard/standard.hpp"
@@ -27,23 +28,41 @@ TextureForce texture_of(const Bank& bank, const PeriodBand& band = textures) {
   return texture_force(bank, StaticForce(bank), band);
 }
 
-TEST(Fourier, IsTheSumOfItsDefinitionAndGoesBack) {
-  constexpr std::size_t side = 8;
+/// So many values that look like any.
+std::vector<std::complex<float>> any_values(std::size_t count) {
   std::vector<std::complex<float>> values;
-  for (int i = 0; i < static_cast<int>(side * side); ++i)
-    values.emplace_back(static_cast<float>((i * i * 7 + 3 * i) % 23 - 11), static_cast<float>(i * i % 17 - 8));
-  const auto coefficients = fourier(side, values);
-  for (std::size_t v = 0; v < side; ++v)
-    for (std::size_t u = 0; u < side; ++u) {
-      std::complex<double> sum = 0;
-      for (std::size_t y = 0; y < side; ++y)
-        for (std::size_t x = 0; x < side; ++x)
-          sum += std::complex<double>(values[y * side + x]) *
-                 std::polar(1.0, -2 * pi * static_cast<double>(u * x + v * y) / side);
-      EXPECT_LT(std::abs(sum - std::complex<double>(coefficients[v * side + u])), 1e-3) << u << ' ' << v;
-    }
-  const auto back = inverse_fourier(side, coefficients);
-  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(back[i] - values[i]), 1e-4f);
+  for (std::size_t i = 0; i < count; ++i)
+    values.emplace_back(static_cast<float>((i * i * 7 + 3 * i) % 23) - 11, static_cast<float>(i * i % 17) - 8);
+  return values;
+}
+
+// Sides of factors 2, 3, 4 and others, of fewer lines than go at once and of more.
+TEST(Fourier, IsTheSumOfItsDefinitionAndGoesBack) {
+  for (const std::size_t side : {1u, 5u, 6u, 8u, 18u, 20u}) {
+    const auto values = any_values(side * side);
+    const auto coefficients = fourier(side, values);
+    for (std::size_t v = 0; v < side; ++v)
+      for (std::size_t u = 0; u < side; ++u) {
+        std::complex<double> sum = 0;
+        for (std::size_t y = 0; y < side; ++y)
+          for (std::size_t x = 0; x < side; ++x)
+            sum += std::complex<double>(values[y * side + x]) *
+                   std::polar(1.0, -2 * pi * static_cast<double>((u * x + v * y) % side) / static_cast<double>(side));
+        EXPECT_LT(std::abs(sum - std::complex<double>(coefficients[v * side + u])), 1e-3) << u << ' ' << v;
+      }
+    const auto back = inverse_fourier(side, coefficients);
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_LT(std::abs(back[i] - values[i]), 1e-4f) << side;
+  }
+}
+
+TEST(Fourier, OfManyLinesIsThatOfEach) {
+  constexpr std::size_t count = 12, lines = 21;
+  const auto values = any_values(count * lines);
+  const auto all = fourier_of_lines(count, values);
+  for (std::size_t line = 0; line < lines; ++line) {
+    const auto one = fourier_of_line(std::span(values).subspan(line * count, count));
+    for (std::size_t i = 0; i < count; ++i) EXPECT_LT(std::abs(all[line * count + i] - one[i]), 1e-4f) << line;
+  }
 }
 
 TEST(Extract, EveryFigureOfASineIsItsClosedForm) {
