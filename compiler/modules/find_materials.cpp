@@ -51,8 +51,7 @@ std::optional<Occurrence> occurrence_of(const std::string& sought, const Indexed
     const std::string words = folded(text);
     if (!begins_a_word_in(words, sought)) return;
     Occurrence it{words != sought, by, text};
-    if (!nearest || std::tie(it.inexact, it.by) < std::tie(nearest->inexact, nearest->by))
-      nearest = std::move(it);
+    if (!nearest || std::tie(it.inexact, it.by) < std::tie(nearest->inexact, nearest->by)) nearest = std::move(it);
   };
   look(FoundBy::name, material.name);
   look(FoundBy::title, material.title);
@@ -87,8 +86,7 @@ std::vector<FoundMaterial> find_materials(const LibraryIndex& index, const std::
     Occurrence farthest{false, FoundBy::name, material.name};
     const bool has_all = std::ranges::all_of(sought, [&](const std::string& text) {
       std::optional<Occurrence> it = occurrence_of(text, material);
-      if (it && std::tie(it->inexact, it->by) >= std::tie(farthest.inexact, farthest.by))
-        farthest = *std::move(it);
+      if (it && std::tie(it->inexact, it->by) >= std::tie(farthest.inexact, farthest.by)) farthest = *std::move(it);
       return it.has_value();
     });
     if (has_all) found.push_back({farthest.inexact, {&material, farthest.by, std::move(farthest.text)}});

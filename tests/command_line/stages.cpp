@@ -41,7 +41,8 @@ TEST(Emit, OfAPatchProgramShowsWhatIsLeft) {
 TEST(Emit, UnknownStagesAndSenselessWordsAreMisuse) {
   const Outcome unknown = wale({"build", corduroy, "--emit", "assembly"});
   EXPECT_EQ(unknown.status, 2);
-  for (const char* stage : {"tree", "checked", "ir", "listing", "cpp"}) EXPECT_TRUE(contains(unknown.err, stage)) << stage;
+  for (const char* stage : {"tree", "checked", "ir", "listing", "cpp"})
+    EXPECT_TRUE(contains(unknown.err, stage)) << stage;
   EXPECT_EQ(wale({"build", corduroy, "--emit", "cpp", "--all", "-o", "out"}).status, 2);
   const Outcome neither = wale({"build", corduroy});
   EXPECT_EQ(neither.status, 2);
