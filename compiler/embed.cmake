@@ -11,9 +11,11 @@ foreach(file IN LISTS common modules)
   endif()
   # Read as hexadecimal: a list separator or bracket in the text must not mean anything to CMake.
   file(READ "${ROOT}/${file}" bytes HEX)
+  string(LENGTH "${bytes}" size)
+  math(EXPR size "${size} / 2")  # said, since there may be zeros among them
   string(REGEX REPLACE "(..)" "\\\\x\\1" escaped "${bytes}")
   string(REPLACE "\\x0a" "\\x0a\"\n     \"" escaped "${escaped}")  # a line of text, a line of code
-  string(APPEND text "    {\"${file}\",\n     \"${escaped}\", ${is_common}},\n")
+  string(APPEND text "    {\"${file}\",\n     {\"${escaped}\", ${size}}, ${is_common}},\n")
 endforeach()
 string(APPEND text "};\n\nstd::span<const EmbeddedFile> ${FUNCTION}() { return ${FUNCTION}_are; }\n\n}  // namespace wale\n")
 file(WRITE "${OUTPUT}" "${text}")

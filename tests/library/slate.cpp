@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "compiler/compile.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "compiler/image/image.hpp"
+#include "compiler/text/embedded_files.hpp"
 #include "compiler/text/resolver.hpp"
 #include "library/stone/slate_heights.hpp"
 
@@ -16,6 +19,28 @@ TEST(Slate, ThePictureIsWhatItsProgramDraws) {
   EXPECT_EQ(table.width, SlateHeights::side);
   EXPECT_EQ(table.height, SlateHeights::side);
   EXPECT_EQ(table.heights, SlateHeights::draw());
+}
+
+TEST(Slate, WhatIsInTheBinaryIsWhatIsShipped) {
+  EXPECT_FALSE(embedded_assets().empty());
+  for (const auto files : {embedded_files(), embedded_assets()})
+    for (const EmbeddedFile& embedded : files) {
+      const auto file = read_file(std::string(WALE_SOURCE_DIR) + "/" + std::string(embedded.name));
+      ASSERT_TRUE(std::holds_alternative<ResolvedFile>(file)) << embedded.name;
+      EXPECT_TRUE(std::get<ResolvedFile>(file).bytes == embedded.text) << embedded.name;
+    }
+}
+
+TEST(Slate, BringsItsPictureToWhereThereIsNone) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver({});
+  const SourceId source =
+      sources.add("/nowhere/mine.wale", "wale 1\nmaterial mine { representative { like \"riven slate\" } }\n");
+  const auto program = compile(sources, source, "mine", default_device, *resolver, diagnostics);
+  ASSERT_TRUE(program) << render_text(diagnostics.all().front(), sources, false);
+  ASSERT_EQ(program->description().tables.size(), 1u);
+  EXPECT_EQ(program->description().tables.front().width, SlateHeights::side);
 }
 
 }  // namespace
