@@ -11,6 +11,17 @@
 namespace wale {
 namespace {
 
+PluggedIn as_plugged_in(std::string_view kind, ListedUsbDevice device) {
+  return {.kind = std::string(kind),
+          .numbers = in_words(device.usb.vendor, device.usb.product),
+          .port = device.usb.port,
+          .name = std::move(device.name),
+          .can = std::move(device.can),
+          .obstacle = std::move(device.obstacle),
+          .profile = {},
+          .usb = std::move(device.usb)};
+}
+
 constexpr std::string_view hid_pid = "hid-pid";
 
 /// Joysticks of USB's PID class, and all other HID devices, with the reason why they are none.
@@ -19,15 +30,8 @@ std::vector<PluggedIn> find_hid_pid(const Connections& connections, const Plugge
   if (!connections.usb) return found;
   const auto numbers = like != nullptr ? read_usb_numbers(like->numbers) : std::nullopt;
   if (like != nullptr && !numbers) return found;
-  for (ListedUsbDevice& device : list_usb_devices(*connections.usb, numbers)) {
-    found.push_back({.kind = std::string(hid_pid),
-                     .numbers = in_words(device.usb.vendor, device.usb.product),
-                     .port = device.usb.port,
-                     .name = std::move(device.name),
-                     .can = std::move(device.can),
-                     .obstacle = std::move(device.obstacle),
-                     .usb = std::move(device.usb)});
-  }
+  for (ListedUsbDevice& device : list_usb_devices(*connections.usb, numbers))
+    found.push_back(as_plugged_in(hid_pid, std::move(device)));
   return found;
 }
 
@@ -43,16 +47,8 @@ constexpr std::string_view novint_falcon = "novint-falcon";
 std::vector<PluggedIn> find_falcon(const Connections& connections, const PluggedIn*) {
   std::vector<PluggedIn> found;
   if (!connections.usb) return found;
-  for (ListedUsbDevice& device : list_falcons(*connections.usb)) {
-    found.push_back({.kind = std::string(novint_falcon),
-                     .numbers = in_words(device.usb.vendor, device.usb.product),
-                     .port = device.usb.port,
-                     .name = std::move(device.name),
-                     .can = std::move(device.can),
-                     .obstacle = std::move(device.obstacle),
-                     .profile = {},
-                     .usb = std::move(device.usb)});
-  }
+  for (ListedUsbDevice& device : list_falcons(*connections.usb))
+    found.push_back(as_plugged_in(novint_falcon, std::move(device)));
   return found;
 }
 
