@@ -4,8 +4,8 @@
 #include <array>
 
 #include "runtime/device/pointer/pointer_device.hpp"
-#include "runtime/device/usb/falcon_device.hpp"
-#include "runtime/device/usb/hid_pid_device.hpp"
+#include "runtime/device/falcon/falcon_device.hpp"
+#include "runtime/device/hid_pid/hid_pid_device.hpp"
 #include "runtime/device/usb/list_usb_devices.hpp"
 
 namespace wale {

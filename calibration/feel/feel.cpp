@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "calibration/asking_person.hpp"
+#include "calibration/feel/asking_person.hpp"
 #include "calibration/feel/material_watch.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/blind_comparison.hpp"
-#include "calibration/felt_report.hpp"
+#include "calibration/feel/blind_comparison.hpp"
+#include "calibration/feel/felt_report.hpp"
 #include "compiler/command/command.hpp"
 #include "wale/device.hpp"
 

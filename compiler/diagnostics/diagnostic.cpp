@@ -1,39 +1,9 @@
 #include "compiler/diagnostics/diagnostic.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 namespace wale {
-namespace {
-
-struct CodeEntry {
-  Code code;
-  Severity severity;
-  const char* title;
-};
-
-constexpr CodeEntry entries[] = {
-#define CODE(number, name, severity, title) {Code::name, Severity::severity, title},
-#include "compiler/diagnostics/diagnostic_codes.def"
-};
-
-const CodeEntry& entry(Code code) {
-  for (const CodeEntry& each : entries) {
-    if (each.code == code) return each;
-  }
-  return entries[0];  // every enumerator is in the table, so this is never reached
-}
-
-}  // namespace
-
-std::string code_name(Code code) { return fmt::format("W{:04}", static_cast<unsigned>(code)); }
-
-std::string code_title(Code code) { return entry(code).title; }
-
-Severity severity_of(Code code) { return entry(code).severity; }
-
 void Diagnostics::report(Diagnostic diagnostic) {
   if (is_full()) return;
   const Key key(diagnostic.code, diagnostic.span.source, diagnostic.span.begin, diagnostic.span.end);

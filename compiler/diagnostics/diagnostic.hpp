@@ -7,22 +7,9 @@
 #include <vector>
 
 #include "compiler/text/source.hpp"
+#include "schema/code.hpp"
 
 namespace wale {
-
-enum class Severity { error, warning };
-
-/// Stable names of everything that can be wrong with a Wale file; `diagnostic_codes.def` lists them with their titles.
-enum class Code : unsigned {
-#define CODE(number, name, severity, title) name = 1##number - 10000,  // the numbers' leading zero must not mean octal
-#include "compiler/diagnostics/diagnostic_codes.def"
-};
-
-/// "W0301".
-std::string code_name(Code code);
-/// One line that says what the code is about, whatever the case.
-std::string code_title(Code code);
-Severity severity_of(Code code);
 
 /// Another place that has to do with it, and what stands there: the `{` that nothing closes, the first of two
 /// declarations. It may be in another file.

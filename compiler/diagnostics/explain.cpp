@@ -27,7 +27,7 @@ std::vector<Code> all_codes() {
   std::vector<Code> codes = {
 // clang-format off
 #define CODE(number, name, severity, title) Code::name,
-#include "compiler/diagnostics/diagnostic_codes.def"
+#include "schema/codes.def"
       // clang-format on
   };
   std::ranges::sort(codes);

@@ -92,7 +92,7 @@ struct Grade {
 Energy energy_of(const Bank& bank);
 
 /// Grades a program at a bank's parameters (one that only vibrates a pad closes no loop and is not analysed), in the
-/// hand called `normal` (calibration/hands.wale), or in another. Deterministic; some milliseconds.
+/// hand called `normal` (calibration/hands/hands.wale), or in another. Deterministic; some milliseconds.
 Grade grade(const Bank& bank);
 Grade grade(const Bank& bank, const GradingHand& hand);
 

@@ -17,7 +17,7 @@ constexpr double most_rate = 20000;  // Hz; a device that claims more is rehears
 constexpr long most_samples = 2400;
 constexpr double two_pi = 6.283185307179586;
 
-/// To and fro, as the hand called `showing` does (calibration/hands.wale).
+/// To and fro, as the hand called `showing` does (calibration/hands/hands.wale).
 struct Stroke {
   double reach = 0, frequency = 0;  ///< m to either side of the centre; Hz
   double seconds = 0;               ///< how long it goes on

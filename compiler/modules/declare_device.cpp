@@ -240,7 +240,7 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
       reader.report(Code::unknown_name, of_class->span,
                     fmt::format("nothing declares a class of devices `{}`", device.of_class),
                     did_you_mean(of_class->items.front().span, device.of_class, declarations.classes.spellings(),
-                                 "declare it, as in calibration/device_classes.wale"));
+                                 "declare it, as in calibration/devices/classes.wale"));
   }
   for (const auto& [percept, rule] : device.realise)
     if (rule.rate.has_value() != vibrates)

@@ -14,7 +14,7 @@ struct FeltStroke {
   std::vector<float> forces;  ///< N, along the section
 };
 
-/// The hand called `showing` (calibration/hands.wale) goes to and fro along the section for two seconds, on its path
+/// The hand called `showing` (calibration/hands/hands.wale) goes to and fro along the section for two seconds, on its path
 /// and whatever the force, through the program's own ticks, guarded by nothing. A force that is no number is none.
 FeltStroke felt_along(Bank bank, const Exhibit& exhibit);
 

@@ -224,7 +224,7 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
                   names.empty() ? "there is none with a name" : fmt::format("there are: {}", fmt::join(names, ", ")));
   }
   report(Code::no_map, asked.span, fmt::format("no map ties {} to a force on `{}`", percept.name, device_.profile.name),
-         "declare one, as in calibration/minsky1995.wale");
+         "declare one, as in calibration/maps/minsky1995.wale");
 }
 
 /// Percept and physics both given: they disagree beyond what is felt, what the map is sure of, and what the author

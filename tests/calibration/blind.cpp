@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "calibration/asking_person.hpp"
+#include "calibration/feel/asking_person.hpp"
 #include "tests/calibration/declared.hpp"
 #include "wale/library.hpp"
 

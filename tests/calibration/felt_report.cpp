@@ -1,5 +1,5 @@
 // What is said of a run: every guard by its name and its count, every step of a tick by what it cost.
-#include "calibration/felt_report.hpp"
+#include "calibration/feel/felt_report.hpp"
 
 #include <gtest/gtest.h>
 

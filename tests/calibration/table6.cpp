@@ -40,7 +40,7 @@ const std::map<std::string, std::vector<std::string>>& table6() {
   static const auto columns = [] {
     std::map<std::string, std::vector<std::string>> result;
     std::vector<std::string> names;
-    std::istringstream lines(content(project_path("calibration/minsky1995_table6.csv")));
+    std::istringstream lines(content(project_path("calibration/maps/minsky1995_table6.csv")));
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with('#')) continue;
       std::vector<std::string> cells;
@@ -75,7 +75,7 @@ struct PrintedLaw {
 };
 
 PrintedLaw published_law() {
-  const std::string text = content(project_path("calibration/minsky1995.wale"));
+  const std::string text = content(project_path("calibration/maps/minsky1995.wale"));
   const std::regex law(
       R"(\n\s*law\s+log10\(magnitude\) = ([0-9.]+) \* log10\(amplitude / 1 pu\) ([-+]) ([0-9.]+)\s*\n)");
   std::smatch found;

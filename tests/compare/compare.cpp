@@ -24,7 +24,7 @@ Cues cues(const std::string& statements) {
   return cues_of(Bank(material("material m { physical {\n" + statements + "\n} }", "m")), declarations());
 }
 
-/// What Tan 1992 (calibration/tan1992.wale) says at d' = 1: 0.1 at three right answers of four, of two.
+/// What Tan 1992 (calibration/thresholds/tan1992.wale) says at d' = 1: 0.1 at three right answers of four, of two.
 constexpr double three_of_four = 0.67448975;  // standard deviations, any table of the normal distribution
 const double d_prime = std::sqrt(2.0) * three_of_four;
 

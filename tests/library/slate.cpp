@@ -5,7 +5,7 @@
 #include "compiler/image/image.hpp"
 #include "compiler/text/embedded_files.hpp"
 #include "compiler/text/resolver.hpp"
-#include "library/stone/slate_heights.hpp"
+#include "library/pictures/slate_heights.hpp"
 
 namespace wale::slate_test {
 namespace {

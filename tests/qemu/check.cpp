@@ -19,8 +19,8 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/device/usb/falcon_device.hpp"
-#include "runtime/device/usb/hid_pid_device.hpp"
+#include "runtime/device/falcon/falcon_device.hpp"
+#include "runtime/device/hid_pid/hid_pid_device.hpp"
 #include "runtime/device/usb/list_usb_devices.hpp"
 #include "tests/qemu/usbip_port.hpp"
 #include "tests/usb/falcon_model.hpp"

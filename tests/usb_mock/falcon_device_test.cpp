@@ -1,4 +1,4 @@
-#include "runtime/device/usb/falcon_device.hpp"
+#include "runtime/device/falcon/falcon_device.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "runtime/device/usb/hid_pid_device.hpp"
+#include "runtime/device/hid_pid/hid_pid_device.hpp"
 #include "tests/usb/profiles.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 

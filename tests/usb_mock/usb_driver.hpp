@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "runtime/device/usb/falcon_device.hpp"
-#include "runtime/device/usb/hid_pid_device.hpp"
+#include "runtime/device/falcon/falcon_device.hpp"
+#include "runtime/device/hid_pid/hid_pid_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/device.hpp"

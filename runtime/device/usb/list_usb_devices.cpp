@@ -11,7 +11,7 @@
 
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
-#include "runtime/device/usb/falcon_device.hpp"
+#include "runtime/device/falcon/falcon_device.hpp"
 
 namespace wale {
 namespace {

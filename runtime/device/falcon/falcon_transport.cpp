@@ -1,4 +1,4 @@
-#include "runtime/device/usb/falcon_transport.hpp"
+#include "runtime/device/falcon/falcon_transport.hpp"
 
 #include <libusb.h>
 

@@ -1,4 +1,4 @@
-#include "calibration/asking_person.hpp"
+#include "calibration/feel/asking_person.hpp"
 
 #include <fmt/format.h>
 

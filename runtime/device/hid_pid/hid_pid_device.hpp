@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runtime/device/plugged_device.hpp"
-#include "runtime/device/usb/pid_transport.hpp"
+#include "runtime/device/hid_pid/pid_transport.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 
 namespace wale {

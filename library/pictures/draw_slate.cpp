@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "library/stone/slate_heights.hpp"
+#include "library/pictures/slate_heights.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

@@ -3,7 +3,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "calibration/blind_comparison.hpp"
+#include "calibration/feel/blind_comparison.hpp"
 
 namespace wale {
 

@@ -1,4 +1,4 @@
-#include "runtime/device/usb/hid_pid_device.hpp"
+#include "runtime/device/hid_pid/hid_pid_device.hpp"
 
 #include <algorithm>
 #include <cmath>

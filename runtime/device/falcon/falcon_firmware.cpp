@@ -1,4 +1,4 @@
-#include "runtime/device/usb/falcon_firmware.hpp"
+#include "runtime/device/falcon/falcon_firmware.hpp"
 
 #include <cstdlib>
 #include <fstream>

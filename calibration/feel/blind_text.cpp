@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "calibration/blind_comparison.hpp"
+#include "calibration/feel/blind_comparison.hpp"
 
 namespace wale {
 namespace {

@@ -1,4 +1,4 @@
-#include "calibration/blind_comparison.hpp"
+#include "calibration/feel/blind_comparison.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "runtime/device/usb/pid_transport.hpp"
+#include "runtime/device/hid_pid/pid_transport.hpp"
 
 #include <libusb.h>
 #include <pthread.h>

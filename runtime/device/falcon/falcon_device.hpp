@@ -11,8 +11,8 @@
 
 #include "runtime/device/falcon/falcon_plane.hpp"
 #include "runtime/device/plugged_device.hpp"
-#include "runtime/device/usb/falcon_firmware.hpp"
-#include "runtime/device/usb/falcon_transport.hpp"
+#include "runtime/device/falcon/falcon_firmware.hpp"
+#include "runtime/device/falcon/falcon_transport.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 
 namespace wale {

@@ -1,4 +1,4 @@
-#include "calibration/felt_report.hpp"
+#include "calibration/feel/felt_report.hpp"
 
 #include <fmt/format.h>
 

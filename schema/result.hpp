@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "schema/code.hpp"
+
+namespace wale {
+
+/// Where something is wrong outside the text of a Wale file, or on the way to it.
+struct Place {
+  std::string name =
+      {};  ///< of a file, an option, a packet's field, a section of a program; empty: nowhere in particular
+  std::optional<std::size_t> number = {};  ///< of the row, byte or instruction in it, as people count it there
+  std::string text = {};                   ///< what stands there; may be empty
+  std::string source = {};                 ///< what it was made from, "corduroy.wale:9:13"; may be empty
+};
+
+/// What is wrong, as a value. Programs decide by `code`; the sentence is for people and is never searched.
+struct Error {
+  Code code;
+  std::string sentence;            ///< what is wrong: "expected a number, found a vector"
+  std::string mend = {};           ///< what to do about it; may be empty
+  Place place = {};                ///< where
+  std::vector<Place> led_to = {};  ///< what led to it, the first first: the instructions before a refused one
+};
+
+/// A value, or why there is none: the one way in which a function of this project says that it failed.
+///
+///     Result<Trace> trace = load_trace(file);
+///     if (!trace) return trace.error();
+///     use(*trace);
+///
+/// Where there is no value to give, `Result<>`: it holds either nothing or the error.
+template <class Value = std::monostate>
+class [[nodiscard]] Result {
+ public:
+  Result(Value value) : held_(std::in_place_index<0>, std::move(value)) {}
+  Result(Error error) : held_(std::in_place_index<1>, std::move(error)) {}
+  /// Of something that makes a `Value`, as a `unique_ptr` to a derived class makes one to its base.
+  template <class Other>
+  requires(std::is_convertible_v<Other, Value> && !std::is_same_v<std::remove_cvref_t<Other>, Value> &&
+           !std::is_same_v<std::remove_cvref_t<Other>, Error> && !std::is_same_v<std::remove_cvref_t<Other>, Result>)
+      Result(Other&& other)
+      : held_(std::in_place_index<0>, std::forward<Other>(other)) {}
+  /// Done, where there is no value to give.
+  Result() requires std::is_same_v<Value, std::monostate> : held_(std::in_place_index<0>) {}
+
+  bool has_value() const noexcept { return held_.index() == 0; }
+  explicit operator bool() const noexcept { return has_value(); }
+
+  /// The value, which there must be: ask first.
+  Value& operator*() & { return std::get<0>(held_); }
+  const Value& operator*() const& { return std::get<0>(held_); }
+  Value&& operator*() && { return std::get<0>(std::move(held_)); }
+  Value* operator->() { return &std::get<0>(held_); }
+  const Value* operator->() const { return &std::get<0>(held_); }
+
+  /// The error, which there must be: ask first.
+  Error& error() & { return std::get<1>(held_); }
+  const Error& error() const& { return std::get<1>(held_); }
+  Error&& error() && { return std::get<1>(std::move(held_)); }
+
+ private:
+  std::variant<Value, Error> held_;
+};
+
+}  // namespace wale
