@@ -66,13 +66,13 @@ int format(const std::vector<std::string>& files, bool check_only) {
   for (const auto& file : files) {
     const bool standard = file == "-";
     auto read = read_file(standard ? "/dev/stdin" : file);
-    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
-      status = refuse(fmt::format("`{}` cannot be read: {}", file, problem->reason));
+    if (!read) {
+      status = refuse(fmt::format("`{}` cannot be read: {}", file, read.error().sentence));
       continue;
     }
     SourceSet sources;
     Diagnostics diagnostics;
-    const SourceId source = sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
+    const SourceId source = sources.add(file, std::move(read->bytes));
     const auto formatted = format(sources, source, diagnostics);
     print_diagnostics(stderr, diagnostics, sources);
     const bool changes = formatted && *formatted != sources[source].text;
