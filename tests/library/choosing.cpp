@@ -201,7 +201,7 @@ TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
     Diagnostics diagnostics;
     const auto resolver = file_resolver({});
     const std::string path = project / file;
-    const SourceId source = sources.add(path, std::get<ResolvedFile>(read_file(path)).bytes);
+    const SourceId source = sources.add(path, read_file(path)->bytes);
     const auto program = compile(sources, source, "", device, *resolver, diagnostics);
     if (!program) return std::string(code_name(diagnostics.all().front().code));
     return std::to_string(std::lround(program->description().device.force_newton));
