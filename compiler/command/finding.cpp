@@ -6,7 +6,7 @@
 #include "compiler/command/verbs.hpp"
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 // What materials there are.
 
