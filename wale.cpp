@@ -53,12 +53,8 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
     for (const auto& point : std::get<Trace>(trace).points)
       hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
   } else {
-    QuantityReader reader;
-    const auto hand = reader.hand("--at", at);
-    if (!hand) {
-      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return refused;
-    }
+    const auto hand = read_hand(declared_everywhere()->declarations, "--at", at);
+    if (!hand) return refuse(hand.error());
     hands.push_back({0, *hand});
   }
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
