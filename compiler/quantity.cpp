@@ -14,7 +14,7 @@ namespace {
 /// What an option is typed for, as its errors say it.
 struct Expected {
   std::string what;     ///< "a force"
-  std::string example;  ///< "3 N"
+  std::string example;  ///< `--max-force "3 N"`
 };
 
 Error unexpected(Code code, const std::string& option, const std::string& text, const Expected& expected,
@@ -22,7 +22,7 @@ Error unexpected(Code code, const std::string& option, const std::string& text, 
   return {.code = code,
           .sentence = fmt::format("expected {}, {}{}{}", expected.what, found_typed(text), because.empty() ? "" : ": ",
                                   because),
-          .mend = fmt::format("{}{}for example, `{} \"{}\"`", mend, mend.empty() ? "" : "; ", option, expected.example),
+          .mend = fmt::format("for example, `{}`{}{}", expected.example, mend.empty() ? "" : "; ", mend),
           .place = {.name = option, .text = text}};
 }
 
@@ -89,8 +89,9 @@ std::string range_text(const Parameter& parameter, double low, double high) {
 
 Result<Hand> read_hand(const Declarations& known, const std::string& option, const std::string& text) {
   const Dimension length = known.dimension("length"), velocity = known.dimension("velocity");
-  const auto values = read_list(known, option, text, {length, length, velocity, velocity}, 2,
-                                {"a position of x and y, with or without a velocity of x and y", "10 mm, 5 mm"});
+  const auto values =
+      read_list(known, option, text, {length, length, velocity, velocity}, 2,
+                {"a position of x and y, with or without a velocity of x and y", option + " \"10 mm, 5 mm\""});
   if (!values) return values.error();
   Hand hand;
   hand.position = {static_cast<float>((*values)[0]), static_cast<float>((*values)[1])};
@@ -99,7 +100,7 @@ Result<Hand> read_hand(const Declarations& known, const std::string& option, con
 }
 
 Result<double> read_force(const Declarations& known, const std::string& option, const std::string& text) {
-  const Expected expected{"a force above 0 N", "3 N"};
+  const Expected expected{"a force above 0 N", option + " \"3 N\""};
   const auto values = read_list(known, option, text, {known.dimension("force")}, 1, expected);
   if (!values) return values.error();
   if (values->front() > 0) return values->front();
@@ -108,29 +109,29 @@ Result<double> read_force(const Declarations& known, const std::string& option, 
 
 Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
                                       const std::string& text) {
-  const Expected expected{"a value " + range_text(parameter, parameter.low, parameter.high),
-                          parameter.unit.empty()
-                              ? "0.5"
-                              : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit)};
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit, where = option + " " + parameter.name;
+  const Expected expected{
+      "a value " + range_text(parameter, parameter.low, parameter.high),
+      fmt::format("{} \"{}={:.4g}{}\"", option, parameter.name, parameter.value / parameter.unit_in_si, unit)};
   const auto dimension = dimension_of(known, parameter);
   if (!dimension)
     return Error{.code = Code::unknown_unit,
                  .sentence = fmt::format("nothing declares the unit `{}` of `{}`", parameter.si_unit, parameter.name),
-                 .place = {.name = option, .text = text}};
+                 .place = {.name = where, .text = text}};
   // A unit that only the material's own file declares travels with the parameter.
   Declarations names(known);
   if (!names.units.contains(parameter.unit))
     names.units.add(parameter.unit, {.what = {parameter.unit_in_si, *dimension}, .declared = {}});
-  const auto values = read_list(names, option, text, {*dimension}, 1, expected);
+  const auto values = read_list(names, where, text, {*dimension}, 1, expected);
   if (!values) return values.error();
   ParameterValue read{.value = static_cast<float>(values->front()), .unusual = {}};
   if (!(read.value >= parameter.low && read.value <= parameter.high))
-    return unexpected(Code::value_out_of_range, option, text, expected);
+    return unexpected(Code::value_out_of_range, where, text, expected);
   if (read.value < parameter.soft_low || read.value > parameter.soft_high)
     read.unusual = Error{.code = Code::beyond_soft_range,
                          .sentence = fmt::format("`{}` is outside its usual range here", parameter.name),
                          .mend = "usual values are " + range_text(parameter, parameter.soft_low, parameter.soft_high),
-                         .place = {.name = option, .text = text}};
+                         .place = {.name = where, .text = text}};
   return read;
 }
 

@@ -24,7 +24,8 @@ struct ParameterValue {
   float value = 0;
   std::optional<Error> unusual;  ///< a warning (W0308) where it is outside its usual (soft) range
 };
-/// "5mm" for a parameter in mm. The parameter's own unit is known even where nothing else declares it.
+/// "5mm" for a parameter in mm, typed for an option NAME=VALUE, "--set". The parameter's own unit is known even where
+/// nothing else declares it.
 Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
                                       const std::string& text);
 

@@ -126,7 +126,7 @@ std::optional<std::vector<float>> chosen_parameters(const Program& program, cons
       refuse(equals == std::string::npos ? not_a_setting(setting) : no_parameter(program.description(), name));
       return std::nullopt;
     }
-    const auto read = read_parameter(common->declarations, "--set " + name, program.description().parameters[*index],
+    const auto read = read_parameter(common->declarations, "--set", program.description().parameters[*index],
                                      setting.substr(equals + 1));
     if (!read) return refuse(read.error()), std::nullopt;
     if (read->unusual) warn(*read->unusual);
