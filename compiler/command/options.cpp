@@ -50,8 +50,8 @@ void offer_settings(CLI::App& verb, std::vector<std::string>& settings) {
 
 void offer_json(CLI::App& verb, bool& json, const char* about) { verb.add_flag("--json", json, about); }
 
-void offer_output(CLI::App& verb, std::string& out, const char* about) {
-  verb.add_option("-o,--output", out, about)->type_name("FILE");
+CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about) {
+  return verb.add_option("-o,--output", out, about)->type_name("FILE");
 }
 
 CLI::Option* offer_count(CLI::App& verb, const char* option, std::optional<std::uint64_t>& into,

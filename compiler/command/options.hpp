@@ -33,7 +33,7 @@ void offer_settings(CLI::App& verb, std::vector<std::string>& settings);
 void offer_json(CLI::App& verb, bool& json, const char* about);
 
 /// -o, --output FILE.
-void offer_output(CLI::App& verb, std::string& out, const char* about);
+CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);
 
 // Values of options are read here and never by CLI11, which takes "" for 0. Words that make no sense end the command
 // with `misused`, before the verb runs; `into` stays empty where the option is not given.
