@@ -17,7 +17,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/quantity.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 #include "library/device_to_feel.hpp"
 #include "library/devices_verb.hpp"
 #include "library/load_trace.hpp"

@@ -8,7 +8,7 @@
 
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/level_scale.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {

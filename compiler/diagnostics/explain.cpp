@@ -7,7 +7,7 @@
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/text/embedded_files.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {

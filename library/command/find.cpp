@@ -9,7 +9,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale::command {
 namespace {

@@ -1,4 +1,4 @@
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 #include <algorithm>
 #include <numeric>
