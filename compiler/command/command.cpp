@@ -27,6 +27,10 @@ int refuse(const std::string& reason) {
   return refused;
 }
 
+int refuse(const Error& error) {
+  return refuse(error.mend.empty() ? error.sentence : fmt::format("{}; {}", error.sentence, error.mend));
+}
+
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
   for (const auto& diagnostic : diagnostics.all())
     fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/open_file.hpp"
+#include "schema/result.hpp"
 
 /// What a person's command does: the verbs of the command line, which read files, print, and give an exit status. They
 /// are called by `wale.cpp`, which knows the words; nothing else calls them.
@@ -20,6 +21,8 @@ inline constexpr int misused = 2;
 
 /// Says why on standard error; `refused`.
 int refuse(const std::string& reason);
+/// Says what is wrong and how to mend it on standard error; `refused`.
+int refuse(const Error& error);
 
 /// With carets in colour where a person reads them.
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);

@@ -113,7 +113,7 @@ int compare(const Choice& choice, const std::vector<std::string>& names, bool wi
     if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
   }
   if (!all_read) return refused;
-  if (const std::string reason = why_not_compared(files); !reason.empty()) return refuse(reason);
+  if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
   const ComparisonMatrix matrix(std::move(materials), common->declarations);
@@ -126,8 +126,8 @@ int levels(const std::string& percept, const std::string& device, std::optional<
            bool json) {
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const auto proposed = propose_levels(percept, device, steps, apart, common->declarations);
-  if (const auto* reason = std::get_if<std::string>(&proposed)) return refuse(*reason);
-  const auto& proposal = std::get<LevelProposal>(proposed);
+  if (!proposed) return refuse(proposed.error());
+  const LevelProposal& proposal = *proposed;
   std::set<const Threshold*> recalled;
   for (const ProposedLevel& each : proposal.levels)
     if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
@@ -142,14 +142,11 @@ int preview(const Choice& choice, const std::vector<std::string>& settings, cons
   const auto parameters = chosen_parameters(programs.front(), settings);
   if (!parameters) return refused;
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  try {
-    const Drawing drawing = draw_preview(bank, preview_text(bank));
-    if (!drawing.has_text)
-      fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
-    if (const auto problem = save_drawing(drawing, out)) return refuse(problem->reason);
-  } catch (const NoImageLibrary& missing) {
-    return refuse(missing.what());
-  }
+  const auto drawing = draw_preview(bank, preview_text(bank));
+  if (!drawing) return refuse(drawing.error());
+  if (!drawing->has_text)
+    fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  if (const auto saved = save_drawing(*drawing, out); !saved) return refuse(saved.error());
   return 0;
 }
 

@@ -11,8 +11,8 @@ using Json = nlohmann::ordered_json;
 /// Adds a span's fields to an object; a span without a source adds nothing.
 void add_span(Json& object, Span span, const SourceSet& sources) {
   if (span.source >= sources.size()) return;
-  const Place begin = sources.place(span);
-  const Place end = sources.place({span.source, span.end, span.end});
+  const LineAndColumn begin = sources.place(span);
+  const LineAndColumn end = sources.place({span.source, span.end, span.end});
   object["file"] = sources[span.source].name;
   object["line"] = begin.line;
   object["column"] = begin.column;
@@ -76,7 +76,7 @@ std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources
   Json list = Json::array();
   for (const Diagnostic& each : diagnostics.all()) list.push_back(json_of(each, sources));
   constexpr int indent = 2;
-  // Bytes that are no UTF-8 are shown as the replacement character: what is wrong with a file must not stop its report.
+  // Bytes that are not UTF-8 become the replacement character: an error in a file must not stop its report.
   return list.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
