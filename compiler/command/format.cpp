@@ -20,11 +20,10 @@ struct FormatOptions {
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
   auto read = read_file(standard ? "/dev/stdin" : file);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read))
-    return refuse(fmt::format("`{}` cannot be read: {}", file, problem->reason));
+  if (!read) return refuse(fmt::format("`{}` cannot be read: {}", file, read.error().sentence));
   SourceSet sources;
   Diagnostics diagnostics;
-  const SourceId source = sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
+  const SourceId source = sources.add(file, std::move(read->bytes));
   const auto formatted = wale::format(sources, source, diagnostics);
   print_diagnostics(stderr, diagnostics, sources);
   if (!formatted) return refused;
