@@ -32,7 +32,7 @@ int compare(const CompareOptions& options) {
     if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
   }
   if (!all_read) return refused;
-  if (const std::string reason = why_not_compared(files); !reason.empty()) return refuse(reason);
+  if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
   const ComparisonMatrix matrix(std::move(materials), common->declarations);

@@ -22,13 +22,12 @@ int levels(const LevelsOptions& options) {
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const auto proposed =
       propose_levels(options.percept, options.device, options.steps, options.apart.value_or(1), common->declarations);
-  if (const auto* reason = std::get_if<std::string>(&proposed)) return refuse(*reason);
-  const auto& proposal = std::get<LevelProposal>(proposed);
+  if (!proposed) return refuse(proposed.error());
   std::set<const Threshold*> recalled;
-  for (const ProposedLevel& each : proposal.levels)
+  for (const ProposedLevel& each : proposed->levels)
     if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
   print_recalled(recalled);
-  fmt::print("{}", options.json ? proposal_json(proposal) : proposal_text(proposal));
+  fmt::print("{}", options.json ? proposal_json(*proposed) : proposal_text(*proposed));
   return done;
 }
 

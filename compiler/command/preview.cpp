@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
-#include "compiler/image/image_library.hpp"
 
 namespace wale::command {
 namespace {
@@ -23,14 +22,11 @@ int preview(const PreviewOptions& options) {
   const auto parameters = chosen_parameters(programs.front(), options.settings);
   if (!parameters) return refused;
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  try {
-    const Drawing drawing = draw_preview(bank, preview_text(bank));
-    if (!drawing.has_text)
-      fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
-    if (const auto problem = save_drawing(drawing, options.out)) return refuse(problem->reason);
-  } catch (const NoImageLibrary& missing) {
-    return refuse(missing.what());
-  }
+  const auto drawing = draw_preview(bank, preview_text(bank));
+  if (!drawing) return refuse(drawing.error());
+  if (!drawing->has_text)
+    fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  if (const auto saved = save_drawing(*drawing, options.out); !saved) return refuse(saved.error());
   return done;
 }
 
