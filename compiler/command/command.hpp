@@ -21,8 +21,13 @@ inline constexpr int misused = 2;
 
 /// Says why on standard error; `refused`.
 int refuse(const std::string& reason);
-/// Says what is wrong and how to mend it on standard error; `refused`.
 int refuse(const Error& error);
+
+/// Says a warning on standard error.
+void warn(const Error& warning);
+
+/// "error[W0801]: --steps: expected …" and the mend in a line of its own, without a newline at the end.
+std::string error_text(const Error& error);
 
 /// With carets in colour where a person reads them.
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);
