@@ -23,12 +23,11 @@ int levels(const LevelsOptions& options) {
   const auto proposed =
       propose_levels(options.percept, options.device, options.steps, options.apart.value_or(1), common->declarations);
   if (!proposed) return refuse(proposed.error());
-  const LevelProposal& proposal = *proposed;
   std::set<const Threshold*> recalled;
-  for (const ProposedLevel& each : proposal.levels)
+  for (const ProposedLevel& each : proposed->levels)
     if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
   print_recalled(recalled);
-  fmt::print("{}", options.json ? proposal_json(proposal) : proposal_text(proposal));
+  fmt::print("{}", options.json ? proposal_json(*proposed) : proposal_text(*proposed));
   return done;
 }
 

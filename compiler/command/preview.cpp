@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
-#include "compiler/image/image_library.hpp"
 
 namespace wale::command {
 namespace {

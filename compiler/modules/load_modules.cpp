@@ -17,7 +17,7 @@
 #include "compiler/parse/made_from.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/embedded_files.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 
