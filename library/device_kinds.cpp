@@ -17,7 +17,10 @@ PluggedIn as_plugged_in(std::string_view kind, ListedUsbDevice device) {
           .port = device.usb.port,
           .name = std::move(device.name),
           .can = std::move(device.can),
-          .obstacle = std::move(device.obstacle),
+          .obstacle = device.obstacle ? in_words(*device.obstacle) : "",
+          .holders = in_words(device.holders),
+          .transport = std::move(device.transport),
+          .why_transport = std::move(device.why),
           .profile = {},
           .usb = std::move(device.usb)};
 }
@@ -37,9 +40,12 @@ std::vector<PluggedIn> find_hid_pid(const Connections& connections, const Plugge
 
 OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
                           const DeviceOptions& options) {
-  auto opened = HidPidDevice::open(connections.usb, plugged.usb, profile, {.priority = options.priority});
-  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
-  return std::move(std::get<std::unique_ptr<HidPidDevice>>(opened));
+  HidPidDevice::Options how;
+  how.priority = options.priority;
+  how.transport = options.transport;
+  auto opened = HidPidDevice::open(connections.usb, plugged.usb, profile, how);
+  if (!opened) return Refusal{in_words(opened.error()), {}};
+  return *std::move(opened);
 }
 
 constexpr std::string_view novint_falcon = "novint-falcon";
@@ -72,6 +78,9 @@ std::vector<PluggedIn> find_pointer(const Connections&, const PluggedIn*) {
            .name = "the mouse in this terminal",
            .can = "two axes; forces are drawn, not felt",
            .obstacle = pointer::why_no_terminal(),
+           .holders = {},
+           .transport = {},
+           .why_transport = {},
            .profile = std::string(pointer_kind),
            .usb = {}}};
 }
@@ -90,8 +99,8 @@ constexpr std::array<DeviceKind, 3> kinds{{{hid_pid, true, find_hid_pid, open_hi
 
 Connections Connections::open() {
   auto context = UsbContext::open();
-  if (auto* refusal = std::get_if<Refusal>(&context)) return {nullptr, std::move(refusal->reason)};
-  return {std::get<std::shared_ptr<UsbContext>>(std::move(context)), {}};
+  if (!context) return {nullptr, in_words(context.error())};
+  return {*std::move(context), {}};
 }
 
 std::string in_words(const PluggedIn& plugged) {

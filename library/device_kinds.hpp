@@ -3,11 +3,13 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "runtime/device/hid_pid/pid_transport.hpp"
 #include "runtime/device/plugged_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "schema/device_profile.hpp"
@@ -30,6 +32,9 @@ struct PluggedIn {
   std::string name;      ///< as it calls itself; may be empty
   std::string can;       ///< what it can do, in a line; empty where that is not known
   std::string obstacle;  ///< why it cannot be used, and what to do about it; empty: nothing known is in the way
+  std::string holders;   ///< which other programs have it open: "steam (process 4211) has /dev/input/event5 open"
+  std::string transport;      ///< by which it would be used, where there are several: "hidraw"
+  std::string why_transport;  ///< why not by one that is tried before: "not by hidraw: …"; may be empty
   std::string profile;   ///< the declared device that it is, where its kind knows without numbers; else empty
   UsbDeviceInfo usb;     ///< of one on USB
 };
@@ -38,6 +43,7 @@ struct PluggedIn {
 std::string in_words(const PluggedIn& plugged);
 
 struct DeviceOptions {
+  std::optional<PidTransportKind> transport;  ///< of a joystick of the PID class; none: the first that can be used
   int priority = 0;  ///< SCHED_FIFO, of the threads that serve the device, where permitted; 0: ordinary
   /// Told what the person is to do before it can be used, where there is something; empty: nobody is asked.
   std::function<void(const std::string&)> ask = {};

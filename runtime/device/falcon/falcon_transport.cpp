@@ -27,7 +27,7 @@ std::variant<std::unique_ptr<FalconTransport>, Refusal> FalconTransport::open(st
                                                                               const UsbDeviceInfo& info,
                                                                               Options options) {
   const auto refused = [&](int error) {
-    return Refusal{in_words(info.vendor, info.product) + ": " + why_not_usable(error, info).reason, {}};
+    return Refusal{in_words(info.vendor, info.product) + ": " + in_words(why_not_usable(error, info)), {}};
   };
   libusb_device* device = context->find(info);
   if (device == nullptr) return refused(LIBUSB_ERROR_NO_DEVICE);

@@ -3,12 +3,11 @@
 #include <libusb.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "runtime/device/hid_pid/open_pid_transport.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
 #include "runtime/device/falcon/falcon_device.hpp"
@@ -16,100 +15,107 @@
 namespace wale {
 namespace {
 
-std::optional<std::string> content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
-
-std::filesystem::path sysfs_folder(const UsbDeviceInfo& info) { return "/sys/bus/usb/devices/" + info.port; }
-
-/// The report descriptor as the kernel's driver has read it, where one is bound.
-std::optional<std::string> descriptor_from_kernel(const UsbDeviceInfo& info, const UsbHidInterface& interface) {
-  std::error_code error;
-  const auto folder = sysfs_folder(info) / (info.port + ":1." + std::to_string(interface.number));
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (auto bytes = content_of(entry.path() / "report_descriptor")) return bytes;
-  }
-  return std::nullopt;
-}
-
 /// The report descriptor as the device tells it. Only where nobody has claimed the interface: nothing is detached.
-std::variant<std::string, Refusal> descriptor_from_device(libusb_device_handle* handle, const UsbDeviceInfo& info,
-                                                          const UsbHidInterface& interface) {
+Result<std::vector<std::uint8_t>> descriptor_from_device(libusb_device_handle* handle, const UsbDeviceInfo& info,
+                                                         const UsbHidInterface& interface) {
   if (const int error = libusb_claim_interface(handle, interface.number); error != 0) {
     return why_not_usable(error, info);
   }
-  std::string bytes(interface.report_descriptor_bytes, 0);
+  std::vector<std::uint8_t> bytes(interface.report_descriptor_bytes);
   constexpr std::uint8_t standard_in = 0x81, get_descriptor = 6;
   constexpr std::uint16_t report_descriptor = 0x2200;
   constexpr unsigned timeout = 100;  // ms
   const int got = libusb_control_transfer(handle, standard_in, get_descriptor, report_descriptor, interface.number,
-                                          reinterpret_cast<unsigned char*>(bytes.data()),
-                                          interface.report_descriptor_bytes, timeout);
+                                          bytes.data(), interface.report_descriptor_bytes, timeout);
   libusb_release_interface(handle, interface.number);
-  if (got < 0) return Refusal{"it does not tell its report descriptor", {}};
+  if (got < 0) {
+    return Error{Code::failed_transfer, "it does not tell its report descriptor", {}, {.name = "port " + info.port}};
+  }
   bytes.resize(static_cast<std::size_t>(got));
   return bytes;
 }
 
-/// What a report descriptor says that its device can do, or why it cannot.
-void read_descriptor(const std::string& text, ListedUsbDevice& listed) {
-  const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  const auto descriptor = hid::parse_report_descriptor(bytes);
-  if (const auto* error = std::get_if<hid::ReportDescriptorError>(&descriptor)) {
-    listed.obstacle =
-        "its report descriptor is damaged at byte " + std::to_string(error->offset) + ": " + error->reason;
-    return;
+/// What a device whose reports are laid out so can do, in a line.
+Result<std::string> abilities(std::span<const std::uint8_t> report_descriptor) {
+  const auto descriptor = hid::parse_report_descriptor(report_descriptor);
+  if (!descriptor) return descriptor.error();
+  const auto layout = hid::find_pid_layout(*descriptor);
+  if (!layout) return layout.error();
+  return std::string("two axes ") + (layout->has_direction() ? "by direction" : "each by itself") + ", " +
+         std::to_string(layout->set_constant_force.full()) + " steps of force to each side";
+}
+
+/// An open device, or the number of libusb's error. Opening alone changes nothing.
+class OpenedForLooking {
+ public:
+  OpenedForLooking(const UsbContext& context, const UsbDeviceInfo& info) {
+    libusb_device* device = context.find(info);
+    if (device == nullptr) return;
+    error_ = libusb_open(device, &handle_);
+    libusb_unref_device(device);
   }
-  const auto found = hid::find_pid_layout(std::get<hid::ReportDescriptor>(descriptor));
-  if (const auto* refusal = std::get_if<hid::PidRefusal>(&found)) {
-    listed.obstacle = refusal->reason;
-    return;
+  ~OpenedForLooking() {
+    if (handle_ != nullptr) libusb_close(handle_);
   }
-  const auto& layout = std::get<hid::PidLayout>(found);
-  listed.can = std::string("two axes ") + (layout.has_direction() ? "by direction" : "each by itself") + ", " +
-               std::to_string(layout.set_constant_force.full()) + " steps of force to each side";
-  listed.obstacle.clear();
+  OpenedForLooking(const OpenedForLooking&) = delete;
+  OpenedForLooking& operator=(const OpenedForLooking&) = delete;
+
+  libusb_device_handle* handle() const { return handle_; }
+  int error() const { return error_; }
+
+ private:
+  libusb_device_handle* handle_ = nullptr;
+  int error_ = LIBUSB_ERROR_NO_DEVICE;
+};
+
+void list_falcon(ListedUsbDevice& listed, const OpenedForLooking& opened) {
+  listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
+               " steps of torque to each side";
+  const auto firmware = read_falcon_firmware(falcon_firmware_path());
+  if (const auto* refusal = std::get_if<Refusal>(&firmware)) listed.obstacle = Error{Code::unusable_device, refusal->reason};
+  if (opened.error() != 0) listed.obstacle = why_not_usable(opened.error(), listed.usb);
+}
+
+void list_hid(ListedUsbDevice& listed, const KernelNodes& nodes, const OpenedForLooking& opened) {
+  for (const UsbHidInterface& interface : listed.usb.hid) {
+    const HidNodes* known = nodes.of(interface.number);
+    Result<std::vector<std::uint8_t>> descriptor = why_not_usable(opened.error(), listed.usb);
+    if (known != nullptr && !known->report_descriptor.empty()) {
+      descriptor = known->report_descriptor;
+    } else if (opened.handle() != nullptr) {
+      descriptor = descriptor_from_device(opened.handle(), listed.usb, interface);
+    }
+    Result<std::string> can = descriptor ? abilities(*descriptor) : Result<std::string>(descriptor.error());
+    if (can) {
+      listed.can = *std::move(can);
+      listed.obstacle.reset();
+      break;
+    }
+    listed.obstacle = std::move(can).error();
+  }
+  if (listed.can.empty()) return;
+  const PidTransportChoice choice = choose_transport(listed.usb, nodes);
+  listed.why = choice.why;
+  if (choice.kind) {
+    listed.transport = in_words(*choice.kind);
+  } else {
+    listed.obstacle = Error{Code::no_permission, "no permission to open it",
+                            how_to_permit(listed.usb.vendor, listed.usb.product), {.name = "port " + listed.usb.port}};
+  }
 }
 
 ListedUsbDevice listed_device(const UsbContext& context, const UsbDeviceInfo& info) {
   ListedUsbDevice listed;
   listed.usb = info;
-  listed.name = content_of(sysfs_folder(info) / "product").value_or("");
-  while (!listed.name.empty() && listed.name.back() == '\n') listed.name.pop_back();
-
-  libusb_device* device = context.find(info);
-  if (device == nullptr) {
-    listed.obstacle = why_not_usable(LIBUSB_ERROR_NO_DEVICE, info).reason;
-    return listed;
-  }
-  libusb_device_handle* handle = nullptr;
-  const int error = libusb_open(device, &handle);
-  libusb_unref_device(device);
+  const KernelNodes nodes = kernel_nodes(info);
+  listed.name = nodes.product;
+  listed.holders = who_holds(nodes.all());
+  const OpenedForLooking opened(context, info);
   if (is_falcon(info)) {
-    listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
-                 " steps of torque to each side";
-    const auto firmware = read_falcon_firmware(falcon_firmware_path());
-    if (const auto* refusal = std::get_if<Refusal>(&firmware)) listed.obstacle = refusal->reason;
+    list_falcon(listed, opened);
+  } else {
+    list_hid(listed, nodes, opened);
   }
-  for (const UsbHidInterface& interface : info.hid) {
-    if (const auto known = descriptor_from_kernel(info, interface)) {
-      read_descriptor(*known, listed);
-    } else if (error == 0) {
-      const auto told = descriptor_from_device(handle, info, interface);
-      if (const auto* bytes = std::get_if<std::string>(&told)) {
-        read_descriptor(*bytes, listed);
-      } else {
-        listed.obstacle = std::get<Refusal>(told).reason;
-      }
-    }
-    if (!listed.can.empty()) break;
-  }
-  // One that pushes, or may, but must not be opened.
-  const bool is_known_not_to = !listed.obstacle.empty() && listed.can.empty();
-  if (error != 0 && !is_known_not_to) listed.obstacle = why_not_usable(error, info).reason;
-  if (handle != nullptr) libusb_close(handle);
   return listed;
 }
 

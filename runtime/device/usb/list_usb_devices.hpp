@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/device/usb/kernel_nodes.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "schema/device_wiring.hpp"
 
@@ -14,7 +15,10 @@ struct ListedUsbDevice {
   UsbDeviceInfo usb;
   std::string name;      ///< as it calls itself; empty where that cannot be read
   std::string can;       ///< what it can do, in a line: "two axes by direction, 32767 steps of force to each side"
-  std::string obstacle;  ///< why it cannot be used; empty: nothing is known to be in the way
+  std::optional<Error> obstacle;  ///< why it cannot be used; nothing: nothing is known to be in the way
+  NodeHolders holders;            ///< which other programs have it open
+  std::string transport;          ///< by which it would be used: "hidraw"; empty where there is no choice
+  std::string why;                ///< and why not by one that is tried before; may be empty
 };
 
 /// All devices of the HID class that are plugged in, in the order of their ports; with `only`, those with these
