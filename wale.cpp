@@ -15,6 +15,7 @@
 
 #include "calibration/feel/feel.hpp"
 #include "compiler/build_stage.hpp"
+#include "compiler/command/options.hpp"
 #include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/quantity.hpp"
@@ -23,32 +24,21 @@
 #include "library/devices_verb.hpp"
 #include "library/load_trace.hpp"
 
+namespace wale::command {
+
+// Each is defined in FOLDER/command/VERB.cpp.
+extern const Verb check_verb, explain_verb, format_verb;
+
+}  // namespace wale::command
+
 namespace {
 
 using namespace wale;
-using command::Choice, command::FeelOptions, command::misused, command::refuse, command::refused;
+using namespace wale::command;
+
+constexpr const Verb* verbs[] = {&check_verb, &explain_verb, &format_verb};
 
 std::atomic<bool> interrupted{false};
-
-void offer_library(CLI::App& verb, Choice& choice) {
-  verb.add_option("--library", choice.folders, "a folder to look for imports in, after the file's own; may be repeated")
-      ->type_name("DIR")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->take_all();
-}
-
-void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device") {
-  verb.add_option(option, choice.device, "the device to build for (default: sandpaper; see `wale devices`)");
-}
-
-/// The options that name one material.
-void offer(CLI::App& verb, Choice& choice, const char* device_option = "--device") {
-  verb.add_option("FILE", choice.file, "a Wale file, or a patch program (.wpp)")->required();
-  verb.add_option("--material", choice.material, "which material of the file (default: its first)");
-  offer_device(verb, choice, device_option);
-  offer_library(verb, choice);
-}
 
 int sample(const Choice& choice, const std::vector<std::string>& settings, const std::string& at,
            const std::string& trace_file, const std::string& out, bool json) {
@@ -154,39 +144,16 @@ int main(int argc, char** argv) {
   std::vector<std::string> files, settings;
   Choice choice;
   FeelOptions feeling;
-  std::string out, at, trace, code;
-  bool json = false, fix = false;
-  const auto with_settings = [&](CLI::App* verb, std::vector<std::string>& into) {
-    verb->add_option("--set", into, "a parameter's value, as in --set wale=5mm; may be repeated")
-        ->type_name("NAME=VALUE")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->take_all();
-  };
+  std::string out, at, trace;
+  bool json = false;
 
-  auto* verb = app.add_subcommand("check", "says what is wrong with Wale files, and where, and how to mend it");
-  verb->add_option("FILE", files, "Wale files")->required();
-  offer_library(*verb, choice);
-  verb->add_flag("--json", json, "diagnostics as a JSON array");
-  verb->add_flag("--fix", fix, "first writes the mends that are beyond doubt into these files");
-  verb->footer("for example: wale check --fix my.wale");
-  verb->callback([&] { status = command::check(files, choice.folders, json, fix); });
+  for (const Verb* each : verbs) {
+    CLI::App* declared = app.add_subcommand(each->name, each->about);
+    declared->callback([&status, run = each->declare(*declared)] { status = run(); });
+  }
 
-  verb = app.add_subcommand("explain", "tells what a diagnostic's code means, with an example and its mend");
-  verb->add_option("CODE", code, "as in W0301 (default: lists all codes)");
-  verb->footer("for example: wale explain W0301");
-  verb->callback([&] { status = command::explain(code); });
-
-  verb = app.add_subcommand("format", "writes Wale files in the language's one style");
-  bool check_only = false;
-  verb->add_option("FILE", files, "Wale files; - for standard input to standard output")->required();
-  verb->add_flag("--check", check_only,
-                 "changes nothing; lists the files that would change and fails if there are any");
-  verb->footer("for example: wale format library/fabric/*.wale");
-  verb->callback([&] { status = command::format(files, check_only); });
-
-  verb = app.add_subcommand("build", "compiles a material to a patch program, or shows what a stage makes of it");
-  offer(*verb, choice);
+  auto* verb = app.add_subcommand("build", "compiles a material to a patch program, or shows what a stage makes of it");
+  offer_material(*verb, choice);
   bool all = false, exports = false;
   std::string stage;
   std::vector<std::string> stages;
@@ -212,8 +179,8 @@ int main(int argc, char** argv) {
 
   verb =
       app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
-  offer(*verb, choice);
-  with_settings(verb, settings);
+  offer_material(*verb, choice);
+  offer_settings(*verb, settings);
   verb->add_flag("--exports", exports,
                  "what the file offers to those that import it (default where it has no material)")
       ->excludes("--material");
@@ -227,7 +194,7 @@ int main(int argc, char** argv) {
                    "what has to stand in a material's name, title, kind, what it is called or feels like, or its "
                    "documentation, from the beginning of a word on; all of several");
   verb->add_option("--kind", kind, "only materials of this kind, as in fabric or fabric.woven");
-  offer_library(*verb, choice);
+  offer_library(*verb, choice.folders);
   verb->add_flag("--json", json, "an array with all that is known of each");
   verb->footer("for example: wale find ribbed;  wale find --kind fabric soft");
   verb->callback([&] { status = command::find(files, kind, choice.folders, json); });
@@ -235,8 +202,8 @@ int main(int argc, char** argv) {
   verb = app.add_subcommand("compare", "tells by what people would tell materials apart, and how plainly");
   verb->add_option("FILE", files, "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")
       ->required();
-  offer_device(*verb, choice);
-  offer_library(*verb, choice);
+  offer_device(*verb, choice.device);
+  offer_library(*verb, choice.folders);
   bool with_table = false;
   verb->add_flag("--matrix", with_table, "how far each is from every other, also of more materials than fit a screen");
   verb->add_flag("--json", json,
@@ -249,7 +216,7 @@ int main(int argc, char** argv) {
   std::optional<std::size_t> steps;
   double apart = 1;
   verb->add_option("PERCEPT", percept, "a percept or its antonym, as in roughness or smoothness")->required();
-  offer_device(*verb, choice);
+  offer_device(*verb, choice.device);
   verb->add_option("--steps", steps, "how many (default: as many as can be told apart)")->type_name("N");
   verb->add_option("--jnd", apart, "the least distance between two, in just noticeable differences (default: 1)")
       ->type_name("JND");
@@ -258,8 +225,8 @@ int main(int argc, char** argv) {
   verb->callback([&] { status = command::levels(percept, choice.device, steps, apart, json); });
 
   verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
-  offer(*verb, feeling.choice, "--built-for");
-  with_settings(verb, feeling.settings);
+  offer_material(*verb, feeling.choice, "--built-for");
+  offer_settings(*verb, feeling.settings);
   verb->add_option(
       "--device", feeling.device,
       "auto (default): the best one plugged in, else simulated; simulated; a name from `wale devices`: the "
@@ -309,8 +276,8 @@ int main(int argc, char** argv) {
   verb->callback([&] { status = command::replay(replaying); });
 
   verb = app.add_subcommand("sample", "the program's force at given hands, open loop; outside the patch it is zero");
-  offer(*verb, choice);
-  with_settings(verb, settings);
+  offer_material(*verb, choice);
+  offer_settings(*verb, settings);
   auto* places = verb->add_option_group("hands", "where the hand is")->require_option(1);
   places->add_option("--at", at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
   places->add_option("--trace", trace,
@@ -321,8 +288,8 @@ int main(int argc, char** argv) {
   verb->callback([&] { status = sample(choice, settings, at, trace, out.empty() ? "-" : out, json); });
 
   verb = app.add_subcommand("preview", "draws the picture a designer would pin to the wall");
-  offer(*verb, choice);
-  with_settings(verb, settings);
+  offer_material(*verb, choice);
+  offer_settings(*verb, settings);
   verb->add_option("-o,--output", out, "the picture to write (.png)")->required();
   verb->footer("for example: wale preview library/fabric/corduroy.wale -o corduroy.png");
   verb->callback([&] { status = command::preview(choice, settings, out); });
@@ -348,12 +315,12 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return misused;
   }
-  std::vector<std::string> verbs;
-  for (const auto* known : app.get_subcommands({})) verbs.push_back(known->get_name());
-  if (const std::string first = argv[1]; !first.starts_with('-') && std::ranges::find(verbs, first) == verbs.end()) {
-    const auto near = nearest_spelling(first, verbs);
+  std::vector<std::string> names;
+  for (const auto* known : app.get_subcommands({})) names.push_back(known->get_name());
+  if (const std::string first = argv[1]; !first.starts_with('-') && std::ranges::find(names, first) == names.end()) {
+    const auto near = nearest_spelling(first, names);
     fmt::print(stderr, "wale: there is no verb `{}`; {}\n", first,
-               near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(verbs, ", ")));
+               near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(names, ", ")));
     return misused;
   }
   try {

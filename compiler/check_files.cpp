@@ -56,11 +56,10 @@ std::string mended(const std::string& file, std::string text, const std::vector<
 /// Whether the file was changed.
 bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
   auto read = read_file(result.file);
-  auto* found = std::get_if<ResolvedFile>(&read);
-  if (!found || result.problem) return false;  // that it cannot be read, the check says
+  if (!read || result.problem) return false;  // that it cannot be read, the check says
   std::vector<Mend> mends;
-  const std::string text = mended(result.file, found->bytes, roots, mends);
-  if (text == found->bytes) return false;
+  const std::string text = mended(result.file, read->bytes, roots, mends);
+  if (text == read->bytes) return false;
   result.problem = replace_file(result.file, text);
   if (result.problem) return false;
   result.mends.insert(result.mends.end(), mends.begin(), mends.end());
@@ -75,13 +74,13 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
   for (const auto& file : files) {
     auto read = read_file(file);
     Diagnostics diagnostics;
-    if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
+    if (!read) {
       diagnostics.report({.code = Code::unreadable_file,
                           .span = {result.sources.add(file, ""), 0, 0},
-                          .message = fmt::format("`{}` cannot be read: {}", file, problem->reason),
+                          .message = fmt::format("`{}` cannot be read: {}", file, read.error().sentence),
                           .help = "name a Wale file"});
     } else {
-      const SourceId source = result.sources.add(file, std::move(std::get<ResolvedFile>(read).bytes));
+      const SourceId source = result.sources.add(file, std::move(read->bytes));
       diagnostics = check_text(result.sources, source, roots);
     }
     for (const auto& each : diagnostics.all()) {

@@ -20,7 +20,7 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
 
 /// A change that was made to a file.
 struct Mend {
-  Place place;  ///< where it was when it was made
+  LineColumn place;  ///< where it was when it was made
   std::string title;
 };
 

@@ -19,11 +19,11 @@ NamedMaterial named_material(const std::string& name) {
 OpenedFile open_file(const FileRequest& request) {
   OpenedFile opened;
   auto read = read_file(request.file);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read)) {
-    opened.refusal = fmt::format("`{}` cannot be read: {}", request.file, problem->reason);
+  if (!read) {
+    opened.refusal = fmt::format("`{}` cannot be read: {}", request.file, read.error().sentence);
     return opened;
   }
-  auto& bytes = std::get<ResolvedFile>(read).bytes;
+  auto& bytes = read->bytes;
   const bool patch_program =
       std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
                          [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });

@@ -24,7 +24,7 @@ nlohmann::ordered_json numbers_of(const DeviceWiring& wiring) {
   return numbers;
 }
 
-nlohmann::ordered_json shaker_json(const DescribedDevice& device) {
+nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
   const DeviceProfile& profile = device.profile;
   const Shaker& shaker = *profile.shaker;
   nlohmann::ordered_json json = {{"name", profile.name},
@@ -54,7 +54,7 @@ nlohmann::ordered_json shaker_json(const DescribedDevice& device) {
 
 }  // namespace
 
-std::string devices_text(const std::vector<DescribedDevice>& devices) {
+std::string devices_text(const std::vector<DeclaredDevice>& devices) {
   std::string text =
       "to feel on (wale feel --device NAME)\n"
       "  auto         the best that is plugged in, else simulated: what is taken unless you say otherwise\n"
@@ -64,7 +64,7 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
       "  usb, vendor and product (1209:ffb0), a port (1-2): what is plugged in there\n"
       "  a real one that is not there is waited for until it is plugged in\n"
       "\nto build for (wale build --device NAME)\n";
-  for (const DescribedDevice& device : devices) {
+  for (const DeclaredDevice& device : devices) {
     const DeviceProfile& profile = device.profile;
     if (profile.shaker) {
       const Shaker& shaker = *profile.shaker;
@@ -96,10 +96,10 @@ std::string devices_text(const std::vector<DescribedDevice>& devices) {
   return text;
 }
 
-std::string devices_json(const std::vector<DescribedDevice>& devices) {
+std::string devices_json(const std::vector<DeclaredDevice>& devices) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   json.push_back({{"name", "simulated"}, {"feel", true}, {"build", false}});
-  for (const DescribedDevice& device : devices) {
+  for (const DeclaredDevice& device : devices) {
     if (device.profile.shaker) {
       json.push_back(shaker_json(device));
       continue;

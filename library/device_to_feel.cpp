@@ -19,7 +19,7 @@ using Choice = std::variant<ChosenDevice, Absent, Refusal>;
 
 /// Looks again whenever something is plugged in, until what is asked for is there, or cannot be used.
 std::variant<ChosenDevice, Refusal> wait_for(const Absent& absent, const Connections& connections,
-                                             const DeviceRequest& request, const std::vector<DescribedDevice>& known,
+                                             const DeviceRequest& request, const std::vector<DeclaredDevice>& known,
                                              std::optional<double> seconds, const std::atomic<bool>& stop) {
   using Clock = std::chrono::steady_clock;
   constexpr auto between_looks = 100ms;
@@ -62,7 +62,7 @@ std::variant<Motion, Refusal> motion_of(const std::string& hand, const Simulated
 std::variant<DeviceToFeel, Refusal> device_to_feel(const DeviceWanted& wanted, const Say& say,
                                                    const std::atomic<bool>& stop) {
   const OpenedFile file = open_file(wanted.file);  // what is wrong with it is said when it is built
-  const std::vector<DescribedDevice> known = file.module ? devices_known(*file.module) : devices_here();
+  const std::vector<DeclaredDevice> known = file.module ? devices_known(*file.module) : devices_here();
   const DeviceRequest request{.spelling = wanted.spelling.empty() ? "auto" : wanted.spelling,
                               .built_for = file.program ? file.program->description().device.name : wanted.built_for,
                               .only_simulated = wanted.virtual_time || wanted.hand};

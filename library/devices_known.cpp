@@ -8,11 +8,9 @@
 
 namespace wale {
 
-std::vector<DescribedDevice> devices_known(const Declarations& declarations) {
-  std::vector<DescribedDevice> devices;
-  const auto add = [&](const DeviceDeclaration& device) {
-    devices.push_back({device.profile, device.source, device.assumed, device.unknown, device.wiring, device.of_class});
-  };
+std::vector<DeclaredDevice> devices_known(const Declarations& declarations) {
+  std::vector<DeclaredDevice> devices;
+  const auto add = [&](const DeviceDeclaration& device) { devices.push_back(device); };
   for (const auto& [name, entry] : declarations.devices.own()) add(entry.what);
   declarations.devices.each([&](const std::string& name, const DeviceDeclaration& device) {
     if (!declarations.devices.own().contains(name)) add(device);
@@ -20,9 +18,9 @@ std::vector<DescribedDevice> devices_known(const Declarations& declarations) {
   return devices;
 }
 
-std::vector<DescribedDevice> devices_known(const CheckedModule& module) { return devices_known(module.declarations()); }
+std::vector<DeclaredDevice> devices_known(const CheckedModule& module) { return devices_known(module.declarations()); }
 
-std::vector<DescribedDevice> devices_here() {
+std::vector<DeclaredDevice> devices_here() {
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver(library_folders({}, std::getenv("WALE_LIBRARY")));

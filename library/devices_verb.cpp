@@ -51,7 +51,7 @@ std::string why_lost(const HotPluggedDevice& joystick) {
 
 int devices(bool json) {
   declared_everywhere();
-  const std::vector<DescribedDevice> known = devices_here();
+  const std::vector<DeclaredDevice> known = devices_here();
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
   fmt::print("{}", json ? with_plugged(devices_json(known), plugged, known)
@@ -71,7 +71,7 @@ int identify(const std::string& device, const std::string& max_force, const std:
     if (!(*most > 0)) return refuse("the largest force allowed is more than nothing");
     options.most_newton = *most;
   }
-  const std::vector<DescribedDevice> known = devices_here();
+  const std::vector<DeclaredDevice> known = devices_here();
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
   const auto choice = choose_device({.spelling = device.empty() ? "auto" : device}, known, plugged);
@@ -83,7 +83,7 @@ int identify(const std::string& device, const std::string& max_force, const std:
                   : device.empty() || device == "auto"
                       ? "no force-feedback device is plugged in; see `wale devices`"
                       : fmt::format("`{}` is no real device, and lies nowhere; see `wale devices`", device));
-  DescribedDevice described = *matched_profile(*chosen.plugged, known).device;
+  DeclaredDevice described = *matched_profile(*chosen.plugged, known).device;
   if (described.profile.shaker) return refuse(fmt::format("`{}` only vibrates: it has no axes", chosen.profile));
   DeviceWiring wiring = chosen.wiring;
   chosen.wiring = DeviceWiring{};  // its own axes and motors, as they are

@@ -66,7 +66,7 @@ namespace {
 /// Settings of a declaration, in the order and with the units that a person would choose.
 class DeclarationWriter {
  public:
-  explicit DeclarationWriter(const DescribedDevice& device) : device_(device) {}
+  explicit DeclarationWriter(const DeclaredDevice& device) : device_(device) {}
 
   void add(const std::string& key, const std::string& value) { text_ += fmt::format("  {} {}\n", key, value); }
   /// A figure, or that it is unknown.
@@ -77,7 +77,7 @@ class DeclarationWriter {
   const std::string& text() const { return text_; }
 
  private:
-  const DescribedDevice& device_;
+  const DeclaredDevice& device_;
   std::string text_;
 };
 
@@ -92,7 +92,7 @@ std::string in_quotes(const std::string& text) {
 
 }  // namespace
 
-std::string device_declaration(const DescribedDevice& device, const std::string& name, const DeviceWiring& wiring,
+std::string device_declaration(const DeclaredDevice& device, const std::string& name, const DeviceWiring& wiring,
                                const std::vector<std::string>& comments) {
   const DeviceProfile& profile = device.profile;
   DeclarationWriter writer(device);

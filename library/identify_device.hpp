@@ -28,7 +28,7 @@ DeviceWiring rewired(DeviceWiring wiring, const Identified& found);
 
 /// A file that declares a device like `device`, with another name and wiring, for whoever builds for it:
 /// figures that were assumed still are. The comments are lines without `//`.
-std::string device_declaration(const DescribedDevice& device, const std::string& name, const DeviceWiring& wiring,
+std::string device_declaration(const DeclaredDevice& device, const std::string& name, const DeviceWiring& wiring,
                                const std::vector<std::string>& comments);
 
 }  // namespace wale

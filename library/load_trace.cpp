@@ -8,9 +8,8 @@ namespace wale {
 
 std::variant<Trace, Refusal> load_trace(const std::string& path) {
   const auto read = read_file(path);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read))
-    return Refusal{fmt::format("`{}` cannot be read: {}", path, problem->reason), {}};
-  auto trace = read_trace(std::get<ResolvedFile>(read).bytes);
+  if (!read) return Refusal{fmt::format("`{}` cannot be read: {}", path, read.error().sentence), {}};
+  auto trace = read_trace(read->bytes);
   if (const auto* error = std::get_if<TraceError>(&trace))
     return Refusal{fmt::format("{}:{}: expected {}, found {}", path, error->line, error->expected, error->found), {}};
   return std::get<Trace>(std::move(trace));

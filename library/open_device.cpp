@@ -36,7 +36,7 @@ struct Candidate {
 
 class Chooser {
  public:
-  Chooser(const DeviceRequest& request, const std::vector<DescribedDevice>& known,
+  Chooser(const DeviceRequest& request, const std::vector<DeclaredDevice>& known,
           const std::vector<PluggedIn>& plugged)
       : request_(request), known_(known) {
     for (const PluggedIn& each : plugged) all_.push_back({&each, matched_profile(each, known)});
@@ -88,9 +88,9 @@ class Chooser {
   }
 
  private:
-  const DescribedDevice* declared(const std::string& name) const {
+  const DeclaredDevice* declared(const std::string& name) const {
     const auto found =
-        std::ranges::find_if(known_, [&](const DescribedDevice& each) { return each.profile.name == name; });
+        std::ranges::find_if(known_, [&](const DeclaredDevice& each) { return each.profile.name == name; });
     return found != known_.end() ? &*found : nullptr;
   }
 
@@ -123,7 +123,7 @@ class Chooser {
 
   Refusal unknown(const std::string& name, const std::string& prefix) const {
     std::vector<std::string> names;
-    for (const DescribedDevice& each : known_) names.push_back(prefix + each.profile.name);
+    for (const DeclaredDevice& each : known_) names.push_back(prefix + each.profile.name);
     if (prefix.empty()) {
       for (const char* word : {"auto", "simulated", "usb"}) names.emplace_back(word);
       for (const DeviceKind& kind : device_kinds()) names.emplace_back(kind.name);
@@ -203,7 +203,7 @@ class Chooser {
   }
 
   const DeviceRequest& request_;
-  const std::vector<DescribedDevice>& known_;
+  const std::vector<DeclaredDevice>& known_;
   std::vector<Candidate> all_;
 };
 
@@ -223,10 +223,10 @@ std::vector<PluggedIn> alike(const Connections& connections, const DeviceKind& k
 
 }  // namespace
 
-MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<DescribedDevice>& known) {
+MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<DeclaredDevice>& known) {
   const auto numbers = read_usb_numbers(plugged.numbers);
-  const DescribedDevice* generic = nullptr;
-  for (const DescribedDevice& device : known) {
+  const DeclaredDevice* generic = nullptr;
+  for (const DeclaredDevice& device : known) {
     if (!plugged.profile.empty() && device.profile.name == plugged.profile) return {&device, false};
     if (numbers && std::ranges::find(device.wiring.usb, *numbers) != device.wiring.usb.end()) return {&device, false};
     if (device.wiring.is_generic && generic == nullptr) generic = &device;
@@ -245,7 +245,7 @@ std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_vi
 }
 
 std::variant<ChosenDevice, Absent, Refusal> choose_device(const DeviceRequest& request,
-                                                          const std::vector<DescribedDevice>& known,
+                                                          const std::vector<DeclaredDevice>& known,
                                                           const std::vector<PluggedIn>& plugged) {
   return Chooser(request, known, plugged).choose();
 }

@@ -17,10 +17,10 @@ namespace wale {
 
 /// The declared device that something plugged in is: of those that name its numbers the first, else the generic one.
 struct MatchedProfile {
-  const DescribedDevice* device = nullptr;  ///< null: none
+  const DeclaredDevice* device = nullptr;  ///< null: none
   bool is_generic = false;                  ///< no declaration is about it; its figures are assumed
 };
-MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<DescribedDevice>& known);
+MatchedProfile matched_profile(const PluggedIn& plugged, const std::vector<DeclaredDevice>& known);
 
 /// All that is plugged in and of some kind, in the order in which `auto` looks at it. Of a kind that `auto` does not
 /// choose, as the pointer, which is always there, only when that kind is `asked` for by its name.
@@ -56,7 +56,7 @@ struct ChosenDevice {
 /// one, or the simulated one. Refused, with what to do: what nothing is called, what cannot be used, and what the
 /// program was not built for.
 std::variant<ChosenDevice, Absent, Refusal> choose_device(const DeviceRequest& request,
-                                                          const std::vector<DescribedDevice>& known,
+                                                          const std::vector<DeclaredDevice>& known,
                                                           const std::vector<PluggedIn>& plugged);
 
 /// Opens a chosen device that is plugged in, by the profile of the program, with threads just below the real-time

@@ -29,7 +29,7 @@ bool is_felt_on(const PluggedIn& plugged, const MatchedProfile& match) {
 }  // namespace
 
 std::string plugged_text(const Connections& connections, const std::vector<PluggedIn>& plugged,
-                         const std::vector<DescribedDevice>& known) {
+                         const std::vector<DeclaredDevice>& known) {
   std::string text = "\nplugged in (wale feel --device PORT)\n";
   if (!connections.usb) text += fmt::format("  USB cannot be looked at: {}\n", connections.without_usb);
   if (plugged.empty()) return connections.usb ? text + nothing : text;
@@ -51,7 +51,7 @@ std::string plugged_text(const Connections& connections, const std::vector<Plugg
 }
 
 std::string with_plugged(const std::string& devices_json, const std::vector<PluggedIn>& plugged,
-                         const std::vector<DescribedDevice>& known) {
+                         const std::vector<DeclaredDevice>& known) {
   auto json = nlohmann::ordered_json::parse(devices_json);
   for (const PluggedIn& device : plugged) {
     const MatchedProfile match = matched_profile(device, known);

@@ -1,44 +1,11 @@
-#include <bit>
-
+#include "schema/byte_writer.hpp"
 #include "schema/patch_program_format.hpp"
+#include "schema/write_device.hpp"
 
 namespace wale {
 namespace {
 
 using namespace patch_program_format;
-
-/// Appends little-endian values, whatever the machine's own order.
-class ByteWriter {
- public:
-  template <typename Unsigned>
-  void number(Unsigned value) {
-    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) bytes_.push_back(static_cast<std::byte>(value >> 8 * i & 0xff));
-  }
-  void u8(std::uint8_t value) { number(value); }
-  void u16(std::uint16_t value) { number(value); }
-  void u32(std::size_t value) { number(static_cast<std::uint32_t>(value)); }
-  void u64(std::uint64_t value) { number(value); }
-  void f32(float value) { number(std::bit_cast<std::uint32_t>(value)); }
-  void f64(double value) { number(std::bit_cast<std::uint64_t>(value)); }
-
-  void text(std::string_view text) {
-    u32(text.size());
-    for (const char c : text) bytes_.push_back(static_cast<std::byte>(c));
-  }
-
-  void code(std::span<const Instruction> code) {
-    u32(code.size());
-    for (const Instruction& instruction : code) u64(encode(instruction));
-  }
-
-  void bytes(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
-  void pad() { bytes_.resize(align(bytes_.size())); }
-
-  std::vector<std::byte>& result() { return bytes_; }
-
- private:
-  std::vector<std::byte> bytes_;
-};
 
 void write_parameters(ByteWriter& out, std::span<const Parameter> parameters) {
   out.u32(parameters.size());
@@ -136,52 +103,6 @@ void write_tables(ByteWriter& out, std::span<const HeightTable> tables) {
     out.u32(table.height);
     out.u64(content_hash(table));
     for (const std::uint16_t code : table.heights) out.u16(code);
-  }
-}
-
-void write_device(ByteWriter& out, const DeviceProfile& device) {
-  out.text(device.name);
-  for (const double figure : {device.workspace_diameter,
-                              device.position_counts,
-                              device.force_newton,
-                              device.force_counts,
-                              device.rate,
-                              device.speed_limit,
-                              device.slew,
-                              device.continuous_newton,
-                              device.heating_seconds,
-                              device.active_watt,
-                              device.velocity_window,
-                              device.velocity_noise_counts,
-                              device.patch_width,
-                              device.patch_height,
-                              device.patch_rim,
-                              device.mass,
-                              device.damping,
-                              device.friction,
-                              device.delay_x,
-                              device.delay_y,
-                              device.bandwidth_x,
-                              device.bandwidth_y}) {
-    out.f64(figure);
-  }
-  out.u8(device.damping_known);
-  out.u8(device.friction_known);
-}
-
-void write_shaker(ByteWriter& out, const Shaker& vibration) {
-  out.u8(static_cast<std::uint8_t>(vibration.position));
-  for (const double figure : {vibration.frequency_low, vibration.frequency_high, vibration.command_steps,
-                              vibration.spin_up, vibration.exploring_speed})
-    out.f64(figure);
-  out.u32(vibration.response.size());
-  for (const Shaker::Response& response : vibration.response) {
-    out.f64(response.frequency);
-    out.u32(response.points.size());
-    for (const auto& point : response.points) {
-      out.f64(point.command);
-      out.f64(point.acceleration);
-    }
   }
 }
 

@@ -9,15 +9,6 @@
 /// Each is a verb, or a way of one, and gives the exit status.
 namespace wale::command {
 
-int check(const std::vector<std::string>& files, const std::vector<std::string>& folders, bool json, bool fix);
-
-/// Without a name, a list of all codes.
-int explain(const std::string& name);
-
-/// "-" reads standard input and writes standard output. With `check_only` nothing is written but the names of the files
-/// that formatting would change.
-int format(const std::vector<std::string>& files, bool check_only);
-
 int build(const Choice& choice, const std::string& out);
 
 /// What a material is after one of the compiler's stages.

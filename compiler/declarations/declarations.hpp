@@ -13,7 +13,7 @@
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
 #include "compiler/text/name_index.hpp"
-#include "schema/device_profile.hpp"
+#include "schema/declared_device.hpp"
 #include "schema/device_wiring.hpp"
 #include "schema/patch_program.hpp"
 
@@ -96,14 +96,9 @@ struct Unit {
   Dimension dimension;
 };
 
-struct DeviceDeclaration {
-  DeviceProfile profile;
-  std::string source;
+/// A device, and what only the compiler needs of its declaration.
+struct DeviceDeclaration : DeclaredDevice {
   std::string documentation;
-  DeviceWiring wiring;
-  std::vector<std::string> assumed;            ///< settings that nobody measured
-  std::vector<std::string> unknown;            ///< figures of the handle that nobody knows
-  std::string of_class;                        ///< the name of its `class`; may be empty
   std::map<std::string, Realisation> realise;  ///< by percept: its own, and what its class says besides
   Span span;
 };

@@ -132,8 +132,8 @@ class Excerpt {
     std::string out;
     for (const auto& [source, lines] : files_) {
       const bool primary = out.empty();
-      const Place place = sources_.place(primary ? files_.front().second.at(primary_line_).front().span
-                                                 : lines.begin()->second.front().span);
+      const LineColumn place = sources_.place(primary ? files_.front().second.at(primary_line_).front().span
+                                                      : lines.begin()->second.front().span);
       out += fmt::format("{}{}{}{} {}:{}:{}\n", margin(), paint_.gutter, primary ? "-->" : ":::", paint_.off,
                          sources_[source].name, place.line, place.column);
       out += fmt::format("{}{} |{}\n", margin(), paint_.gutter, paint_.off);

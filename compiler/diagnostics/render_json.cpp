@@ -11,8 +11,8 @@ using Json = nlohmann::ordered_json;
 /// Adds a span's fields to an object; a span without a source adds nothing.
 void add_span(Json& object, Span span, const SourceSet& sources) {
   if (span.source >= sources.size()) return;
-  const Place begin = sources.place(span);
-  const Place end = sources.place({span.source, span.end, span.end});
+  const LineColumn begin = sources.place(span);
+  const LineColumn end = sources.place({span.source, span.end, span.end});
   object["file"] = sources[span.source].name;
   object["line"] = begin.line;
   object["column"] = begin.column;

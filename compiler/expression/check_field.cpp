@@ -191,15 +191,14 @@ std::optional<std::string> BuiltinFunctions::file_argument(std::string& name) co
       return std::string(asset->text);
     }
   auto resolved = checker.surroundings_.resolver->file(std::string(value(0).text), source.name);
-  if (const auto* problem = std::get_if<ResolveProblem>(&resolved)) {
+  if (!resolved) {
     checker.report(Code::unreadable_file, actuals[0].span,
-                   fmt::format("`{}` cannot be read: {}", value(0).text, problem->reason), "",
+                   fmt::format("`{}` cannot be read: {}", value(0).text, resolved.error().sentence), "",
                    "give the path from the folder of this file");
     return std::nullopt;
   }
-  auto& file = std::get<ResolvedFile>(resolved);
-  name = file.name;
-  return std::move(file.bytes);
+  name = resolved->name;
+  return std::move(resolved->bytes);
 }
 
 /// A sampled height map, centred on the patch, mirrored at its edges; its top row lies at the largest y.

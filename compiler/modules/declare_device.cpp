@@ -174,7 +174,9 @@ void read_motors(RecordReader& reader, DeviceProfile& profile) {
 
 void declare_device(RecordReader& reader, Declarations& declarations) {
   const RecordDecl& record = reader.record;
-  DeviceDeclaration device{.documentation = std::string(record.documentation), .span = record.name.span};
+  DeviceDeclaration device;
+  device.documentation = record.documentation;
+  device.span = record.name.span;
   DeviceProfile& profile = device.profile;
   profile.name = record.name.text;
   if (const auto* other = declarations.devices.entry(profile.name))

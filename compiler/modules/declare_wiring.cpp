@@ -76,13 +76,13 @@ void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWirin
   if (!gain || is_unknown(*gain)) return;
   wiring.gain[0] = reader.quantity(*gain, 0, "number").value_or(1);
   wiring.gain[1] = gain->items.size() > 1 ? reader.quantity(*gain, 1, "number").value_or(1) : wiring.gain[0];
-  constexpr double least = 0.1, most = 10;
   for (double& each : wiring.gain)
-    if (!(each >= least && each <= most)) {
+    if (!(each >= DeviceWiring::least_gain && each <= DeviceWiring::most_gain)) {
       each = 1;
       reader.report(
           Code::value_out_of_range, gain->span,
-          fmt::format("a gain is from {} to {}: what comes out at the handle of 1 N", least, most),
+          fmt::format("a gain is from {} to {}: what comes out at the handle of 1 N", DeviceWiring::least_gain,
+                      DeviceWiring::most_gain),
           "write, for example, `gain 0.95, 1.05`; where a motor pulls the wrong way, turn it: `motors -x, y`");
       return;
     }

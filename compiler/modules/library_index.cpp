@@ -51,8 +51,7 @@ LibraryIndex read_all(Resolver& resolver, const std::string& from) {
     std::string path = module;
     std::ranges::replace(path, '.', '/');
     auto found = resolver.file(path + ".wale", from);
-    if (auto* file = std::get_if<ResolvedFile>(&found); file && known.insert(module).second)
-      read_into(index, module, file->name, std::move(file->bytes), false);
+    if (found && known.insert(module).second) read_into(index, module, found->name, std::move(found->bytes), false);
   }
   for (const EmbeddedFile& file : embedded_files())
     if (!file.common && known.insert(module_of(file.name)).second)

@@ -117,8 +117,8 @@ class ModuleLoader {
   void add_project_devices_of(const std::string& name) {
     auto resolved = resolver_.module(project_devices, name);
     // One that is just being written is still empty.
-    if (auto* file = std::get_if<ResolvedFile>(&resolved); file && file->name != name && !file->bytes.empty()) {
-      const SourceId source = sources_.add(file->name, std::move(file->bytes));
+    if (resolved && resolved->name != name && !resolved->bytes.empty()) {
+      const SourceId source = sources_.add(resolved->name, std::move(resolved->bytes));
       devices_ = add(parse(sources_, source, diagnostics_));
     }
   }
@@ -135,15 +135,16 @@ class ModuleLoader {
 
   std::shared_ptr<const Module> follow(const Word& module, const std::string& from) {
     auto resolved = resolver_.module(std::string(module.text), from);
-    if (const auto* problem = std::get_if<ResolveProblem>(&resolved)) {
+    if (!resolved) {
       if (auto embedded = embedded_module(module)) return *embedded;
-      diagnostics_.report({.code = Code::unknown_import,
-                           .span = module.span,
-                           .message = fmt::format("`{}` cannot be imported: {}", module.text, problem->reason),
-                           .help = "dots stand for folders: `import fabric.denim` is the file fabric/denim.wale"});
+      diagnostics_.report(
+          {.code = Code::unknown_import,
+           .span = module.span,
+           .message = fmt::format("`{}` cannot be imported: {}", module.text, resolved.error().sentence),
+           .help = "dots stand for folders: `import fabric.denim` is the file fabric/denim.wale"});
       return nullptr;
     }
-    auto& file = std::get<ResolvedFile>(resolved);
+    ResolvedFile& file = *resolved;
     if (const auto known = loaded_.find(file.name); known != loaded_.end()) return known->second;
     if (circular(module, file.name) || too_deep(module)) return nullptr;
     const SourceId source = sources_.add(file.name, std::move(file.bytes));

@@ -438,7 +438,7 @@ void Parser::missing_brace(std::size_t open) {
   if (brace_missing_) return;
   brace_missing_ = true;
   reported_ = false;
-  const Place opened = sources_.place(span_of(token(open)));
+  const LineColumn opened = sources_.place(span_of(token(open)));
   const std::string owner = open > 0 ? shown(token(open - 1)) : "";
   const bool at_end = here().kind == TokenKind::end;
   const Span last = span_of(token(at_ - 1));

@@ -331,7 +331,7 @@ void Parser::close_parenthesis(std::string_view expected) {
 }
 
 std::string Parser::unclosed_parenthesis() const {
-  const Place opened = sources_.place(span_of(token(open_parentheses_.back())));
+  const LineColumn opened = sources_.place(span_of(token(open_parentheses_.back())));
   return fmt::format("close the `(` in line {}, column {}", opened.line, opened.column);
 }
 

@@ -22,35 +22,36 @@ namespace {
 
 constexpr std::uintmax_t largest_file = std::uintmax_t{512} << 20;
 
-/// More files than this are no library but a disk.
+/// A folder with more files than this is not a library; listing stops there.
 constexpr std::size_t most_listed = 100'000;
 
-/// Each file that is imported may import another, and they are followed recursively.
+/// Imports are followed recursively; this bounds them.
 constexpr std::size_t most_modules = 1000;
+
+Error unreadable(const std::string& path, std::string sentence) {
+  return {.code = Code::unreadable_file, .sentence = std::move(sentence), .place = {.name = path}};
+}
 
 class FileResolver final : public Resolver {
  public:
   FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for)
       : roots_(std::move(roots)), looked_for_(looked_for) {}
 
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) override {
+  Result<ResolvedFile> module(const std::string& path, const std::string& from) override {
     std::string relative = path;
     std::ranges::replace(relative, '.', '/');
     auto found = look_for(relative + ".wale", from);
-    auto* file = std::get_if<ResolvedFile>(&found);
-    if (!file) return found;
-    if (file->bytes.size() > largest_source)
-      return ResolveProblem{fmt::format("`{}` has {:.1f} MB; Wale reads up to {} MB", file->name,
-                                        file->bytes.size() / 1048576.0, largest_source >> 20)};
-    modules_.insert(file->name);
+    if (!found) return found;
+    if (found->bytes.size() > largest_source)
+      return unreadable(found->name, fmt::format("`{}` has {:.1f} MB; Wale reads up to {} MB", found->name,
+                                                 found->bytes.size() / 1048576.0, largest_source >> 20));
+    modules_.insert(found->name);
     if (modules_.size() > most_modules)
-      return ResolveProblem{fmt::format("more than {} files would be imported", most_modules)};
+      return unreadable(found->name, fmt::format("more than {} files would be imported", most_modules));
     return found;
   }
 
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) override {
-    return look_for(name, from);
-  }
+  Result<ResolvedFile> file(const std::string& name, const std::string& from) override { return look_for(name, from); }
 
   std::string library(const std::string& from) override {
     std::error_code ignored;
@@ -99,7 +100,7 @@ class FileResolver final : public Resolver {
       if (std::ranges::find(all, module) == all.end()) all.push_back(std::move(module));
   }
 
-  std::variant<ResolvedFile, ResolveProblem> look_for(const std::string& name, const std::string& from) {
+  Result<ResolvedFile> look_for(const std::string& name, const std::string& from) {
     std::vector<fs::path> candidates{fs::path(from).parent_path() / name};
     if (const auto project = project_of(from)) candidates.push_back(*project / name);
     for (const auto& root : roots_) candidates.push_back(fs::path(root) / name);
@@ -113,7 +114,7 @@ class FileResolver final : public Resolver {
     for (const auto& candidate : candidates)
       if (const auto shown = candidate.lexically_normal().string(); said.insert(shown).second)
         searched += fmt::format("{}`{}`", searched.empty() ? "" : ", ", shown);
-    return ResolveProblem{fmt::format("no such file; looked for {}", searched)};
+    return unreadable(name, fmt::format("no such file; looked for {}", searched));
   }
 
   /// Found once for each folder: a file's imports ask for it again and again.
@@ -148,25 +149,27 @@ std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vec
   return std::make_unique<FileResolver>(std::move(roots), looked_for);
 }
 
-std::variant<ResolvedFile, ResolveProblem> read_file(const std::string& path) {
+Result<ResolvedFile> read_file(const std::string& path) {
   std::error_code error;
   const auto status = fs::status(path, error);
-  if (!fs::exists(status)) return ResolveProblem{"no such file"};
-  if (fs::is_directory(status)) return ResolveProblem{"this is a folder"};
+  if (!fs::exists(status)) return unreadable(path, "no such file");
+  if (fs::is_directory(status)) return unreadable(path, "this is a folder");
   // A pipe has no size and may never end; only regular files are measured before they are read.
   if (fs::is_regular_file(status)) {
     const auto size = fs::file_size(path, error);
-    if (!error && size > largest_file) return ResolveProblem{fmt::format("{} bytes are more than Wale reads", size)};
+    if (!error && size > largest_file)
+      return unreadable(path, fmt::format("it has {} bytes; Wale reads up to {}", size, largest_file));
   }
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return ResolveProblem{std::strerror(errno)};
+  if (!stream) return unreadable(path, std::strerror(errno));
   ResolvedFile file{path, {}};
   char block[1 << 16];
   while (stream.read(block, sizeof block), stream.gcount() > 0) {
     file.bytes.append(block, static_cast<std::size_t>(stream.gcount()));
-    if (file.bytes.size() > largest_file) return ResolveProblem{"more bytes than Wale reads"};
+    if (file.bytes.size() > largest_file)
+      return unreadable(path, fmt::format("it has more than {} bytes", largest_file));
   }
-  if (stream.bad()) return ResolveProblem{std::strerror(errno)};
+  if (stream.bad()) return unreadable(path, std::strerror(errno));
   return file;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
+
+#include "schema/result.hpp"
 
 namespace wale {
 
@@ -14,37 +14,33 @@ struct ResolvedFile {
   std::string bytes;
 };
 
-/// Why a file could not be had, in words.
-struct ResolveProblem {
-  std::string reason;
-};
-
-/// Supplies the bytes of imports and images. The compiler opens no files itself; whoever calls it decides where they
-/// come from. `from` is the name of the file that asks.
+/// Supplies the bytes of imports and images. The compiler opens no files itself: its caller decides where they come
+/// from. `from` is the name of the file that asks. Errors: W0501, with a sentence that fits behind "cannot be read:".
 class Resolver {
  public:
   virtual ~Resolver() = default;
   /// A module by its dotted path, "fabric.denim".
-  virtual std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) = 0;
+  virtual Result<ResolvedFile> module(const std::string& path, const std::string& from) = 0;
   /// Any other file by its name as written, "slate.tif".
-  virtual std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) = 0;
+  virtual Result<ResolvedFile> file(const std::string& name, const std::string& from) = 0;
 
-  /// What tells apart the libraries that modules are listed of; empty where none is worth remembering.
+  /// A key for the library that `modules` lists: equal keys mean equal lists. Empty: do not remember the list.
   virtual std::string library(const std::string& /*from*/) { return {}; }
-  /// The modules that `from` could import, each once: first those of its project, or else beside it. None where files
-  /// come from where nothing can be listed.
+  /// The modules that `from` could import, each once: first those of its project, or those beside it if it has none.
+  /// Empty where the source of the files cannot be listed.
   virtual std::vector<std::string> modules(const std::string& /*from*/) { return {}; }
 };
 
 /// The name of the file that marks the folder in which a project's modules are rooted. It may be empty.
 inline constexpr const char* project_marker = "wale.project";
 
-/// Looks beside the file that asks, then in the project that it belongs to (the nearest folder above it that holds a
-/// `wale.project`), then in each of the roots; files over 512 MiB, modules over 4 MiB and more than a thousand modules
-/// are refused. `looked_for` gets the paths of all files that it looks for, found or not, and outlives it.
+/// Looks beside the file that asks, then in its project (the nearest folder above it with a `wale.project`), then in
+/// each of the roots. Refuses files over 512 MiB, modules over 4 MiB and more than a thousand modules. `looked_for`
+/// receives the paths of all files that it looks for, found or not; it must outlive the resolver.
 std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr);
 
-/// Reads a whole file, or says why not (missing, a folder, unreadable, too large).
-std::variant<ResolvedFile, ResolveProblem> read_file(const std::string& path);
+/// Reads a whole file. Errors: W0501 where it is missing, a folder, unreadable or larger than 512 MiB; `place` names
+/// it.
+Result<ResolvedFile> read_file(const std::string& path);
 
 }  // namespace wale

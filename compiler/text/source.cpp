@@ -45,11 +45,11 @@ std::size_t SourceSet::line_index(Span span) const {
   return static_cast<std::size_t>(std::upper_bound(starts.begin(), starts.end(), span.begin) - starts.begin()) - 1;
 }
 
-Place SourceSet::place(Span span) const {
+LineColumn SourceSet::place(Span span) const {
   const std::string_view text = entry(span.source).source->text;
   const std::size_t line = line_index(span);
   const std::size_t end = std::min<std::size_t>(span.begin, text.size());
-  Place place{static_cast<unsigned>(line + 1), 1};
+  LineColumn place{static_cast<unsigned>(line + 1), 1};
   // What stands before the first byte that is no UTF-8 is counted by the bytes that begin a character; nobody points
   // beyond.
   for (std::size_t at = entry(span.source).line_starts[line]; at < end; ++at)

@@ -24,7 +24,7 @@ struct Span {
 };
 
 /// A place as people count it: line and column from 1, columns in characters (UTF-8 code points).
-struct Place {
+struct LineColumn {
   unsigned line = 1, column = 1;
 };
 
@@ -48,7 +48,7 @@ class SourceSet {
   std::size_t size() const { return sources_.size(); }
 
   std::string_view text(Span span) const;
-  Place place(Span span) const;            ///< of the span's first character
+  LineColumn place(Span span) const;       ///< of the span's first character
   std::string_view line(Span span) const;  ///< the whole first line of the span, without its newline
 
  private:

@@ -56,12 +56,11 @@ std::variant<Program, Unavailable> Library::level(const std::string& percept, co
 std::variant<Program, Unavailable> Library::material(const std::string& file, const std::string& name,
                                                      const std::string& device) const {
   auto read = read_file(file);
-  if (const auto* problem = std::get_if<ResolveProblem>(&read))
-    return Unavailable{file + ": " + problem->reason + "\n"};
-  return compile_text(file, std::move(std::get<ResolvedFile>(read).bytes), name, device);
+  if (!read) return Unavailable{file + ": " + read.error().sentence + "\n"};
+  return compile_text(file, std::move(read->bytes), name, device);
 }
 
-std::vector<DescribedDevice> Library::devices() const { return devices_known(parts_->common->declarations); }
+std::vector<DeclaredDevice> Library::devices() const { return devices_known(parts_->common->declarations); }
 
 std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& name) const {
   const HandDeclaration* found = parts_->common->declarations.hands.find(name);

@@ -79,11 +79,11 @@ material wet_felt {
 /// No imports and no images.
 class NoFiles final : public Resolver {
  public:
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> module(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> file(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
 };
 

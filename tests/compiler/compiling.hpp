@@ -16,12 +16,10 @@ class Files final : public Resolver {
  public:
   std::map<std::string, std::string> contents;
 
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override {
-    return file(path, "");
-  }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string&) override {
+  Result<ResolvedFile> module(const std::string& path, const std::string&) override { return file(path, ""); }
+  Result<ResolvedFile> file(const std::string& name, const std::string&) override {
     const auto found = contents.find(name);
-    if (found == contents.end()) return ResolveProblem{"no such file"};
+    if (found == contents.end()) return Error{Code::unreadable_file, "no such file"};
     return ResolvedFile{name, found->second};
   }
 };

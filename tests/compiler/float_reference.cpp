@@ -157,7 +157,7 @@ TEST(FloatReference, AgreesWithTheMachineOnAllThatIsShipped) {
   std::size_t compared = 0;
   const auto resolver = file_resolver({});
   for (const auto& path : library_files()) {
-    const Solved solved(path, std::get<ResolvedFile>(read_file(path)).bytes, *resolver);
+    const Solved solved(path, read_file(path)->bytes, *resolver);
     // The thesis's many stimuli differ in their figures only, and each peak takes the evaluator half a second: a
     // twentieth of them at a time, or all with WALE_ALL_STIMULI.
     const bool stimuli = solved.materials.size() > 25 && !std::getenv("WALE_ALL_STIMULI");

@@ -19,13 +19,13 @@ class Shelf final : public Resolver {
 
   int listed = 0;
 
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override {
+  Result<ResolvedFile> module(const std::string& path, const std::string&) override {
     const auto found = modules_.find(path);
-    if (found == modules_.end()) return ResolveProblem{"no such file"};
+    if (found == modules_.end()) return Error{Code::unreadable_file, "no such file"};
     return ResolvedFile{path, "wale 1\n" + found->second};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) override {
-    if (!name.ends_with(".wale")) return ResolveProblem{"no such file"};
+  Result<ResolvedFile> file(const std::string& name, const std::string& from) override {
+    if (!name.ends_with(".wale")) return Error{Code::unreadable_file, "no such file"};
     std::string path = name.substr(0, name.size() - 5);
     std::ranges::replace(path, '/', '.');
     return module(path, from);

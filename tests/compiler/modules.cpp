@@ -17,14 +17,14 @@ class Library final : public Resolver {
 
   std::map<std::string, int> asked;
 
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override {
+  Result<ResolvedFile> module(const std::string& path, const std::string&) override {
     ++asked[path];
     const auto found = modules_.find(path);
-    if (found == modules_.end()) return ResolveProblem{"no such file"};
+    if (found == modules_.end()) return Error{Code::unreadable_file, "no such file"};
     return ResolvedFile{path, "wale 1\n" + found->second};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> file(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
 
  private:

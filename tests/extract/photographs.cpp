@@ -34,12 +34,10 @@ std::string picture(const std::function<double(double, double)>& height) {
 class OnePicture final : public Resolver {
  public:
   explicit OnePicture(std::string bytes) : bytes_(std::move(bytes)) {}
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> module(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string&) override {
-    return ResolvedFile{name, bytes_};
-  }
+  Result<ResolvedFile> file(const std::string& name, const std::string&) override { return ResolvedFile{name, bytes_}; }
 
  private:
   std::string bytes_;

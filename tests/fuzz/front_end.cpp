@@ -19,11 +19,11 @@ constexpr std::size_t largest_input = 4096;
 /// Imports and images are nowhere to be found.
 class NoFiles final : public wale::Resolver {
  public:
-  std::variant<wale::ResolvedFile, wale::ResolveProblem> module(const std::string&, const std::string&) override {
-    return wale::ResolveProblem{"no such file"};
+  wale::Result<wale::ResolvedFile> module(const std::string&, const std::string&) override {
+    return wale::Error{wale::Code::unreadable_file, "no such file"};
   }
-  std::variant<wale::ResolvedFile, wale::ResolveProblem> file(const std::string&, const std::string&) override {
-    return wale::ResolveProblem{"no such file"};
+  wale::Result<wale::ResolvedFile> file(const std::string&, const std::string&) override {
+    return wale::Error{wale::Code::unreadable_file, "no such file"};
   }
 };
 

@@ -59,12 +59,12 @@ TEST(Imports, AreLookedForOnceInEachPlace) {
 /// Supplies a module of any name that imports another, without an end; the project has no devices of its own.
 class Endless final : public Resolver {
  public:
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override {
-    if (path == "devices") return ResolveProblem{"no such file"};
+  Result<ResolvedFile> module(const std::string& path, const std::string&) override {
+    if (path == "devices") return Error{Code::unreadable_file, "no such file"};
     return ResolvedFile{path, "wale 1\nimport " + path + "x\n"};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> file(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
 };
 

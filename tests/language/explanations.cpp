@@ -60,12 +60,12 @@ Example example_of(Code code) {
 class Itself final : public Resolver {
  public:
   explicit Itself(std::string text) : text_(std::move(text)) {}
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string&) override {
-    if (path != "wave") return ResolveProblem{"no such file"};
+  Result<ResolvedFile> module(const std::string& path, const std::string&) override {
+    if (path != "wave") return Error{Code::unreadable_file, "no such file"};
     return ResolvedFile{"wave.wale", text_};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> file(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
 
  private:

@@ -24,7 +24,7 @@ struct Reading {
   std::vector<std::string> errors() const {
     std::vector<std::string> result;
     for (const wale::Diagnostic& each : diagnostics.all()) {
-      const wale::Place place = sources.place(each.span);
+      const wale::LineColumn place = sources.place(each.span);
       result.push_back(fmt::format("{} {}:{} {}", code_name(each.code), place.line, place.column, each.message));
     }
     return result;

@@ -69,13 +69,13 @@ class PageResolver final : public Resolver {
       if (!block.name.empty()) files_[block.name] = block.text;
   }
 
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string& path, const std::string& from) override {
+  Result<ResolvedFile> module(const std::string& path, const std::string& from) override {
     std::string name = path + ".wale";
     std::replace(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(path.size()), '.', '/');
     return file(name, from);
   }
 
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string& from) override {
+  Result<ResolvedFile> file(const std::string& name, const std::string& from) override {
     if (const auto found = files_.find(name); found != files_.end()) return ResolvedFile{name, found->second};
     return library_->file(name, from);
   }

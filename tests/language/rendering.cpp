@@ -231,7 +231,7 @@ TEST(Places, CountLinesAndCharactersFromOne) {
   SourceSet sources;
   const SourceId id = sources.add("a", "aµ\r\nb\n");
   const auto place = [&](std::uint32_t at) {
-    const Place found = sources.place({id, at, at});
+    const LineColumn found = sources.place({id, at, at});
     return std::pair(found.line, found.column);
   };
   EXPECT_EQ(place(0), std::pair(1u, 1u));

@@ -42,7 +42,7 @@ struct Choice {
 };
 
 Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {
-  const std::vector<DescribedDevice> known = Library().devices();
+  const std::vector<DeclaredDevice> known = Library().devices();
   const auto chosen = choose_device(request, known, plugged);
   if (const auto* refusal = std::get_if<Refusal>(&chosen)) return {"refused", "", refusal->reason};
   if (const auto* absent = std::get_if<Absent>(&chosen)) return {"absent", absent->instead, absent->what};
@@ -201,7 +201,7 @@ TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
     Diagnostics diagnostics;
     const auto resolver = file_resolver({});
     const std::string path = project / file;
-    const SourceId source = sources.add(path, std::get<ResolvedFile>(read_file(path)).bytes);
+    const SourceId source = sources.add(path, read_file(path)->bytes);
     const auto program = compile(sources, source, "", device, *resolver, diagnostics);
     if (!program) return std::string(code_name(diagnostics.all().front().code));
     return std::to_string(std::lround(program->description().device.force_newton));
@@ -219,7 +219,7 @@ TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
 TEST(Choosing, NoTwoDeclarationsOfOursAreAboutTheSameDeviceAndOneIsGeneric) {
   std::vector<UsbNumbers> all;
   int generic = 0;
-  for (const DescribedDevice& device : Library().devices()) {
+  for (const DeclaredDevice& device : Library().devices()) {
     generic += device.wiring.is_generic ? 1 : 0;
     for (const UsbNumbers& numbers : device.wiring.usb) {
       EXPECT_EQ(std::find(all.begin(), all.end(), numbers), all.end()) << in_words(numbers);
@@ -248,12 +248,12 @@ TEST(Choosing, APrintedDeclarationIsTheDeviceWithItsWiring) {
   wiring.usb = {{0x1209, 0xffb0}};
   wiring.axes = {{{1, -1}, {0, 1}}};
   wiring.motors = {{{0, -1}, {1, 1}}};
-  for (const DescribedDevice& device : Library().devices()) {
+  for (const DeclaredDevice& device : Library().devices()) {
     if (device.profile.shaker) continue;
     const std::string text = device_declaration(device, "my_" + device.profile.name, wiring, {"a comment"});
     const Declared printed(text);
     ASSERT_EQ(printed.complaints(), "") << text;
-    const DescribedDevice again = devices_known(printed.module).front();
+    const DeclaredDevice again = devices_known(printed.module).front();
     DeviceProfile expected = device.profile;
     expected.name = "my_" + device.profile.name;
     EXPECT_EQ(again.profile, expected) << text;
@@ -263,7 +263,7 @@ TEST(Choosing, APrintedDeclarationIsTheDeviceWithItsWiring) {
               std::set<std::string>(device.assumed.begin(), device.assumed.end()));
     EXPECT_EQ(again.of_class, device.of_class);
     EXPECT_EQ(again.source, device.source);
-    DescribedDevice unweighed = device;
+    DeclaredDevice unweighed = device;
     unweighed.unknown.emplace_back("gain");
     const Declared said(device_declaration(unweighed, "mine", wiring, {}));
     ASSERT_EQ(said.complaints(), "");

@@ -22,7 +22,7 @@ struct Checked {
 
   explicit Checked(const std::string& path) {
     auto read = read_file(path);
-    source = sources.add(path, std::get<ResolvedFile>(read).bytes);
+    source = sources.add(path, read->bytes);
     module = check_source(sources, source, *resolver, diagnostics);
   }
 

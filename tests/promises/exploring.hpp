@@ -41,12 +41,12 @@ inline std::vector<DeviceProfile> force_devices() {
 class InMemory final : public Resolver {
  public:
   explicit InMemory(std::map<std::string, std::string> files = {}) : files_(std::move(files)) {}
-  std::variant<ResolvedFile, ResolveProblem> module(const std::string&, const std::string&) override {
-    return ResolveProblem{"no such file"};
+  Result<ResolvedFile> module(const std::string&, const std::string&) override {
+    return Error{Code::unreadable_file, "no such file"};
   }
-  std::variant<ResolvedFile, ResolveProblem> file(const std::string& name, const std::string&) override {
+  Result<ResolvedFile> file(const std::string& name, const std::string&) override {
     if (const auto found = files_.find(name); found != files_.end()) return ResolvedFile{name, found->second};
-    return ResolveProblem{"no such file"};
+    return Error{Code::unreadable_file, "no such file"};
   }
 
  private:

@@ -39,7 +39,7 @@ std::vector<Material> shipped_materials() {
     Diagnostics diagnostics;
     const auto resolver = file_resolver({library.string()});
     auto read = read_file(file);
-    const SourceId source = sources.add(file, std::get<ResolvedFile>(read).bytes);
+    const SourceId source = sources.add(file, read->bytes);
     const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
     for (const CheckedMaterial& material : module.materials) {
       if (auto program =

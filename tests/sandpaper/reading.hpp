@@ -48,7 +48,7 @@ class Module {
  private:
   static std::string read(const std::string& file) {
     const auto bytes = read_file(folder + file);
-    return std::get<ResolvedFile>(bytes).bytes;
+    return bytes->bytes;
   }
 
   void refuse_complaints() const {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "schema/device_wiring.hpp"
+#include "schema/declared_device.hpp"
 #include "wale/program.hpp"
 #include "wale/simulated.hpp"
 
@@ -24,16 +24,6 @@ struct SimulatedPerson {
   std::string source;  ///< where the figures come from
 };
 
-/// A joystick that programs are built for.
-struct DescribedDevice {
-  DeviceProfile profile;
-  std::string source;                ///< where the figures come from
-  std::vector<std::string> assumed;  ///< those that nobody measured
-  std::vector<std::string> unknown;  ///< figures of the handle that nobody knows
-  DeviceWiring wiring;               ///< which devices it is about, and how they lie on the desk
-  std::string of_class;              ///< the class of devices that it belongs to; may be empty
-};
-
 /// Materials and levels by name, compiled for a device.
 ///
 /// Everything it knows is part of the library itself: no folder of calibrations is needed at run time.
@@ -50,7 +40,7 @@ class Library {
   std::variant<Program, Unavailable> material(const std::string& file, const std::string& name = {},
                                               const std::string& device = "sandpaper") const;
 
-  std::vector<DescribedDevice> devices() const;
+  std::vector<DeclaredDevice> devices() const;
   std::variant<SimulatedPerson, Unavailable> person(const std::string& name = "normal") const;
 
   /// The Sandpaper joystick, simulated, in the hand of a simulated person who rubs to and fro.

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <memory>
+
+#include "compiler/check_files.hpp"
+#include "compiler/command/options.hpp"
+#include "compiler/diagnostics/apply_fixes.hpp"
+#include "compiler/diagnostics/render.hpp"
+#include "compiler/modules/library_folders.hpp"
+
+namespace wale::command {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> files, folders;
+  bool json = false, fix = false;
+};
+
+/// Mends files before they are checked. What was done is said on standard error, since standard output is the check's.
+bool mend(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+  bool written = true;
+  for (const auto& file : mend_files(files, roots)) {
+    for (const auto& mend : file.mends)
+      fmt::print(stderr, "mended {}:{}:{}: {}\n", file.file, mend.place.line, mend.place.column, mend.title);
+    if (file.problem) refuse(fmt::format("cannot write `{}`: {}", file.file, *file.problem));
+    written = written && !file.problem;
+  }
+  return written;
+}
+
+std::string counted(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+int check(const CheckOptions& options) {
+  const auto roots = library_folders(options.folders, std::getenv("WALE_LIBRARY"));
+  const bool mended = !options.fix || mend(options.files, roots);
+  const auto [sources, diagnostics] = check_files(options.files, roots);
+  if (options.json) {
+    fmt::print("{}\n", render_json(diagnostics, sources));
+  } else {
+    print_diagnostics(stdout, diagnostics, sources);
+    const std::size_t warnings = diagnostics.all().size() - diagnostics.error_count();
+    const std::size_t mendable = safe_fixes(diagnostics.all()).size();
+    fmt::print("{}: {}{}, {}{}\n", counted(options.files.size(), "file"), counted(diagnostics.error_count(), "error"),
+               diagnostics.is_full() ? " and more that are not listed" : "", counted(warnings, "warning"),
+               mendable > 0 && !options.fix ? fmt::format("; `wale check --fix` mends {}", mendable) : "");
+  }
+  return diagnostics.has_errors() || !mended ? refused : done;
+}
+
+Run declare_check(CLI::App& verb) {
+  const auto options = std::make_shared<CheckOptions>();
+  verb.add_option("FILE", options->files, "Wale files")->required();
+  offer_library(verb, options->folders);
+  offer_json(verb, options->json, "the diagnostics as a JSON array");
+  verb.add_flag("--fix", options->fix, "first writes the mends that are beyond doubt into these files");
+  verb.footer("for example: wale check --fix my.wale");
+  return [options] { return check(*options); };
+}
+
+}  // namespace
+
+extern const Verb check_verb{"check", "says what is wrong with Wale files, and where, and how to mend it",
+                             declare_check};
+
+}  // namespace wale::command

@@ -1,0 +1,40 @@
+#include "compiler/diagnostics/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "compiler/command/options.hpp"
+
+namespace wale::command {
+namespace {
+
+struct ExplainOptions {
+  std::string code;  ///< empty: list them all
+};
+
+int explain(const ExplainOptions& options) {
+  if (options.code.empty()) {
+    fmt::print("{}", codes_text());
+    return done;
+  }
+  const auto code = code_named(options.code);
+  if (!code) return refuse(unknown_code_text(options.code));
+  fmt::print("{}", explanation_text(*code));
+  return done;
+}
+
+Run declare_explain(CLI::App& verb) {
+  const auto options = std::make_shared<ExplainOptions>();
+  verb.add_option("CODE", options->code, "a code such as W0301 (default: lists all codes)");
+  verb.footer("for example: wale explain W0301");
+  return [options] { return explain(*options); };
+}
+
+}  // namespace
+
+extern const Verb explain_verb{"explain", "tells what a diagnostic's code means, with an example and its mend",
+                               declare_explain};
+
+}  // namespace wale::command

@@ -1,0 +1,64 @@
+#include "compiler/format/format.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "compiler/command/options.hpp"
+#include "compiler/text/replace_file.hpp"
+
+namespace wale::command {
+namespace {
+
+struct FormatOptions {
+  std::vector<std::string> files;
+  bool check_only = false;  ///< writes nothing but the names of the files that formatting would change
+};
+
+/// One file, "-" from standard input to standard output.
+int format_file(const std::string& file, bool check_only) {
+  const bool standard = file == "-";
+  auto read = read_file(standard ? "/dev/stdin" : file);
+  if (!read) return refuse(fmt::format("`{}` cannot be read: {}", file, read.error().sentence));
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const SourceId source = sources.add(file, std::move(read->bytes));
+  const auto formatted = wale::format(sources, source, diagnostics);
+  print_diagnostics(stderr, diagnostics, sources);
+  if (!formatted) return refused;
+  const bool changes = *formatted != sources[source].text;
+  if (check_only) {
+    if (changes) fmt::print("{}\n", file);
+    return changes ? refused : done;
+  }
+  if (standard) {
+    if (const auto problem = write_file("-", *formatted)) return refuse(*problem);
+  } else if (changes) {
+    if (const auto problem = replace_file(file, *formatted))
+      return refuse(fmt::format("cannot write `{}`: {}", file, *problem));
+  }
+  return done;
+}
+
+int format(const FormatOptions& options) {
+  int status = done;
+  for (const auto& file : options.files)
+    if (format_file(file, options.check_only) != done) status = refused;
+  return status;
+}
+
+Run declare_format(CLI::App& verb) {
+  const auto options = std::make_shared<FormatOptions>();
+  verb.add_option("FILE", options->files, "Wale files; - for standard input to standard output")->required();
+  verb.add_flag("--check", options->check_only,
+                "changes nothing; lists the files that would change and fails if there are any");
+  verb.footer("for example: wale format library/fabric/*.wale");
+  return [options] { return format(*options); };
+}
+
+}  // namespace
+
+extern const Verb format_verb{"format", "writes Wale files in the language's one style", declare_format};
+
+}  // namespace wale::command

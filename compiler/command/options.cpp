@@ -1,0 +1,42 @@
+#include "compiler/command/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace wale::command {
+namespace {
+
+/// One value each time, as often as it is given: without this CLI11 would take the words that follow for more values.
+void may_be_repeated(CLI::Option* option) { option->expected(1)->allow_extra_args(false)->take_all(); }
+
+}  // namespace
+
+void offer_library(CLI::App& verb, std::vector<std::string>& folders) {
+  may_be_repeated(
+      verb.add_option("--library", folders, "a folder to look for imports in, after the file's own; may be repeated")
+          ->type_name("DIR"));
+}
+
+void offer_device(CLI::App& verb, std::string& device, const char* option) {
+  verb.add_option(option, device, "the device to build for (default: sandpaper; see `wale devices`)")
+      ->type_name("NAME");
+}
+
+void offer_material(CLI::App& verb, Choice& choice, const char* device_option) {
+  verb.add_option("FILE", choice.file, "a Wale file, or a patch program (.wpp)")->required();
+  verb.add_option("--material", choice.material, "which material of the file (default: its first)")->type_name("NAME");
+  offer_device(verb, choice.device, device_option);
+  offer_library(verb, choice.folders);
+}
+
+void offer_settings(CLI::App& verb, std::vector<std::string>& settings) {
+  may_be_repeated(verb.add_option("--set", settings, "a parameter's value, as in --set wale=5mm; may be repeated")
+                      ->type_name("NAME=VALUE"));
+}
+
+void offer_json(CLI::App& verb, bool& json, const char* about) { verb.add_flag("--json", json, about); }
+
+void offer_output(CLI::App& verb, std::string& out, const char* about) {
+  verb.add_option("-o,--output", out, about)->type_name("FILE");
+}
+
+}  // namespace wale::command

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "schema/declared_device.hpp"
+#include "schema/result.hpp"
+
+namespace wale {
+
+/// Declared devices as bytes, so that programs without the compiler know them. All numbers are little-endian; texts,
+/// counts, and the sections DEVI and VIBR are as in a patch program (schema/PATCH_PROGRAM.md):
+///
+///     8 bytes  89 'W' 'D' 'T' 0d 0a 1a 0a
+///     u16      version: 1
+///     u32      number of devices, each:
+///       DEVI     the profile
+///       u8       1 where VIBR follows, the shaker of a pad; else 0
+///       u32      number of USB devices that it is about, each u16 vendor, u16 product
+///       u8       1 where it stands for all USB devices that no other declaration is about; else 0
+///       4 u8     its axes to the right and away, then its motors: 0 x, 1 -x, 2 y, 3 -y
+///       2 f64    gain of both motors, 0.1 .. 10
+///       text     class, then source
+///       texts    u32 and so many texts: the settings that are assumed, then those that are unknown
+std::vector<std::byte> write_device_table(std::span<const DeclaredDevice> devices);
+
+/// The same devices in the same order. Refuses, as `damaged_file`, all bytes that `write_device_table` does not write,
+/// and figures that no device can have; reads nothing beyond the end and allocates no more than the bytes account for.
+Result<std::vector<DeclaredDevice>> read_device_table(std::span<const std::byte> bytes);
+
+}  // namespace wale
