@@ -14,12 +14,10 @@
 #include <vector>
 
 #include "calibration/feel/feel.hpp"
-#include "compiler/build_stage.hpp"
 #include "compiler/command/options.hpp"
-#include "compiler/command/verbs.hpp"
 #include "compiler/measure/sample.hpp"
 #include "compiler/quantity.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 #include "library/device_to_feel.hpp"
 #include "library/devices_verb.hpp"
 #include "library/load_trace.hpp"
@@ -27,7 +25,8 @@
 namespace wale::command {
 
 // Each is defined in FOLDER/command/VERB.cpp.
-extern const Verb check_verb, explain_verb, format_verb;
+extern const Verb build_verb, check_verb, compare_verb, describe_verb, explain_verb, find_verb, format_verb,
+    levels_verb, preview_verb;
 
 }  // namespace wale::command
 
@@ -36,7 +35,8 @@ namespace {
 using namespace wale;
 using namespace wale::command;
 
-constexpr const Verb* verbs[] = {&check_verb, &explain_verb, &format_verb};
+constexpr const Verb* verbs[] = {&check_verb, &explain_verb, &format_verb, &build_verb,  &describe_verb,
+                                 &find_verb,  &compare_verb, &levels_verb, &preview_verb};
 
 std::atomic<bool> interrupted{false};
 
@@ -53,12 +53,8 @@ int sample(const Choice& choice, const std::vector<std::string>& settings, const
     for (const auto& point : std::get<Trace>(trace).points)
       hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
   } else {
-    QuantityReader reader;
-    const auto hand = reader.hand("--at", at);
-    if (!hand) {
-      command::print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return refused;
-    }
+    const auto hand = read_hand(declared_everywhere()->declarations, "--at", at);
+    if (!hand) return refuse(hand.error());
     hands.push_back({0, *hand});
   }
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
@@ -133,6 +129,24 @@ constexpr const char* about =
 
 Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";
 
+/// A misspelt verb, which CLI11 would take for a missing one; nothing where the first word is a verb or an option.
+std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
+  if (first.starts_with('-') || std::ranges::find(verbs, first) != verbs.end()) return std::nullopt;
+  const auto near = nearest_spelling(first, verbs);
+  return fmt::format("there is no verb `{}`; {}", first,
+                     near ? fmt::format("did you mean `{}`?", *near)
+                          : fmt::format("the verbs are {}; `wale --help` says what they do", fmt::join(verbs, ", ")));
+}
+
+/// What is wrong with the words of a command, and where its options are listed.
+std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
+  const auto verbs = app->get_subcommands();
+  const std::string verb = verbs.empty() ? "wale" : "wale " + verbs.front()->get_name();
+  return fmt::format("wale: {}\n  = help: `{} --help` lists the options\n", error.what(), verb);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -141,7 +155,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int status = 0;
 
-  std::vector<std::string> files, settings;
+  std::vector<std::string> settings;
   Choice choice;
   FeelOptions feeling;
   std::string out, at, trace;
@@ -152,79 +166,7 @@ int main(int argc, char** argv) {
     declared->callback([&status, run = each->declare(*declared)] { status = run(); });
   }
 
-  auto* verb = app.add_subcommand("build", "compiles a material to a patch program, or shows what a stage makes of it");
-  offer_material(*verb, choice);
-  bool all = false, exports = false;
-  std::string stage;
-  std::vector<std::string> stages;
-  for (const auto& known : stage_names) stages.emplace_back(known.name);
-  verb->add_option("-o,--output", out,
-                   "the patch program to write (.wpp); with --all, a folder for them; with --emit, the text (default: "
-                   "standard output)");
-  verb->add_flag("--all", all, "builds every material of the file, each to NAME.wpp in the folder")
-      ->excludes("--material");
-  verb->add_option("--emit", stage,
-                   "writes the material as it is after a stage instead: its tree, checked, its values (ir), the "
-                   "machine's listing, or C++")
-      ->check(CLI::IsMember(stages))
-      ->type_name("STAGE")
-      ->excludes("--all");
-  verb->footer("for example: wale build library/fabric/corduroy.wale -o corduroy.wpp");
-  verb->callback([&] {
-    if (out.empty() && stage.empty()) throw CLI::RequiredError("--output");
-    status = !stage.empty() ? command::show_stage(choice, stage, out.empty() ? "-" : out)
-             : all          ? command::build_collection(choice, out)
-                            : command::build(choice, out);
-  });
-
-  verb =
-      app.add_subcommand("describe", "tells what materials will feel like, on what evidence, and how hard they push");
-  offer_material(*verb, choice);
-  offer_settings(*verb, settings);
-  verb->add_flag("--exports", exports,
-                 "what the file offers to those that import it (default where it has no material)")
-      ->excludes("--material");
-  verb->add_flag("--json", json, "an object for one material, an array for several");
-  verb->footer("for example: wale describe library/fabric/corduroy.wale --set wale=4mm");
-  verb->callback([&] { status = command::describe(choice, settings, exports, json); });
-
-  verb = app.add_subcommand("find", "lists the materials of the library, or those with these words");
-  std::string kind;
-  verb->add_option("TEXT", files,
-                   "what has to stand in a material's name, title, kind, what it is called or feels like, or its "
-                   "documentation, from the beginning of a word on; all of several");
-  verb->add_option("--kind", kind, "only materials of this kind, as in fabric or fabric.woven");
-  offer_library(*verb, choice.folders);
-  verb->add_flag("--json", json, "an array with all that is known of each");
-  verb->footer("for example: wale find ribbed;  wale find --kind fabric soft");
-  verb->callback([&] { status = command::find(files, kind, choice.folders, json); });
-
-  verb = app.add_subcommand("compare", "tells by what people would tell materials apart, and how plainly");
-  verb->add_option("FILE", files, "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")
-      ->required();
-  offer_device(*verb, choice.device);
-  offer_library(*verb, choice.folders);
-  bool with_table = false;
-  verb->add_flag("--matrix", with_table, "how far each is from every other, also of more materials than fit a screen");
-  verb->add_flag("--json", json,
-                 "an object with every material's cues, all distances, and the nearest pairs cue by cue");
-  verb->footer("for example: wale compare library/fabric/velvet.wale library/fabric/denim.wale");
-  verb->callback([&] { status = command::compare(choice, files, with_table, json); });
-
-  verb = app.add_subcommand("levels", "proposes levels of a percept that people can tell apart on a device");
-  std::string percept;
-  std::optional<std::size_t> steps;
-  double apart = 1;
-  verb->add_option("PERCEPT", percept, "a percept or its antonym, as in roughness or smoothness")->required();
-  offer_device(*verb, choice.device);
-  verb->add_option("--steps", steps, "how many (default: as many as can be told apart)")->type_name("N");
-  verb->add_option("--jnd", apart, "the least distance between two, in just noticeable differences (default: 1)")
-      ->type_name("JND");
-  verb->add_flag("--json", json, "as a JSON object");
-  verb->footer("for example: wale levels roughness --device falcon --steps 5");
-  verb->callback([&] { status = command::levels(percept, choice.device, steps, apart, json); });
-
-  verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
+  auto* verb = app.add_subcommand("feel", "runs a material on a joystick and measures what comes out of its handle");
   offer_material(*verb, feeling.choice, "--built-for");
   offer_settings(*verb, feeling.settings);
   verb->add_option(
@@ -287,13 +229,6 @@ int main(int argc, char** argv) {
   verb->footer("for example: wale sample library/fabric/corduroy.wale --at \"10 mm, 5 mm\"");
   verb->callback([&] { status = sample(choice, settings, at, trace, out.empty() ? "-" : out, json); });
 
-  verb = app.add_subcommand("preview", "draws the picture a designer would pin to the wall");
-  offer_material(*verb, choice);
-  offer_settings(*verb, settings);
-  verb->add_option("-o,--output", out, "the picture to write (.png)")->required();
-  verb->footer("for example: wale preview library/fabric/corduroy.wale -o corduroy.png");
-  verb->callback([&] { status = command::preview(choice, settings, out); });
-
   verb = app.add_subcommand("devices", "lists the joysticks that materials can be felt on and built for");
   auto* as_json = verb->add_flag("--json", json, "as a JSON array");
   std::string identified, gentle;
@@ -310,19 +245,15 @@ int main(int argc, char** argv) {
   verb->callback(
       [&, identifies] { status = identifies->count() > 0 ? identify(identified, gentle) : command::devices(json); });
 
-  // A newcomer's bare `wale` gets the overview; a misspelt verb is told so, not that a verb is missing.
   if (argc == 1) {
     fmt::print(stderr, "{}", app.help());
     return misused;
   }
-  std::vector<std::string> names;
-  for (const auto* known : app.get_subcommands({})) names.push_back(known->get_name());
-  if (const std::string first = argv[1]; !first.starts_with('-') && std::ranges::find(names, first) == names.end()) {
-    const auto near = nearest_spelling(first, names);
-    fmt::print(stderr, "wale: there is no verb `{}`; {}\n", first,
-               near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(names, ", ")));
+  if (const auto misspelt = misspelt_verb(app, argv[1])) {
+    refuse(*misspelt);
     return misused;
   }
+  app.failure_message(misuse_text);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

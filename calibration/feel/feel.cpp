@@ -38,10 +38,9 @@ std::optional<double> most_allowed(const FeelOptions& options, const PatchProgra
     refuse(fmt::format("`{}` only vibrates: it has no force to limit", program.device.name));
     return std::nullopt;
   }
-  QuantityReader reader;
-  const auto most = reader.force("--max-force", options.max_force);
-  if (!most) print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-  return most;
+  const auto most = read_force(declared_everywhere()->declarations, "--max-force", options.max_force);
+  if (!most) return refuse(most.error()), std::nullopt;
+  return *most;
 }
 
 /// How the run is recorded as it happens, if it is.

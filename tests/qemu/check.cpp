@@ -27,9 +27,7 @@ void check_falcon() {
   model->moves = false;
   auto port = std::make_unique<UsbipPort>(std::move(model), 1);
   const auto open = [&](const Found& found) {
-    auto opened = FalconDevice::open(found.context, found.info, falcon_profile(), options);
-    if (const auto* refusal = std::get_if<Refusal>(&opened)) demand(false, refusal->reason);
-    return std::move(std::get<0>(opened));
+    return taken(FalconDevice::open(found.context, found.info, falcon_profile(), options));
   };
   const auto is_pushed = [&](FalconDevice& device) {
     return [&] {

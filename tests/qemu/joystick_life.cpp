@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "runtime/device/driver.hpp"
 #include "runtime/device/usb/kernel_nodes.hpp"
-#include "runtime/device/usb/list_usb_devices.hpp"
 #include "tests/qemu/kernel_check.hpp"
 #include "tests/usb/profiles.hpp"
 
@@ -77,7 +77,7 @@ void demand_order(UsbipPort& port, const PidFamily& family) {
 
 void check_whole_life(UsbipPort& port, const PidFamily& family, PidTransportKind transport) {
   const Found found = find(family.vendor, family.product);
-  const auto listed = list_usb_devices(*found.context);
+  const auto listed = plugged_in({found.context});
   demand(listed.size() == 1 && !listed[0].obstacle, "it is listed as usable: " + listed.at(0).can);
   demand(kernel_pushes(), "looking takes nothing from the kernel's driver");
   clear_log(port);
@@ -129,9 +129,10 @@ void check_game_first(UsbipPort& port, const PidFamily& family, PidTransportKind
   await([&] { return std::abs(std::abs(force_of(port).x) - 0.5) < near; }, "a game pushes through the kernel's driver");
   const double game_force = force_of(port).x;
   const Found found = find(family.vendor, family.product);
-  const auto listed = list_usb_devices(*found.context);
-  demand(listed.at(0).holders.seen.size() == 1 && listed[0].holders.seen[0].process == game.process(),
-         "it is seen to hold the stick: " + in_words(listed.at(0).holders));
+  const auto listed = plugged_in({found.context});
+  const std::string holder = listed.at(0).held_by.empty() ? "nobody" : listed[0].held_by[0];
+  demand(listed[0].held_by.size() == 1 && holder.find("(" + std::to_string(game.process()) + ")") != std::string::npos,
+         "it is seen to hold the stick: " + holder);
   clear_log(port);
   auto device = opened(found, transport);
   demand(!was_pushed(port, family), "taking it over pushes nothing");

@@ -18,38 +18,39 @@ Result<LibusbInterface> LibusbInterface::claim(std::shared_ptr<UsbContext> conte
   libusb_device* device = context->find(info);
   if (device == nullptr) return why_not_usable(LIBUSB_ERROR_NO_DEVICE, info);
   libusb_device_handle* handle = nullptr;
-  int error = libusb_open(device, &handle);
+  const int error = libusb_open(device, &handle);
   libusb_unref_device(device);
   if (error != 0) return why_not_usable(error, info);
-  libusb_set_auto_detach_kernel_driver(handle, 1);  // a system without such drivers has none in the way
-  error = libusb_claim_interface(handle, interface.number);
-  if (error != 0) {
-    libusb_close(handle);
-    return why_not_usable(error, info);
-  }
-  return LibusbInterface(std::move(context), handle, interface);
+  return claim(std::move(context), {}, handle, info, interface);
 }
 
 Result<LibusbInterface> LibusbInterface::claim(std::shared_ptr<UsbContext> context, int descriptor,
                                                const UsbDeviceInfo& info, const UsbHidInterface& interface) {
+  OwnedDescriptor own = OwnedDescriptor::copy_of(descriptor);
   libusb_device_handle* handle = nullptr;
-  int error = libusb_wrap_sys_device(context->handle(), descriptor, &handle);
+  const int error = libusb_wrap_sys_device(context->handle(), own.get(), &handle);
   if (error != 0) return why_not_usable(error, info);
-  libusb_set_auto_detach_kernel_driver(handle, 1);
-  error = libusb_claim_interface(handle, interface.number);
-  if (error != 0) {
+  return claim(std::move(context), std::move(own), handle, info, interface);
+}
+
+Result<LibusbInterface> LibusbInterface::claim(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor,
+                                               libusb_device_handle* handle, const UsbDeviceInfo& info,
+                                               const UsbHidInterface& interface) {
+  libusb_set_auto_detach_kernel_driver(handle, 1);  // a system without such drivers has none in the way
+  if (const int error = libusb_claim_interface(handle, interface.number); error != 0) {
     libusb_close(handle);
     return why_not_usable(error, info);
   }
-  return LibusbInterface(std::move(context), handle, interface);
+  return LibusbInterface(std::move(context), std::move(descriptor), handle, interface);
 }
 
-LibusbInterface::LibusbInterface(std::shared_ptr<UsbContext> context, libusb_device_handle* handle,
-                                 const UsbHidInterface& interface)
-    : context_(std::move(context)), handle_(handle), interface_(interface) {}
+LibusbInterface::LibusbInterface(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor,
+                                 libusb_device_handle* handle, const UsbHidInterface& interface)
+    : context_(std::move(context)), descriptor_(std::move(descriptor)), handle_(handle), interface_(interface) {}
 
 LibusbInterface::LibusbInterface(LibusbInterface&& other) noexcept
     : context_(std::move(other.context_)),
+      descriptor_(std::move(other.descriptor_)),
       handle_(std::exchange(other.handle_, nullptr)),
       interface_(other.interface_) {}
 

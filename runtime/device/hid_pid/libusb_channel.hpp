@@ -7,6 +7,7 @@
 
 #include "runtime/device/hid_pid/pid_transport.hpp"
 #include "runtime/device/hid_pid/report_channel.hpp"
+#include "runtime/device/usb/owned_descriptor.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "schema/result.hpp"
 
@@ -23,7 +24,7 @@ class LibusbInterface {
  public:
   static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
                                        const UsbHidInterface& interface);
-  /// Of a usbfs node that somebody else has opened and that stays theirs: it is open until this is given back.
+  /// Of a usbfs node that somebody else has opened; it stays theirs.
   static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, int descriptor,
                                        const UsbDeviceInfo& info, const UsbHidInterface& interface);
   LibusbInterface(LibusbInterface&&) noexcept;
@@ -34,9 +35,14 @@ class LibusbInterface {
   const UsbHidInterface& description() const noexcept { return interface_; }
 
  private:
-  LibusbInterface(std::shared_ptr<UsbContext> context, libusb_device_handle* handle, const UsbHidInterface& interface);
+  LibusbInterface(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor, libusb_device_handle* handle,
+                  const UsbHidInterface& interface);
+  static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor,
+                                       libusb_device_handle* handle, const UsbDeviceInfo& info,
+                                       const UsbHidInterface& interface);
 
   std::shared_ptr<UsbContext> context_;
+  OwnedDescriptor descriptor_;  // beneath the handle, where libusb did not open it
   libusb_device_handle* handle_;
   UsbHidInterface interface_;
 };

@@ -1,17 +1,25 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "compiler/command/verbs.hpp"
+#include "compiler/command/options.hpp"
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
-#include "compiler/text/spelling.hpp"
-
-// What materials there are.
+#include "schema/spelling.hpp"
 
 namespace wale::command {
 namespace {
+
+struct FindOptions {
+  std::vector<std::string> texts;  ///< a material has all of them; none: all materials
+  std::string kind;                ///< empty: of any kind
+  std::vector<std::string> folders;
+  bool json = false;
+};
 
 /// What of the question is to blame, with what may have been meant.
 std::string why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts,
@@ -74,18 +82,32 @@ std::string found_json(const std::vector<FoundMaterial>& found) {
   return all.dump(2) + "\n";
 }
 
-}  // namespace
-
-int find(const std::vector<std::string>& texts, const std::string& kind, const std::vector<std::string>& folders,
-         bool json) {
-  const auto resolver = file_resolver(library_folders(folders, std::getenv("WALE_LIBRARY")));
-  // As a file in this folder would look for them.
+int find(const FindOptions& options) {
+  const auto resolver = file_resolver(library_folders(options.folders, std::getenv("WALE_LIBRARY")));
+  // What a file in the present folder could import. The file itself need not be there.
   const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
-  const std::vector<FoundMaterial> found = find_materials(*index, texts, kind);
-  if (json) fmt::print("{}", found_json(found));
-  if (found.empty()) return refuse(why_nothing_is_found(*index, texts, kind));
-  if (!json) fmt::print("{}", found_text(found));
+  const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
+  if (options.json) fmt::print("{}", found_json(found));
+  if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
+  if (!options.json) fmt::print("{}", found_text(found));
   return done;
 }
+
+Run declare_find(CLI::App& verb) {
+  const auto options = std::make_shared<FindOptions>();
+  verb.add_option("TEXT", options->texts,
+                  "the beginning of a word in a material's name, title, kind, other names, what it feels like, or its "
+                  "documentation; with several, all must be there (default: lists every material)");
+  verb.add_option("--kind", options->kind, "only materials of this kind, as in fabric or fabric.woven")
+      ->type_name("KIND");
+  offer_library(verb, options->folders);
+  offer_json(verb, options->json, "an array with all that is known of each");
+  verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
+  return [options] { return find(*options); };
+}
+
+}  // namespace
+
+extern const Verb find_verb{"find", "lists the materials of the library, or those with these words", declare_find};
 
 }  // namespace wale::command

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace wale {
+
+/// How many slips make `b` of `a`, capitals aside: a letter inserted, dropped or replaced, or two neighbours that
+/// changed places, each letter touched once (the optimal string alignment distance).
+std::size_t letters_changed(std::string_view a, std::string_view b);
 
 /// The candidate that a reader would take `word` for: the fewest letters changed, and at most a third of them;
 /// capitals and two neighbours that changed places count little.

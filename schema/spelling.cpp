@@ -1,4 +1,4 @@
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,8 +11,8 @@ char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<ch
 
 bool same(char a, char b) { return lower(a) == lower(b); }
 
-/// How many slips make `b` of `a`, capitals aside: a letter inserted, dropped or replaced, or two neighbours that
-/// changed places, each letter touched once (the optimal string alignment distance).
+}  // namespace
+
 std::size_t letters_changed(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});
@@ -28,8 +28,6 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
   }
   return last[b.size()];
 }
-
-}  // namespace
 
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest_compared = 64;

@@ -62,13 +62,8 @@ int devices(bool json) {
 int identify(const std::string& device, const std::string& max_force, const std::atomic<bool>& stop) {
   IdentifyOptions options{.asks = isatty(fileno(stdin)) != 0};
   if (!max_force.empty()) {
-    QuantityReader reader;
-    const auto most = reader.force("--max-force", max_force);
-    if (!most) {
-      print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return refused;
-    }
-    if (!(*most > 0)) return refuse("the largest force allowed is more than nothing");
+    const auto most = read_force(declared_everywhere()->declarations, "--max-force", max_force);
+    if (!most) return refuse(most.error());
     options.most_newton = *most;
   }
   const std::vector<DeclaredDevice> known = devices_here();
