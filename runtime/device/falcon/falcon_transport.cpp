@@ -26,8 +26,9 @@ std::int16_t number_in(std::uint64_t lanes, int index) noexcept {
 Result<std::unique_ptr<FalconTransport>> FalconTransport::open(std::shared_ptr<UsbContext> context,
                                                                const UsbDeviceInfo& info, Options options) {
   const auto refused = [&](int error) {
-    return Error{Code::unusable_device,
-                 in_words(info.vendor, info.product) + ": " + why_not_usable(error, info).reason};
+    Error why = why_not_usable(error, info);
+    why.sentence = in_words(info.vendor, info.product) + ": " + why.sentence;
+    return why;
   };
   libusb_device* device = context->find(info);
   if (device == nullptr) return refused(LIBUSB_ERROR_NO_DEVICE);
