@@ -87,8 +87,8 @@ int feel(const FeelOptions& options, const FeltOn& on, const std::atomic<bool>& 
   Stage stage(*device);
   stage.place(material->program);
   for (std::size_t i = 0; i < material->parameters.size(); ++i)
-    if (const auto refusal = stage.set(program.parameters[i].name, material->parameters[i]))
-      return refuse(refusal->reason);
+    if (const auto set = stage.set(program.parameters[i].name, material->parameters[i]); !set)
+      return refuse(in_words(set.error()));
   const auto most_newton = most_allowed(options, program);
   if (!most_newton) return refused;
 
@@ -109,9 +109,9 @@ int feel(const FeelOptions& options, const FeltOn& on, const std::atomic<bool>& 
     return stage.run(run);
   }();
   if (live) fmt::print(stderr, "\r\033[K");
-  if (const auto* refusal = std::get_if<Refusal>(&result)) return refuse(refusal->reason);
+  if (!result) return refuse(in_words(result.error()));
 
-  const auto& done = std::get<RunResult>(result);
+  const auto& done = *result;
   if (is_table) {
     std::ostringstream csv;
     write_csv(csv, done.record);
@@ -122,7 +122,7 @@ int feel(const FeelOptions& options, const FeltOn& on, const std::atomic<bool>& 
   const FeltReport report = felt_report(*stage.bank(), done, program.device, on.manner(*device));
   device.reset();  // one that draws gives the terminal back
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
-  return done.record_problem.empty() ? command::done : refuse(done.record_problem);
+  return done.record_problem ? refuse(in_words(*done.record_problem)) : command::done;
 }
 
 int feel_blind(const FeelOptions& options, const FeltOn& on, const std::atomic<bool>& stop) {

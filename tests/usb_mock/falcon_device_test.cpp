@@ -237,8 +237,8 @@ TEST_F(FalconDriver, AStageIsFeltOnIt) {
     stage.place(spring(50));
     return stage.run({.seconds = 0.6});
   }();
-  ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
-  const auto& ticks = std::get<RunResult>(ran).record.ticks;
+  ASSERT_TRUE(ran);
+  const auto& ticks = ran->record.ticks;
   double hardest = 0;
   for (const auto& tick : ticks) hardest = std::min<double>(hardest, tick.force.x);
   EXPECT_LT(hardest, -0.3) << "50 N/m against a hand of 100 N/m at 20 mm";
