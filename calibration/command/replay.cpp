@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -8,7 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "calibration/feel/feel.hpp"
+#include "compiler/command/options.hpp"
 #include "wale/recording.hpp"
 
 namespace wale::command {
@@ -110,7 +111,11 @@ std::optional<std::string> exported(const std::string& path, Write&& write) {
   return std::nullopt;
 }
 
-}  // namespace
+struct ReplayOptions {
+  std::string file, csv, wav;
+  std::optional<std::uint64_t> ticks;  ///< no more than so many
+  bool json = false;
+};
 
 int replay(const ReplayOptions& options) {
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
@@ -132,5 +137,24 @@ int replay(const ReplayOptions& options) {
       "{}", options.json ? replay_json(options.file, recording, result) : replay_text(options.file, recording, result));
   return result.first ? refused : done;
 }
+
+Run declare_replay(CLI::App& verb) {
+  const auto options = std::make_shared<ReplayOptions>();
+  verb.add_option("FILE", options->file, "a recording that `wale feel --record` made (.wrec)")->required();
+  verb.add_option("--csv", options->csv, "writes every tick to a CSV file")->type_name("FILE");
+  verb.add_option("--wav", options->wav,
+                  "writes the force as sound: x left, y right, the device's peak force full scale")
+      ->type_name("FILE");
+  offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
+              "only so many ticks from the beginning; of a damaged recording, those before the damage");
+  offer_json(verb, options->json, "a JSON object");
+  verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
+  return [options] { return replay(*options); };
+}
+
+}  // namespace
+
+extern const Verb replay_verb{"replay", "runs a recording's programs again on what its device told, and compares",
+                              declare_replay};
 
 }  // namespace wale::command

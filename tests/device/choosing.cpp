@@ -9,45 +9,58 @@
 
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/render.hpp"
-#include "library/devices_known.hpp"
-#include "library/identify_device.hpp"
-#include "library/open_device.hpp"
+#include "calibration/command/device_declaration.hpp"
+#include "compiler/declarations/declared_devices.hpp"
+#include "runtime/device/choose_device.hpp"
+#include "runtime/device/identify_device.hpp"
+#include "runtime/device/shipped_devices.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace wale::choosing_test {
 namespace {
 
+const Driver* const hid_pid = find_driver(drivers(), "hid-pid");
+
 PluggedIn stick(const std::string& name, const std::string& numbers, const std::string& port,
-                const std::string& obstacle = "") {
-  return {.kind = "hid-pid",
+                std::optional<Error> obstacle = std::nullopt) {
+  return {.driver = hid_pid,
           .numbers = numbers,
           .port = port,
           .name = name,
           .can = "two axes by direction, 255 steps of force to each side",
-          .obstacle = obstacle};
+          .obstacle = std::move(obstacle)};
 }
 
 const PluggedIn openffboard = stick("OpenFFBoard", "1209:ffb0", "1-1"), rhino = stick("Rhino", "ffff:2055", "1-2"),
                 unheard_of = stick("Mine", "abcd:0123", "1-1.4"),
-                forbidden = stick("OpenFFBoard", "1209:ffb0", "1-3", "no permission to open it; as root, …");
-const PluggedIn mouse{.kind = "hid-pid",
-                      .numbers = "046d:c077",
-                      .port = "2-1",
-                      .name = "Mouse",
-                      .obstacle = "it is not a force device: nothing in its report descriptor is of usage page 0F"};
+                forbidden = stick("OpenFFBoard", "1209:ffb0", "1-3",
+                                  Error{Code::unusable_device, "no permission to open it", "as root, …"});
+const PluggedIn mouse{
+    .driver = hid_pid,
+    .numbers = "046d:c077",
+    .port = "2-1",
+    .name = "Mouse",
+    .obstacle = Error{Code::unlike_device,
+                      "it is not a force device: nothing in its report descriptor is of usage page 0F"}};
 
 struct Choice {
   std::string device;  ///< its port; "simulated"; "absent"; or "refused"
-  std::string profile, said;
+  std::string profile;  ///< or the mend
+  std::string said;
 };
 
 Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {
-  const std::vector<DeclaredDevice> known = Library().devices();
-  const auto chosen = choose_device(request, known, plugged);
-  if (const auto* refusal = std::get_if<Refusal>(&chosen)) return {"refused", "", refusal->reason};
-  if (const auto* absent = std::get_if<Absent>(&chosen)) return {"absent", absent->instead, absent->what};
-  const auto& device = std::get<ChosenDevice>(chosen);
-  return {device.plugged ? device.plugged->port : "simulated", device.profile, device.said};
+  const auto chosen = choose_device(request, *shipped_devices(), plugged);
+  if (!chosen) {
+    const bool is_absent = chosen.error().code == Code::absent_device;
+    return {is_absent ? "absent" : "refused", chosen.error().mend, in_words(chosen.error())};
+  }
+  return {chosen->plugged ? chosen->plugged->port : "simulated",
+          chosen->declared ? chosen->declared->profile.name : "", chosen->said};
+}
+/// The code of the error that a choice ends in.
+Code code_of(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {
+  return choose_device(request, *shipped_devices(), plugged).error().code;
 }
 Choice choice(const std::string& spelling, const std::vector<PluggedIn>& plugged) {
   return choice(DeviceRequest{.spelling = spelling}, plugged);
@@ -56,14 +69,14 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 TEST(Choosing, AutoTakesTheBestAndSaysWhich) {
   EXPECT_EQ(choice("auto", {}).device, "simulated");
-  EXPECT_EQ(choice("auto", {}).said, "no force-feedback device is plugged in: simulated");
-  EXPECT_EQ(choice("auto", {mouse}).said, "no force-feedback device is plugged in: simulated");
+  EXPECT_EQ(choice("auto", {}).said, "no force-feedback device is plugged in; using a simulated one");
+  EXPECT_EQ(choice("auto", {mouse}).said, "no force-feedback device is plugged in; using a simulated one");
   EXPECT_EQ(choice("auto", {mouse, rhino}).device, "1-2");
   EXPECT_EQ(choice("auto", {unheard_of, rhino}).profile, "vpforce_rhino") << "what is known goes before what is not";
   const Choice generic = choice("auto", {unheard_of});
   EXPECT_EQ(generic.profile, "usb_joystick");
   EXPECT_TRUE(contains(generic.said, "no declaration is about it"));
-  EXPECT_TRUE(contains(choice("auto", {openffboard, rhino}).said, "also there: Rhino (ffff:2055 at port 1-2)"));
+  EXPECT_TRUE(contains(choice("auto", {openffboard, rhino}).said, "also plugged in: Rhino (ffff:2055 at port 1-2)"));
 }
 
 TEST(Choosing, AutoTellsWhyOneThatIsThereIsNotTaken) {
@@ -71,7 +84,7 @@ TEST(Choosing, AutoTellsWhyOneThatIsThereIsNotTaken) {
   EXPECT_EQ(choice.device, "simulated");
   EXPECT_EQ(choice.said,
             "OpenFFBoard (1209:ffb0 at port 1-3) cannot be used: no permission to open it; as root, …\n"
-            "so it is felt on a simulated device");
+            "using a simulated device instead");
   EXPECT_EQ(choosing_test::choice("auto", {forbidden, rhino}).device, "1-2");
 }
 
@@ -94,10 +107,9 @@ TEST(Choosing, ARealOneThatIsNotThereIsAbsentAndNotSimulated) {
   for (const char* spelling : {"usb", "hid-pid", "1209:ffb0", "1-7", "arduino_ffb", "usb_joystick"})
     EXPECT_EQ(choice(spelling, {mouse}).device, "absent") << spelling;
   const Choice declared = choice("arduino_ffb", {openffboard, rhino});
-  EXPECT_EQ(declared.said, "no arduino_ffb is plugged in");
-  EXPECT_EQ(declared.profile, "`--device simulated:arduino_ffb`") << "what to ask for instead";
-  EXPECT_EQ(choice("1209:ffb0", {rhino}).said, "no device 1209:ffb0 is plugged in");
-  EXPECT_EQ(choice("1209:ffb0", {rhino}).profile, "`--device simulated`");
+  EXPECT_EQ(declared.said, "no arduino_ffb is plugged in; plug it in, or use `--device simulated:arduino_ffb`");
+  EXPECT_EQ(choice("1209:ffb0", {rhino}).said,
+            "no device 1209:ffb0 is plugged in; plug it in, or use `--device simulated`");
 }
 
 TEST(Choosing, WhatCannotBeHadIsRefusedWithWhatToDo) {
@@ -106,6 +118,11 @@ TEST(Choosing, WhatCannotBeHadIsRefusedWithWhatToDo) {
   EXPECT_TRUE(contains(choice("2-1", {mouse}).said, "it is not a force device"));
   EXPECT_TRUE(contains(choice("openfboard", {}).said, "did you mean `openffboard`?"));
   EXPECT_TRUE(contains(choice("simulated:openfboard", {}).said, "did you mean `simulated:openffboard`?"));
+  EXPECT_EQ(code_of({.spelling = "openffboard"}, {forbidden}), Code::unusable_device);
+  EXPECT_EQ(code_of({.spelling = "2-1"}, {mouse}), Code::unlike_device);
+  EXPECT_EQ(code_of({.spelling = "openfboard"}, {}), Code::unknown_device);
+  EXPECT_EQ(code_of({.spelling = "1-1", .built_for = "sandpaper"}, {openffboard}), Code::other_device);
+  EXPECT_EQ(code_of({.spelling = "1-1", .only_simulated = true}, {openffboard}), Code::malformed_value);
 }
 
 TEST(Choosing, AProgramThatIsBuiltKeepsItsDevice) {
@@ -115,7 +132,7 @@ TEST(Choosing, AProgramThatIsBuiltKeepsItsDevice) {
   EXPECT_EQ(built("auto", "vpforce_rhino", {openffboard, rhino}).device, "1-2");
   const Choice other = built("auto", "sandpaper", {openffboard});
   EXPECT_EQ(other.device, "simulated");
-  EXPECT_TRUE(contains(other.said, "is taken for openffboard, and the program is built for sandpaper"));
+  EXPECT_TRUE(contains(other.said, "is used as openffboard, and the program is built for sandpaper"));
   const Choice refused = built("1-1", "sandpaper", {openffboard});
   EXPECT_EQ(refused.device, "refused");
   EXPECT_TRUE(contains(refused.said, "wale build FILE --device openffboard -o OUT.wpp")) << refused.said;
@@ -170,11 +187,13 @@ device at_home {
 }
 )");
   ASSERT_EQ(own.complaints(), "");
-  const auto known = devices_known(own.module);
-  const auto chosen = choose_device({.spelling = "auto"}, known, {openffboard});
-  const ChosenDevice& device = std::get<ChosenDevice>(chosen);
-  EXPECT_EQ(device.profile, "at_home");
-  EXPECT_FALSE(device.is_generic);
+  const auto known = declared_devices(own.module.declarations());
+  const auto chosen = choose_device({.spelling = "auto"}, known, std::vector{openffboard});
+  ASSERT_TRUE(chosen);
+  EXPECT_FALSE(chosen->is_generic);
+  const DeclaredDevice& device = *chosen->declared;
+  EXPECT_EQ(device.profile, known.front().profile) << "the declared profile goes on to opening as it is";
+  EXPECT_EQ(device.profile.name, "at_home");
   EXPECT_EQ(device.wiring.axes, (std::array<SignedAxis, 2>{{{1, 1}, {0, -1}}}));
   EXPECT_EQ(device.wiring.motors, (std::array<SignedAxis, 2>{{{1, -1}, {0, 1}}}));
   EXPECT_EQ(device.wiring.gain, (std::array<double, 2>{0.5, 2}));
@@ -219,7 +238,7 @@ TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
 TEST(Choosing, NoTwoDeclarationsOfOursAreAboutTheSameDeviceAndOneIsGeneric) {
   std::vector<UsbNumbers> all;
   int generic = 0;
-  for (const DeclaredDevice& device : Library().devices()) {
+  for (const DeclaredDevice& device : *shipped_devices()) {
     generic += device.wiring.is_generic ? 1 : 0;
     for (const UsbNumbers& numbers : device.wiring.usb) {
       EXPECT_EQ(std::find(all.begin(), all.end(), numbers), all.end()) << in_words(numbers);
@@ -248,26 +267,27 @@ TEST(Choosing, APrintedDeclarationIsTheDeviceWithItsWiring) {
   wiring.usb = {{0x1209, 0xffb0}};
   wiring.axes = {{{1, -1}, {0, 1}}};
   wiring.motors = {{{0, -1}, {1, 1}}};
-  for (const DeclaredDevice& device : Library().devices()) {
+  for (const DeclaredDevice& device : *shipped_devices()) {
     if (device.profile.shaker) continue;
-    const std::string text = device_declaration(device, "my_" + device.profile.name, wiring, {"a comment"});
+    DeclaredDevice mine = device;
+    mine.profile.name = "my_" + device.profile.name;
+    mine.wiring = wiring;
+    const std::string text = command::device_declaration(mine, {"a comment"});
     const Declared printed(text);
     ASSERT_EQ(printed.complaints(), "") << text;
-    const DeclaredDevice again = devices_known(printed.module).front();
-    DeviceProfile expected = device.profile;
-    expected.name = "my_" + device.profile.name;
-    EXPECT_EQ(again.profile, expected) << text;
+    const DeclaredDevice again = declared_devices(printed.module.declarations()).front();
+    EXPECT_EQ(again.profile, mine.profile) << text;
     EXPECT_EQ(again.wiring, wiring);
     EXPECT_EQ(again.unknown, device.unknown);
     EXPECT_EQ(std::set<std::string>(again.assumed.begin(), again.assumed.end()),
               std::set<std::string>(device.assumed.begin(), device.assumed.end()));
     EXPECT_EQ(again.of_class, device.of_class);
     EXPECT_EQ(again.source, device.source);
-    DeclaredDevice unweighed = device;
+    DeclaredDevice unweighed = mine;
     unweighed.unknown.emplace_back("gain");
-    const Declared said(device_declaration(unweighed, "mine", wiring, {}));
+    const Declared said(command::device_declaration(unweighed, {}));
     ASSERT_EQ(said.complaints(), "");
-    const auto unknown = devices_known(said.module).front().unknown;
+    const auto unknown = declared_devices(said.module.declarations()).front().unknown;
     EXPECT_NE(std::ranges::find(unknown, "gain"), unknown.end());
   }
 }

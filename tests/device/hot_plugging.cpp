@@ -59,7 +59,7 @@ class Fake final : public PluggedDevice {
 
 HotPluggedDevice::Reopen reopening(Plug& plug) {
   return [&plug]() -> OpenedDevice {
-    if (plug.is_out) return Refusal{"it is not plugged in", {}};
+    if (plug.is_out) return Error{Code::absent_device, "it is not plugged in"};
     return std::make_unique<Fake>(plug);
   };
 }
