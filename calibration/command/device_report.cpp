@@ -1,12 +1,13 @@
-#include "library/device_report.hpp"
+#include "calibration/command/device_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
-namespace wale {
+#include "runtime/device/match_device.hpp"
 
+namespace wale::command {
 namespace {
 
 const char* position_word(PositionSource source) {
@@ -52,82 +53,145 @@ nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
   return json;
 }
 
-}  // namespace
-
-std::string devices_text(const std::vector<DeclaredDevice>& devices) {
-  std::string text =
-      "to feel on (wale feel --device NAME)\n"
-      "  auto         the best that is plugged in, else simulated: what is taken unless you say otherwise\n"
-      "  simulated    the joystick that the program was built for, simulated, in a simulated hand\n"
-      "  a device to build for, by its name: the real one; one that cannot be plugged in is simulated\n"
-      "  simulated:NAME: that one, and never the real one\n"
-      "  usb, vendor and product (1209:ffb0), a port (1-2): what is plugged in there\n"
-      "  a real one that is not there is waited for until it is plugged in\n"
-      "\nto build for (wale build --device NAME)\n";
-  for (const DeclaredDevice& device : devices) {
-    const DeviceProfile& profile = device.profile;
-    if (profile.shaker) {
-      const Shaker& shaker = *profile.shaker;
-      text += fmt::format(
-          "  {:<12} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
-          shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
-      text +=
-          shaker.position == PositionSource::none
-              ? fmt::format("  {:<12} no position: taken to explore at {:.3g} m/s\n", "", shaker.exploring_speed)
-              : fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.4g} counts\n", "",
+/// What a device pushes with, or how it shakes, in two lines.
+std::string figures_text(const DeviceProfile& profile) {
+  if (!profile.shaker)
+    return fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
+                       profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
+                       profile.position_counts, profile.rate) +
+           fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
+                       profile.damping, profile.friction);
+  const Shaker& shaker = *profile.shaker;
+  std::string text = fmt::format(
+      "  {:<12} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
+      shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
+  if (shaker.position == PositionSource::none)
+    return text + fmt::format("  {:<12} no position: assumed to explore at {:.3g} m/s\n", "", shaker.exploring_speed);
+  return text + fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.4g} counts\n", "",
                             position_word(shaker.position), 1e3 * profile.workspace_diameter, profile.position_counts);
-    } else {
-      text += fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
-                          profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
-                          profile.position_counts, profile.rate);
-      text += fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
-                          profile.damping, profile.friction);
-    }
-    if (!device.wiring.usb.empty()) {
-      std::string numbers;
-      for (const UsbNumbers& each : device.wiring.usb) numbers += " " + in_words(each);
-      text += fmt::format("  {:<12} on USB:{}\n", "", numbers);
-    }
-    if (!device.unknown.empty()) text += fmt::format("  {:<12} unknown: {}\n", "", fmt::join(device.unknown, ", "));
-    if (!device.assumed.empty())
-      text += fmt::format("  {:<12} assumed, not measured: {}\n", "", fmt::join(device.assumed, ", "));
-    if (!device.source.empty()) text += fmt::format("  {:<12} {}\n", "", device.source);
+}
+
+std::string declared_text(const DeclaredDevice& device) {
+  std::string text = figures_text(device.profile);
+  const auto line = [&](const std::string& what) { text += fmt::format("  {:<12} {}\n", "", what); };
+  if (!device.wiring.usb.empty()) {
+    std::string numbers;
+    for (const UsbNumbers& each : device.wiring.usb) numbers += " " + in_words(each);
+    line("on USB:" + numbers);
   }
+  if (!device.unknown.empty()) line(fmt::format("unknown: {}", fmt::join(device.unknown, ", ")));
+  if (!device.assumed.empty()) line(fmt::format("assumed, not measured: {}", fmt::join(device.assumed, ", ")));
+  if (!device.source.empty()) line(device.source);
   return text;
 }
 
-std::string devices_json(const std::vector<DeclaredDevice>& devices) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  json.push_back({{"name", "simulated"}, {"feel", true}, {"build", false}});
-  for (const DeclaredDevice& device : devices) {
-    if (device.profile.shaker) {
-      json.push_back(shaker_json(device));
-      continue;
-    }
-    const DeviceProfile& profile = device.profile;
-    json.push_back({{"name", profile.name},
-                    {"feel", true},
-                    {"build", true},
-                    {"axes", 2},
-                    {"force_newton", profile.force_newton},
-                    {"force_counts", profile.force_counts},
-                    {"workspace_m", profile.workspace_diameter},
-                    {"position_counts", profile.position_counts},
-                    {"rate_hz", profile.rate},
-                    {"mass_kg", profile.mass},
-                    {"damping_newton_second_per_m", profile.damping},
-                    {"friction_newton", profile.friction},
-                    {"delay_s", {profile.delay_x, profile.delay_y}},
-                    {"bandwidth_hz", {profile.bandwidth_x, profile.bandwidth_y}},
-                    {"usb", numbers_of(device.wiring)},
-                    {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},
-                    {"motors_lie", {in_words(device.wiring.motors[0]), in_words(device.wiring.motors[1])}},
-                    {"gain", device.wiring.gain},
-                    {"unknown", device.unknown},
-                    {"assumed", device.assumed},
-                    {"source", device.source}});
-  }
-  return json.dump(2) + "\n";
+/// Indents the lines after the first below it.
+std::string indented(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+    text.insert(at + 1, "               ");
+  return text;
 }
 
-}  // namespace wale
+std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice> known) {
+  const MatchedDevice match = match_device(device, known);
+  std::string text = fmt::format("  {:<12} {}{}\n", device.port, device.name.empty() ? "without a name" : device.name,
+                                 device.numbers.empty() ? "" : ", " + device.numbers);
+  const auto line = [&](const std::string& what) { text += fmt::format("  {:<12} {}\n", "", indented(what)); };
+  if (!device.can.empty()) line(device.can);
+  if (match.device != nullptr && !device.can.empty()) {
+    const std::string& name = match.device->profile.name;
+    line(match.is_generic ? fmt::format("no declaration is about it: used as {}, all of whose figures are assumed;\n"
+                                        "`wale devices --identify {}` prints a declaration to begin with",
+                                        name, device.port)
+                          : "used as " + name);
+  }
+  if (!device.transport.empty()) line("driven by " + device.transport);
+  if (!device.held_by.empty()) line(fmt::format("in use by {}", fmt::join(device.held_by, ", ")));
+  if (!device.can.empty() && device.processes_hidden > 0)
+    line(fmt::format("perhaps in use by others: the files of {} processes cannot be seen by this user",
+                     device.processes_hidden));
+  if (device.obstacle) line("cannot be used: " + in_words(*device.obstacle));
+  return text;
+}
+
+nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const DeclaredDevice> known) {
+  const MatchedDevice match = match_device(device, known);
+  return {{"name", device.name},
+          {"plugged_in", true},
+          {"feel", !device.obstacle && !device.can.empty() && match.device != nullptr},
+          {"build", false},
+          {"kind", device.driver->name},
+          {"usb", device.numbers},
+          {"port", device.port},
+          {"profile", match.device != nullptr ? match.device->profile.name : ""},
+          {"generic", match.is_generic},
+          {"can", device.can},
+          {"transport", device.transport},
+          {"held_by", device.held_by},
+          {"processes_hidden", device.processes_hidden},
+          {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};
+}
+
+nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
+  const DeviceProfile& profile = device.profile;
+  return {{"name", profile.name},
+          {"feel", true},
+          {"build", true},
+          {"axes", 2},
+          {"force_newton", profile.force_newton},
+          {"force_counts", profile.force_counts},
+          {"workspace_m", profile.workspace_diameter},
+          {"position_counts", profile.position_counts},
+          {"rate_hz", profile.rate},
+          {"mass_kg", profile.mass},
+          {"damping_newton_second_per_m", profile.damping},
+          {"friction_newton", profile.friction},
+          {"delay_s", {profile.delay_x, profile.delay_y}},
+          {"bandwidth_hz", {profile.bandwidth_x, profile.bandwidth_y}},
+          {"usb", numbers_of(device.wiring)},
+          {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},
+          {"motors_lie", {in_words(device.wiring.motors[0]), in_words(device.wiring.motors[1])}},
+          {"gain", device.wiring.gain},
+          {"unknown", device.unknown},
+          {"assumed", device.assumed},
+          {"source", device.source}};
+}
+
+constexpr const char* spellings =
+    "to feel on (wale feel --device NAME)\n"
+    "  auto         the best one plugged in, else simulated; the default\n"
+    "  simulated    a simulation of the joystick that the program was built for, in a simulated hand\n"
+    "  NAME         the real device of that name, from the list below; simulated where there is no real one\n"
+    "  simulated:NAME, always simulated\n"
+    "  usb, vendor and product (1209:ffb0), a port (1-2): the device that is plugged in there\n"
+    "  a real device that is not plugged in is waited for\n"
+    "\nto build for (wale build --device NAME)\n";
+
+constexpr const char* nothing_plugged =
+    "  no device that could be felt on\n"
+    "               a joystick that is connected and not listed may need its own power, or a cable that carries\n"
+    "               data; `lsusb` lists every device that the computer sees\n";
+
+}  // namespace
+
+std::string devices_text(std::span<const DeclaredDevice> known, const Connections& connections,
+                         std::span<const PluggedIn> plugged) {
+  std::string text = spellings;
+  for (const DeclaredDevice& device : known) text += declared_text(device);
+  text += "\nplugged in (wale feel --device PORT)\n";
+  if (!connections.usb) text += fmt::format("  {}\n", in_words(connections.usb.error()));
+  if (plugged.empty() && connections.usb) text += nothing_plugged;
+  for (const PluggedIn& device : plugged) text += plugged_text(device, known);
+  return text;
+}
+
+std::string devices_json(std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  json.push_back({{"name", "simulated"}, {"feel", true}, {"build", false}});
+  for (const DeclaredDevice& device : known)
+    json.push_back(device.profile.shaker ? shaker_json(device) : joystick_json(device));
+  for (const PluggedIn& device : plugged) json.push_back(plugged_json(device, known));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wale::command

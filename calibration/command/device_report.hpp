@@ -1,16 +1,20 @@
 #pragma once
 
+#include <span>
 #include <string>
-#include <vector>
 
-#include "wale/library.hpp"
+#include "runtime/device/driver.hpp"
+#include "schema/declared_device.hpp"
 
-namespace wale {
+namespace wale::command {
 
-/// What `wale devices` prints: the joysticks that can be felt on, and those that can be built for, with the evidence
-/// for their figures.
-std::string devices_text(const std::vector<DeclaredDevice>& devices);
-/// An array: each device's name, whether it can be felt on, its figures in SI units, those assumed, their source.
-std::string devices_json(const std::vector<DeclaredDevice>& devices);
+/// What `wale devices` prints: the joysticks that can be felt on, those that can be built for, with the evidence for
+/// their figures, and what is plugged in: what each device is used as, what it can do, and what is in the way.
+std::string devices_text(std::span<const DeclaredDevice> known, const Connections& connections,
+                         std::span<const PluggedIn> plugged);
 
-}  // namespace wale
+/// An array: of each declared device its name, whether it can be felt on, its figures in SI units, those that are
+/// assumed, and their source; then an element for each device that is plugged in.
+std::string devices_json(std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged);
+
+}  // namespace wale::command

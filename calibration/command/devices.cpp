@@ -1,42 +1,52 @@
-#include "library/devices_verb.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <iterator>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "compiler/command/command.hpp"
-#include "compiler/quantity.hpp"
-#include "library/device_report.hpp"
-#include "library/devices_known.hpp"
-#include "library/identify_device.hpp"
-#include "library/open_device.hpp"
-#include "library/plugged_report.hpp"
+#include "calibration/command/device_declaration.hpp"
+#include "calibration/command/device_report.hpp"
+#include "calibration/command/devices_here.hpp"
+#include "calibration/command/interrupt.hpp"
+#include "compiler/command/options.hpp"
+#include "runtime/device/identify_device.hpp"
+#include "runtime/device/match_device.hpp"
+#include "runtime/device/open_device.hpp"
 
 namespace wale::command {
 namespace {
 
-/// Of a declaration of one's own: that of ours with `my_` before it, which it keeps when it is made anew.
+struct DevicesOptions {
+  bool json = false, identify = false;
+  std::string device;               ///< to identify; empty: the best one
+  std::string transport;            ///< to identify it by; empty: its driver chooses
+  std::optional<double> max_force;  ///< N
+};
+
+/// The name of a person's own declaration: ours with `my_` before it. One that is made anew keeps its name.
 std::string own_name(const std::string& profile) { return profile.starts_with("my_") ? profile : "my_" + profile; }
 
-/// Why a push does not tell how strong a motor is. What starts to move shows its friction, and how fast it does its
-/// force beside its mass: neither shows the force by itself where mass and friction are assumed.
+// Why pushing does not tell how strong a motor is: the force at which the handle begins to move shows its friction, and
+// how fast it moves shows the force beside its mass. Neither gives the force while mass and friction are assumed.
 constexpr std::array how_gain_is_measured{
-    "gain is how much is at the handle of each newton that is told. Pushing shows it only beside mass and friction,",
-    "which nobody has measured: hold a force gauge, or a luggage scale, against the handle while `wale feel` runs a",
-    "material with `force = vector(2 N, 0 N)`, and divide what it shows by 2; then the same for y."};
+    "gain is the force at the handle for each newton that is commanded. Pushing does not show it while mass and",
+    "friction are assumed: hold a force gauge, or a luggage scale, against the handle while `wale feel` runs a",
+    "material with `force = vector(2 N, 0 N)`, and divide its reading by 2; then the same for y."};
 
-/// ": it was unplugged", of one that was lost: it is found out a moment after the loss. Empty where none was.
-std::string why_lost(const HotPluggedDevice& joystick) {
+/// Adds why the device was lost, which is known a moment after the loss.
+Error with_reason(Error error, const HotPluggedDevice& joystick) {
   constexpr auto a_moment = std::chrono::milliseconds(50);
   constexpr int most_looks = 20;
   HotPlugReport report = joystick.report();
@@ -44,69 +54,108 @@ std::string why_lost(const HotPluggedDevice& joystick) {
     std::this_thread::sleep_for(a_moment);
     report = joystick.report();
   }
-  return report.reason.empty() ? "" : ": " + report.reason;
+  if (!report.reason.empty()) error.sentence += ": " + report.reason;
+  return error;
 }
 
-}  // namespace
-
-int devices(bool json) {
+int list_devices(const DevicesOptions& options) {
   declared_everywhere();
   const std::vector<DeclaredDevice> known = devices_here();
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
-  fmt::print("{}", json ? with_plugged(devices_json(known), plugged, known)
-                        : devices_text(known) + plugged_text(connections, plugged, known));
-  return 0;
+  fmt::print("{}", options.json ? devices_json(known, plugged) : devices_text(known, connections, plugged));
+  return done;
 }
 
-int identify(const std::string& device, const std::string& max_force, const std::atomic<bool>& stop) {
-  IdentifyOptions options{.asks = isatty(fileno(stdin)) != 0};
-  if (!max_force.empty()) {
-    const auto most = read_force(declared_everywhere()->declarations, "--max-force", max_force);
-    if (!most) return refuse(most.error());
-    options.most_newton = *most;
-  }
+/// A real device with axes to identify.
+Result<ChosenDevice> device_to_identify(const std::string& asked, const Connections& connections) {
   const std::vector<DeclaredDevice> known = devices_here();
-  const Connections connections = Connections::open();
-  const std::vector<PluggedIn> plugged = plugged_in(connections);
-  const auto choice = choose_device({.spelling = device.empty() ? "auto" : device}, known, plugged);
-  if (const auto* refusal = std::get_if<Refusal>(&choice)) return refuse(refusal->reason);
-  if (const auto* absent = std::get_if<Absent>(&choice)) return refuse(absent->what + "; `wale devices` lists what is");
-  ChosenDevice chosen = std::get<ChosenDevice>(choice);
-  if (!chosen.plugged)
-    return refuse(chosen.is_worth_saying ? chosen.said
-                  : device.empty() || device == "auto"
-                      ? "no force-feedback device is plugged in; see `wale devices`"
-                      : fmt::format("`{}` is no real device, and lies nowhere; see `wale devices`", device));
-  DeclaredDevice described = *matched_profile(*chosen.plugged, known).device;
-  if (described.profile.shaker) return refuse(fmt::format("`{}` only vibrates: it has no axes", chosen.profile));
-  DeviceWiring wiring = chosen.wiring;
-  chosen.wiring = DeviceWiring{};  // its own axes and motors, as they are
-  const auto say = [](std::string_view what) { fmt::print(stderr, "{}\n", what); };
-  auto opened = open_device(connections, chosen, described.profile, say, &stop);
-  if (const auto* refusal = std::get_if<Refusal>(&opened)) return refuse(refusal->reason);
-  fmt::print(stderr, "identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged), chosen.profile);
-  HotPluggedDevice& joystick = *std::get<std::unique_ptr<HotPluggedDevice>>(opened);
-  const auto found = identify_device(joystick, options, say, stop);
-  if (const auto* refusal = std::get_if<Refusal>(&found)) return refuse(refusal->reason + why_lost(joystick));
-  const Identified& identified = std::get<Identified>(found);
-  fmt::print(stderr, "{}", identified_text(identified));
-  if (!identified.motors_settled) return refused;
-  wiring = rewired(std::move(wiring), identified);
-  if (const auto numbers = read_usb_numbers(chosen.plugged->numbers)) wiring.usb = {*numbers};
+  auto chosen = choose_device({.spelling = asked.empty() ? "auto" : asked}, known, plugged_in(connections, asked));
+  if (!chosen) {
+    if (chosen.error().code == Code::absent_device) chosen.error().mend = "`wale devices` lists what is plugged in";
+    return chosen;
+  }
+  if (!chosen->plugged)
+    return Error{Code::absent_device,
+                 chosen->is_worth_saying            ? chosen->said
+                 : asked.empty() || asked == "auto" ? "no force-feedback device is plugged in"
+                                                    : fmt::format("`{}` is not a real device", asked),
+                 "`wale devices` lists what is plugged in"};
+  if (chosen->declared->profile.shaker)
+    return Error{Code::unusable_device,
+                 fmt::format("`{}` only vibrates: it has no axes", chosen->declared->profile.name)};
+  return chosen;
+}
+
+/// What the declaration of an identified device says first.
+std::vector<std::string> comments_on(const ChosenDevice& chosen, const DeviceWiring& wiring) {
   std::vector<std::string> comments{
       in_words(*chosen.plugged) + ", as `wale devices --identify` found it; its other figures are",
-      "those of " + chosen.profile + "."};
-  if (wiring.gain == std::array<double, 2>{1, 1}) {  // as if it were not written
-    if (std::ranges::find(described.unknown, "gain") == described.unknown.end()) described.unknown.emplace_back("gain");
-    std::ranges::copy(how_gain_is_measured, std::back_inserter(comments));
-  }
-  fmt::print("{}", device_declaration(described, own_name(chosen.profile), wiring, comments));
+      "those of " + chosen.declared->profile.name + "."};
+  if (wiring.gain == std::array<double, 2>{1, 1}) std::ranges::copy(how_gain_is_measured, std::back_inserter(comments));
+  return comments;
+}
+
+int identify(const DevicesOptions& options) {
+  const std::atomic<bool>& stop = stop_on_signals();
+  const Connections connections = Connections::open();
+  auto choice = device_to_identify(options.device, connections);
+  if (!choice) return refuse(choice.error());
+  DeclaredDevice declared = *choice->declared;
+  ChosenDevice chosen = *std::move(choice);
+  chosen.declared->wiring = DeviceWiring{};  // its own axes and motors, as they are
+  const auto say = [](std::string_view what) { fmt::print(stderr, "{}\n", what); };
+  const auto opened = open_device(
+      connections, chosen, {.priority = loop_priority - 1, .ask = say, .stop = &stop, .transport = options.transport});
+  if (!opened) return refuse(opened.error());
+  fmt::print(stderr, "identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged),
+             declared.profile.name);
+  HotPluggedDevice& joystick = **opened;
+  IdentifyOptions how{.asks = isatty(fileno(stdin)) != 0};
+  if (options.max_force) how.most_newton = *options.max_force;
+  const auto found = identify_device(joystick, how, say, stop);
+  if (!found) return refuse(with_reason(found.error(), joystick));
+  fmt::print(stderr, "{}", identified_text(*found));
+  if (!found->motors_settled) return refused;
+
+  const std::vector<std::string> comments = comments_on(chosen, declared.wiring);
+  declared.wiring = rewired(std::move(declared.wiring), *found);
+  declared.wiring.is_generic = false;
+  if (const auto numbers = read_usb_numbers(chosen.plugged->numbers)) declared.wiring.usb = {*numbers};
+  const bool is_gain_known = declared.wiring.gain != std::array<double, 2>{1, 1};
+  if (!is_gain_known && std::ranges::find(declared.unknown, "gain") == declared.unknown.end())
+    declared.unknown.emplace_back("gain");
+  declared.profile.name = own_name(declared.profile.name);
+  fmt::print("{}", device_declaration(declared, comments));
   fmt::print(
       stderr,
-      "in a file devices.wale in this folder, in that of your wale.project, or in one of WALE_LIBRARY, it is known "
-      "to every material there\n");
-  return 0;
+      "saved as devices.wale in this folder, in the folder of your wale.project or in one of WALE_LIBRARY, it is "
+      "known to every material there\n");
+  return done;
 }
+
+Run declare_devices(CLI::App& verb) {
+  const auto options = std::make_shared<DevicesOptions>();
+  offer_json(verb, options->json, "a JSON array");
+  auto* identifies = verb.add_option("--identify", options->device,
+                                     "pushes one gently, to find out how its axes and motors lie, and prints a "
+                                     "declaration of it (default: the best one plugged in)")
+                         ->expected(0, 1)
+                         ->type_name("[DEVICE]")
+                         ->excludes("--json");
+  offer_force(verb, "--max-force", options->max_force,
+              "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of its own)")
+      ->needs(identifies);
+  verb.add_option("--transport", options->transport, "how --identify drives it, where its driver knows several ways")
+      ->type_name("NAME")
+      ->needs(identifies);
+  verb.footer("for example: wale devices --json; wale devices --identify > devices.wale");
+  return [options, identifies] { return identifies->count() > 0 ? identify(*options) : list_devices(*options); };
+}
+
+}  // namespace
+
+extern const Verb devices_verb{"devices", "lists the joysticks that materials can be felt on and built for",
+                               declare_devices};
 
 }  // namespace wale::command
