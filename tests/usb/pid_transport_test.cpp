@@ -65,7 +65,7 @@ TEST(HidrawTransport, AWholeLifeThatLeavesOthersTheirEffects) {
   HidrawFake fake{PidModel(openffboard())};
   auto device = opened(fake);
   EXPECT_EQ(device->transport(), PidTransportKind::hidraw);
-  EXPECT_EQ(device->manner(), "an effect for each axis, by direction, by hidraw");
+  EXPECT_EQ(device->manner(), "one effect for each axis, by direction, by hidraw");
   // As through libusb, but for the reset, which would end what others play.
   const std::vector<std::string> expected{
       "GET 13", "OUT 0C 01", "OUT 0D FF", "SET 11 01 00 00", "GET 12", "SET 11 01 00 00", "GET 12",
