@@ -113,6 +113,22 @@ TEST(PidLayout, MissingReportsAreNamed) {
             "it has no input report with the axes X and Y (usages 01:30 and 01:31)");
 }
 
+TEST(PidLayout, StateReport) {
+  const PidLayout layout = layout_of(test::openffboard());
+  EXPECT_EQ(layout.state.id, 2);
+  EXPECT_EQ(layout.state.bytes, 3);
+  EXPECT_EQ(layout.state.actuators_enabled, (Order{{9, 1, 0, 1}, 1})) << "after the id and Device Paused";
+  EXPECT_EQ(layout.state.effect_plays, (Order{{16, 1, 0, 1}, 1}));
+  EXPECT_EQ(layout.state.block_index, (Number{17, 7, 1, 40}));
+  const auto state = decode_state(layout, test::from_hex("02 12 05"));
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->actuators_enabled, true);
+  EXPECT_EQ(state->effect_plays, true);
+  EXPECT_EQ(state->block_index, 2);
+  EXPECT_FALSE(decode_state(layout, test::from_hex("02 12"))) << "too short";
+  EXPECT_FALSE(decode_state(layout, test::from_hex("01 12 05"))) << "another report";
+}
+
 TEST(PidLayout, WhatMayBeMissing) {
   const auto without = [](const PidFamily& family, const char* from) {
     auto result = laid_out(replaced(family, from, "09 F1 A1 02"));
