@@ -13,7 +13,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/solve/solve.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 

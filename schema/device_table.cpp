@@ -139,7 +139,9 @@ std::vector<std::byte> write_device_table(std::span<const DeclaredDevice> device
 Result<std::vector<DeclaredDevice>> read_device_table(std::span<const std::byte> bytes) {
   constexpr std::size_t least_device_bytes = 200;  // an empty name, 22 figures and a wiring are more
   const auto damaged = [](std::string sentence) {
-    return Error{Code::damaged_file, std::move(sentence), "build Wale anew, or hand in another table",
+    return Error{Code::damaged_file,
+                 std::move(sentence),
+                 "build Wale anew, or hand in another table",
                  {.name = "table of devices"}};
   };
   try {

@@ -9,6 +9,7 @@
 
 #include "compiler/check/ask.hpp"
 #include "compiler/check/override_statements.hpp"
+#include "compiler/parse/made_from.hpp"
 
 namespace wale {
 
@@ -67,17 +68,14 @@ class Assembler {
 
   /// `like denim`: everything of `denim` that the material does not say itself.
   bool take_over(const Declared<MaterialDecl>& declared, const Setting& setting, AssembledMaterial& result) {
-    const auto found = declared.home->likes.find(&setting);  // in the library
-    const bool alone = found != declared.home->likes.end() ||
-                       (setting.items.size() == 1 && setting.items[0].words.size() == 1 && !setting.items[0].value);
-    if (!alone || result.derived) {
-      report(alone ? Code::declared_twice : Code::wrong_type, setting.span,
-             alone ? "a material is made from one other" : "`like` takes the name of one material",
-             alone ? first_origin(*declared.node, setting) : "write, for example, `like denim`");
+    const auto liked = liked_by(setting, *declared.tree);
+    if (!liked || result.derived) {
+      report(liked ? Code::declared_twice : Code::wrong_type, setting.span,
+             liked ? "a material is made from one other" : "`like` takes the name of one material",
+             liked ? first_origin(*declared.node, setting) : "write, for example, `like denim`");
       return false;
     }
-    const auto* other =
-        found == declared.home->likes.end() ? find(setting.items[0].words[0], *declared.home) : found->second;
+    const auto* other = find(*liked, *declared.home);
     const auto base = other ? assemble(*other) : nullptr;
     if (base) result = *base;
     result.derived = true;
@@ -95,18 +93,28 @@ class Assembler {
 
   std::shared_ptr<const AssembledMaterial> made_from(const Declared<MaterialDecl>& from, ExprId expr) {
     const Expr& node = from.tree->expr(expr);
-    if (const auto* use = std::get_if<NameUse>(&node)) {
-      const auto* other = find({use->name, from.tree->span(expr)}, *from.home);
+    const auto named = [&](std::string_view name) -> std::shared_ptr<const AssembledMaterial> {
+      const auto* other = find({name, from.tree->span(expr)}, *from.home);
       return other ? assemble(*other) : nullptr;
-    }
+    };
+    if (const auto* use = std::get_if<NameUse>(&node)) return named(use->name);
+    if (const auto* text = std::get_if<TextLiteral>(&node)) return named(text->text);
     if (const auto* call = std::get_if<Call>(&node))
       return call->callee.text == "between" ? between(from, expr, *call) : instance(from, *call);
     if (std::holds_alternative<Erroneous>(node)) return nullptr;
     return blend(from, expr);
   }
 
-  const Declared<MaterialDecl>* find(const Word& word, const Declarations& home) {
+  /// A material that the file declares, imports, or names of the library; null where there is none.
+  static const Declared<MaterialDecl>* known(const Word& word, const Declarations& home) {
     if (const auto* found = home.materials.find(word.text)) return found;
+    const auto found = home.library_materials.find(word.span.begin);
+    return found == home.library_materials.end() ? nullptr : found->second;
+  }
+
+  const Declared<MaterialDecl>* find(const Word& word, const Declarations& home) {
+    if (const auto* found = known(word, home)) return found;
+    if (home.library_materials.contains(word.span.begin)) return nullptr;  // reported
     report(Code::unknown_name, word.span, fmt::format("no material is called `{}`", word.text),
            did_you_mean(word.span, word.text, home.materials.spellings(),
                         "declare it in this file, or `import` the file that does, as in `import fabric.denim`"));
@@ -383,8 +391,8 @@ class Assembler {
       }
       if (next + 1 != suffix.size() || suffix[next].divides || suffix[next].exponent != 1) return no_component(span);
       weight = number->value * scale;
-      name = suffix[next].name.text;
       const auto* other = find(suffix[next].name, *from.home);
+      name = other ? other->node->name.text : suffix[next].name.text;
       material = other ? assemble(*other) : nullptr;
     } else if (const auto* product = std::get_if<Binary>(&node);
                product && product->op == BinaryOperator::multiply) {  // 0.3 * denim(weave: 1 mm)
@@ -393,7 +401,8 @@ class Assembler {
       weight = *factor;
       name = name_of(from, product->right);
       material = made_from(from, product->right);
-    } else if (std::holds_alternative<NameUse>(node) || std::holds_alternative<Call>(node)) {
+    } else if (std::holds_alternative<NameUse>(node) || std::holds_alternative<TextLiteral>(node) ||
+               std::holds_alternative<Call>(node)) {
       name = name_of(from, expr);
       material = made_from(from, expr);
     } else {
@@ -406,9 +415,13 @@ class Assembler {
   }
 
   static std::string name_of(const Declared<MaterialDecl>& from, ExprId expr) {
-    if (const auto* use = std::get_if<NameUse>(&from.tree->expr(expr))) return std::string(use->name);
-    if (const auto* call = std::get_if<Call>(&from.tree->expr(expr))) return std::string(call->callee.text);
-    return "part";
+    const Expr& node = from.tree->expr(expr);
+    Word word{"part", from.tree->span(expr)};
+    if (const auto* use = std::get_if<NameUse>(&node)) word.text = use->name;
+    if (const auto* text = std::get_if<TextLiteral>(&node)) word.text = text->text;
+    if (const auto* call = std::get_if<Call>(&node)) word = call->callee;
+    const auto* material = known(word, *from.home);  // by its own name, whatever else people call it
+    return std::string(material ? material->node->name.text : word.text);
   }
 
   bool no_component(Span span) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -165,9 +166,9 @@ struct Declarations {
   Names<DeviceDeclaration> devices;
   Names<HandDeclaration> hands;
   Names<Declared<MaterialDecl>> materials;
-  /// What a `like` of this file means that none of these is, found in the library; null where nothing was, which has
-  /// been reported.
-  std::map<const Setting*, const Declared<MaterialDecl>*> likes;
+  /// Materials of the library that this file names without declaring or importing them, by the byte where the name
+  /// begins. Null where nothing was found, which has been reported.
+  std::map<std::uint32_t, const Declared<MaterialDecl>*> library_materials;
   /// What imported files keep to themselves, and where: to tell it from what is unknown.
   std::map<std::string, Span, std::less<>> private_names;
   std::vector<Map> own_maps;

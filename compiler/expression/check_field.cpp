@@ -220,14 +220,10 @@ Value BuiltinFunctions::relief() const {
   const auto bytes = file_argument(name);
   if (!bytes) return failed();
   auto read = read_height_image(std::as_bytes(std::span(*bytes)), name, *smooth / *scale);
-  if (const auto* problem = std::get_if<ImageProblem>(&read))
-    return checker.report(problem->size ? Code::image_size : Code::unreadable_image, actuals[0].span,
-                          fmt::format("`{}` {}", value(0).text, problem->reason), "",
-                          problem->size
-                              ? fmt::format("give it at least {0} x {0} pixels, and at most {1} million in all",
-                                            smallest_image_side, most_image_pixels / 1'000'000)
-                              : "save it as PNG, TIFF, JPEG or EXR");
-  auto& picture = std::get<HeightImage>(read);
+  if (!read)
+    return checker.report(read.error().code, actuals[0].span,
+                          fmt::format("`{}`: {}", value(0).text, read.error().sentence), "", read.error().mend);
+  HeightImage& picture = *read;
   Field field{.kind = Field::Kind::relief,
               .from = declarations.dimension("length"),
               .to = declarations.dimension("length"),

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 
+#include "compiler/parse/overloaded.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/embedded_files.hpp"
 
@@ -27,7 +28,7 @@ bool same_but_for_capitals(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// Reads one more file. Its diagnostics are those of whoever compiles it.
+/// Reads one more file. Its errors are reported when it is compiled, not here.
 void read_into(LibraryIndex& index, const std::string& module, const std::string& name, std::string text,
                bool shipped) {
   SourceSet sources;
@@ -62,7 +63,18 @@ LibraryIndex read_all(Resolver& resolver, const std::string& from) {
 }  // namespace
 
 void LibraryIndex::add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped) {
+  const auto add_export = [&](const auto& node, std::string_view what) {
+    if (node.exported) exports_.push_back({std::string(node.name.text), module, what});
+  };
   for (const Declaration& declaration : tree.declarations) {
+    std::visit(Overloaded{
+                   [&](const DimensionDecl& node) { add_export(node, "dimension"); },
+                   [&](const UnitDecl& node) { add_export(node, "unit"); },
+                   [&](const Constant& node) { add_export(node, "constant"); },
+                   [&](const FunctionDecl& node) { add_export(node, "function"); },
+                   [](const auto&) {},
+               },
+               declaration);
     const auto* material = std::get_if<MaterialDecl>(&declaration);
     if (!material) continue;
     IndexedMaterial& entry = materials_.emplace_back();
@@ -81,6 +93,11 @@ void LibraryIndex::add(const std::string& module, const std::string& file, const
         entry.kind = std::move(texts.front());
     }
   }
+}
+
+const ExportedName* LibraryIndex::exported(std::string_view name) const {
+  const auto found = std::ranges::find(exports_, name, &ExportedName::name);
+  return found == exports_.end() ? nullptr : &*found;
 }
 
 std::vector<const IndexedMaterial*> LibraryIndex::meant_by(std::string_view text) const {

@@ -21,23 +21,34 @@ struct IndexedMaterial {
   bool shipped = false;       ///< part of the binary, and no file of the person's own
 };
 
+/// What a file of a library exports besides its materials.
+struct ExportedName {
+  std::string name;
+  std::string module;     ///< the file that declares it, as an import names it
+  std::string_view what;  ///< "function", "constant", "unit" or "dimension"
+};
+
 /// What the materials of a library are called, file by file in the order of their modules.
 class LibraryIndex {
  public:
-  /// Enters the materials of a file. What is wrong with it is no matter here.
+  /// Enters the materials and the exports of a file. Errors in the file do not matter here.
   void add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped = false);
 
   const std::vector<IndexedMaterial>& materials() const { return materials_; }
+
+  /// The first export of that name, or null.
+  const ExportedName* exported(std::string_view name) const;
 
   /// The materials that a text may mean: those of that name; where there are none, those with that title or `called`
   /// so, capitals or not; where there are none either, those of that kind.
   std::vector<const IndexedMaterial*> meant_by(std::string_view text) const;
 
-  /// Everything by which one may be meant.
+  /// Everything by which a material may be meant.
   std::vector<std::string> spellings() const;
 
  private:
   std::vector<IndexedMaterial> materials_;
+  std::vector<ExportedName> exports_;
 };
 
 /// Of all modules that a file called `from` could import: those that the resolver lists, then the embedded ones. Made

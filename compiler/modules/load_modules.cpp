@@ -1,6 +1,7 @@
 #include "compiler/modules/load_modules.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -12,8 +13,11 @@
 #include "compiler/expression/written_out.hpp"
 #include "compiler/modules/declare.hpp"
 #include "compiler/modules/library_index.hpp"
+#include "compiler/modules/meant_material.hpp"
+#include "compiler/parse/made_from.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/text/embedded_files.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 
@@ -53,27 +57,11 @@ void report_all(const Diagnostics& found, Diagnostics& diagnostics) {
   for (const Diagnostic& each : found.all()) diagnostics.report(each);
 }
 
-/// What a setting `like X`, `like "deep wale corduroy"` or `like fabric.woven` says; nothing of any other, nor where it
-/// makes no sense, which `assemble` reports.
-std::optional<Word> liked_by(const Setting& setting, const SyntaxTree& tree) {
-  if (setting.key.text != "like" || setting.items.size() != 1) return std::nullopt;
-  const SettingItem& item = setting.items.front();
-  if (item.words.size() == 1 && !item.value) return item.words.front();
-  const auto* text = item.value ? std::get_if<TextLiteral>(&tree.expr(*item.value)) : nullptr;
-  return text ? std::optional(Word{text->text, tree.span(*item.value)}) : std::nullopt;
-}
-
-/// Of several materials those whose files are imported, if there are any.
-void choose_nearest(const SyntaxTree& tree, std::vector<const IndexedMaterial*>& found) {
-  const auto is_imported = [&](const IndexedMaterial* each) {
-    return std::ranges::any_of(tree.declarations, [&](const Declaration& declaration) {
-      const auto* import = std::get_if<Import>(&declaration);
-      return import && import->module.text == each->module;
-    });
-  };
-  if (std::ranges::any_of(found, is_imported)) std::erase_if(found, std::not_fn(is_imported));
-  const auto is_own = [](const IndexedMaterial* each) { return !each->shipped; };
-  if (std::ranges::any_of(found, is_own)) std::erase_if(found, std::not_fn(is_own));
+std::vector<std::string_view> imported_modules(const SyntaxTree& tree) {
+  std::vector<std::string_view> modules;
+  for (const Declaration& declaration : tree.declarations)
+    if (const auto* import = std::get_if<Import>(&declaration)) modules.push_back(import->module.text);
+  return modules;
 }
 
 /// Follows imports depth first, so that what a file refers to is declared before it.
@@ -82,14 +70,14 @@ class ModuleLoader {
   ModuleLoader(SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, ModuleSet& modules)
       : sources_(sources), resolver_(resolver), diagnostics_(diagnostics), modules_(modules) {}
 
-  /// The file itself, with all that its imports and its `like`s bring, each before what uses it. It knows the devices
-  /// of its project besides.
+  /// The file itself, with all that its imports and the materials that it names bring, each before what uses it. It
+  /// knows the devices of its project besides.
   void load(SyntaxTree tree) {
     add_project_devices_of(sources_[tree.source].name);
     const std::shared_ptr<const Module> file = add(std::move(tree));
     modules_.modules.pop_back();
     // What is brought may bring more.
-    for (std::size_t i = 0; i < added_.size(); ++i) find_likes(*std::shared_ptr(added_[i]));
+    for (std::size_t i = 0; i < added_.size(); ++i) find_materials(*std::shared_ptr(added_[i]));
     modules_.modules.push_back(file);
   }
 
@@ -196,34 +184,33 @@ class ModuleLoader {
     return true;
   }
 
-  /// Finds what the materials of a file are like that it neither declares nor imports by that name.
-  void find_likes(Module& module) {
+  /// Finds the materials that those of a file are made from and that it neither declares nor imports by those names.
+  void find_materials(Module& module) {
     for (const Declaration& declaration : module.tree.declarations)
       if (const auto* material = std::get_if<MaterialDecl>(&declaration))
-        for (const Setting& setting : material->representative)
-          if (const auto liked = liked_by(setting, module.tree)) {
-            if (const auto* named = module.declarations.materials.find(liked->text); !named)
-              module.declarations.likes[&setting] = find_in_library(module, std::string(material->name.text), *liked);
-            else if (setting.items.front().value)
-              module.declarations.likes[&setting] = named;
-          }
+        for (const Word& word : made_from(*material, module.tree))
+          if (!module.declarations.materials.contains(word.text))
+            module.declarations.library_materials[word.span.begin] =
+                find_in_library(module, std::string(material->name.text), word);
   }
 
-  /// What a material of a file is like: one of the file itself goes before one that it imports, and that before others.
-  const Declared<MaterialDecl>* find_in_library(const Module& module, std::string_view asking, const Word& liked) {
+  /// The material that a word means: one of the file itself goes before one that it imports, and that before others.
+  /// No material means itself by its title or kind. Null where none or several are found, which is reported.
+  const Declared<MaterialDecl>* find_in_library(const Module& module, std::string_view asking, const Word& word) {
     LibraryIndex own;
     own.add(module.name, module.name, module.tree);
     const auto others = [&](std::vector<const IndexedMaterial*> found) {
       std::erase_if(found, [&](const IndexedMaterial* each) { return each->name == asking && is_file(module, *each); });
       return found;
     };
-    if (const auto near = others(own.meant_by(liked.text)); near.size() == 1)
+    if (const auto near = others(own.meant_by(word.text)); near.size() == 1)
       return module.declarations.materials.find(near.front()->name);
     const std::shared_ptr<const LibraryIndex> index = library_index(resolver_, module.name);
-    std::vector<const IndexedMaterial*> found = others(index->meant_by(liked.text));
-    if (found.size() > 1) choose_nearest(module.tree, found);
-    if (found.size() != 1) return report_likes(module, liked, found, *index), nullptr;
-    const auto file = follow({found.front()->module, liked.span}, module.name);
+    std::vector<const IndexedMaterial*> found = others(index->meant_by(word.text));
+    keep_preferred(found, imported_modules(module.tree));
+    if (found.empty()) return report_unknown(module, word, own, *index), nullptr;
+    if (found.size() > 1) return report_ambiguous(word, found), nullptr;
+    const auto file = follow({found.front()->module, word.span}, module.name);
     return file ? file->declarations.materials.find(found.front()->name) : nullptr;
   }
 
@@ -236,30 +223,51 @@ class ModuleLoader {
     return module.name == path || module.name.ends_with("/" + path);
   }
 
-  void report_likes(const Module& module, const Word& liked, const std::vector<const IndexedMaterial*>& found,
-                    const LibraryIndex& index) {
-    if (found.empty()) {
-      std::vector<std::string> candidates = module.declarations.materials.spellings();
-      for (std::string& each : index.spellings()) candidates.push_back(std::move(each));
-      diagnostics_.report(
-          did_you_mean(liked.span, liked.text, candidates,
-                       "declare it in this file, or `import` the file that does, as in `import "
-                       "fabric.denim`; what the library has is found by itself",
-                       false)
-              .about(Code::unknown_name, liked.span, fmt::format("no material is called `{}`", liked.text)));
-      return;
-    }
-    std::string all;
-    constexpr std::size_t most_told = 5;
-    for (std::size_t i = 0; i < std::min(found.size(), most_told); ++i)
-      all += fmt::format("{}`{}` of `{}`", i == 0 ? "" : ", ", found[i]->name, found[i]->module);
-    if (found.size() > most_told) all += fmt::format(" and {} more", found.size() - most_told);
+  void report_unknown(const Module& module, const Word& word, const LibraryIndex& own, const LibraryIndex& index) {
+    const std::string message = fmt::format("no material is called `{}`", word.text);
+    const std::string_view before_dot = word.text.substr(0, word.text.find('.'));
+    if (const ExportedName* other = index.exported(word.text))
+      return diagnostics_.report(
+          Advice(fmt::format("`{}` is a {} of `{}`; to use it in an expression, write `import {}`", word.text,
+                             other->what, other->module, other->module))
+              .about(Code::unknown_name, word.span, message));
+    // Its own file's materials need no import, and neither do those that it imports.
+    std::vector<std::pair<std::string, std::string>> near;  // a name, and the module to import
+    for (const IndexedMaterial* each : nearest_materials(own, word.text)) near.emplace_back(each->name, "");
+    for (const IndexedMaterial* each : nearest_materials(index, word.text))
+      if (std::ranges::find(near, each->name, &std::pair<std::string, std::string>::first) == near.end())
+        near.emplace_back(each->name, module.declarations.materials.contains(each->name) ? "" : each->module);
+    std::ranges::stable_sort(near, {}, [&](const auto& each) { return letters_changed(word.text, each.first); });
+    constexpr std::size_t most_told = 3;
+    if (near.size() > most_told) near.resize(most_told);
+    if (near.empty())
+      return diagnostics_.report(
+          Advice(fmt::format("declare it, as in `material {} {{ … }}`, or take one of the library; "
+                             "`wale find` lists them",
+                             before_dot))
+              .about(Code::unknown_name, word.span, message));
+    std::vector<std::string> told;
+    for (const auto& [name, from] : near)
+      told.push_back(from.empty() ? fmt::format("`{}`", name) : fmt::format("`{}` (`import {}`)", name, from));
+    const std::string last = std::exchange(told.back(), "");
+    told.pop_back();
+    // A slip in a name that the file itself knows is mended without asking.
+    std::vector<Fix> fixes = respell(word.span, word.text, module.declarations.materials.spellings());
+    if (fixes.empty()) fixes.push_back(replace(word.span, near.front().first, {}, false));
+    diagnostics_.report(Advice(told.empty() ? fmt::format("did you mean {}?", last)
+                                            : fmt::format("did you mean {} or {}?", fmt::join(told, ", "), last))
+                            .fix(std::move(fixes))
+                            .fact("meant", near.front().first)
+                            .about(Code::unknown_name, word.span, message));
+  }
+
+  void report_ambiguous(const Word& word, const std::vector<const IndexedMaterial*>& found) {
     const IndexedMaterial& first = *found.front();
     diagnostics_.report(
-        Advice(first.name == liked.text ? fmt::format("import the one that is meant, as in `import {}`", first.module)
-                                        : fmt::format("name the one that is meant, as in `like {}`", first.name))
-            .about(Code::ambiguous_material, liked.span,
-                   fmt::format("`{}` may be {} materials of the library: {}", liked.text, found.size(), all)));
+        Advice(first.name == word.text ? fmt::format("import the one that you mean, as in `import {}`", first.module)
+                                       : fmt::format("name the one that you mean, as in `{}`", first.name))
+            .about(Code::ambiguous_material, word.span,
+                   fmt::format("`{}` may be {} materials of the library: {}", word.text, found.size(), listed(found))));
   }
 
   SourceSet& sources_;

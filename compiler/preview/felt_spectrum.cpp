@@ -31,7 +31,7 @@ FeltStroke felt_along(Bank bank, const Exhibit& exhibit) {
   }
   const auto place = [&](double time) {
     glm::dvec2 at(exhibit.aside);
-    at[exhibit.axis] = -reach * std::cos(turn * frequency * time);  // begins where it turns, at rest
+    at[exhibit.axis] = -reach * std::cos(turn * frequency * time);  // starts at rest at a turning point
     return at;
   };
   Memory memory(bank.program());
@@ -63,7 +63,7 @@ FeltSpectrum spectrum_of(std::span<const float> signal, double rate) {
     const Spectrum coefficients = fourier_of_line(part);
     std::vector<double>& amplitudes = spectrum.windows.emplace_back();
     for (std::size_t line = 0; line < lines; ++line) {
-      const bool alone = line == 0 || 2 * line == length;  // has no mirror image
+      const bool alone = line == 0 || 2 * line == length;  // this line has no mirror image
       amplitudes.push_back((alone ? 1 : 2) * std::abs(coefficients[line]) / gain);
       squares[line] += amplitudes.back() * amplitudes.back();
     }

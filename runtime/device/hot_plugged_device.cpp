@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/device/driver.hpp"
+
 namespace wale {
 namespace {
 
@@ -120,14 +122,13 @@ void HotPluggedDevice::attend() {
     lost.reset();
     do {
       OpenedDevice opened = reopen_();
-      auto* device = std::get_if<std::unique_ptr<PluggedDevice>>(&opened);
       {
         const std::lock_guard lock(mutex_);
-        report_.refusal = device != nullptr ? "" : std::get<Refusal>(opened).reason;
+        report_.refusal = opened ? "" : in_words(opened.error());
       }
-      if (device == nullptr) continue;
+      if (!opened) continue;
       returns_.fetch_add(1, std::memory_order_relaxed);
-      offered_.store(device->release(), std::memory_order_release);
+      offered_.store(opened->release(), std::memory_order_release);
       break;
     } while (rest());
   }

@@ -1,4 +1,4 @@
-// `like` finds what no file imports: by name, by what people call it, by its kind.
+// Materials are found that no file imports: by name, by what people call them, by their kind.
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/modules/meant_material.hpp"
 #include "compiler/parse/parse.hpp"
 #include "tests/compiler/compiling.hpp"
 
@@ -120,7 +121,7 @@ TEST(Likes, ThatMayBeSeveralAreAnErrorThatNamesThem) {
   EXPECT_EQ(
       Checked(like("denim"), files).said(),
       "W0217 `denim` may be 2 materials of the library: `denim` of `new.cloth`, `denim` of `old.cloth`; import the "
-      "one that is meant, as in `import new.cloth`");
+      "one that you mean, as in `import new.cloth`");
   // The mend does.
   EXPECT_FLOAT_EQ(Checked("import old.cloth\n" + like("denim"), files).force(), -0.03f);
   EXPECT_FLOAT_EQ(Checked("import old.cloth\n" + like("test.twill"), files).force(), -0.03f);
@@ -128,7 +129,7 @@ TEST(Likes, ThatMayBeSeveralAreAnErrorThatNamesThem) {
 
 TEST(Likes, OfNothingAreAnErrorWithWhatIsNearest) {
   const std::string said = Checked(like("corduroi"), {{"cloth", spring("corduroy", 50, "called \"cord\"")}}).said();
-  EXPECT_EQ(said, "W0201 no material is called `corduroi`; did you mean `corduroy`?");
+  EXPECT_EQ(said, "W0201 no material is called `corduroi`; did you mean `corduroy` (`import cloth`)?");
   EXPECT_NE(Checked(like("\"zzzzzz\""), {}).said().find("W0201 no material is called `zzzzzz`"), std::string::npos);
 }
 
@@ -151,6 +152,77 @@ TEST(Likes, OfABrokenFileSayWhatIsWrongWithIt) {
   const Checked file(like("denim"), {{"cloth", "material denim { physical { force = } }"}});
   ASSERT_TRUE(file.diagnostics.has_errors());
   EXPECT_EQ(file.sources[file.diagnostics.all().front().span.source].name, "cloth");
+}
+
+const std::map<std::string, std::string> two_springs{
+    {"cloth", spring("denim", 50, "called \"jeans\"") +
+                  "material felt { physical { param k = 30 N/m in 0 N/m .. 90 N/m\n force = -k * hand } }\n"
+                  "export function softened(k) = k / 2\n"}};
+
+// Forces of springs add, so each expected force is the weighted sum of the stiffnesses, times 1 mm.
+TEST(MaterialNames, MayStandWhereverAMaterialIsMadeFromOthers) {
+  const auto force = [](const std::string& what) {
+    return Checked("material m = " + what + "\n", two_springs).force();
+  };
+  EXPECT_FLOAT_EQ(force("denim"), -0.05f);
+  EXPECT_FLOAT_EQ(force("\"jeans\""), -0.05f);
+  EXPECT_FLOAT_EQ(force("felt(k: 60 N/m)"), -0.06f);
+  EXPECT_FLOAT_EQ(force("0.5 denim + 0.5 felt"), -0.04f);
+  EXPECT_FLOAT_EQ(force("50 % denim + 0.5 * felt(k: 60 N/m)"), -0.055f);
+  EXPECT_FLOAT_EQ(force("0.5 * \"jeans\" + 0.5 felt"), -0.04f);
+  EXPECT_FLOAT_EQ(force("between(felt, felt(k: 60 N/m), 0.5)"), -0.045f);
+  EXPECT_FLOAT_EQ(force("between(0.5 denim + 0.5 felt, 0.5 denim + 0.5 felt, 0.5)"), -0.04f);
+}
+
+TEST(MaterialNames, AreTheFilesOwnBeforeTheLibrarys) {
+  EXPECT_FLOAT_EQ(Checked(spring("denim", 20) + "material m = 0.5 denim + 0.5 felt\n", two_springs).force(), -0.025f);
+}
+
+TEST(MaterialNames, ThatPeopleUseGiveTheWeightTheMaterialsOwnName) {
+  const Checked file("material m = 0.5 * \"jeans\" + 0.5 felt\n", two_springs);
+  ASSERT_EQ(file.said(), "");
+  EXPECT_EQ(file.module.material("m")->parameters.front().name, "denim_weight");
+}
+
+TEST(MaterialNames, ThatNothingHasComeWithTheNearestThreeAndTheirImports) {
+  const std::map<std::string, std::string> files{
+      {"a", spring("quilt", 1)}, {"b", spring("quilp", 2)}, {"c.d", spring("quilts", 3)}, {"e", spring("quarts", 4)}};
+  for (const char* what : {"quil", "quil(k: 1)", "0.5 quil", "2 * quil", "between(quil, quilt, 0.5)"})
+    EXPECT_EQ(Checked(std::string("material m = ") + what + "\n", files).said(),
+              "W0201 no material is called `quil`; did you mean `quilt` (`import a`), `quilp` (`import b`) or `quilts` "
+              "(`import c.d`)?")
+        << what;
+  // What the file itself has needs no import.
+  const std::string own = Checked(spring("quils", 1) + "material m = quil\n", {}).said();
+  EXPECT_TRUE(own.starts_with("W0201 no material is called `quil`; did you mean `quils`, ")) << own;
+}
+
+TEST(MaterialNames, OfWhatIsNoMaterialSayWhatItIs) {
+  EXPECT_EQ(Checked("material m = softened\n", two_springs).said(),
+            "W0201 no material is called `softened`; `softened` is a function of `cloth`; to use it in an expression, "
+            "write `import cloth`");
+}
+
+TEST(MaterialNames, OnACommandLineFollowTheSameRule) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  LibraryIndex index;
+  const auto add = [&](const std::string& module, const std::string& text, bool shipped) {
+    const SourceId source = sources.add(module, "wale 1\n" + text);
+    index.add(module, module + ".wale", parse(sources, source, diagnostics), shipped);
+  };
+  add("shipped", spring("denim", 1, "called \"jeans\"") + spring("felt", 1) + spring("oak", 1), true);
+  add("own", spring("denim", 2), false);
+  add("other", spring("oak", 2), false);
+  add("third", spring("oak", 2), false);
+  ASSERT_TRUE(meant_material(index, "denim"));
+  EXPECT_EQ((*meant_material(index, "denim"))->module, "own");
+  EXPECT_EQ((*meant_material(index, "Jeans"))->module, "shipped");
+  EXPECT_EQ(meant_material(index, "oak").error().code, Code::ambiguous_material);
+  EXPECT_EQ(meant_material(index, "oak").error().sentence,
+            "`oak` may be 2 materials: `oak` of `other`, `oak` of `third`");
+  EXPECT_EQ(meant_material(index, "fellt").error().code, Code::unknown_name);
+  EXPECT_EQ(meant_material(index, "fellt").error().mend, "the nearest: `felt` of `shipped`");
 }
 
 TEST(CommonModules, ThatAreBrokenSaySoInEveryCompilation) {

@@ -41,7 +41,7 @@ int count_red(const Drawing& drawing) {
   return count;
 }
 
-Drawing draw(const Bank& bank) { return draw_preview(bank, {}); }
+Drawing draw(const Bank& bank) { return *draw_preview(bank, {}); }
 
 /// The marks alone, where the page has them, on white; a page takes longer.
 Drawing marks_of(const Bank& bank) {
@@ -49,7 +49,7 @@ Drawing marks_of(const Bank& bank) {
   const Rehearsal rehearsal = rehearse(bank);
   const PageBox box = {picture_left, picture_top, picture_left + picture_side, picture_top + picture_side};
   draw_marks(canvas, box, {.side = side}, rehearsal);
-  return canvas.finish();
+  return canvas.finish(**image_library());
 }
 
 constexpr std::uint32_t red = 0xd01010;

@@ -6,14 +6,14 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "runtime/device/falcon/falcon_plane.hpp"
-#include "runtime/device/plugged_device.hpp"
 #include "runtime/device/falcon/falcon_firmware.hpp"
+#include "runtime/device/falcon/falcon_plane.hpp"
 #include "runtime/device/falcon/falcon_transport.hpp"
+#include "runtime/device/plugged_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
@@ -45,11 +45,10 @@ struct FalconOptions {
 class FalconDevice final : public PluggedDevice {
  public:
   /// Loads the firmware where the device runs none, and waits until it is homed. The profile's counts and force are
-  /// positive. The refusal says what is in the way: permissions and the rule that gives them, another program, missing
-  /// firmware and where it comes from, nobody who moves the handle.
-  static std::variant<std::unique_ptr<FalconDevice>, Refusal> open(std::shared_ptr<UsbContext> context,
-                                                                   const UsbDeviceInfo& info, DeviceProfile profile,
-                                                                   const FalconOptions& options = {});
+  /// positive. The error says what is in the way: permissions and the rule that gives them, another program, missing
+  /// firmware and where it comes from, or a handle that nobody has moved.
+  static Result<std::unique_ptr<FalconDevice>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
+                                                    DeviceProfile profile, const FalconOptions& options = {});
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long) noexcept override {}

@@ -23,11 +23,11 @@ std::int16_t number_in(std::uint64_t lanes, int index) noexcept {
 
 }  // namespace
 
-std::variant<std::unique_ptr<FalconTransport>, Refusal> FalconTransport::open(std::shared_ptr<UsbContext> context,
-                                                                              const UsbDeviceInfo& info,
-                                                                              Options options) {
+Result<std::unique_ptr<FalconTransport>> FalconTransport::open(std::shared_ptr<UsbContext> context,
+                                                               const UsbDeviceInfo& info, Options options) {
   const auto refused = [&](int error) {
-    return Refusal{in_words(info.vendor, info.product) + ": " + why_not_usable(error, info).reason, {}};
+    return Error{Code::unusable_device,
+                 in_words(info.vendor, info.product) + ": " + why_not_usable(error, info).reason};
   };
   libusb_device* device = context->find(info);
   if (device == nullptr) return refused(LIBUSB_ERROR_NO_DEVICE);

@@ -7,11 +7,11 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <variant>
 
 #include "runtime/device/falcon/falcon_session.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
+#include "schema/result.hpp"
 
 struct libusb_device_handle;
 struct libusb_transfer;
@@ -29,10 +29,10 @@ class FalconTransport {
     MicrosecondClock now = microseconds_now;  ///< by which silences are told, and the handle's speed
   };
 
-  /// Claims the device and sets it up as far as homing: without firmware of its own that takes some seconds. A refusal
-  /// says why the device cannot be used, and has left it without force.
-  static std::variant<std::unique_ptr<FalconTransport>, Refusal> open(std::shared_ptr<UsbContext> context,
-                                                                      const UsbDeviceInfo& info, Options options);
+  /// Claims the device and sets it up as far as homing: some seconds where it has no firmware yet. An error says why
+  /// the device cannot be used, and leaves it without force.
+  static Result<std::unique_ptr<FalconTransport>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
+                                                       Options options);
   /// Lets the motors go, waits for what is on its way, gives the interface back.
   ~FalconTransport();
   FalconTransport(const FalconTransport&) = delete;

@@ -1,9 +1,9 @@
-#include "wale/simulated.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+
+#include "wale/simulated.hpp"
 
 namespace wale {
 namespace {

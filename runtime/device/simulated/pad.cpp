@@ -1,8 +1,8 @@
-#include "wale/simulated_pad.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "wale/simulated_pad.hpp"
 
 namespace wale {
 namespace {

@@ -61,6 +61,13 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
+/// `line` counts from 1; 0: the text as a whole.
+Error unlike(std::size_t line, const std::string& expected, const std::string& found) {
+  Error error{Code::unreadable_table, "expected " + expected + ", found " + found};
+  if (line > 0) error.place.number = line;
+  return error;
+}
+
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 /// The unit's size in SI, 1 for no unit, or nothing for a unit that the quantity does not have.
@@ -99,7 +106,7 @@ std::optional<Heading> read_heading(std::string_view text) {
   return Heading{*quantity, trimmed(unit)};
 }
 
-std::variant<Columns, TraceError> read_header(std::string_view line, std::size_t line_number) {
+Result<Columns> read_header(std::string_view line, std::size_t line_number) {
   Columns columns;
   const std::vector<std::string_view> headings = cells_of(line);
   for (std::size_t number = 0; number < headings.size(); ++number) {
@@ -109,30 +116,29 @@ std::variant<Columns, TraceError> read_header(std::string_view line, std::size_t
     const std::string name = quoted(names[quantity]);
     if (columns[quantity]) {
       const std::string first = std::to_string(columns[quantity]->number + 1), second = std::to_string(number + 1);
-      return TraceError{line_number, "one column " + name, "two, columns " + first + " and " + second};
+      return unlike(line_number, "one column " + name, "two, columns " + first + " and " + second);
     }
     const std::optional<double> in_si = size_of(unit, quantity);
     if (!in_si) {
       std::string known;
       for (const Unit& one : units_of(quantity)) known += (known.empty() ? "" : ", ") + std::string(one.name);
-      return TraceError{line_number, "column " + name + " in one of " + known, quoted(unit)};
+      return unlike(line_number, "column " + name + " in one of " + known, quoted(unit));
     }
     columns[quantity] = Column{number, *in_si};
   }
   for (const Quantity quantity : {time, x, y}) {
     if (!columns[quantity]) {
-      return TraceError{line_number, "a header with the columns t, x, y; missing " + quoted(names[quantity]),
-                        quoted(trimmed(line))};
+      return unlike(line_number, "a header with the columns t, x, y; missing " + quoted(names[quantity]),
+                    quoted(trimmed(line)));
     }
   }
   if (columns[vx].has_value() != columns[vy].has_value()) {
-    return TraceError{line_number, "both vx and vy, or neither", columns[vx] ? "vx alone" : "vy alone"};
+    return unlike(line_number, "both vx and vy, or neither", columns[vx] ? "vx alone" : "vy alone");
   }
   return columns;
 }
 
-std::variant<TracePoint, TraceError> read_point(std::string_view line, std::size_t line_number,
-                                                const Columns& columns) {
+Result<TracePoint> read_point(std::string_view line, std::size_t line_number, const Columns& columns) {
   const std::vector<std::string_view> cells = cells_of(line);
   std::array<double, quantities> values{};
   for (std::size_t i = 0; i < quantities; ++i) {
@@ -141,13 +147,13 @@ std::variant<TracePoint, TraceError> read_point(std::string_view line, std::size
     const std::string expected = "a finite number for " + quoted(names[i]) + " in column " + std::to_string(number + 1);
     if (number >= cells.size()) {
       const std::string count = std::to_string(cells.size());
-      return TraceError{line_number, expected, "only " + count + (cells.size() == 1 ? " column" : " columns")};
+      return unlike(line_number, expected, "only " + count + (cells.size() == 1 ? " column" : " columns"));
     }
     std::string_view cell = cells[number];
     if (cell.starts_with('+')) cell.remove_prefix(1);
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values[i]);
     if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(values[i])) {
-      return TraceError{line_number, expected, cells[number].empty() ? "nothing" : quoted(cells[number])};
+      return unlike(line_number, expected, cells[number].empty() ? "nothing" : quoted(cells[number]));
     }
     values[i] *= in_si;
   }
@@ -178,7 +184,7 @@ std::string shortest(double value) {
 
 }  // namespace
 
-std::variant<Trace, TraceError> read_trace(std::string_view text) {
+Result<Trace> read_trace(std::string_view text) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
 
@@ -189,22 +195,22 @@ std::variant<Trace, TraceError> read_trace(std::string_view text) {
     if (line.empty() || line.starts_with('#')) continue;
     if (!columns) {
       auto header = read_header(line, line_number);
-      if (auto* error = std::get_if<TraceError>(&header)) return *error;
-      columns = std::get<Columns>(header);
+      if (!header) return std::move(header.error());
+      columns = *header;
       trace.velocities_given = (*columns)[vx].has_value();
       continue;
     }
     auto read = read_point(line, line_number, *columns);
-    if (auto* error = std::get_if<TraceError>(&read)) return *error;
-    const TracePoint& point = std::get<TracePoint>(read);
+    if (!read) return std::move(read.error());
+    const TracePoint& point = *read;
     if (!trace.points.empty() && point.time <= trace.points.back().time) {
-      return TraceError{line_number, "a time after " + shortest(trace.points.back().time) + " s",
-                        shortest(point.time) + " s"};
+      return unlike(line_number, "a time after " + shortest(trace.points.back().time) + " s",
+                    shortest(point.time) + " s");
     }
     trace.points.push_back(point);
   }
-  if (!columns) return TraceError{0, "a header with the columns t, x, y", "nothing"};
-  if (trace.points.empty()) return TraceError{0, "at least one line of numbers after the header", "none"};
+  if (!columns) return unlike(0, "a header with the columns t, x, y", "nothing");
+  if (trace.points.empty()) return unlike(0, "at least one line of numbers after the header", "none");
   if (!trace.velocities_given) derive_velocities(trace.points);
   return trace;
 }
