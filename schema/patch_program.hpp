@@ -318,12 +318,6 @@ struct PatchProgram {
   friend bool operator==(const PatchProgram&, const PatchProgram&) = default;
 };
 
-/// Why something failed, of code that does not use `Error` yet.
-struct Refusal {
-  std::string reason;
-  std::vector<Place> led_to = {};
-};
-
 /// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md): the same program gives the same bytes everywhere.
 std::vector<std::byte> write_patch_program(const PatchProgram& program);
 

@@ -161,7 +161,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
   const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
   felt.device.reset();  // one that draws gives the terminal back
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
-  return result.record_problem ? refuse(in_words(*result.record_problem)) : done;
+  return result.record_problem ? refuse(*result.record_problem) : done;
 }
 
 int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
@@ -176,7 +176,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   stage.place(material.program);
   for (std::size_t i = 0; i < material.parameters.size(); ++i)
     if (const auto set = stage.set(program.parameters[i].name, material.parameters[i]); !set)
-      return refuse(in_words(set.error()));
+      return refuse(set.error());
 
   const bool live = isatty(fileno(stderr));
   RunOptions run = run_options(options, felt->manner(), stop);
@@ -189,7 +189,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     return stage.run(run);
   }();
   if (live) fmt::print(stderr, "\r\033[K");
-  if (!result) return refuse(in_words(result.error()));
+  if (!result) return refuse(result.error());
   return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 
@@ -246,7 +246,11 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
                      .predicted = Comparer(common->declarations, device).compare(cues(a), cues(*b))};
   AskingPerson person(std::cin, std::cerr, report.a, report.b, blind.trials, isatty(fileno(stdin)));
   report.session = wale::feel_blind(*felt->device, a, *b, blind, person);
-  if (report.session.trials.empty()) return refuse(fmt::format("no trial was answered: {}", report.session.ended));
+  if (report.session.trials.empty()) {
+    Error error = *report.session.ended;
+    error.sentence = "no trial was answered: " + error.sentence;
+    return refuse(error);
+  }
   fmt::print("{}", options.json ? blind_json(report) : blind_text(report));
   return done;
 }

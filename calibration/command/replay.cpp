@@ -15,9 +15,9 @@
 namespace wale::command {
 namespace {
 
-/// What a person wants to know of a recording before they look closer.
+/// The overview of a recording.
 struct Summary {
-  std::vector<std::string> materials;  ///< of its programs, with their hashes
+  std::vector<std::string> materials;  ///< the materials of its programs, with their hashes
   long sets = 0, swaps = 0, moves = 0, placements = 0, missed = 0;
   double seconds = 0;
 };
@@ -121,7 +121,7 @@ struct ReplayOptions {
 
 int replay(const ReplayOptions& options) {
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
-  if (!opened) return refuse(in_words(opened.error()));
+  if (!opened) return refuse(opened.error());
   const auto& recording = *opened;
   if (!options.csv.empty())
     if (const auto written = exported(options.csv,
@@ -130,13 +130,13 @@ int replay(const ReplayOptions& options) {
                                         return Result<>();
                                       });
         !written)
-      return refuse(in_words(written.error()));
+      return refuse(written.error());
   if (!options.wav.empty())
     if (const auto written = exported(options.wav, [&](std::ostream& out) { return write_wav(out, recording); });
         !written)
-      return refuse(in_words(written.error()));
+      return refuse(written.error());
   const auto replayed = wale::replay(recording);
-  if (!replayed) return refuse(in_words(replayed.error()));
+  if (!replayed) return refuse(replayed.error());
   const auto& result = *replayed;
   fmt::print(
       "{}", options.json ? replay_json(options.file, recording, result) : replay_text(options.file, recording, result));

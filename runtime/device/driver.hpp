@@ -35,7 +35,9 @@ struct PluggedIn {
   std::optional<Error> obstacle = {};     ///< why it cannot be used; nothing where no reason is known
   std::string profile = {};               ///< the declared device that it is, where its driver knows; else empty
   std::string transport = {};             ///< how it would be driven, and why; empty where there is one way only
-  std::vector<std::string> held_by = {};  ///< other programs that have it open: "steam (4711)"
+  /// Other programs that have it open: "steam (4711) by /dev/input/event5".
+  std::vector<std::string> held_by = {};
+  long processes_hidden = 0;  ///< processes whose open files this user may not see
   UsbDeviceInfo usb = {};                 ///< of a device on USB
 };
 

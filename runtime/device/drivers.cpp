@@ -26,10 +26,7 @@ const Driver* find_driver(Drivers drivers, std::string_view name) {
 }
 
 Connections Connections::open() {
-  auto context = UsbContext::open();
-  if (auto* refusal = std::get_if<Refusal>(&context))
-    return {Error{Code::unusable_device, "USB cannot be used: " + refusal->reason}};
-  return {std::get<std::shared_ptr<UsbContext>>(std::move(context))};
+  return {UsbContext::open()};
 }
 
 std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked, Drivers drivers) {
