@@ -84,8 +84,7 @@ Result<> comparable(const std::vector<ComparedFile>& files) {
           Code::other_device,
           fmt::format("`{}` is built for a device that only vibrates, and materials are compared by their forces",
                       file.vibrates),
-          "compare it on a device that pushes",
-          {file.vibrates}};
+          "compare it on a device that pushes"};
   for (const ComparedFile& file : files)
     for (const Cues& each : file.cues) {
       if (!first) first = &each;
@@ -93,8 +92,7 @@ Result<> comparable(const std::vector<ComparedFile>& files) {
         return Error{Code::other_device,
                      fmt::format("`{}` is built for `{}` and `{}` for `{}`", first->material, first->device,
                                  each.material, each.device),
-                     "build both for one device",
-                     {each.material}};
+                     "build both for one device"};
       ++count;
     }
   if (count < 2) return Error{Code::unknown_material, "there is only one material", "name another to compare it with"};

@@ -99,16 +99,12 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
                                      std::optional<std::size_t> steps, double apart, const Declarations& declarations) {
   const PerceptName meant = declarations.percept_named(name);
   if (!meant.percept)
-    return Error{Code::unknown_name,
-                 fmt::format("no percept is called `{}`", name),
-                 candidates(name, declarations.percept_spellings()),
-                 {name}};
+    return Error{Code::unknown_name, fmt::format("no percept is called `{}`", name),
+                 candidates(name, declarations.percept_spellings())};
   const DeviceDeclaration* on = declarations.devices.find(device);
   if (!on)
-    return Error{Code::unknown_device,
-                 fmt::format("no device is called `{}`", device),
-                 candidates(device, declarations.devices.spellings()),
-                 {device}};
+    return Error{Code::unknown_device, fmt::format("no device is called `{}`", device),
+                 candidates(device, declarations.devices.spellings())};
   if (!(apart > 0)) return Error{Code::malformed_value, "the distance of levels must be above 0", {}, {"--jnd"}};
   if (steps && *steps < 2) return Error{Code::malformed_value, "expected two levels or more", {}, {"--steps"}};
   if (on->profile.shaker && !on->realise.contains(meant.percept->name))

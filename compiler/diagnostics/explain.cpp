@@ -43,10 +43,8 @@ Result<Code> code_named(std::string_view name) {
     names.push_back(code_name(code));
   }
   const auto near = nearest_spelling(number ? fmt::format("W{:04}", *number) : std::string(name), names);
-  return Error{Code::unknown_name,
-               fmt::format("no diagnostic has the code `{}`", name),
-               near ? fmt::format("did you mean `{}`?", *near) : "`wale explain` lists all codes",
-               {std::string(name)}};
+  return Error{Code::unknown_name, fmt::format("no diagnostic has the code `{}`", name),
+               near ? fmt::format("did you mean `{}`?", *near) : "`wale explain` lists all codes"};
 }
 
 std::string_view explanation(Code code) {

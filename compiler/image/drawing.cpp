@@ -22,7 +22,8 @@ Result<> save_drawing(const Drawing& drawing, const std::string& path) {
   if (!bytes) return bytes.error();
 
   const auto unwritable = [&](int error) {
-    return Error{Code::unwritable_file, fmt::format("cannot write {}: {}", path, std::strerror(error)), {}, {path}};
+    return Error{
+        Code::unwritable_file, fmt::format("the picture cannot be written: {}", std::strerror(error)), {}, {path}};
   };
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) return unwritable(errno);

@@ -207,11 +207,11 @@ TEST(SaveDrawing, ProblemsAreWords) {
     const auto saved = save_drawing(drawing, path);
     return saved ? "was written" : saved.error().sentence;
   };
-  EXPECT_EQ(reason("wall"), "cannot write wall: its name has no extension");
-  EXPECT_EQ(reason("wall.wale"), "cannot write wall.wale: pictures are not written as .wale");
-  EXPECT_EQ(reason("wall.null"), "cannot write wall.null: pictures are not written as .null");
+  EXPECT_EQ(reason("wall"), "the name of a picture needs an extension");
+  EXPECT_EQ(reason("wall.wale"), "pictures cannot be written as .wale");
+  EXPECT_EQ(reason("wall.null"), "pictures cannot be written as .null");
   EXPECT_EQ(save_drawing(drawing, "wall").error().mend, "use the extension .png");
-  EXPECT_EQ(reason("/no/such/folder/wall.png"), "cannot write /no/such/folder/wall.png: No such file or directory");
+  EXPECT_EQ(reason("/no/such/folder/wall.png"), "the picture cannot be written: No such file or directory");
   EXPECT_FALSE(OIIO::has_error());
 }
 

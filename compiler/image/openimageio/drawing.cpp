@@ -12,8 +12,8 @@ Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std:
   const auto unknown = [&] {
     OIIO::geterror();
     return Error{Code::malformed_value,
-                 extension.empty() ? fmt::format("cannot write {}: its name has no extension", name)
-                                   : fmt::format("cannot write {}: pictures are not written as .{}", name, extension),
+                 extension.empty() ? "the name of a picture needs an extension"
+                                   : fmt::format("pictures cannot be written as .{}", extension),
                  "use the extension .png",
                  {name}};
   };
@@ -29,7 +29,7 @@ Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std:
   if (!output->set_ioproxy(&memory) || !output->open("drawing." + extension, spec) ||
       !output->write_image(OIIO::TypeUInt8, drawing.rgb.data()) || !output->close()) {
     return Error{Code::unwritable_file,
-                 fmt::format("cannot write {}: {}", name, OIIO::Strutil::strip(output->geterror())),
+                 fmt::format("the picture cannot be written: {}", OIIO::Strutil::strip(output->geterror())),
                  {},
                  {name}};
   }
