@@ -91,16 +91,16 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   if (!program) return std::nullopt;
 
   auto loaded = Program::load(std::move(*program));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
+  if (!loaded) {
     diagnostics.report(
         {.code = Code::program_too_large,
          .span = solved.span,
-         .message = fmt::format("the machine refuses `{}`: {}", solved.name, refusal->reason),
+         .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
          .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
-  if (solved.device.shaker) return std::get<Program>(std::move(loaded));  // no height pushes, and nobody is pushed
-  const Bank bank(std::get<Program>(loaded));
+  if (solved.device.shaker) return *std::move(loaded);  // no height pushes, and nobody is pushed
+  const Bank bank(*loaded);
   if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,
                         .span = solved.force_span,
@@ -110,7 +110,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   }
   warn_of_undeclared_energy(bank, solved, diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  return std::get<Program>(std::move(loaded));
+  return *std::move(loaded);
 }
 
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,

@@ -20,12 +20,15 @@ Result<OpenedFile> open_file(const FileRequest& request) {
                          [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
   if (patch_program || opened.name.ends_with(".wpp")) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
-    if (const auto* refusal = std::get_if<Refusal>(&loaded))
-      return Error{.code = Code::refused_program,
-                   .sentence = "this program is refused: " + refusal->reason,
-                   .mend = "build it again from its Wale file",
-                   .place = {.name = opened.name}};
-    opened.program = std::get<Program>(std::move(loaded));
+    if (!loaded) {
+      Error error = loaded.error();
+      error.sentence = "this program is refused: " + in_words(error);
+      error.mend = "build it again from its Wale file";
+      error.place = {.name = opened.name};
+      error.led_to.clear();  // the sentence has it
+      return error;
+    }
+    opened.program = *std::move(loaded);
     return opened;
   }
   const auto resolver = file_resolver(request.roots, request.looked_for);

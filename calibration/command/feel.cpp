@@ -161,7 +161,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
   const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
   felt.device.reset();  // one that draws gives the terminal back
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
-  return result.record_problem.empty() ? done : refuse(result.record_problem);
+  return result.record_problem ? refuse(*result.record_problem) : done;
 }
 
 int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
@@ -175,8 +175,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   Stage stage(*felt->device);
   stage.place(material.program);
   for (std::size_t i = 0; i < material.parameters.size(); ++i)
-    if (const auto refusal = stage.set(program.parameters[i].name, material.parameters[i]))
-      return refuse(refusal->reason);
+    if (const auto set = stage.set(program.parameters[i].name, material.parameters[i]); !set) return refuse(set.error());
 
   const bool live = isatty(fileno(stderr));
   RunOptions run = run_options(options, felt->manner(), stop);
@@ -189,8 +188,8 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     return stage.run(run);
   }();
   if (live) fmt::print(stderr, "\r\033[K");
-  if (const auto* refusal = std::get_if<Refusal>(&result)) return refuse(refusal->reason);
-  return report_run(options, std::get<RunResult>(result), *stage.bank(), *std::move(felt));
+  if (!result) return refuse(result.error());
+  return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 
 /// Why two materials cannot be compared blindly on this device.

@@ -24,8 +24,7 @@ struct Summary {
 
 std::string material_of(const RecordedProgram& program) {
   const auto read = read_patch_program(program.bytes);
-  const auto* known = std::get_if<PatchProgram>(&read);
-  return fmt::format("{} {:016x}", known != nullptr ? known->material : "a program that cannot be read", program.hash);
+  return fmt::format("{} {:016x}", read ? read->material : "a program that cannot be read", program.hash);
 }
 
 Summary summary_of(const Recording& recording) {
@@ -95,20 +94,23 @@ std::string replay_json(const std::string& file, const Recording& recording, con
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Writes a file by `write`, which may refuse; says why not.
+/// Writes a file by `write`, and removes it again where `write` fails.
 template <class Write>
-std::optional<std::string> exported(const std::string& path, Write&& write) {
+Result<> exported(const std::string& path, Write&& write) {
   std::ofstream out(path, std::ios::binary);
   if (out) {
-    if (const std::optional<Refusal> refusal = write(out)) {
+    if (Result<> written = write(out); !written) {
       out.close();
       std::remove(path.c_str());
-      return refusal->reason;
+      return written;
     }
     out.flush();
   }
-  if (!out) return fmt::format("cannot write `{}`: {}", path, std::strerror(errno));
-  return std::nullopt;
+  if (!out)
+    return Error{.code = Code::unwritable_file,
+                 .sentence = fmt::format("cannot write `{}`: {}", path, std::strerror(errno)),
+                 .place = {.name = path}};
+  return {};
 }
 
 struct ReplayOptions {
@@ -119,20 +121,23 @@ struct ReplayOptions {
 
 int replay(const ReplayOptions& options) {
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
-  if (const auto* refusal = std::get_if<Refusal>(&opened)) return refuse(refusal->reason);
-  const auto& recording = std::get<Recording>(opened);
+  if (!opened) return refuse(opened.error());
+  const auto& recording = *opened;
   if (!options.csv.empty())
-    if (const auto problem = exported(options.csv, [&](std::ostream& out) {
-          write_csv(out, recording);
-          return std::optional<Refusal>();
-        }))
-      return refuse(*problem);
+    if (const auto written = exported(options.csv,
+                                      [&](std::ostream& out) {
+                                        write_csv(out, recording);
+                                        return Result<>();
+                                      });
+        !written)
+      return refuse(written.error());
   if (!options.wav.empty())
-    if (const auto problem = exported(options.wav, [&](std::ostream& out) { return write_wav(out, recording); }))
-      return refuse(*problem);
+    if (const auto written = exported(options.wav, [&](std::ostream& out) { return write_wav(out, recording); });
+        !written)
+      return refuse(written.error());
   const auto replayed = wale::replay(recording);
-  if (const auto* refusal = std::get_if<Refusal>(&replayed)) return refuse(refusal->reason);
-  const auto& result = std::get<Replay>(replayed);
+  if (!replayed) return refuse(replayed.error());
+  const auto& result = *replayed;
   fmt::print(
       "{}", options.json ? replay_json(options.file, recording, result) : replay_text(options.file, recording, result));
   return result.first ? refused : done;

@@ -20,15 +20,15 @@ class Interval {
     stage_.place(material.program);
     const auto& parameters = material.program.description().parameters;
     for (std::size_t i = 0; i < material.parameters.size(); ++i)
-      if (const auto refusal = stage_.set(parameters[i].name, material.parameters[i])) return refusal->reason;
+      if (const auto set = stage_.set(parameters[i].name, material.parameters[i]); !set) return in_words(set.error());
     const auto result = stage_.run({.seconds = options_.seconds,
                                     .most_newton = options_.most_newton,
                                     .virtual_time = options_.virtual_time,
                                     .progress = {},
                                     .stop = options_.stop});
-    if (const auto* refusal = std::get_if<Refusal>(&result)) return refusal->reason;
+    if (!result) return in_words(result.error());
     if (options_.stop && *options_.stop) return "interrupted";
-    const auto& run = std::get<RunResult>(result);
+    const auto& run = *result;
     const double felt = static_cast<double>(run.ticks_run + run.ticks_missed) * run.record.seconds_per_tick;
     constexpr double enough = 0.5;  // of an interval: the last period may be cut, a device that is gone is not
     if (felt < enough * options_.seconds) return fmt::format("the device stopped after {:.1f} s", felt);

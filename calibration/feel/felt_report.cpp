@@ -179,11 +179,11 @@ std::string felt_text(const FeltReport& report) {
                         felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const auto& level = report.levels[i];
-    if (const auto* back = std::get_if<Prediction>(&level.back))
-      text += fmt::format("  {:<12} {:.2f} read back from the measured amplitude{}\n", level.name, back->level,
+    if (level.back)
+      text += fmt::format("  {:<12} {:.2f} read back from the measured amplitude{}\n", level.name, level.back->level,
                           report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
     else
-      text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
+      text += fmt::format("  {:<12} not read back: {}\n", level.name, in_words(level.back.error()));
   }
   if (report.levels.empty())
     text += felt.vibration ? "  percepts     none to read back: nothing in it shakes\n"
@@ -231,10 +231,10 @@ std::string felt_json(const FeltReport& report) {
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     auto& entry = percepts[report.levels[i].name];
-    if (const auto* back = std::get_if<Prediction>(&report.levels[i].back))
+    if (const auto& back = report.levels[i].back)
       entry = {{"level", back->level}, {"magnitude", back->magnitude}};
     else
-      entry = {{"refused", std::get<Refusal>(report.levels[i].back).reason}};
+      entry = {{"refused", in_words(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
   for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;

@@ -54,7 +54,8 @@ MaterialWatch::Outcome MaterialWatch::look() {
     if (was_refused) say_(fmt::format("wale: `{}` is what is felt already\n", now.material));
     return Outcome::nothing;
   }
-  if (const auto refusal = stage_.replace(0, *program)) return refuse(fmt::format("wale: {}\n", refusal->reason));
+  if (const auto done = stage_.replace(0, *program); !done)
+    return refuse(fmt::format("wale: {}\n", in_words(done.error())));
   felt_ = std::move(bytes);
   say_(said + fmt::format("wale: `{}` is felt anew\n", now.material));
   return Outcome::replaced;

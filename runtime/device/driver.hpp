@@ -35,14 +35,14 @@ struct PluggedIn {
   std::optional<Error> obstacle = {};     ///< why it cannot be used; nothing where no reason is known
   std::string profile = {};               ///< the declared device that it is, where its driver knows; else empty
   std::string transport = {};             ///< how it would be driven, and why; empty where there is one way only
-  std::vector<std::string> held_by = {};  ///< other programs that have it open: "steam (4711)"
+  /// Other programs that have it open: "steam (4711) by /dev/input/event5".
+  std::vector<std::string> held_by = {};
+  long processes_hidden = 0;  ///< processes whose open files this user may not see
   UsbDeviceInfo usb = {};                 ///< of a device on USB
 };
 
 /// "OpenFFBoard (1209:ffb0 at port 1-2)"
 std::string in_words(const PluggedIn& plugged);
-/// An error in one line: the sentence, and behind a semicolon the mend, where there is one.
-std::string in_words(const Error& error);
 
 struct DeviceOptions {
   int priority = 0;  ///< SCHED_FIFO, of the threads that serve the device, where permitted; 0: ordinary

@@ -26,10 +26,7 @@ const Driver* find_driver(Drivers drivers, std::string_view name) {
 }
 
 Connections Connections::open() {
-  auto context = UsbContext::open();
-  if (auto* refusal = std::get_if<Refusal>(&context))
-    return {Error{Code::unusable_device, "USB cannot be used: " + refusal->reason}};
-  return {std::get<std::shared_ptr<UsbContext>>(std::move(context))};
+  return {UsbContext::open()};
 }
 
 std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked, Drivers drivers) {
@@ -45,10 +42,6 @@ std::string in_words(const PluggedIn& plugged) {
   const std::string name = plugged.name.empty() ? "a device without a name" : plugged.name;
   if (plugged.numbers.empty()) return name + " (" + plugged.port + ")";
   return name + " (" + plugged.numbers + " at port " + plugged.port + ")";
-}
-
-std::string in_words(const Error& error) {
-  return error.mend.empty() ? error.sentence : error.sentence + "; " + error.mend;
 }
 
 }  // namespace wale

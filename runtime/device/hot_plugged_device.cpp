@@ -7,7 +7,7 @@
 namespace wale {
 namespace {
 
-/// Ticks in which the velocity filter forgets where the device was before, at least.
+/// The number of ticks after which the velocity filter holds no position from before.
 long ticks_to_settle(const DeviceProfile& profile) {
   return std::max(1L, static_cast<long>(profile.velocity_window) + 1);
 }
@@ -108,7 +108,7 @@ bool HotPluggedDevice::rest() {
   return !ends_;
 }
 
-/// The side thread.
+/// Runs on the other thread.
 void HotPluggedDevice::attend() {
   while (rest()) {
     std::unique_ptr<PluggedDevice> lost(retired_.exchange(nullptr, std::memory_order_acquire));

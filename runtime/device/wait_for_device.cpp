@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 
 namespace wale {
 

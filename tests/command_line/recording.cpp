@@ -79,7 +79,7 @@ TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
   const std::string before = bytes_of(file);
   const Outcome again = feel({corduroy, "--record", file});
   EXPECT_EQ(again.status, 1);
-  EXPECT_TRUE(contains(again.err, "it is there already")) << again.err;
+  EXPECT_TRUE(contains(again.err, "the file exists already")) << again.err;
   EXPECT_EQ(bytes_of(file), before);
   const Outcome nowhere = feel({corduroy, "--record", folder / "none/a.wrec"});
   EXPECT_EQ(nowhere.status, 1);
@@ -108,7 +108,7 @@ TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
   EXPECT_TRUE(contains(outcome.err, "--ticks 1000")) << outcome.err;
   EXPECT_EQ(wale({"replay", damaged, "--ticks", "1000"}).status, 0);
   EXPECT_TRUE(contains(wale({"replay", folder.write("empty.wrec", "")}).err, "it is empty"));
-  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "it is no recording"));
+  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "it is not a recording"));
   EXPECT_TRUE(contains(wale({"replay", folder / "none.wrec"}).err, "No such file"));
   EXPECT_EQ(wale({"replay"}).status, 2);
 }

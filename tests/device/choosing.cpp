@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "compiler/compile.hpp"
-#include "compiler/diagnostics/render.hpp"
 #include "calibration/command/device_declaration.hpp"
+#include "compiler/compile.hpp"
 #include "compiler/declarations/declared_devices.hpp"
+#include "compiler/diagnostics/render.hpp"
 #include "runtime/device/choose_device.hpp"
 #include "runtime/device/identify_device.hpp"
 #include "runtime/device/shipped_devices.hpp"
@@ -40,11 +40,11 @@ const PluggedIn mouse{
     .numbers = "046d:c077",
     .port = "2-1",
     .name = "Mouse",
-    .obstacle = Error{Code::unlike_device,
-                      "it is not a force device: nothing in its report descriptor is of usage page 0F"}};
+    .obstacle =
+        Error{Code::unlike_device, "it is not a force device: nothing in its report descriptor is of usage page 0F"}};
 
 struct Choice {
-  std::string device;  ///< its port; "simulated"; "absent"; or "refused"
+  std::string device;   ///< its port; "simulated"; "absent"; or "refused"
   std::string profile;  ///< or the mend
   std::string said;
 };
@@ -55,8 +55,8 @@ Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugge
     const bool is_absent = chosen.error().code == Code::absent_device;
     return {is_absent ? "absent" : "refused", chosen.error().mend, in_words(chosen.error())};
   }
-  return {chosen->plugged ? chosen->plugged->port : "simulated",
-          chosen->declared ? chosen->declared->profile.name : "", chosen->said};
+  return {chosen->plugged ? chosen->plugged->port : "simulated", chosen->declared ? chosen->declared->profile.name : "",
+          chosen->said};
 }
 /// The code of the error that a choice ends in.
 Code code_of(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {

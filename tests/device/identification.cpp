@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "tests/runtime/programs.hpp"
@@ -132,7 +133,7 @@ TEST(Identification, FrictionBeyondTheForceIsNoAnswer) {
   TurnedHandle handle(stiff, no_hand, {{{0, 1}, {1, 1}}}, {{{0, 1}, {1, 1}}});
   const Ran ran = identify(handle, stiff);
   EXPECT_FALSE(ran.found.motors_settled);
-  EXPECT_EQ(ran.found.problem, "its x motor: nothing moved: its friction is greater than the force, or it is blocked");
+  EXPECT_EQ(ran.found.problem, "its x motor: nothing moved: its friction is greater than the force, or the handle is blocked");
   EXPECT_FLOAT_EQ(static_cast<float>(ran.largest), 2);
 }
 
@@ -161,7 +162,7 @@ Ran steered(const std::function<glm::dvec2(Force, long)>& where, const IdentifyO
 TEST(Identification, ABlockedAxisIsSaidToBe) {
   const Ran ran = steered([](Force force, long) { return glm::dvec2(0.01 * force.x, 0); });
   EXPECT_TRUE(ran.found.motors[0].moves);
-  EXPECT_EQ(ran.found.problem, "its y motor: nothing moved: its friction is greater than the force, or it is blocked");
+  EXPECT_EQ(ran.found.problem, "its y motor: nothing moved: its friction is greater than the force, or the handle is blocked");
 }
 
 TEST(Identification, OneThatIsBlockedOneWayIsToldByTheOther) {
@@ -175,11 +176,11 @@ TEST(Identification, OneThatIsBlockedOneWayIsToldByTheOther) {
 TEST(Identification, WhatIsNotPlainIsNotSettled) {
   const auto problem = [](const std::function<glm::dvec2(Force, long)>& where) { return steered(where).found.problem; };
   EXPECT_EQ(problem([](Force force, long) { return glm::dvec2(0.01 * (force.x + force.y)); }),
-            "its x motor: it moved along both axes alike");
+            "its x motor: the handle moved along both axes alike");
   EXPECT_EQ(problem([](Force force, long) { return glm::dvec2(0.01 * std::abs(force.x), 0.01 * force.y); }),
-            "its x motor: it moved otherwise one way than the other: was it held?");
+            "its x motor: the handle moved differently each way; perhaps a hand held it");
   EXPECT_EQ(problem([](Force force, long) { return glm::dvec2(0.01 * (force.x + force.y), 0); }),
-            "both motors moved it along the same axis");
+            "both motors moved the handle along the same axis");
 }
 
 TEST(Identification, APersonShowsHowItsAxesLie) {

@@ -24,9 +24,9 @@ GuardCounts guarded(const Program& program) {
     Stage stage(joystick);
     stage.place(program);
     const auto run = stage.run({.seconds = 2, .virtual_time = true});
-    if (const auto* refusal = std::get_if<Refusal>(&run)) throw std::runtime_error(refusal->reason);
-    all.passivity += std::get<RunResult>(run).guards.passivity;
-    all.energy += std::get<RunResult>(run).guards.energy;
+    if (!run) throw std::runtime_error(in_words(run.error()));
+    all.passivity += run->guards.passivity;
+    all.energy += run->guards.energy;
   }
   return all;
 }
@@ -37,8 +37,8 @@ Program late(const Program& program, double ticks) {
   description.device.damping_known = true;
   description.device.delay_x = description.device.delay_y = ticks / description.device.rate;
   auto loaded = Program::load(std::move(description));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
-  return std::get<Program>(std::move(loaded));
+  if (!loaded) throw std::runtime_error(in_words(loaded.error()));
+  return *std::move(loaded);
 }
 
 /// Behind a delay nothing is done to what is passive on the device by itself. What only the hand's damping makes

@@ -86,7 +86,7 @@ class Feeling : public testing::Test {
     return *std::move(choice);
   }
   Program built(const ChosenDevice& device) const {
-    return std::get<Program>(library_.material(corduroy, "", device.declared->profile.name));
+    return *library_.material(corduroy, "", device.declared->profile.name);
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
     auto result = open_device(connections_, device);
@@ -127,8 +127,8 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
     if (again && now.inside && ++felt_again == 20) stop = true;
   };
   const auto ran = stage.run(options);
-  ASSERT_TRUE(std::holds_alternative<RunResult>(ran)) << std::get<Refusal>(ran).reason;
-  const RunResult& result = std::get<RunResult>(ran);
+  ASSERT_TRUE(ran) << in_words(ran.error());
+  const RunResult& result = *ran;
   EXPECT_GT(result.ticks_run, 3000);
   EXPECT_GT(under_way, set_up_of_openffboard.size() + 100);
 
@@ -194,7 +194,7 @@ TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
     long calls = 0;
     RunOptions options{.seconds = 120, .stop = &stop};
     options.progress = [&](const Progress&) { each(++calls); };
-    return std::get<RunResult>(stage.run(options));
+    return *stage.run(options);
   };
   RunResult of_second;
   std::thread second([&] { of_second = run(*second_joystick, [](long) {}); });

@@ -14,11 +14,11 @@ extern const Driver falcon_driver;
 namespace {
 
 /// Only a conversation with it would tell whether it has its firmware, so a missing file is an obstacle.
-void describe_falcon(PluggedIn& listed, libusb_device_handle*) {
+void describe_falcon(PluggedIn& listed, const KernelNodes&, libusb_device_handle*) {
   listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
                " steps of torque to each side";
   const auto firmware = read_falcon_firmware(falcon_firmware_path());
-  if (!firmware) listed.obstacle = firmware.error();
+  if (!firmware && !listed.obstacle) listed.obstacle = firmware.error();
 }
 
 std::vector<PluggedIn> find_falcon(const Connections& connections, const PluggedIn*) {

@@ -10,9 +10,9 @@ bool is_falcon(const UsbDeviceInfo& info) { return info.vendor == falcon::vendor
 
 namespace {
 
-/// Asks the person to home it, and waits until they have, nobody wants it any more, or it is lost.
+/// Asks the person to home it, and waits until that is done, `stop` is true, the patience is over, or it is lost.
 void wait_for_homing(FalconTransport& transport, const FalconOptions& options) {
-  constexpr double at_once = 0.2;  // s, in which one that was homed before says so
+  constexpr double at_once = 0.2;  // s, in which a device that was homed before reports it
   if (transport.was_lost() || transport.wait_until_homed(at_once) || transport.was_lost()) return;
   if (options.ask) options.ask("push the Falcon's handle all the way in, then pull it all the way out");
   constexpr double between_looks = 0.1;  // s

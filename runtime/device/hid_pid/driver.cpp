@@ -1,17 +1,16 @@
 #include "runtime/device/driver.hpp"
 
 #include <libusb.h>
+#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
-#include <variant>
+#include <vector>
 
 #include "runtime/device/hid_pid/hid_pid_device.hpp"
+#include "runtime/device/hid_pid/open_pid_transport.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
 #include "runtime/device/usb/list_usb_devices.hpp"
@@ -23,68 +22,68 @@ extern const Driver hid_pid_driver;
 
 namespace {
 
-/// The report descriptor as the kernel's driver has read it, where one is bound.
-std::optional<std::string> descriptor_from_kernel(const UsbDeviceInfo& info, const UsbHidInterface& interface) {
-  std::error_code error;
-  const std::filesystem::path folder =
-      "/sys/bus/usb/devices/" + info.port + "/" + info.port + ":1." + std::to_string(interface.number);
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    std::ifstream file(entry.path() / "report_descriptor", std::ios::binary);
-    if (file) return std::string(std::istreambuf_iterator<char>(file), {});
-  }
-  return std::nullopt;
-}
-
 /// The report descriptor as the device tells it, where nobody has claimed the interface: nothing is detached.
-Result<std::string> descriptor_from_device(libusb_device_handle* handle, const UsbDeviceInfo& info,
-                                           const UsbHidInterface& interface) {
-  if (const int error = libusb_claim_interface(handle, interface.number); error != 0)
-    return Error{Code::unusable_device, why_not_usable(error, info).reason};
-  std::string bytes(interface.report_descriptor_bytes, 0);
+Result<std::vector<std::uint8_t>> descriptor_from_device(libusb_device_handle* handle, const UsbDeviceInfo& info,
+                                                         const UsbHidInterface& interface) {
+  if (const int error = libusb_claim_interface(handle, interface.number); error != 0) {
+    return why_not_usable(error, info);
+  }
+  std::vector<std::uint8_t> bytes(interface.report_descriptor_bytes);
   constexpr std::uint8_t standard_in = 0x81, get_descriptor = 6;
   constexpr std::uint16_t report_descriptor = 0x2200;
   constexpr unsigned timeout = 100;  // ms
   const int got = libusb_control_transfer(handle, standard_in, get_descriptor, report_descriptor, interface.number,
-                                          reinterpret_cast<unsigned char*>(bytes.data()),
-                                          interface.report_descriptor_bytes, timeout);
+                                          bytes.data(), interface.report_descriptor_bytes, timeout);
   libusb_release_interface(handle, interface.number);
-  if (got < 0) return Error{Code::failed_transfer, "it does not send its report descriptor"};
+  if (got < 0) {
+    return Error{Code::failed_transfer, "it does not send its report descriptor", {}, {.name = "port " + info.port}};
+  }
   bytes.resize(static_cast<std::size_t>(got));
   return bytes;
 }
 
-/// What a report descriptor says that its device can do, or why it cannot.
-void read_descriptor(const std::string& text, PluggedIn& listed) {
-  const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  const auto descriptor = hid::parse_report_descriptor(bytes);
-  if (const auto* error = std::get_if<hid::ReportDescriptorError>(&descriptor)) {
-    listed.obstacle = Error{Code::unlike_device, "its report descriptor is damaged at byte " +
-                                                     std::to_string(error->offset) + ": " + error->reason};
-    return;
-  }
-  const auto found = hid::find_pid_layout(std::get<hid::ReportDescriptor>(descriptor));
-  if (const auto* refusal = std::get_if<hid::PidRefusal>(&found)) {
-    listed.obstacle = Error{Code::unlike_device, refusal->reason};
-    return;
-  }
-  const auto& layout = std::get<hid::PidLayout>(found);
-  listed.can = std::string("two axes ") + (layout.has_direction() ? "by direction" : "each by itself") + ", " +
-               std::to_string(layout.set_constant_force.full()) + " steps of force to each side";
-  listed.obstacle.reset();
+/// What a device whose reports are laid out so can do, in a line.
+Result<std::string> abilities(std::span<const std::uint8_t> report_descriptor) {
+  const auto descriptor = hid::parse_report_descriptor(report_descriptor);
+  if (!descriptor) return descriptor.error();
+  const auto layout = hid::find_pid_layout(*descriptor);
+  if (!layout) return layout.error();
+  return std::string("two axes ") + (layout->has_direction() ? "by direction" : "each by itself") + ", " +
+         std::to_string(layout->set_constant_force.full()) + " steps of force to each side";
 }
 
-void describe_hid_pid(PluggedIn& listed, libusb_device_handle* handle) {
+Result<std::string> abilities_of(const PluggedIn& listed, const KernelNodes& nodes, libusb_device_handle* handle,
+                                 const UsbHidInterface& interface) {
+  const HidNodes* known = nodes.of(interface.number);
+  if (known != nullptr && !known->report_descriptor.empty()) return abilities(known->report_descriptor);
+  if (handle == nullptr) return *listed.obstacle;
+  const auto told = descriptor_from_device(handle, listed.usb, interface);
+  return told ? abilities(*told) : Result<std::string>(told.error());
+}
+
+/// "hidraw", or "libusb (not by hidraw: no permission to open /dev/hidraw3)"
+std::string in_words(const PidTransportChoice& choice) {
+  if (!choice.kind) return {};
+  const std::string name(in_words(*choice.kind));
+  return choice.why.empty() ? name : name + " (" + choice.why + ")";
+}
+
+void describe_hid_pid(PluggedIn& listed, const KernelNodes& nodes, libusb_device_handle* handle) {
   for (const UsbHidInterface& interface : listed.usb.hid) {
-    if (const auto known = descriptor_from_kernel(listed.usb, interface)) {
-      read_descriptor(*known, listed);
-    } else if (handle != nullptr) {
-      const auto told = descriptor_from_device(handle, listed.usb, interface);
-      if (told)
-        read_descriptor(*told, listed);
-      else
-        listed.obstacle = told.error();
+    Result<std::string> can = abilities_of(listed, nodes, handle, interface);
+    if (!can) {
+      listed.obstacle = std::move(can).error();
+      continue;
     }
-    if (!listed.can.empty()) break;
+    listed.can = *std::move(can);
+    const PidTransportChoice choice = choose_transport(listed.usb, nodes);
+    listed.transport = in_words(choice);
+    listed.obstacle.reset();
+    if (!choice.kind) {
+      listed.obstacle = Error{Code::no_permission, "no permission to open it",
+                              how_to_permit(listed.usb.vendor, listed.usb.product), {.name = "port " + listed.port}};
+    }
+    return;
   }
 }
 
@@ -101,9 +100,21 @@ std::vector<PluggedIn> find_hid_pid(const Connections& connections, const Plugge
 OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
                           const DeviceOptions& options) {
   if (!connections.usb) return connections.usb.error();
-  auto opened = HidPidDevice::open(*connections.usb, plugged.usb, profile, {.priority = options.priority});
-  if (auto* refusal = std::get_if<Refusal>(&opened)) return Error{Code::unusable_device, std::move(refusal->reason)};
-  return std::move(std::get<std::unique_ptr<HidPidDevice>>(opened));
+  HidPidDevice::Options wanted;
+  wanted.priority = options.priority;
+  if (!options.transport.empty()) {
+    wanted.transport = read_transport_kind(options.transport);
+    if (!wanted.transport) {
+      return Error{Code::malformed_value, "there is no transport `" + options.transport + "`",
+                   "there are hidraw, libusb and evdev", {.name = "--transport", .text = options.transport}};
+    }
+  }
+  auto opened = options.descriptor < 0
+                    ? HidPidDevice::open(*connections.usb, plugged.usb, profile, wanted)
+                    : HidPidDevice::open(*connections.usb, options.descriptor, profile, wanted);
+  if (!opened) return std::move(opened).error();
+  if (options.descriptor >= 0) close(options.descriptor);  // the device has one of its own
+  return *std::move(opened);
 }
 
 }  // namespace

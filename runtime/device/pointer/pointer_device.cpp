@@ -58,7 +58,7 @@ bool PointerDevice::ends_within(int milliseconds) const {
   return poll(&waited, 1, milliseconds) > 0;
 }
 
-/// The listener's thread.
+/// Runs on the listener's thread.
 void PointerDevice::listen() {
   pointer::TerminalReader reader;
   while (!is_taken_.load(std::memory_order_acquire)) {  // until then the program itself may read the terminal
@@ -111,7 +111,7 @@ void PointerDevice::take(const pointer::TerminalReport& report) {
   }
 }
 
-/// The painter's thread.
+/// Runs on the painter's thread.
 void PointerDevice::draw() {
   while (!is_wanted_.load(std::memory_order_acquire)) {
     if (ends_within(patience)) return;

@@ -25,18 +25,18 @@ constexpr char ask[] = "\033[?1016$p\033[14t";
 constexpr char pixels[] = "\033[?1016h";
 constexpr char give_back[] = "\033[?1016l\033[?1006l\033[?1003l\033[?25h\033[?1049l";
 
-// What a signal handler needs to know.
+// State that signal handlers read.
 std::atomic<int> taken{-1};  // the terminal's descriptor
 std::atomic<bool> in_pixels{false}, taken_again{false};
 std::atomic<bool> shows{false};       // pictures may be written
-std::atomic<bool> is_written{false};  // one is, now
+std::atomic<bool> is_written{false};  // a picture is being written
 termios before{}, meanwhile{};
 
 constexpr int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE};
 std::array<bool, std::size(ends)> is_ours{};
 bool stop_is_ours = false;
 
-/// As much as goes at once: a signal handler waits for nobody.
+/// Writes what goes at once: a signal handler must not wait.
 void put(int descriptor, const char* text, std::size_t size) noexcept {
   [[maybe_unused]] const auto written = ::write(descriptor, text, size);
 }
@@ -52,7 +52,7 @@ void show_picture(int descriptor) noexcept {
 /// May be called in a signal handler.
 void show_text(int descriptor) noexcept {
   shows.store(false);
-  // A picture that is under way would come after the text; that of this very thread never ends.
+  // A picture under way would come after the text. One of this same thread cannot end while the handler runs.
   constexpr int most_waits = 50;
   for (int i = 0; i < most_waits && is_written.load(); ++i) {
     const timespec millisecond{0, 1'000'000};
@@ -64,7 +64,7 @@ void show_text(int descriptor) noexcept {
 
 void when_ended(int signal) {
   if (const int descriptor = taken.exchange(-1); descriptor >= 0) show_text(descriptor);
-  raise(signal);  // which does by itself now what it does to programs: SA_RESETHAND
+  raise(signal);  // with its default effect: SA_RESETHAND has removed this handler
 }
 
 void when_stopped(int) {
@@ -72,7 +72,7 @@ void when_stopped(int) {
   const int descriptor = taken.load();
   if (descriptor >= 0) show_text(descriptor);
   raise(SIGSTOP);
-  // and, some time later, on:
+  // some time later the process continues:
   if (descriptor >= 0) show_picture(descriptor);
   taken_again.store(true);
   errno = error;

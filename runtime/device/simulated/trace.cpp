@@ -91,7 +91,8 @@ struct Heading {
   std::string_view unit;
 };
 
-/// What "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx" is a column of; nothing for a column to ignore, such as "x_target".
+/// The quantity and unit of a column named "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx"; nothing for a column to ignore,
+/// such as "x_target".
 std::optional<Heading> read_heading(std::string_view text) {
   const auto end = text.find_first_of("([_");
   const auto quantity = quantity_called(trimmed(text.substr(0, end)));
@@ -164,7 +165,7 @@ glm::dvec2 slope(const TracePoint& from, const TracePoint& to) {
   return (to.position - from.position) / (to.time - from.time);
 }
 
-/// At each point the slope of the parabola through it and its neighbours; at the ends that of the last stretch.
+/// Each point gets the slope of the parabola through it and its neighbours; the ends get that of the outermost stretch.
 void derive_velocities(std::vector<TracePoint>& points) {
   const std::size_t n = points.size();
   if (n < 2) return;

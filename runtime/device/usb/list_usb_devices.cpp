@@ -3,44 +3,41 @@
 #include <libusb.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
+
+#include "runtime/device/usb/kernel_nodes.hpp"
 
 namespace wale {
 namespace {
 
-Error why_not_opened(int error, const UsbDeviceInfo& info) {
-  return {Code::unusable_device, why_not_usable(error, info).reason};
-}
-
-/// As the device calls itself; empty where the system does not tell.
-std::string product_name(const UsbDeviceInfo& info) {
-  std::ifstream file("/sys/bus/usb/devices/" + info.port + "/product", std::ios::binary);
-  std::string name(std::istreambuf_iterator<char>(file), {});
-  while (!name.empty() && name.back() == '\n') name.pop_back();
-  return name;
+/// "steam (4711) by /dev/input/event5", of each; and how many processes could not be looked at, where anybody holds it
+/// or may.
+std::vector<std::string> in_words_each(const NodeHolders& holders) {
+  std::vector<std::string> words;
+  for (const NodeHolder& holder : holders.seen) {
+    words.push_back(holder.program + " (" + std::to_string(holder.process) + ") by " + holder.node);
+  }
+  return words;
 }
 
 PluggedIn listed_device(const UsbContext& context, const Driver& driver, const UsbDeviceInfo& info,
                         const DescribeUsbDevice& describe) {
+  const KernelNodes nodes = kernel_nodes(info);
+  const NodeHolders holders = who_holds(nodes.all());
   PluggedIn listed{.driver = &driver,
                    .numbers = in_words(info.vendor, info.product),
                    .port = info.port,
-                   .name = product_name(info),
+                   .name = nodes.product,
+                   .held_by = in_words_each(holders),
+                   .processes_hidden = holders.hidden,
                    .usb = info};
   libusb_device* device = context.find(info);
-  if (device == nullptr) {
-    listed.obstacle = why_not_opened(LIBUSB_ERROR_NO_DEVICE, info);
-    return listed;
-  }
   libusb_device_handle* handle = nullptr;
-  const int error = libusb_open(device, &handle);
-  libusb_unref_device(device);
-  describe(listed, error == 0 ? handle : nullptr);
-  const bool is_no_force_device = listed.obstacle && listed.can.empty();
-  if (error != 0 && !is_no_force_device) listed.obstacle = why_not_opened(error, info);
+  const int error = device != nullptr ? libusb_open(device, &handle) : LIBUSB_ERROR_NO_DEVICE;
+  if (device != nullptr) libusb_unref_device(device);
+  if (error != 0) listed.obstacle = why_not_usable(error, info);
+  describe(listed, nodes, handle);
   if (handle != nullptr) libusb_close(handle);
   return listed;
 }

@@ -4,18 +4,19 @@
 #include <vector>
 
 #include "runtime/device/driver.hpp"
+#include "runtime/device/usb/kernel_nodes.hpp"
 
 struct libusb_device_handle;
 
 namespace wale {
 
-/// Says what a device can do or why it cannot be used (`can`, `obstacle`). `handle` is null where this process must not
-/// open the device.
-using DescribeUsbDevice = std::function<void(PluggedIn& device, libusb_device_handle* handle)>;
+/// Says what a device can do, how it would be driven, or why it cannot be used (`can`, `transport`, `obstacle`).
+/// `handle` is null where this process must not open the device through libusb; `obstacle` then says why already.
+using DescribeUsbDevice =
+    std::function<void(PluggedIn& device, const KernelNodes& nodes, libusb_device_handle* handle)>;
 
 /// The devices on USB that `is_meant` accepts, in the order of their ports, for `driver`. Asks no device for more than
-/// its descriptors, and takes none from the kernel's driver or from another program. A device that pushes, and that
-/// this process must not open, gets what is in the way as its obstacle.
+/// its descriptors, and takes none from the kernel's driver or from another program.
 std::vector<PluggedIn> list_usb_devices(const Connections& connections, const Driver& driver,
                                         const std::function<bool(const UsbDeviceInfo&)>& is_meant,
                                         const DescribeUsbDevice& describe);

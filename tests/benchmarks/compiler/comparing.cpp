@@ -6,7 +6,7 @@
 #include "compiler/compare/compare.hpp"
 #include "compiler/compare/compare_files.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "tests/benchmarks/materials.hpp"
+#include "tests/benchmarks/compiler/materials.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace wale::benchmarks::comparing_test {

@@ -5,7 +5,7 @@
 #include "compiler/format/format.hpp"
 #include "compiler/parse/lex.hpp"
 #include "compiler/parse/parse.hpp"
-#include "tests/benchmarks/materials.hpp"
+#include "tests/benchmarks/compiler/materials.hpp"
 
 namespace wale::benchmarks::compiling_test {
 namespace {

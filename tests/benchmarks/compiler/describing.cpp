@@ -12,7 +12,7 @@
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/extract/cues.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "tests/benchmarks/materials.hpp"
+#include "tests/benchmarks/compiler/materials.hpp"
 
 namespace wale::benchmarks::describing_test {
 namespace {

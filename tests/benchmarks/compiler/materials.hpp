@@ -121,15 +121,15 @@ inline PatchProgram emitted(const std::string& text) {
 /// author what is refused. Making it ready to run does not: see `loaded`.
 inline PatchProgram compiled(const std::string& text) {
   PatchProgram program = emitted(text);
-  if (const auto refusal = verify(program)) throw std::runtime_error(refusal->reason);
+  if (const auto verified = verify(program); !verified) throw std::runtime_error(in_words(verified.error()));
   return program;
 }
 
 /// Verified and decoded: what measuring begins with, and the runtime.
 inline Program loaded(PatchProgram program) {
   auto loaded = Program::load(std::move(program));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
-  return std::get<Program>(std::move(loaded));
+  if (!loaded) throw std::runtime_error(in_words(loaded.error()));
+  return *std::move(loaded);
 }
 
 /// Every Wale file that the project ships: path and text.

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "compiler/measure/measure.hpp"
-#include "tests/benchmarks/materials.hpp"
+#include "tests/benchmarks/compiler/materials.hpp"
 
 namespace wale::benchmarks::measuring_test {
 namespace {

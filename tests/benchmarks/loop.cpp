@@ -1,4 +1,4 @@
-// The real-time loop by itself, for tests/bench/loop and tests/bench/soak.
+// The real-time loop by itself, for tests/benchmarks/loop and tests/benchmarks/soak.
 //
 //   bench_loop lateness SECONDS   runs corduroy on the simulated joystick; a line for each tick: how late it began, ns
 //   bench_loop soak SECONDS       changes everything all the time; fails when something is lost or memory grows
@@ -20,7 +20,7 @@
 #include "wale/simulated.hpp"
 #include "wale/stage.hpp"
 
-namespace wale::bench {
+namespace wale::benchmarks {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -30,9 +30,9 @@ using Clock = std::chrono::steady_clock;
   std::exit(1);
 }
 
-RunResult good(std::variant<RunResult, Refusal> run) {
-  if (const auto* refusal = std::get_if<Refusal>(&run)) fail(refusal->reason);
-  return std::get<RunResult>(std::move(run));
+RunResult good(Result<RunResult> run) {
+  if (!run) fail(in_words(run.error()));
+  return *std::move(run);
 }
 
 void lateness(double seconds) {
@@ -80,11 +80,11 @@ void soak(double seconds) {
   Clock::duration longest{0};                        // from a change until it is felt, its
   std::thread changing([&] {
     for (long n = 1; !done; ++n) {
-      const auto change = [&](bool taken) { lost += !taken; };
-      if (n % 50 == 0) change(!stage.replace(0, push(0))), ++swaps;
-      if (n % 3 == 0) change(!stage.move(1 + static_cast<std::size_t>(n) % 20, {0.05f, 0.04f})), ++moves;
+      const auto change = [&](const Result<>& taken) { lost += !taken; };
+      if (n % 50 == 0) change(stage.replace(0, push(0))), ++swaps;
+      if (n % 3 == 0) change(stage.move(1 + static_cast<std::size_t>(n) % 20, {0.05f, 0.04f})), ++moves;
       const float value = 0.001f * static_cast<float>(n % 997);
-      change(!stage.set("push", value)), ++changes;
+      change(stage.set("push", value)), ++changes;
       // It has arrived when it is what the handle is told, and nothing else comes before it has.
       const auto told = Clock::now();
       while (device.commanded.load(std::memory_order_relaxed) != value) {
@@ -132,16 +132,16 @@ void soak(double seconds) {
 }
 
 }  // namespace
-}  // namespace wale::bench
+}  // namespace wale::benchmarks
 
 int main(int count, char** words) {
   const std::string what = count == 3 ? words[1] : "";
   const double seconds = count == 3 ? std::atof(words[2]) : 0;
   if (seconds > 0 && what == "lateness") {
-    wale::bench::lateness(seconds);
+    wale::benchmarks::lateness(seconds);
   } else if (seconds > 0 && what == "soak") {
-    wale::bench::soak(seconds);
+    wale::benchmarks::soak(seconds);
   } else {
-    wale::bench::fail("bench_loop lateness|soak SECONDS");
+    wale::benchmarks::fail("bench_loop lateness|soak SECONDS");
   }
 }

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace wale::bench {
+namespace wale::benchmarks {
 
 inline double now() {
   using namespace std::chrono;
@@ -42,4 +42,4 @@ Comparison compare(std::size_t repetitions, double count, Yardstick&& yardstick,
   return {median(first), median(second), median(ratios)};
 }
 
-}  // namespace wale::bench
+}  // namespace wale::benchmarks

@@ -1,6 +1,6 @@
-// Compiled with -DWALE_PATCH='"MATERIAL.cpp"' -DWALE_PATCH_NAMESPACE=wale_patch_MATERIAL, see tests/bench/run.
+// Compiled with -DWALE_PATCH='"MATERIAL.cpp"' -DWALE_PATCH_NAMESPACE=wale_patch_MATERIAL, see tests/benchmarks/run.
 
-#include "tests/bench/yardstick.hpp"
+#include "tests/benchmarks/yardstick.hpp"
 
 #include <array>
 #include <bit>

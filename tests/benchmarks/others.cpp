@@ -13,12 +13,12 @@
 #include "runtime/stage/front_most.hpp"
 #include "runtime/stage/guards.hpp"
 #include "runtime/stage/player.hpp"
-#include "tests/bench/measure.hpp"
+#include "tests/benchmarks/measure.hpp"
 #include "tests/machine/random_program.hpp"
 #include "tests/runtime/figures.hpp"
 #include "wale/program.hpp"
 
-namespace wale::bench {
+namespace wale::benchmarks {
 namespace {
 
 /// Time that this thread has worked, ns: what others do on the machine beside it is not counted.
@@ -79,7 +79,7 @@ void move(std::size_t count, std::size_t moving) {
   std::mt19937 random(1995);
   std::uniform_real_distribution<float> place(-0.1f, 0.1f);
   const PatchSize size{.width = 0.001f, .height = 0.001f};
-  const Program program = std::get<Program>(Program::load(example::program()));
+  const Program program = *Program::load(example::program());
   const auto memory = std::make_shared<Memory>(program);
   const Bank bank(program, program.default_parameters(), size);
   PlacedPatches::Patches patches(count);
@@ -144,7 +144,7 @@ void loading() {
     programs.clear();
     for (const auto& file : files) {
       auto loaded = Program::load(file);
-      if (auto* program = std::get_if<Program>(&loaded)) programs.push_back(std::move(*program));
+      if (loaded) programs.push_back(*std::move(loaded));
     }
   });
   std::printf("load_1000_ms %.1f\nload_instructions %.0f\n", all, instructions / 1000);
@@ -176,10 +176,10 @@ void look_up(std::uint32_t side) {
 }
 
 }  // namespace
-}  // namespace wale::bench
+}  // namespace wale::benchmarks
 
 int main(int count, char**) {
-  using namespace wale::bench;
+  using namespace wale::benchmarks;
   wale::DeviceProfile device = wale::sandpaper();
   guards("guards", device);
   device.delay_x = device.delay_y = 0.0015;

@@ -22,12 +22,12 @@
 
 #include "runtime/machine/decoded_program.hpp"
 #include "runtime/machine/floating_point_mode.hpp"
-#include "tests/bench/measure.hpp"
-#include "tests/bench/yardstick.hpp"
+#include "tests/benchmarks/measure.hpp"
+#include "tests/benchmarks/yardstick.hpp"
 #include "wale/batch.hpp"
 #include "wale/memory.hpp"
 
-namespace wale::bench {
+namespace wale::benchmarks {
 namespace {
 
 [[noreturn]] void give_up(const std::string& reason) {
@@ -39,8 +39,8 @@ Program load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   auto loaded = Program::load(std::as_bytes(std::span(text)));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) give_up(path + ": " + refusal->reason);
-  return std::get<Program>(std::move(loaded));
+  if (!loaded) give_up(path + ": " + in_words(loaded.error()));
+  return *std::move(loaded);
 }
 
 /// What yardstick.hpp declares, from a shared object.
@@ -243,10 +243,10 @@ class Bench {
 };
 
 }  // namespace
-}  // namespace wale::bench
+}  // namespace wale::benchmarks
 
 int main(int argc, char** argv) {
-  using namespace wale::bench;
+  using namespace wale::benchmarks;
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "ticks" && argc == 4) {
     Bench bench(argv[2], argv[3]);

@@ -1,6 +1,6 @@
 // grating.dsp as Faust translates it, in the shape of a yardstick; compiled with -DFAUST_TEXT='"grating.dsp.cpp"'.
 
-#include "tests/bench/yardstick.hpp"
+#include "tests/benchmarks/yardstick.hpp"
 
 // What the translation derives from and reports to, as little of it as it calls.
 struct Meta {
