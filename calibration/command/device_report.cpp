@@ -107,6 +107,9 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
   }
   if (!device.transport.empty()) line("driven by " + device.transport);
   if (!device.held_by.empty()) line(fmt::format("in use by {}", fmt::join(device.held_by, ", ")));
+  if (!device.can.empty() && device.processes_hidden > 0)
+    line(fmt::format("perhaps in use by others: the files of {} processes cannot be seen by this user",
+                     device.processes_hidden));
   if (device.obstacle) line("cannot be used: " + in_words(*device.obstacle));
   return text;
 }
@@ -125,6 +128,7 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Dec
           {"can", device.can},
           {"transport", device.transport},
           {"held_by", device.held_by},
+          {"processes_hidden", device.processes_hidden},
           {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};
 }
 

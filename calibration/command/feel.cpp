@@ -175,7 +175,8 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   Stage stage(*felt->device);
   stage.place(material.program);
   for (std::size_t i = 0; i < material.parameters.size(); ++i)
-    if (const auto set = stage.set(program.parameters[i].name, material.parameters[i]); !set) return refuse(set.error());
+    if (const auto set = stage.set(program.parameters[i].name, material.parameters[i]); !set)
+      return refuse(set.error());
 
   const bool live = isatty(fileno(stderr));
   RunOptions run = run_options(options, felt->manner(), stop);
@@ -245,7 +246,11 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
                      .predicted = Comparer(common->declarations, device).compare(cues(a), cues(*b))};
   AskingPerson person(std::cin, std::cerr, report.a, report.b, blind.trials, isatty(fileno(stdin)));
   report.session = wale::feel_blind(*felt->device, a, *b, blind, person);
-  if (report.session.trials.empty()) return refuse(fmt::format("no trial was answered: {}", report.session.ended));
+  if (report.session.trials.empty()) {
+    Error error = *report.session.ended;
+    error.sentence = "no trial was answered: " + error.sentence;
+    return refuse(error);
+  }
   fmt::print("{}", options.json ? blind_json(report) : blind_text(report));
   return done;
 }

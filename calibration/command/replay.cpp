@@ -15,9 +15,9 @@
 namespace wale::command {
 namespace {
 
-/// What a person wants to know of a recording before they look closer.
+/// The overview of a recording.
 struct Summary {
-  std::vector<std::string> materials;  ///< of its programs, with their hashes
+  std::vector<std::string> materials;  ///< the materials of its programs, with their hashes
   long sets = 0, swaps = 0, moves = 0, placements = 0, missed = 0;
   double seconds = 0;
 };

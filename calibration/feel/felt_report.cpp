@@ -31,7 +31,7 @@ std::vector<std::pair<std::string, long>> named(const GuardCounts& counts) {
           {"lost", counts.lost}};
 }
 
-/// "slew 12 ticks, passivity 3": those that did.
+/// "slew 12, passivity 3 (ticks)": the guards that stepped in.
 std::string shown(const GuardCounts& counts) {
   std::string text;
   for (auto [name, count] : named(counts)) {
@@ -50,7 +50,7 @@ std::string vibration_text(const FeltVibration& vibration) {
   return text;
 }
 
-/// Every step by its name.
+/// Every step with its name.
 std::vector<std::pair<std::string, Times>> named(const TickCosts& costs) {
   std::vector<std::pair<std::string, Times>> all;
   for (std::size_t step = 0; step < TickCosts::steps; ++step)
@@ -89,7 +89,7 @@ std::string spaced(std::string name) {
   return name;
 }
 
-/// What became of a real device, with what it has done as so many a second.
+/// What happened to a real device, with its counts as rates per second.
 std::string plugged_text(const HotPlugReport& plugged, double seconds) {
   std::string text = "  driven       " + plugged.manner + "\n", counts;
   for (const auto& [name, count] : plugged.tally)
@@ -99,8 +99,9 @@ std::string plugged_text(const HotPlugReport& plugged, double seconds) {
   if (!counts.empty()) text += "  packets      " + counts + "\n";
   const auto times = [](long count) { return fmt::format("{} time{}", count, count == 1 ? "" : "s"); };
   if (plugged.losses > 0)
-    text += fmt::format("  lost         {} ({}), set up anew {}{}\n", times(plugged.losses), plugged.reason,
-                        times(plugged.returns), plugged.refusal.empty() ? "" : "; not again: " + plugged.refusal);
+    text += fmt::format("  lost         {} ({}), set up again {}{}\n", times(plugged.losses), plugged.reason,
+                        times(plugged.returns),
+                        plugged.refusal.empty() ? "" : "; the last attempt failed: " + plugged.refusal);
   return text;
 }
 
@@ -142,7 +143,7 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
 std::string felt_text(const FeltReport& report) {
   const Felt& felt = report.felt;
   std::string text = report.manner.plugged
-                         ? fmt::format("{} on {}, as {}, in your hand, {:.4g} s\n", report.material,
+                         ? fmt::format("{} on {} as {}, in your hand, {:.4g} s\n", report.material,
                                        report.manner.device, report.device.name, report.seconds)
                          : fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
                                        report.device.name, report.manner.hand, report.seconds,
@@ -186,11 +187,11 @@ std::string felt_text(const FeltReport& report) {
       text += fmt::format("  {:<12} not read back: {}\n", level.name, in_words(level.back.error()));
   }
   if (report.levels.empty())
-    text += felt.vibration ? "  percepts     none to read back: nothing in it shakes\n"
-                           : "  percepts     none to read back: nothing in its force is a texture\n";
+    text += felt.vibration ? "  percepts     none to read back: it does not vibrate\n"
+                           : "  percepts     none to read back: its force has no texture\n";
   text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
-    text += fmt::format("  memory       {} time{} a state was not a number and began anew\n", report.guards.restored,
+    text += fmt::format("  memory       {} time{} a state was not a number and was reset\n", report.guards.restored,
                         report.guards.restored == 1 ? "" : "s");
   return text;
 }

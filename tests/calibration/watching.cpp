@@ -71,7 +71,7 @@ TEST(Watching, AFileThatIsSavedInAnyWayIsFeltAnew) {
   folder.write("m.wale", pushing(2));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
   EXPECT_EQ(watched.felt(), 2);
-  EXPECT_EQ(watched.take_said(), "wale: `m` is felt anew\n");
+  EXPECT_EQ(watched.take_said(), "wale: the new version of `m` is active\n");
   write_and_rename(folder, "m.wale", pushing(3));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
   EXPECT_EQ(watched.felt(), 3);
@@ -109,7 +109,7 @@ TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
   const std::string said = watched.take_said();
   EXPECT_NE(said.find("error[W0301]"), std::string::npos) << said;
   EXPECT_NE(said.find("m.wale:4"), std::string::npos) << said;
-  EXPECT_TRUE(said.ends_with("wale: what was felt before is felt on\n")) << said;
+  EXPECT_TRUE(said.ends_with("wale: the previous version stays active\n")) << said;
   folder.write("m.wale", "wale 1\nmaterial m {\n  physical {\n    force = 3 m\n  }\n}\n");
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
   EXPECT_EQ(watched.take_said(), "") << "no news";
@@ -118,7 +118,7 @@ TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
   EXPECT_NE(watched.take_said().find("no such file"), std::string::npos);
   folder.write("m.wale", pushing(1));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::nothing);
-  EXPECT_EQ(watched.take_said(), "wale: `m` is what is felt already\n");
+  EXPECT_EQ(watched.take_said(), "wale: this version of `m` is active already\n");
   folder.write("m.wale", pushing(2));
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
   EXPECT_EQ(watched.felt(), 2);

@@ -158,7 +158,7 @@ TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
     each.is_homed = false;
   });
   const std::string not_homed =
-      "0403:cb48: its encoders have not found their zeros: push the handle all the way in and pull it all the way out";
+      "0403:cb48: its encoders have not found their zeros; push the handle all the way in and pull it all the way out";
   std::atomic<bool> stop{false};
   options.stop = &stop;
   options.homing_patience = 1e9;
@@ -176,7 +176,7 @@ TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
   options.firmware = "/nowhere/falcon.bin";
   const std::string reason = refusal(1, options);
   for (const char* part : {"0403:cb48: it runs no firmware", "/nowhere/falcon.bin", "libnifalcon",
-                           "WALE_FALCON_FIRMWARE=FILE", "not shipped"}) {
+                           "WALE_FALCON_FIRMWARE=FILE", "not part of Wale"}) {
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   }
   const auto running = mock_.plug(FalconModel({}, true), 2);

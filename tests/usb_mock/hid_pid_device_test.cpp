@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "runtime/device/usb/list_usb_devices.hpp"
+#include "runtime/device/driver.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/usb/allocations.hpp"
 #include "tests/usb/profiles.hpp"
@@ -78,14 +78,13 @@ TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
   const auto plain = mock_.plug(std::move(stick), 2), taken = mock_.plug(PidModel(rhino()), 3);
   taken->is_claimed_elsewhere = true;
   found(3);
-  const auto listed = list_usb_devices(*context());
+  const auto listed = plugged_in({context()});
   ASSERT_EQ(listed.size(), 3u);
   EXPECT_EQ(listed[0].name, "OpenFFBoard");
   EXPECT_EQ(listed[0].can, "two axes by direction, 32767 steps of force to each side");
   EXPECT_FALSE(listed[0].obstacle);
-  EXPECT_EQ(listed[0].transport, "libusb");
-  EXPECT_EQ(listed[0].why, "not by hidraw: the kernel's driver has made no hidraw node of it");
-  EXPECT_EQ(listed[0].holders.seen, std::vector<NodeHolder>{});
+  EXPECT_EQ(listed[0].transport, "libusb (not by hidraw: the kernel's driver has made no hidraw node of it)");
+  EXPECT_EQ(listed[0].held_by, std::vector<std::string>{});
   ASSERT_TRUE(listed[1].obstacle && listed[2].obstacle);
   EXPECT_EQ(listed[1].obstacle->code, Code::no_force_device);
   EXPECT_EQ(listed[1].obstacle->sentence, "it is not a force device: nothing in its report descriptor is of usage page 0F");

@@ -62,7 +62,7 @@ Result<std::string> abilities_of(const PluggedIn& listed, const KernelNodes& nod
 }
 
 /// "hidraw", or "libusb (not by hidraw: no permission to open /dev/hidraw3)"
-std::string in_words(const PidTransportChoice& choice) {
+std::string way_of(const PidTransportChoice& choice) {
   if (!choice.kind) return {};
   const std::string name(in_words(*choice.kind));
   return choice.why.empty() ? name : name + " (" + choice.why + ")";
@@ -77,7 +77,7 @@ void describe_hid_pid(PluggedIn& listed, const KernelNodes& nodes, libusb_device
     }
     listed.can = *std::move(can);
     const PidTransportChoice choice = choose_transport(listed.usb, nodes);
-    listed.transport = in_words(choice);
+    listed.transport = way_of(choice);
     listed.obstacle.reset();
     if (!choice.kind) {
       listed.obstacle = Error{Code::no_permission, "no permission to open it",

@@ -52,7 +52,7 @@ class EvdevNode {
 class EvdevTransport final : public PidTransport {
  public:
   /// Microseconds from one update to the next. A full-speed interrupt endpoint takes a report each millisecond.
-  static constexpr std::int64_t pace = 1100;
+  static constexpr std::int64_t pace = 2000;
 
   /// Sets two effects up with no force, and plays them. `force_steps`: levels to each side that are told apart, 1 ..
   /// 32767.
