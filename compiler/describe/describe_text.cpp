@@ -26,7 +26,7 @@ void write_percepts(std::string& text, const Description& description) {
   for (const auto& percept : description.percepts) {
     text +=
         fmt::format("  {:<12} {:.2f}   (95 % of the means of {}: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
-                    percept.level, percept.observers > 0 ? fmt::format("{} people", percept.observers) : "such groups",
+                    percept.level, percept.observers > 0 ? fmt::format("{} people", percept.observers) : "groups",
                     percept.low, percept.high, percept.magnitude);
     text += fmt::format("  {:<12} {} {:.4g} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
                         percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
@@ -97,7 +97,7 @@ void write_shaking(std::string& text, const MeasuredShaking& shaking) {
   text += fmt::format("\nshakes\n  {:.3f} m/s^2 at most under the hand `normal`: P99 {:.3f} m/s^2, RMS {:.3f} m/s^2\n",
                       shaking.max, shaking.p99, shaking.rms);
   if (shaking.highest > 0) text += fmt::format("  {:.4g} .. {:.4g} Hz\n", shaking.lowest, shaking.highest);
-  text += "\nstability\n  does not apply: the program only vibrates, so there is no loop with the hand\n";
+  text += "\nstability\n  does not apply: it only vibrates, so there is no loop with the hand\n";
 }
 
 void write_texture(std::string& text, const Description& description) {

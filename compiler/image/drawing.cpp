@@ -23,7 +23,7 @@ Result<> save_drawing(const Drawing& drawing, const std::string& path) {
 
   const auto unwritable = [&](int error) {
     return Error{
-        Code::unwritable_file, fmt::format("the picture cannot be written: {}", std::strerror(error)), {}, {path}};
+        Code::unwritable_file, fmt::format("cannot write the picture: {}", std::strerror(error)), {}, {path}};
   };
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) return unwritable(errno);

@@ -143,7 +143,7 @@ TEST(Photographs, ThePeriodsAndTheAnisotropyAreInTheTextAndInTheJson) {
   const Description description =
       described(picture([](double x, double y) { return 0.5 + 0.3 * ribs(x, y, 6, 0) + 0.05 * ribs(x, y, 2, 90); }));
   const std::string text = description_text(description);
-  EXPECT_NE(text.find("anisotropy 0.6, changes along 0 degrees from x"), std::string::npos) << text;
+  EXPECT_NE(text.find("anisotropy 0.6, changes along the direction 0 degrees from x"), std::string::npos) << text;
   EXPECT_NE(text.find("80 % of it has a period of 6 mm along 0 degrees"), std::string::npos) << text;
   EXPECT_NE(text.find("20 % of it has a period of 2 mm along 90 degrees"), std::string::npos) << text;
   const auto json = nlohmann::json::parse(descriptions_json({description})).at("texture");

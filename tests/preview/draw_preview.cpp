@@ -211,7 +211,7 @@ TEST(SaveDrawing, ProblemsAreWords) {
   EXPECT_EQ(reason("wall.wale"), "pictures cannot be written as .wale");
   EXPECT_EQ(reason("wall.null"), "pictures cannot be written as .null");
   EXPECT_EQ(save_drawing(drawing, "wall").error().mend, "use the extension .png");
-  EXPECT_EQ(reason("/no/such/folder/wall.png"), "the picture cannot be written: No such file or directory");
+  EXPECT_EQ(reason("/no/such/folder/wall.png"), "cannot write the picture: No such file or directory");
   EXPECT_FALSE(OIIO::has_error());
 }
 

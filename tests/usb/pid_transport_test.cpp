@@ -62,10 +62,10 @@ bool pushes(const std::vector<std::string>& log) {
 }
 
 TEST(HidrawTransport, AWholeLifeThatLeavesOthersTheirEffects) {
-  HidrawFake fake(PidModel(openffboard()));
+  HidrawFake fake{PidModel(openffboard())};
   auto device = opened(fake);
   EXPECT_EQ(device->transport(), PidTransportKind::hidraw);
-  EXPECT_EQ(device->manner(), "an effect for each axis, by direction, by hidraw");
+  EXPECT_EQ(device->manner(), "one effect for each axis, by direction, by hidraw");
   // As through libusb, but for the reset, which would end what others play.
   const std::vector<std::string> expected{
       "GET 13", "OUT 0C 01", "OUT 0D FF", "SET 11 01 00 00", "GET 12", "SET 11 01 00 00", "GET 12",
@@ -200,7 +200,7 @@ TEST(HidrawTransport, LeavesAnotherProgramsEffectAlone) {
 }
 
 TEST(HidrawTransport, UnpluggedItIsLost) {
-  HidrawFake fake(PidModel(openffboard()));
+  HidrawFake fake{PidModel(openffboard())};
   const auto device = opened(fake);
   device->command({1, 0});
   fake.unplug();
@@ -210,7 +210,7 @@ TEST(HidrawTransport, UnpluggedItIsLost) {
 }
 
 TEST(HidrawTransport, SaysWhyItCannotBeUsed) {
-  HidrawFake full(PidModel(arduino(), {.room = 0}));
+  HidrawFake full{PidModel(arduino(), {.room = 0})};
   const auto without_room = open(full);
   ASSERT_FALSE(without_room);
   EXPECT_EQ(without_room.error().code, Code::unusable_device);

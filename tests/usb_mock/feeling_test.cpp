@@ -136,7 +136,7 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   EXPECT_EQ(report.losses, 1);
   EXPECT_EQ(report.returns, 1);
   EXPECT_EQ(report.reason, "it was unplugged");
-  EXPECT_EQ(report.manner, "an effect for each axis, by direction");
+  EXPECT_EQ(report.manner, "one effect for each axis, by direction");
   EXPECT_GT(result.guards.lost, 0);
 
   // No force and no patch while it is lost; back from there, the slew is what the first force is held to.

@@ -29,7 +29,7 @@ Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std:
   if (!output->set_ioproxy(&memory) || !output->open("drawing." + extension, spec) ||
       !output->write_image(OIIO::TypeUInt8, drawing.rgb.data()) || !output->close()) {
     return Error{Code::unwritable_file,
-                 fmt::format("the picture cannot be written: {}", OIIO::Strutil::strip(output->geterror())),
+                 fmt::format("cannot write the picture: {}", OIIO::Strutil::strip(output->geterror())),
                  {},
                  {name}};
   }
