@@ -86,7 +86,7 @@ class Feeling : public testing::Test {
     return *std::move(choice);
   }
   Program built(const ChosenDevice& device) const {
-    return std::get<Program>(library_.material(corduroy, "", device.declared->profile.name));
+    return *library_.material(corduroy, "", device.declared->profile.name);
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
     auto result = open_device(connections_, device);
