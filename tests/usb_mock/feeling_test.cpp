@@ -86,7 +86,7 @@ class Feeling : public testing::Test {
     return *std::move(choice);
   }
   Program built(const ChosenDevice& device) const {
-    return std::get<Program>(library_.material(corduroy, "", device.declared->profile.name));
+    return *library_.material(corduroy, "", device.declared->profile.name);
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
     auto result = open_device(connections_, device);
@@ -136,7 +136,7 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   EXPECT_EQ(report.losses, 1);
   EXPECT_EQ(report.returns, 1);
   EXPECT_EQ(report.reason, "it was unplugged");
-  EXPECT_EQ(report.manner, "an effect for each axis, by direction");
+  EXPECT_EQ(report.manner, "one effect for each axis, by direction");
   EXPECT_GT(result.guards.lost, 0);
 
   // No force and no patch while it is lost; back from there, the slew is what the first force is held to.
