@@ -48,8 +48,8 @@ std::vector<std::uint8_t> replaced(const PidFamily& family, const std::string& f
 TEST(PidLayout, OpenFFBoard) {
   const PidLayout layout = layout_of(test::openffboard());
   EXPECT_EQ(layout.set_effect.id, 1);
-  EXPECT_EQ(layout.set_effect.bytes, 18) << "usb.md";
-  EXPECT_EQ(layout.input.bytes, 25) << "usb.md";
+  EXPECT_EQ(layout.set_effect.bytes, 18) << "tests/reference/usb_exchanges.md";
+  EXPECT_EQ(layout.input.bytes, 25) << "tests/reference/usb_exchanges.md";
   EXPECT_EQ(layout.input.x, (Number{72, 16, -32767, 32767})) << "after the id and 64 buttons";
   EXPECT_EQ(layout.input.y.bit, 88);
   EXPECT_EQ(layout.input.button, (Number{8, 1, 0, 1}));
@@ -158,7 +158,7 @@ TEST(PidLayout, LiesAreRefused) {
             "its Set Effect report has 108 bytes, more than a packet");
 }
 
-TEST(PidPackets, OpenFFBoardsBytes) {  // usb.md, "Sequence that worked end to end"
+TEST(PidPackets, OpenFFBoardsBytes) {  // tests/reference/usb_exchanges.md, OpenFFBoard
   const PidLayout layout = layout_of(test::openffboard());
   EXPECT_EQ(bytes_of(encode_device_control(layout, layout.device_control.reset)), "0C 08");
   EXPECT_EQ(bytes_of(encode_device_control(layout, layout.device_control.enable_actuators)), "0C 01");

@@ -46,7 +46,7 @@ TEST(PidSession, SetsUpOpenFFBoardByteForByte) {
   PidBus bus(model);
   bus.settle();
   ASSERT_EQ(bus.session.state(), State::running) << bus.session.reason();
-  // usb.md, "Sequence that worked end to end", with finite durations: 250 ms, once.
+  // tests/reference/usb_exchanges.md, OpenFFBoard, with finite durations: 250 ms, once.
   EXPECT_EQ(
       model.log,
       (std::vector<std::string>{

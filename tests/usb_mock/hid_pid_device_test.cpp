@@ -114,7 +114,7 @@ TEST_F(UsbDriver, AWholeLife) {
   ASSERT_NE(device, nullptr);
   EXPECT_EQ(device->arrangement(), hid::Arrangement::by_direction);
   EXPECT_EQ(joystick->claims, 1);
-  // usb.md, "Sequence that worked end to end", with durations of 250 ms.
+  // tests/reference/usb_exchanges.md, OpenFFBoard, with durations of 250 ms.
   const auto set_up = joystick->with_model([](PidModel& model) { return model.log; });
   const std::vector<std::string> expected{
       "GET 13",          "OUT 0C 08",       "OUT 0C 01",
