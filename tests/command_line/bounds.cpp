@@ -10,8 +10,8 @@ namespace {
 
 constexpr long most_megabytes = 1500;
 
-/// `wale check` of the file, within bounds of memory and output. Time is not measured: a step that grows with the square
-/// of such a file would not come to an end.
+/// `wale check` of the file, within bounds of memory and output. Time is not measured: a step that grows with the
+/// square of such a file would not come to an end.
 Outcome check_within_bounds(const std::string& file) {
   const Outcome outcome = wale({"check", file});
   EXPECT_LT(outcome.out.size(), 1u << 20) << file;
