@@ -218,14 +218,11 @@ struct Module {
       : tree(std::move(syntax)), declarations(common, std::move(names)) {}
 };
 
-class WrittenOutFunctions;
-
 /// What every file knows: the embedded files, one list of names for all of them.
 struct CommonModules {
   std::vector<std::unique_ptr<SyntaxTree>> trees;
   Declarations declarations;
   Diagnostics problems;  ///< what is wrong with the files themselves: with a build of this compiler
-  std::shared_ptr<WrittenOutFunctions> written_out;  ///< of their functions; none where a file stands in for one
 };
 
 /// A parsed file, what every file knows, and all that it imports, everything declared.

@@ -149,24 +149,6 @@ TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span
   return add({.kind = TermKind::operation, .operation = operation, .a = a, .b = b, .c = c, .span = span});
 }
 
-TermId Terms::add(std::span<const Term> body, std::span<const TermId> parts) {
-  const auto first = static_cast<TermId>(terms_.size());
-  const auto operand = [&](TermId number) {
-    return number < parts.size() ? parts[number] : static_cast<TermId>(first + (number - parts.size()));
-  };
-  terms_.insert(terms_.end(), body.begin(), body.end());
-  const Span place = place_.value_or(Span{});
-  for (auto term = terms_.begin() + first; term != terms_.end(); ++term) {
-    term->span = place;
-    if (term->operands == 0) continue;  // nothing else is left to be found
-    term->a = operand(term->a);
-    if (term->operands > 1) term->b = operand(term->b);
-    if (term->operands > 2) term->c = operand(term->c);
-    find_dependence(*term);
-  }
-  return first;
-}
-
 TermId Terms::append(const Terms& others) {
   const auto first = static_cast<TermId>(terms_.size());
   terms_.insert(terms_.end(), others.terms_.begin(), others.terms_.end());

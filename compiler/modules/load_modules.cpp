@@ -10,7 +10,6 @@
 #include <set>
 
 #include "compiler/diagnostics/advice.hpp"
-#include "compiler/expression/written_out.hpp"
 #include "compiler/modules/declare.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/meant_material.hpp"
@@ -49,7 +48,6 @@ std::shared_ptr<const CommonModules> load_common(std::optional<SyntaxTree> repla
     common->trees.push_back(std::make_unique<SyntaxTree>(std::move(tree)));
     declare(*common->trees.back(), sources, common->declarations, diagnostics);
   }
-  if (replaced.empty()) common->written_out = std::make_shared<WrittenOutFunctions>(common->declarations);
   return common;
 }
 
