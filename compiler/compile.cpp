@@ -13,7 +13,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
 #include "compiler/solve/solve.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 
@@ -22,8 +22,9 @@ namespace {
 constexpr double least_declared_watt = 0.01;  // below, rounding up would say nothing
 
 /// A program that gives energy says how much.
-void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, Diagnostics& diagnostics) {
-  const Energy energy = energy_of(bank);
+void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, const GradingHand& hand,
+                               Diagnostics& diagnostics) {
+  const Energy energy = energy_of(bank, hand);
   if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
   const double watt = std::max(energy.watt(), least_declared_watt);
   const std::string mend = fmt::format("active {:.2g} W", std::ceil(watt * 100) / 100);
@@ -91,16 +92,16 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
   if (!program) return std::nullopt;
 
   auto loaded = Program::load(std::move(*program));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) {
+  if (!loaded) {
     diagnostics.report(
         {.code = Code::program_too_large,
          .span = solved.span,
-         .message = fmt::format("the machine refuses `{}`: {}", solved.name, refusal->reason),
+         .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
          .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
     return std::nullopt;
   }
-  if (solved.device.shaker) return std::get<Program>(std::move(loaded));  // no height pushes, and nobody is pushed
-  const Bank bank(std::get<Program>(loaded));
+  if (solved.device.shaker) return *std::move(loaded);  // no height pushes, and nobody is pushed
+  const Bank bank(*loaded);
   if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,
                         .span = solved.force_span,
@@ -108,9 +109,9 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
                         .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
     return std::nullopt;
   }
-  warn_of_undeclared_energy(bank, solved, diagnostics);
+  warn_of_undeclared_energy(bank, solved, normal_hand(module.declarations()), diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
-  return std::get<Program>(std::move(loaded));
+  return *std::move(loaded);
 }
 
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,

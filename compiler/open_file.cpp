@@ -29,10 +29,10 @@ OpenedFile open_file(const FileRequest& request) {
                          [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
   if (patch_program || request.file.ends_with(".wpp")) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
-    if (const auto* refusal = std::get_if<Refusal>(&loaded))
-      opened.refusal = fmt::format("`{}` is refused: {}", request.file, refusal->reason);
+    if (!loaded)
+      opened.refusal = fmt::format("`{}` is refused: {}", request.file, in_words(loaded.error()));
     else
-      opened.program = std::get<Program>(std::move(loaded));
+      opened.program = *std::move(loaded);
     return opened;
   }
   const auto resolver = file_resolver(request.roots, request.looked_for);

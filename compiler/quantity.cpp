@@ -2,110 +2,137 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <vector>
 
 #include "compiler/expression/check_expression.hpp"
-#include "compiler/modules/load_modules.hpp"
 #include "compiler/parse/parse.hpp"
+#include "compiler/typed_number.hpp"
 
 namespace wale {
+namespace {
 
-QuantityReader::QuantityReader() : common_(common_modules()), names_(common_->declarations) {}
+/// What an option is typed for, as its errors say it.
+struct Expected {
+  std::string what;     ///< "a force"
+  std::string example;  ///< `--max-force "3 N"`
+};
 
-std::optional<std::vector<double>> QuantityReader::list(const std::string& option, const std::string& text,
-                                                        const std::vector<Dimension>& dimensions, std::size_t needed,
-                                                        const std::string& example) {
-  const SourceId source = sources_.add(option, text);
+Error unexpected(Code code, const std::string& option, const std::string& text, const Expected& expected,
+                 const std::string& because = {}, const std::string& mend = {}) {
+  return {.code = code,
+          .sentence = fmt::format("expected {}, {}{}{}", expected.what, found_typed(text), because.empty() ? "" : ": ",
+                                  because),
+          .mend = fmt::format("for example, `{}`{}{}", expected.example, mend.empty() ? "" : "; ", mend),
+          .place = {.name = option, .text = text}};
+}
+
+/// The first thing that is wrong with a text. What the language says of names and characters speaks of files, and is
+/// left out here.
+Error unexpected(const Diagnostics& diagnostics, const std::string& option, const std::string& text,
+                 const Expected& expected) {
+  const Diagnostic& first = diagnostics.all().front();
+  const bool is_of_quantities = first.code == Code::wrong_dimension || first.code == Code::mismatched_dimensions ||
+                                first.code == Code::unknown_unit || first.code == Code::number_out_of_range;
+  return is_of_quantities ? unexpected(first.code, option, text, expected, first.message, first.help)
+                          : unexpected(Code::malformed_value, option, text, expected);
+}
+
+/// Reads quantities separated by commas: so many as there are dimensions, or only the first `needed`.
+Result<std::vector<double>> read_list(const Declarations& known, const std::string& option, const std::string& text,
+                                      const std::vector<Dimension>& dimensions, std::size_t needed,
+                                      const Expected& expected) {
+  if (text.find_first_not_of(" \t") == std::string::npos)
+    return unexpected(Code::malformed_value, option, text, expected);
+  SourceSet sources;
+  Diagnostics diagnostics;
   SyntaxTree tree;
-  const auto expressions = parse_expressions(sources_, source, tree, diagnostics_);
-  if (diagnostics_.has_errors()) return std::nullopt;
-  const Span whole{source, 0, static_cast<std::uint32_t>(text.size())};
-  if (expressions.size() != needed && expressions.size() != dimensions.size()) {
-    diagnostics_.report(
-        {.code = Code::missing_argument,
-         .span = whole,
-         .message =
-             needed == dimensions.size()
-                 ? fmt::format("{} value{} due here, not {}", needed, needed == 1 ? " is" : "s are", expressions.size())
-                 : fmt::format("{} or {} values are due here, not {}", needed, dimensions.size(), expressions.size()),
-         .help = fmt::format("write, for example, `{}`", example)});
-    return std::nullopt;
-  }
+  const auto expressions = parse_expressions(sources, sources.add(option, text), tree, diagnostics);
+  if (diagnostics.has_errors()) return unexpected(diagnostics, option, text, expected);
+  if (expressions.size() != needed && expressions.size() != dimensions.size())
+    return unexpected(
+        Code::missing_argument, option, text, expected,
+        expressions.size() == 1 ? "this is 1 value" : fmt::format("these are {} values", expressions.size()));
   Terms terms;
   std::vector<HeightTable> tables;
-  ExpressionChecker checker({sources_, names_, diagnostics_}, terms, tables);
+  ExpressionChecker checker({sources, known, diagnostics}, terms, tables);
   Scope scope;
   std::vector<double> values;
   for (std::size_t i = 0; i < expressions.size(); ++i)
     if (const auto value = checker.constant(tree, expressions[i], scope, dimensions[i])) values.push_back(*value);
-  if (diagnostics_.has_errors()) return std::nullopt;
+  if (diagnostics.has_errors()) return unexpected(diagnostics, option, text, expected);
   return values;
 }
 
-std::optional<Hand> QuantityReader::hand(const std::string& option, const std::string& text) {
-  const Dimension length = names_.dimension("length"), velocity = names_.dimension("velocity");
-  const auto values = list(option, text, {length, length, velocity, velocity}, 2, "10 mm, 5 mm");
-  if (!values) return std::nullopt;
+/// The dimension of a parameter; nothing where its SI unit is no unit of the language.
+std::optional<Dimension> dimension_of(const Declarations& known, const Parameter& parameter) {
+  if (parameter.si_unit.empty()) return Dimension{};
+  SourceSet sources;
+  Diagnostics diagnostics;
+  SyntaxTree tree;
+  const auto expressions =
+      parse_expressions(sources, sources.add("a unit", "1 " + parameter.si_unit), tree, diagnostics);
+  Terms terms;
+  std::vector<HeightTable> tables;
+  ExpressionChecker checker({sources, known, diagnostics}, terms, tables);
+  Scope scope;
+  const Value unit = expressions.size() == 1 ? checker.check(tree, expressions[0], scope) : Value{};
+  return unit.failed() ? std::nullopt : std::optional(unit.dimension);
+}
+
+/// "from 1 mm to 5 mm": of bounds in SI, in the parameter's own unit.
+std::string range_text(const Parameter& parameter, double low, double high) {
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+  return fmt::format("from {:.6g}{} to {:.6g}{}", low / parameter.unit_in_si, unit, high / parameter.unit_in_si, unit);
+}
+
+}  // namespace
+
+Result<Hand> read_hand(const Declarations& known, const std::string& option, const std::string& text) {
+  const Dimension length = known.dimension("length"), velocity = known.dimension("velocity");
+  const auto values =
+      read_list(known, option, text, {length, length, velocity, velocity}, 2,
+                {"a position of x and y, with or without a velocity of x and y", option + " \"10 mm, 5 mm\""});
+  if (!values) return values.error();
   Hand hand;
   hand.position = {static_cast<float>((*values)[0]), static_cast<float>((*values)[1])};
   if (values->size() == 4) hand.velocity = {static_cast<float>((*values)[2]), static_cast<float>((*values)[3])};
   return hand;
 }
 
-std::optional<double> QuantityReader::force(const std::string& option, const std::string& text) {
-  const auto values = list(option, text, {names_.dimension("force")}, 1, "3 N");
-  if (!values) return std::nullopt;
+Result<double> read_force(const Declarations& known, const std::string& option, const std::string& text) {
+  const Expected expected{"a force above 0 N", option + " \"3 N\""};
+  const auto values = read_list(known, option, text, {known.dimension("force")}, 1, expected);
+  if (!values) return values.error();
   if (values->front() > 0) return values->front();
-  diagnostics_.report({.code = Code::value_out_of_range,
-                       .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
-                       .message = "the largest force allowed is more than nothing",
-                       .help = fmt::format("write, for example, `{} \"3 N\"`", option)});
-  return std::nullopt;
+  return unexpected(Code::value_out_of_range, option, text, expected);
 }
 
-std::optional<float> QuantityReader::parameter(const std::string& option, const Parameter& parameter,
-                                               const std::string& text) {
-  Dimension dimension;
-  if (!parameter.si_unit.empty()) {
-    const SourceId source = sources_.add("the unit of " + parameter.name, "1 " + parameter.si_unit);
-    SyntaxTree tree;
-    const auto expressions = parse_expressions(sources_, source, tree, diagnostics_);
-    Terms terms;
-    std::vector<HeightTable> tables;
-    ExpressionChecker checker({sources_, names_, diagnostics_}, terms, tables);
-    Scope scope;
-    const Value unit = expressions.size() == 1 ? checker.check(tree, expressions[0], scope) : Value{};
-    if (unit.failed()) return std::nullopt;
-    dimension = unit.dimension;
-  }
+Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
+                                      const std::string& text) {
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit, where = option + " " + parameter.name;
+  const Expected expected{
+      "a value " + range_text(parameter, parameter.low, parameter.high),
+      fmt::format("{} \"{}={:.4g}{}\"", option, parameter.name, parameter.value / parameter.unit_in_si, unit)};
+  const auto dimension = dimension_of(known, parameter);
+  if (!dimension)
+    return Error{.code = Code::unknown_unit,
+                 .sentence = fmt::format("nothing declares the unit `{}` of `{}`", parameter.si_unit, parameter.name),
+                 .place = {.name = where, .text = text}};
   // A unit that only the material's own file declares travels with the parameter.
-  if (!names_.units.contains(parameter.unit))
-    names_.units.add(parameter.unit, {.what = {parameter.unit_in_si, dimension}, .declared = {}});
-  const std::string example =
-      parameter.unit.empty() ? "0.5" : fmt::format("{:.4g} {}", parameter.value / parameter.unit_in_si, parameter.unit);
-  const auto values = list(option, text, {dimension}, 1, example);
-  if (!values) return std::nullopt;
-  const float value = static_cast<float>(values->front());
-  if (!(value >= parameter.low && value <= parameter.high)) {
-    const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-    diagnostics_.report(
-        {.code = Code::value_out_of_range,
-         .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
-         .message = fmt::format("`{}` is out of its range", parameter.name),
-         .help = fmt::format("give a value from {:.6g}{} to {:.6g}{}", parameter.low / parameter.unit_in_si, unit,
-                             parameter.high / parameter.unit_in_si, unit)});
-    return std::nullopt;
-  }
-  if (value < parameter.soft_low || value > parameter.soft_high) {
-    const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-    diagnostics_.report(
-        {.code = Code::beyond_soft_range,
-         .span = {static_cast<SourceId>(sources_.size() - 1), 0, static_cast<std::uint32_t>(text.size())},
-         .message = fmt::format("`{}` is outside its usual range here", parameter.name),
-         .help = fmt::format("usual are values from {:.6g}{} to {:.6g}{}", parameter.soft_low / parameter.unit_in_si,
-                             unit, parameter.soft_high / parameter.unit_in_si, unit)});
-  }
-  return value;
+  Declarations names(known);
+  if (!names.units.contains(parameter.unit))
+    names.units.add(parameter.unit, {.what = {parameter.unit_in_si, *dimension}, .declared = {}});
+  const auto values = read_list(names, where, text, {*dimension}, 1, expected);
+  if (!values) return values.error();
+  ParameterValue read{.value = static_cast<float>(values->front()), .unusual = {}};
+  if (!(read.value >= parameter.low && read.value <= parameter.high))
+    return unexpected(Code::value_out_of_range, where, text, expected);
+  if (read.value < parameter.soft_low || read.value > parameter.soft_high)
+    read.unusual = Error{.code = Code::beyond_soft_range,
+                         .sentence = fmt::format("`{}` is outside its usual range here", parameter.name),
+                         .mend = "usual values are " + range_text(parameter, parameter.soft_low, parameter.soft_high),
+                         .place = {.name = where, .text = text}};
+  return read;
 }
 
 }  // namespace wale

@@ -1,45 +1,32 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "compiler/check/check.hpp"
+#include "compiler/declarations/declarations.hpp"
 #include "schema/patch_program.hpp"
+#include "schema/result.hpp"
 #include "wale/program.hpp"
 
+/// Reads quantities as people type them for an option, "5mm" or "10 mm, 5 mm", with the units of `known`. `option` is
+/// its name, "--at". An error says what was typed, what was expected, and an example; its code is that of the same
+/// mistake in a Wale file where the dimension, the unit or the size is wrong, and W0801 otherwise.
 namespace wale {
 
-/// Reads quantities as people type them on a command line, "5mm" or "10 mm, 5 mm", with the units of the language.
-///
-/// What is wrong is reported with its place in the typed text; `option` names where it was typed, "--at".
-class QuantityReader {
- public:
-  QuantityReader();
+/// A hand: position, and velocity where it is given: "10 mm, 5 mm[, 0.1 m/s, 0 m/s]".
+Result<Hand> read_hand(const Declarations& known, const std::string& option, const std::string& text);
 
-  /// A hand: position, and velocity where it is given: "10 mm, 5 mm[, 0.1 m/s, 0 m/s]".
-  std::optional<Hand> hand(const std::string& option, const std::string& text);
+/// A largest force in N, above 0: "3 N".
+Result<double> read_force(const Declarations& known, const std::string& option, const std::string& text);
 
-  /// A largest force, N: "3 N"; more than nothing.
-  std::optional<double> force(const std::string& option, const std::string& text);
-
-  /// A value for a parameter, in SI and in its range: "5mm" for one in mm. Its own unit is known even where nothing
-  /// else declares it. One outside its usual (soft) range is a warning.
-  std::optional<float> parameter(const std::string& option, const Parameter& parameter, const std::string& text);
-
-  const SourceSet& sources() const { return sources_; }
-  const Diagnostics& diagnostics() const { return diagnostics_; }
-
- private:
-  std::optional<std::vector<double>> list(const std::string& option, const std::string& text,
-                                          const std::vector<Dimension>& dimensions, std::size_t needed,
-                                          const std::string& example);
-
-  SourceSet sources_;
-  Diagnostics diagnostics_;
-  std::shared_ptr<const CommonModules> common_;
-  Declarations names_;
+/// A value for a parameter, in SI and in its range.
+struct ParameterValue {
+  float value = 0;
+  std::optional<Error> unusual;  ///< a warning (W0308) where it is outside its usual (soft) range
 };
+/// "5mm" for a parameter in mm, typed for an option NAME=VALUE, "--set". The parameter's own unit is known even where
+/// nothing else declares it.
+Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
+                                      const std::string& text);
 
 }  // namespace wale

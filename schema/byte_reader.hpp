@@ -11,11 +11,12 @@
 
 #include "schema/instruction.hpp"
 #include "schema/patch_program_format.hpp"
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 
 namespace wale::patch_program_format {
 
-/// Little-endian values out of one part of a file. Never reads past its end: it refuses, naming the part.
+/// Little-endian values out of one part of a file. Never reads past its end: it fails, naming the
+/// part and the byte in it (`damaged_file`, thrown as `Error`).
 class ByteReader {
  public:
   ByteReader(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -27,26 +28,26 @@ class ByteReader {
   float f32() { return std::bit_cast<float>(u32()); }
   double f64() { return std::bit_cast<double>(u64()); }
 
-  /// A figure that must be finite; `what` names it in the refusal.
+  /// A figure that must be finite; `what` names it in the error.
   float finite_f32(std::string_view what) { return finite(f32(), what); }
   double finite_f64(std::string_view what) { return finite(f64(), what); }
 
   bool boolean(std::string_view what) {
     const std::uint8_t value = u8();
-    if (value > 1) refuse(name_, " holds ", int{value}, " for ", what, ", which is 0 or 1");
+    if (value > 1) damaged(" holds ", int{value}, " for ", what, ", which is 0 or 1");
     return value == 1;
   }
 
   std::string text(std::string_view what) {
     const std::uint32_t length = u32();
     if (length > longest_text) {
-      refuse(name_, " claims ", length, " bytes for ", what, "; texts have at most ", longest_text);
+      damaged(" claims ", length, " bytes for ", what, "; texts have at most ", longest_text);
     }
     need(length);
     const auto* first = reinterpret_cast<const char*>(bytes_.data() + position_);
     position_ += length;
     std::string text(first, length);
-    if (text.find('\0') != std::string::npos) refuse(name_, " has a NUL inside ", what);
+    if (text.find('\0') != std::string::npos) damaged(" has a NUL byte inside ", what);
     return text;
   }
 
@@ -54,7 +55,7 @@ class ByteReader {
   std::uint32_t count(std::size_t least_bytes, std::string_view what) {
     const std::uint32_t count = u32();
     if (count > remaining() / least_bytes) {
-      refuse(name_, " claims ", count, " ", what, " and has ", remaining(), " bytes left for them");
+      damaged(" claims ", count, " ", what, " and has ", remaining(), " bytes left for them");
     }
     return count;
   }
@@ -66,15 +67,22 @@ class ByteReader {
   }
 
   std::size_t remaining() const { return bytes_.size() - position_; }
-  const std::string& name() const { return name_; }
+
+  /// Fails here: the sentence is the part's name and what `parts` say of it.
+  template <typename... Parts>
+  [[noreturn]] void damaged(const Parts&... parts) const {
+    throw Error{.code = Code::damaged_file,
+                .sentence = sentence(name_, parts...),
+                .place = {.name = name_, .number = position_}};
+  }
 
   void finish() const {
-    if (remaining() != 0) refuse(name_, " has ", remaining(), " bytes after its end");
+    if (remaining() != 0) damaged(" has ", remaining(), " bytes after its end");
   }
 
  private:
   void need(std::size_t size) const {
-    if (size > remaining()) refuse(name_, " ends early: ", size, " bytes are due and ", remaining(), " are left");
+    if (size > remaining()) damaged(" ends early: ", size, " bytes are needed and ", remaining(), " are left");
   }
 
   template <typename Unsigned>
@@ -90,7 +98,7 @@ class ByteReader {
 
   template <typename Float>
   Float finite(Float value, std::string_view what) const {
-    if (!std::isfinite(value)) refuse(name_, " holds ", value, " for ", what, ", which is no figure");
+    if (!std::isfinite(value)) damaged(" holds ", value, " for ", what, ", which is not a finite number");
     return value;
   }
 

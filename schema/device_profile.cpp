@@ -45,7 +45,7 @@ double Shaker::acceleration(double command, double frequency) const noexcept {
 }
 
 double Shaker::command(double acceleration, double frequency) const noexcept {
-  // The sum of two rows of straight lines bends at the commands of both: those on either side of what is asked for.
+  // A mean of two piecewise linear curves bends at the commands of both: find those on either side of the request.
   double below = 0, above = 1, least = 0, most = this->acceleration(1, frequency);
   if (!(acceleration < most)) return 1;
   for (const Response& each : response)

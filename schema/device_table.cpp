@@ -47,10 +47,10 @@ std::array<SignedAxis, 2> read_axes(ByteReader& in) {
   std::array<SignedAxis, 2> axes;
   for (SignedAxis& axis : axes) {
     const std::uint8_t code = in.u8();
-    if (code > 3) refuse(in.name(), " has axis ", int{code}, "; expected 0 .. 3");
+    if (code > 3) in.damaged(" has axis ", int{code}, "; expected 0 .. 3");
     axis = {code / 2, code % 2 == 0 ? 1 : -1};
   }
-  if (axes[0].axis == axes[1].axis) refuse(in.name(), " names one axis twice");
+  if (axes[0].axis == axes[1].axis) in.damaged(" names one axis twice");
   return axes;
 }
 
@@ -67,8 +67,7 @@ DeviceWiring read_wiring(ByteReader& in) {
   for (double& gain : wiring.gain) {
     gain = in.finite_f64("a gain");
     if (!(gain >= DeviceWiring::least_gain && gain <= DeviceWiring::most_gain))
-      refuse(in.name(), " has a gain of ", gain, "; expected ", DeviceWiring::least_gain, " .. ",
-             DeviceWiring::most_gain);
+      in.damaged(" has a gain of ", gain, "; expected ", DeviceWiring::least_gain, " .. ", DeviceWiring::most_gain);
   }
   return wiring;
 }
@@ -76,7 +75,7 @@ DeviceWiring read_wiring(ByteReader& in) {
 /// What drivers and the loop divide by, or count with.
 void require_usable(const DeviceProfile& profile) {
   const auto require = [&](bool holds, const char* what) {
-    if (!holds) refuse("the device `", profile.name, "` has ", what);
+    if (!holds) damaged("the device `", profile.name, "` has ", what);
   };
   require(!profile.name.empty(), "no name");
   require(profile.rate >= DeviceProfile::least_rate && profile.rate <= DeviceProfile::most_rate,
@@ -140,7 +139,9 @@ std::vector<std::byte> write_device_table(std::span<const DeclaredDevice> device
 Result<std::vector<DeclaredDevice>> read_device_table(std::span<const std::byte> bytes) {
   constexpr std::size_t least_device_bytes = 200;  // an empty name, 22 figures and a wiring are more
   const auto damaged = [](std::string sentence) {
-    return Error{Code::damaged_file, std::move(sentence), "build Wale anew, or hand in another table",
+    return Error{Code::damaged_file,
+                 std::move(sentence),
+                 "build Wale anew, or hand in another table",
                  {.name = "table of devices"}};
   };
   try {
@@ -154,8 +155,8 @@ Result<std::vector<DeclaredDevice>> read_device_table(std::span<const std::byte>
       devices.push_back(read_declared_device(in));
     in.finish();
     return devices;
-  } catch (const Refusal& refusal) {
-    return damaged(refusal.reason);
+  } catch (const Error& error) {
+    return damaged(error.sentence);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "schema/device_profile.hpp"
 #include "schema/instruction.hpp"
+#include "schema/result.hpp"
 #include "schema/shared_heights.hpp"
 
 namespace wale {
@@ -317,27 +318,12 @@ struct PatchProgram {
   friend bool operator==(const PatchProgram&, const PatchProgram&) = default;
 };
 
-/// An instruction that has to do with a refusal.
-struct RefusedInstruction {
-  std::string section;     ///< "tick", "peak 0"
-  std::size_t number = 0;  ///< in its section, from 0 on
-  std::string text;        ///< as a listing has it: "r45 = multiply r45 r41"
-  std::string place;       ///< in its source, "corduroy.wale:9:13"; empty when that is not known
-};
-
-/// Why bytes are not a patch program, or a patch program may not run.
-struct Refusal {
-  std::string reason;
-  /// The few that led to it, in the order in which they run, the one that is refused last. Empty when no code is.
-  std::vector<RefusedInstruction> instructions;
-};
-
 /// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md): the same program gives the same bytes everywhere.
 std::vector<std::byte> write_patch_program(const PatchProgram& program);
 
 /// Reads a `.wpp` file's bytes. Checks structure, sizes and checksum, not what the code does: that is `verify`'s.
 /// Never reads outside `bytes`, never allocates more than a small multiple of their size, whatever they hold.
-std::variant<PatchProgram, Refusal> read_patch_program(std::span<const std::byte> bytes);
+Result<PatchProgram> read_patch_program(std::span<const std::byte> bytes);
 
 /// The code of a section or subprogram costs the sum over its instructions, in units of one addition.
 long cost_of(std::span<const Instruction> code);

@@ -1,7 +1,5 @@
 #include "schema/read_device.hpp"
 
-#include "schema/refuse.hpp"
-
 namespace wale::patch_program_format {
 
 DeviceProfile read_device(ByteReader& in) {
@@ -39,7 +37,7 @@ Shaker read_shaker(ByteReader& in) {
   Shaker vibration;
   const std::uint8_t position = in.u8();
   if (position > static_cast<std::uint8_t>(PositionSource::touch)) {
-    refuse(in.name(), " takes the position from source ", int{position}, ", which this Wale does not know");
+    in.damaged(" says that the position comes from source ", int{position}, ", which this Wale does not know");
   }
   vibration.position = static_cast<PositionSource>(position);
   for (double* figure : {&vibration.frequency_low, &vibration.frequency_high, &vibration.command_steps,

@@ -3,7 +3,7 @@
 #include "schema/byte_reader.hpp"
 #include "schema/patch_program_format.hpp"
 #include "schema/read_device.hpp"
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 
 namespace wale {
 namespace {
@@ -58,7 +58,7 @@ void read_states(ByteReader& in, PatchProgram& program) {
   }
   program.enter = in.code();
   if (program.states.empty() && program.enter.empty()) {
-    refuse(in.name(), " is there and empty; a file without states leaves it out");
+    in.damaged(" is empty; a file without states leaves it out");
   }
 }
 
@@ -81,19 +81,19 @@ void read_grids(ByteReader& in, PatchProgram& program) {
     write.value = in.u16();
   }
   if (program.grids.empty() && program.writes.empty()) {
-    refuse(in.name(), " is there and empty; a file without grids leaves it out");
+    in.damaged(" is empty; a file without grids leaves it out");
   }
 }
 
 void read_picture(ByteReader& in, Picture& picture) {
   picture.relief = in.u16();
-  picture.relief_is_length = in.boolean("the relief's being a length");
-  const bool coloured = in.boolean("the surface's being coloured");
+  picture.relief_is_length = in.boolean("whether the relief is a length");
+  const bool coloured = in.boolean("whether the surface is coloured");
   std::array<RegisterNumber, 3> colour{};
   for (RegisterNumber& number : colour) number = in.u16();
   if (coloured) picture.colour = colour;
   if (!coloured && colour != std::array<RegisterNumber, 3>{}) {
-    refuse(in.name(), " names registers for a colour that it does not have");
+    in.damaged(" names registers for a colour, and the surface has no colour");
   }
   picture.code = in.code();
 }
@@ -105,13 +105,13 @@ void read_frame(ByteReader& in, Picture& picture) {
     const std::uint8_t kind = in.u8();
     mark.kind = static_cast<MarkKind>(kind);
     if (mark_operands(mark.kind) == 0) {
-      refuse(in.name(), " has a mark of kind ", int{kind}, ", which this Wale does not know");
+      in.damaged(" has a mark of kind ", int{kind}, ", which this Wale does not know");
     }
     mark.colour = in.u32();
     for (std::size_t i = 0; i < mark_operands(mark.kind); ++i) mark.operands[i] = in.u16();
   }
   if (picture.frame.empty() && picture.marks.empty()) {
-    refuse(in.name(), " is there and empty; a file without marks leaves it out");
+    in.damaged(" is empty; a file without marks leaves it out");
   }
 }
 
@@ -121,7 +121,7 @@ std::vector<Output> read_outputs(ByteReader& in) {
     const std::uint8_t quantity = in.u8();
     if (quantity < static_cast<std::uint8_t>(OutputQuantity::force) ||
         quantity > static_cast<std::uint8_t>(OutputQuantity::frequency)) {
-      refuse(in.name(), " names quantity ", int{quantity}, ", which this Wale does not know");
+      in.damaged(" names quantity ", int{quantity}, ", which this Wale does not know");
     }
     output.quantity = static_cast<OutputQuantity>(quantity);
     output.axis = in.u8();
@@ -140,12 +140,12 @@ std::vector<HeightTable> read_tables(ByteReader& in) {
     const std::uint64_t hash = in.u64();
     const std::uint64_t samples = std::uint64_t{table.width} * table.height;
     if (samples > in.remaining() / 2) {
-      refuse(in.name(), " claims ", table.width, " x ", table.height, " heights for table ", number, " and has ",
+      in.damaged(" claims ", table.width, " x ", table.height, " heights for table ", number, " and has ",
              in.remaining(), " bytes left for them");
     }
     table.heights.resize(samples);
     for (std::uint16_t& code : table.heights) code = in.u16();
-    if (content_hash(table) != hash) refuse(in.name(), " holds table ", number, " with heights that its hash denies");
+    if (content_hash(table) != hash) in.damaged(" holds table ", number, ", whose heights do not match its hash");
   }
   return tables;
 }
@@ -154,7 +154,7 @@ Evidence read_evidence(ByteReader& in, std::string_view what) {
   const std::uint8_t value = in.u8();
   if (value < static_cast<std::uint8_t>(Evidence::measured) ||
       value > static_cast<std::uint8_t>(Evidence::transferred)) {
-    refuse(in.name(), " grades the evidence of ", what, " ", int{value}, ", which this Wale does not know");
+    in.damaged(" gives the evidence of ", what, " grade ", int{value}, ", which this Wale does not know");
   }
   return static_cast<Evidence>(value);
 }
@@ -165,13 +165,13 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.name = in.text("a percept's name");
     percept.carrier = in.text("a percept's carrier");
     const std::uint8_t live = in.u8();
-    if (live > 2) refuse(in.name(), " holds ", int{live}, " for a percept's being live, which is 0, 1 or 2");
+    if (live > 2) in.damaged(" holds ", int{live}, " for whether a percept is live, which is 0, 1 or 2");
     const std::uint16_t parameter = in.u16();
     if (live == 1) percept.parameter = parameter;
     percept.blended = live == 2;
-    if (live != 1 && parameter != 0) refuse(in.name(), " names parameter ", parameter, " for a percept that has none");
+    if (live != 1 && parameter != 0) in.damaged(" names parameter ", parameter, " for a percept without a parameter");
     percept.amplitude = in.u16();
-    percept.alone = in.boolean("a percept's being alone");
+    percept.alone = in.boolean("whether a percept is alone");
     percept.prediction = in.code();
     percept.magnitude = in.u16();
     percept.level = in.u16();
@@ -187,7 +187,7 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.unit = in.text("a carrier's unit");
     const std::uint8_t extractor = in.u8();
     if (extractor > static_cast<std::uint8_t>(Extractor::acceleration)) {
-      refuse(in.name(), " reads a percept by extractor ", int{extractor}, ", which this Wale does not know");
+      in.damaged(" reads a percept by extractor ", int{extractor}, ", which this Wale does not know");
     }
     percept.extractor = static_cast<Extractor>(extractor);
     for (float* figure : {&percept.period_low, &percept.period_high, &percept.one, &percept.near_threshold,
@@ -199,25 +199,25 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.weber_source = in.text("a threshold's source");
     percept.realisation = in.text("a realisation");
   }
-  if (percepts.empty()) refuse(in.name(), " is there and empty; a file without percepts leaves it out");
+  if (percepts.empty()) in.damaged(" is empty; a file without percepts leaves it out");
   return percepts;
 }
 
 std::vector<FateRecord> read_fates(ByteReader& in) {
   std::vector<FateRecord> fates(in.count(18, "fates"));
   for (FateRecord& fate : fates) {
-    fate.name = in.text("what has a fate");
-    fate.percept = in.boolean("whether a fate is a percept's");
+    fate.name = in.text("the name of a fate");
+    fate.percept = in.boolean("whether a fate is of a percept");
     const std::uint8_t word = in.u8();
     if (word < static_cast<std::uint8_t>(Fate::kept) || word > static_cast<std::uint8_t>(Fate::lost)) {
-      refuse(in.name(), " tells fate ", int{word}, ", which this Wale does not know");
+      in.damaged(" holds fate ", int{word}, ", which this Wale does not know");
     }
     fate.fate = static_cast<Fate>(word);
     fate.asked = in.finite_f32("the level asked for");
     fate.given = in.finite_f32("the level given");
     fate.reason = in.text("the reason of a fate");
   }
-  if (fates.empty()) refuse(in.name(), " is there and empty; a file without fates leaves it out");
+  if (fates.empty()) in.damaged(" is empty; a file without fates leaves it out");
   return fates;
 }
 
@@ -232,7 +232,7 @@ Layers read_layers(ByteReader& in) {
   layers.perceptual = in.text("the perceptual layer");
   layers.physical = in.text("the physical layer");
   layers.documentation = in.text("the documentation");
-  if (layers == Layers{}) refuse(in.name(), " is there and empty; a file without layers leaves it out");
+  if (layers == Layers{}) in.damaged(" is empty; a file without layers leaves it out");
   return layers;
 }
 
@@ -241,7 +241,7 @@ SourcePlaces read_places(ByteReader& in, const PatchProgram& program) {
   SourcePlaces places;
   places.files.resize(in.count(4, "files"));
   for (std::string& file : places.files) file = in.text("a file's name");
-  if (places.files.empty()) refuse(in.name(), " is there and empty; a file without places leaves it out");
+  if (places.files.empty()) in.damaged(" is empty; a file without places leaves it out");
   for (const auto& [section, index] : code_of(program)) {
     auto& runs = places.sections.emplace_back(in.count(10, "runs"));
     std::uint64_t placed = 0;
@@ -249,16 +249,16 @@ SourcePlaces read_places(ByteReader& in, const PatchProgram& program) {
       run.instructions = in.u32();
       run.file = in.u16();
       run.line = in.u32();
-      if (run.instructions == 0) refuse(in.name(), " has a run of no instructions");
+      if (run.instructions == 0) in.damaged(" has a run of no instructions");
       if (run.file >= places.files.size()) {
-        refuse(in.name(), " names file ", run.file, " and has ", places.files.size(), " of them");
+        in.damaged(" names file ", run.file, " and has ", places.files.size(), " of them");
       }
-      if (run.line == 0) refuse(in.name(), " names line 0, and lines begin at 1");
+      if (run.line == 0) in.damaged(" names line 0, and lines begin at 1");
       placed += run.instructions;
     }
     const std::size_t written = program.code(section, index).size();
     if (placed != written) {
-      refuse(in.name(), " places ", placed, " instructions where the code has ", written);
+      in.damaged(" places ", placed, " instructions where the code has ", written);
     }
   }
   return places;
@@ -296,39 +296,48 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
   in.finish();
 }
 
+/// The file is no patch program at all, or one that a transfer as text changed.
+[[noreturn]] void fail_at_magic(std::span<const std::byte> bytes) {
+  const bool named = bytes.size() >= 4 && std::to_integer<int>(bytes[1]) == 'W' &&
+                     std::to_integer<int>(bytes[2]) == 'P' && std::to_integer<int>(bytes[3]) == 'P';
+  if (!named) damaged("this is not a patch program: it does not begin as a .wpp file does");
+  throw Error{.code = Code::damaged_file,
+              .sentence = "this was a patch program, and a transfer as text has damaged it",
+              .mend = "copy it as binary"};
+}
+
+[[noreturn]] void fail_as_newer(std::uint16_t major, std::uint16_t minor) {
+  throw Error{.code = Code::newer_file,
+              .sentence = sentence("this patch program has format version ", major, ".", minor,
+                                   ", and this Wale reads up to ", major_version),
+              .mend = "update Wale, or build the material again with this one"};
+}
+
 /// Checks everything before the section table and leaves `in` there. Returns the number of sections.
 std::uint32_t read_header(ByteReader& in, std::span<const std::byte> bytes) {
-  for (std::size_t i = 0; i < magic.size(); ++i) {
-    if (i >= bytes.size() || in.u8() != magic[i]) {
-      const bool named = bytes.size() >= 4 && std::to_integer<int>(bytes[1]) == 'W' &&
-                         std::to_integer<int>(bytes[2]) == 'P' && std::to_integer<int>(bytes[3]) == 'P';
-      refuse(named ? "this was a patch program, but a transfer as text has damaged it: copy it as binary"
-                   : "this is not a patch program: it does not begin as a .wpp file does");
-    }
+  for (const std::uint8_t expected : magic) {
+    if (in.remaining() == 0 || in.u8() != expected) fail_at_magic(bytes);
   }
   if (bytes.size() < header_size) {
-    refuse("the file ends inside its header, after ", bytes.size(), " of ", header_size, " bytes");
+    damaged("the file ends inside its header, after ", bytes.size(), " of ", header_size, " bytes");
   }
   const std::uint16_t major = in.u16();
   const std::uint16_t minor = in.u16();
-  if (major > major_version) {
-    refuse("this patch program has format version ", major, ".", minor, " and this Wale reads up to ", major_version,
-           ": update Wale, or build the material again with this one");
-  }
-  if (major == 0) refuse("this patch program claims format version 0, which never was");
+  if (major > major_version) fail_as_newer(major, minor);
+  if (major == 0) damaged("this patch program claims format version 0, which never existed");
   const std::uint32_t sections = in.u32();
   const std::uint64_t total = in.u64();
   if (total > bytes.size()) {
-    refuse("the file is cut short: it should have ", total, " bytes and has ", bytes.size());
+    damaged("the file is cut short: it should have ", total, " bytes and has ", bytes.size());
   }
   if (total < bytes.size()) {
-    refuse("the file has ", bytes.size() - total, " bytes after its end at ", total);
+    damaged("the file has ", bytes.size() - total, " bytes after its end at ", total);
   }
   const std::uint32_t stored = in.u32();
-  if (stored != checksum(bytes)) refuse("the file is damaged: its checksum does not match its bytes");
-  if (in.u32() != 0) refuse("the reserved part of the header is not zero");
+  if (stored != checksum(bytes)) damaged("the file is damaged: its checksum does not match its bytes");
+  if (in.u32() != 0) damaged("the reserved part of the header is not zero");
   if (sections > most_sections || sections > in.remaining() / section_entry_size) {
-    refuse("the header claims ", sections, " sections, more than the file has room for");
+    damaged("the header claims ", sections, " sections, more than the file has room for");
   }
   return sections;
 }
@@ -343,72 +352,104 @@ std::string shown_kind(std::uint32_t fourcc) {
   return kind;
 }
 
-PatchProgram read(std::span<const std::byte> bytes) {
-  ByteReader table("the section table", bytes);
-  const std::uint32_t sections = read_header(table, bytes);
+/// A row of the section table.
+struct SectionEntry {
+  std::string kind;
+  std::uint32_t flags = 0;
+  std::uint64_t offset = 0, size = 0;
+};
 
-  PatchProgram program;
-  std::array<bool, section_kinds.size()> seen{};
-  std::size_t next_known = 0;
-  const auto refuse_missing = [&seen] {
-    for (std::size_t i = 0; i < section_kinds.size(); ++i) {
-      if (section_kinds[i].always && !seen[i]) refuse("section ", section_kinds[i].name, " is missing");
-    }
-  };
-  std::size_t expected_offset = header_size + sections * section_entry_size;
-  for (std::uint32_t number = 0; number < sections; ++number) {
-    const std::string kind = shown_kind(table.u32());
-    const std::uint32_t flags = table.u32();
-    const std::uint64_t offset = table.u64();
-    const std::uint64_t size = table.u64();
-    if (offset > bytes.size() || size > bytes.size() - offset) {
-      refuse("section ", kind, " claims ", size, " bytes at ", offset, ", the file has ", bytes.size());
-    }
-    if (offset < expected_offset) refuse("section ", kind, " at ", offset, " overlaps what is before it");
-    if (offset > expected_offset) {
-      refuse("section ", kind, " at ", offset, " leaves ", offset - expected_offset, " bytes unaccounted for");
-    }
-    expected_offset = align(offset + size);
-    if (expected_offset > bytes.size()) refuse("section ", kind, " lacks the zeros that fill its last 8 bytes");
-    for (std::size_t i = offset + size; i < expected_offset; ++i) {
-      if (bytes[i] != std::byte{0}) refuse("section ", kind, " is followed by bytes that are not zero");
-    }
-    if ((flags & ~required_flag) != 0) refuse("section ", kind, " has flags that this Wale does not know");
+/// Reads the next row. Its section must lie right after the one before, which ends at `expected_offset`; this moves to
+/// the end of the new one.
+SectionEntry read_entry(ByteReader& table, std::span<const std::byte> bytes, std::size_t& expected_offset) {
+  SectionEntry entry;
+  entry.kind = shown_kind(table.u32());
+  entry.flags = table.u32();
+  entry.offset = table.u64();
+  entry.size = table.u64();
+  const auto& [kind, flags, offset, size] = entry;
+  if (offset > bytes.size() || size > bytes.size() - offset) {
+    damaged("section ", kind, " claims ", size, " bytes at ", offset, ", and the file has ", bytes.size());
+  }
+  if (offset < expected_offset) damaged("section ", kind, " at ", offset, " overlaps what is before it");
+  if (offset > expected_offset) {
+    damaged("section ", kind, " at ", offset, " leaves a gap of ", offset - expected_offset, " bytes before it");
+  }
+  expected_offset = align(offset + size);
+  if (expected_offset > bytes.size()) damaged("section ", kind, " lacks the zeros that fill its last 8 bytes");
+  for (std::size_t i = offset + size; i < expected_offset; ++i) {
+    if (bytes[i] != std::byte{0}) damaged("section ", kind, " is followed by bytes that are not zero");
+  }
+  if ((flags & ~required_flag) != 0) damaged("section ", kind, " has flags that this Wale does not know");
+  return entry;
+}
 
-    const bool required = (flags & required_flag) != 0;
+/// Which sections have come, to check that each comes once, in order, and marked as the format says.
+class SectionOrder {
+ public:
+  /// Whether this Wale knows the section; one that it does not know is skipped, unless the file requires it.
+  bool accept(const SectionEntry& entry) {
+    const std::string& kind = entry.kind;
+    const bool required = (entry.flags & required_flag) != 0;
     const auto known =
         std::find_if(section_kinds.begin(), section_kinds.end(), [&](const SectionKind& k) { return k.name == kind; });
     if (known == section_kinds.end()) {
-      if (required)
-        refuse("section ", kind, " is required to run this program and this Wale does not know it: update Wale");
-      continue;
+      if (required) {
+        throw Error{.code = Code::newer_file,
+                    .sentence = "section " + kind + " is required to run this program, and this Wale does not know it",
+                    .mend = "update Wale"};
+      }
+      return false;
     }
     const auto index = static_cast<std::size_t>(known - section_kinds.begin());
-    if (seen[index]) refuse("section ", kind, " is there twice");
-    if (index < next_known) refuse("section ", kind, " stands after ", section_kinds[next_known - 1].name);
+    if (seen_[index]) damaged("section ", kind, " is there twice");
+    if (index < next_) damaged("section ", kind, " stands after ", section_kinds[next_ - 1].name);
     if (required != known->required) {
-      refuse("section ", kind, " is marked ", required ? "required" : "skippable", " and is not");
+      damaged("section ", kind, " is marked as ", required ? "required" : "skippable", " and must not be");
     }
-    seen[index] = true;
-    next_known = index + 1;
-    if (kind == "PLAC") refuse_missing();  // places are held against the code
-    ByteReader section("section " + kind, bytes.subspan(offset, size));
-    read_section(kind, section, program);
+    seen_[index] = true;
+    next_ = index + 1;
+    return true;
+  }
+
+  void require_all() const {
+    for (std::size_t i = 0; i < section_kinds.size(); ++i) {
+      if (section_kinds[i].always && !seen_[i]) damaged("section ", section_kinds[i].name, " is missing");
+    }
+  }
+
+ private:
+  std::array<bool, section_kinds.size()> seen_{};
+  std::size_t next_ = 0;
+};
+
+PatchProgram read(std::span<const std::byte> bytes) {
+  ByteReader table("the section table", bytes);
+  const std::uint32_t sections = read_header(table, bytes);
+  PatchProgram program;
+  SectionOrder order;
+  std::size_t expected_offset = header_size + sections * section_entry_size;
+  for (std::uint32_t number = 0; number < sections; ++number) {
+    const SectionEntry entry = read_entry(table, bytes, expected_offset);
+    if (!order.accept(entry)) continue;
+    if (entry.kind == "PLAC") order.require_all();  // places are checked against the code
+    ByteReader section("section " + entry.kind, bytes.subspan(entry.offset, entry.size));
+    read_section(entry.kind, section, program);
   }
   if (expected_offset != bytes.size()) {
-    refuse("the file has ", bytes.size() - expected_offset, " bytes after its last section");
+    damaged("the file has ", bytes.size() - expected_offset, " bytes after its last section");
   }
-  refuse_missing();
+  order.require_all();
   return program;
 }
 
 }  // namespace
 
-std::variant<PatchProgram, Refusal> read_patch_program(std::span<const std::byte> bytes) {
+Result<PatchProgram> read_patch_program(std::span<const std::byte> bytes) {
   try {
     return read(bytes);
-  } catch (const Refusal& refusal) {
-    return refusal;
+  } catch (const Error& error) {
+    return error;
   }
 }
 

@@ -20,14 +20,21 @@ struct Place {
   std::string source = {};                 ///< what it was made from, "corduroy.wale:9:13"; may be empty
 };
 
-/// What is wrong, as a value. Programs decide by `code`; the sentence is for people and is never searched.
+/// What is wrong, as a value. Programs decide by `code`; the sentence is for people and is never searched. It can be read
+/// without the place.
 struct Error {
-  Code code;
-  std::string sentence;            ///< what is wrong: "expected a number, found a vector"
+  Code code = {};
+  std::string sentence = {};       ///< what is wrong: "expected a number, found a vector"
   std::string mend = {};           ///< what to do about it; may be empty
   Place place = {};                ///< where
   std::vector<Place> led_to = {};  ///< what led to it, the first first: the instructions before a refused one
 };
+
+/// The error in one line for a person: "the disk is full; make room or record elsewhere".
+std::string in_words(const Error& error);
+
+/// The error for a person in several lines: what `in_words` says, then what led to it, one a line.
+std::string explained(const Error& error);
 
 /// A value, or why there is none: the one way in which a function of this project says that it failed.
 ///

@@ -7,11 +7,11 @@
 
 namespace wale {
 
-/// Asks in lines of text: answers are 1 or 2, `q` ends it, and so does the end of the input. Anything else is asked
+/// Asks in lines of text. Answers are 1 or 2; `q` and the end of the input end the session. After anything else it asks
 /// again.
 class AskingPerson final : public BlindPerson {
  public:
-  /// `typed`: a person types the answers and ends each line on the screen; otherwise `out` gets the line's end.
+  /// `typed`: a person types the answers, so that their line ends are on the screen; otherwise `out` gets them.
   AskingPerson(std::istream& in, std::ostream& out, std::string a, std::string b, int trials, bool typed)
       : in_(in), out_(out), a_(std::move(a)), b_(std::move(b)), trials_(trials), typed_(typed) {}
 

@@ -11,27 +11,28 @@ namespace {
 
 constexpr double two_sided_95 = 0.975;
 
-/// One material for some seconds; why not all of them, if so.
+/// Lets one material be felt for some seconds.
 class Interval {
  public:
   Interval(Device& device, const BlindOptions& options) : stage_(device), options_(options) {}
 
-  std::string feel(const BlindMaterial& material) {
+  Result<> feel(const BlindMaterial& material) {
     stage_.place(material.program);
     const auto& parameters = material.program.description().parameters;
     for (std::size_t i = 0; i < material.parameters.size(); ++i)
-      if (const auto refusal = stage_.set(parameters[i].name, material.parameters[i])) return refusal->reason;
+      if (const auto set = stage_.set(parameters[i].name, material.parameters[i]); !set) return set.error();
     const auto result = stage_.run({.seconds = options_.seconds,
                                     .most_newton = options_.most_newton,
                                     .virtual_time = options_.virtual_time,
                                     .progress = {},
                                     .stop = options_.stop});
-    if (const auto* refusal = std::get_if<Refusal>(&result)) return refusal->reason;
-    if (options_.stop && *options_.stop) return "interrupted";
-    const auto& run = std::get<RunResult>(result);
+    if (!result) return result.error();
+    if (options_.stop && *options_.stop) return Error{Code::stopped, "interrupted"};
+    const auto& run = *result;
     const double felt = static_cast<double>(run.ticks_run + run.ticks_missed) * run.record.seconds_per_tick;
-    constexpr double enough = 0.5;  // of an interval: the last period may be cut, a device that is gone is not
-    if (felt < enough * options_.seconds) return fmt::format("the device stopped after {:.1f} s", felt);
+    constexpr double enough = 0.5;  // of an interval: its end may be cut, but a lost device stops earlier
+    if (felt < enough * options_.seconds)
+      return Error{Code::lost_device, fmt::format("the device stopped after {:.1f} s", felt)};
     return {};
   }
 
@@ -48,18 +49,24 @@ BlindSession feel_blind(Device& device, const BlindMaterial& a, const BlindMater
   Interval interval(device, options);
   for (const bool is_a : {true, false}) {
     person.introduce(is_a);
-    if (session.ended = interval.feel(is_a ? a : b); !session.ended.empty()) return session;
+    if (auto felt = interval.feel(is_a ? a : b); !felt) {
+      session.ended = std::move(felt.error());
+      return session;
+    }
   }
   std::mt19937_64 random(options.seed);
   for (int trial = 1; trial <= options.trials; ++trial) {
     const bool a_first = random() >> 63 != 0;
     for (const int which : {1, 2}) {
       person.begin(trial, which);
-      if (session.ended = interval.feel((which == 1) == a_first ? a : b); !session.ended.empty()) return session;
+      if (auto felt = interval.feel((which == 1) == a_first ? a : b); !felt) {
+        session.ended = std::move(felt.error());
+        return session;
+      }
     }
     const std::optional<int> answer = person.answer(trial);
     if (!answer) {
-      session.ended = "no further answer";
+      session.ended = Error{Code::stopped, "no further answer"};
       return session;
     }
     session.trials.push_back({a_first, *answer});

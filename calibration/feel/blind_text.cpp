@@ -25,11 +25,10 @@ std::string sensitivity_text(const BlindScore& score) {
 
 std::string predicted_text(const Comparison& predicted) {
   const CueDifference* plainest = predicted.plainest();
-  if (predicted.verdict == Verdict::unknown) return "unknown: they differ in what no threshold is known for";
-  if (!plainest || *plainest->noticeable == 0)
-    return "d' 0.0: nothing is known to differ, so every second answer is right";
+  if (predicted.verdict == Verdict::unknown) return "unknown: they differ in a cue whose threshold is not known";
+  if (!plainest || *plainest->noticeable == 0) return "d' 0.0: no known difference, so half of the answers are right";
   const std::string by = cue_table()[static_cast<std::size_t>(plainest->kind)].name;
-  if (*plainest->noticeable > 20) return fmt::format("d' > 20 by their {}: every answer is right", by);
+  if (*plainest->noticeable > 20) return fmt::format("d' > 20 by their {}: all answers are right", by);
   return fmt::format("d' {:.1f} by their {}: {:.0f} % of answers right", *plainest->noticeable, by,
                      100 * proportion_right(*plainest->noticeable));
 }
@@ -39,13 +38,13 @@ std::string predicted_text(const Comparison& predicted) {
 std::string blind_text(const BlindReport& report) {
   const std::size_t answered = report.session.trials.size();
   std::string text = fmt::format("A {} and B {}, on {}: which of two was A?\n", report.a, report.b, report.device);
-  if (!report.session.ended.empty())
-    text +=
-        fmt::format("  ended early  {} of {} trials were answered: {}\n", answered, report.asked, report.session.ended);
+  if (report.session.ended)
+    text += fmt::format("  ended early  {} of {} trials were answered: {}\n", answered, report.asked,
+                        in_words(*report.session.ended));
   if (answered > 0) {
     const BlindScore score = score_of(report.session);
     text += fmt::format(
-        "  right        {} of {}: {:.0f} % ({:.0f} to {:.0f} %); guessing gets as many in {:.2g} % of such series\n",
+        "  right        {} of {}: {:.0f} % ({:.0f} to {:.0f} %); guessing gets as many in {:.2g} % of sessions\n",
         score.right, score.trials, 100 * score.proportion, 100 * score.low, 100 * score.high, 100 * score.by_chance);
     text += fmt::format("  d'           {}: sqrt(2) z(share right), two intervals, forced choice\n",
                         sensitivity_text(score));
@@ -63,7 +62,7 @@ std::string blind_json(const BlindReport& report) {
   Json json = {{"a", report.a},           {"b", report.b},
                {"device", report.device}, {"method", "two-interval forced choice: which was A"},
                {"seed", report.seed},     {"asked", report.asked}};
-  if (!report.session.ended.empty()) json["ended"] = report.session.ended;
+  if (report.session.ended) json["ended"] = in_words(*report.session.ended);
   Json& trials = json["trials"] = Json::array();
   for (const BlindTrial& each : report.session.trials)
     trials.push_back({{"a_first", each.a_first}, {"answer", each.answer}, {"right", each.right()}});

@@ -31,7 +31,7 @@ std::vector<std::pair<std::string, long>> named(const GuardCounts& counts) {
           {"lost", counts.lost}};
 }
 
-/// "slew 12 ticks, passivity 3": those that did.
+/// "slew 12, passivity 3 (ticks)": the guards that stepped in.
 std::string shown(const GuardCounts& counts) {
   std::string text;
   for (auto [name, count] : named(counts)) {
@@ -50,7 +50,7 @@ std::string vibration_text(const FeltVibration& vibration) {
   return text;
 }
 
-/// Every step by its name.
+/// Every step with its name.
 std::vector<std::pair<std::string, Times>> named(const TickCosts& costs) {
   std::vector<std::pair<std::string, Times>> all;
   for (std::size_t step = 0; step < TickCosts::steps; ++step)
@@ -89,7 +89,7 @@ std::string spaced(std::string name) {
   return name;
 }
 
-/// What became of a real device, with what it has done as so many a second.
+/// What happened to a real device, with its counts as rates per second.
 std::string plugged_text(const HotPlugReport& plugged, double seconds) {
   std::string text = "  driven       " + plugged.manner + "\n", counts;
   for (const auto& [name, count] : plugged.tally)
@@ -99,8 +99,9 @@ std::string plugged_text(const HotPlugReport& plugged, double seconds) {
   if (!counts.empty()) text += "  packets      " + counts + "\n";
   const auto times = [](long count) { return fmt::format("{} time{}", count, count == 1 ? "" : "s"); };
   if (plugged.losses > 0)
-    text += fmt::format("  lost         {} ({}), set up anew {}{}\n", times(plugged.losses), plugged.reason,
-                        times(plugged.returns), plugged.refusal.empty() ? "" : "; not again: " + plugged.refusal);
+    text += fmt::format("  lost         {} ({}), set up again {}{}\n", times(plugged.losses), plugged.reason,
+                        times(plugged.returns),
+                        plugged.refusal.empty() ? "" : "; the last attempt failed: " + plugged.refusal);
   return text;
 }
 
@@ -142,7 +143,7 @@ FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfi
 std::string felt_text(const FeltReport& report) {
   const Felt& felt = report.felt;
   std::string text = report.manner.plugged
-                         ? fmt::format("{} on {}, as {}, in your hand, {:.4g} s\n", report.material,
+                         ? fmt::format("{} on {} as {}, in your hand, {:.4g} s\n", report.material,
                                        report.manner.device, report.device.name, report.seconds)
                          : fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
                                        report.device.name, report.manner.hand, report.seconds,
@@ -179,18 +180,18 @@ std::string felt_text(const FeltReport& report) {
                         felt.crossings, 100 * felt.stuck, 1e3 * felt.position_range);
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     const auto& level = report.levels[i];
-    if (const auto* back = std::get_if<Prediction>(&level.back))
-      text += fmt::format("  {:<12} {:.2f} read back from the measured amplitude{}\n", level.name, back->level,
+    if (level.back)
+      text += fmt::format("  {:<12} {:.2f} read back from the measured amplitude{}\n", level.name, level.back->level,
                           report.asked[i] >= 0 ? fmt::format(" (asked: {:.2f})", report.asked[i]) : "");
     else
-      text += fmt::format("  {:<12} not read back: {}\n", level.name, std::get<Refusal>(level.back).reason);
+      text += fmt::format("  {:<12} not read back: {}\n", level.name, in_words(level.back.error()));
   }
   if (report.levels.empty())
-    text += felt.vibration ? "  percepts     none to read back: nothing in it shakes\n"
-                           : "  percepts     none to read back: nothing in its force is a texture\n";
+    text += felt.vibration ? "  percepts     none to read back: it does not vibrate\n"
+                           : "  percepts     none to read back: its force has no texture\n";
   text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
-    text += fmt::format("  memory       {} time{} a state was not a number and began anew\n", report.guards.restored,
+    text += fmt::format("  memory       {} time{} a state was not a number and was reset\n", report.guards.restored,
                         report.guards.restored == 1 ? "" : "s");
   return text;
 }
@@ -231,10 +232,10 @@ std::string felt_json(const FeltReport& report) {
   auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < report.levels.size(); ++i) {
     auto& entry = percepts[report.levels[i].name];
-    if (const auto* back = std::get_if<Prediction>(&report.levels[i].back))
+    if (const auto& back = report.levels[i].back)
       entry = {{"level", back->level}, {"magnitude", back->magnitude}};
     else
-      entry = {{"refused", std::get<Refusal>(report.levels[i].back).reason}};
+      entry = {{"refused", in_words(report.levels[i].back.error())}};
     if (report.asked[i] >= 0) entry["asked"] = report.asked[i];
   }
   for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;

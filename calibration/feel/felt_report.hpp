@@ -10,7 +10,7 @@
 
 namespace wale {
 
-/// How a run was made, to say so.
+/// How a run was made, for the report.
 struct RunManner {
   std::string device;  ///< "simulated"
   std::string hand;    ///< "lateral", or the trace's file
@@ -18,7 +18,7 @@ struct RunManner {
   std::optional<HotPlugReport> plugged;  ///< of a real device
 };
 
-/// What came out of the handle, beside what the program aimed at.
+/// The force at the handle, beside the force that the program aims at.
 struct FeltReport {
   std::string material;
   RunManner manner;
@@ -30,21 +30,21 @@ struct FeltReport {
   GuardCounts guards;
   std::string scheduling;
   Felt felt;
-  float predicted_amplitude = 0;  ///< N, of a pad m/s^2; 0 when no percept of the program says
+  float predicted_amplitude = 0;  ///< N, of a pad m/s^2; 0 when no percept of the program predicts one
   std::vector<LevelBack> levels;
-  std::vector<double> asked;  ///< beside `levels`: the level asked for, negative where none was
+  std::vector<double> asked;  ///< for each of `levels`: the level asked for; negative: none
 };
 
-/// Crossings below which a texture is not read back.
+/// The least number of crossings from which a texture is read back.
 inline constexpr long least_crossings = 50;
 
-/// Measures a run. The first part of it, while forces slew in and the hand comes up to speed, does not count.
+/// Measures a run, without its first part, in which forces slew in and the hand comes up to speed.
 FeltReport felt_report(const Bank& bank, const RunResult& run, const DeviceProfile& device, RunManner manner);
 
 std::string felt_text(const FeltReport& report);
 std::string felt_json(const FeltReport& report);
 
-/// The live line of a run under way: time, place, speed, force, or how strongly and how often a pad shakes.
+/// The live line of a run: time, place, speed and force, or a pad's amplitude and frequency.
 std::string progress_line(const Progress& now, bool vibrates = false);
 
 }  // namespace wale

@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// Tells when files change, however an editor writes them: in place, as a new file of the same name, or deleted and
-/// made again. It watches the folders that they are in, so a file need not be there yet.
+/// Reports changes of files, however an editor writes them: in place, as a new file of the same name, or deleted and
+/// made again. It watches their folders, so a file need not exist yet. One thread at a time.
 class FileWatch {
  public:
   FileWatch();
@@ -17,16 +17,16 @@ class FileWatch {
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  /// Watches these files, and what they are links to, and no others. True if it had not watched one of their folders
-  /// before: then something may have changed there unseen.
+  /// Watches these files and the targets of links among them, and no others. True if one of their folders was not
+  /// watched before; then a change there may have been missed.
   bool follow(const std::vector<std::string>& files);
 
-  /// Whether one of them was written, renamed or deleted since it was asked last; waits for it up to `wait`, and when
-  /// something happened until nothing more does for a moment, so that one save is told once.
+  /// Whether one of them was written, renamed or deleted since the last call. Waits for that, at most `wait`; after a
+  /// change it waits until nothing more happens for a moment, so that one save is reported once.
   bool changed(std::chrono::milliseconds wait);
 
  private:
-  /// Takes the events that are there, or come within `wait`. Whether there were any, and any of ours.
+  /// Takes the events that are there or come within `wait`: whether there were any, and any of followed files.
   struct Taken {
     bool any = false, ours = false;
   };

@@ -37,7 +37,7 @@ MaterialWatch::Outcome MaterialWatch::look() {
     if (opened.module && !opened.diagnostics.has_errors())
       program = compile_opened(opened, request, choice_.material, opened.diagnostics);
     looked_for.push_back(choice_.file);
-  } while (files_.follow(looked_for));  // again, as long as a folder comes that was not watched while it was read
+  } while (files_.follow(looked_for));  // again, while a folder turns up that was not watched during reading
 
   if (!opened.refusal.empty()) return refuse(fmt::format("wale: {}\n", opened.refusal));
   std::string said;
@@ -46,22 +46,23 @@ MaterialWatch::Outcome MaterialWatch::look() {
   if (!program || opened.diagnostics.has_errors()) return refuse(said);
   const PatchProgram& now = program->description();
   if (now.vibrates() != vibrates_ || now.device.name != device_)
-    return refuse(
-        fmt::format("wale: `{}` is built for `{}` now, and is felt on `{}`\n", now.material, now.device.name, device_));
+    return refuse(fmt::format("wale: `{}` is now built for `{}`, and the device is a `{}`\n", now.material,
+                              now.device.name, device_));
   auto bytes = write_patch_program(now);
   const bool was_refused = !std::exchange(refused_, {}).empty();
   if (bytes == felt_) {
-    if (was_refused) say_(fmt::format("wale: `{}` is what is felt already\n", now.material));
+    if (was_refused) say_(fmt::format("wale: this version of `{}` is active already\n", now.material));
     return Outcome::nothing;
   }
-  if (const auto refusal = stage_.replace(0, *program)) return refuse(fmt::format("wale: {}\n", refusal->reason));
+  if (const auto done = stage_.replace(0, *program); !done)
+    return refuse(fmt::format("wale: {}\n", in_words(done.error())));
   felt_ = std::move(bytes);
-  say_(said + fmt::format("wale: `{}` is felt anew\n", now.material));
+  say_(said + fmt::format("wale: the new version of `{}` is active\n", now.material));
   return Outcome::replaced;
 }
 
 MaterialWatch::Outcome MaterialWatch::refuse(std::string why) {
-  if (why != refused_) say_(why + "wale: what was felt before is felt on\n");
+  if (why != refused_) say_(why + "wale: the previous version stays active\n");
   refused_ = std::move(why);
   return Outcome::refused;
 }

@@ -11,20 +11,20 @@
 
 namespace wale {
 
-/// Keeps a stage's patch 0 to what a file says: whenever the file, or one that it imports or shows, is saved, it is
-/// compiled again and takes the place of what is felt (`Stage::replace`). With errors the old one stays.
+/// Keeps patch 0 of a stage up to date with a file. Whenever the file, or one that it imports or shows, is saved, it is
+/// compiled again and replaces the active program (`Stage::replace`). With errors the previous version stays active.
 class MaterialWatch {
  public:
-  /// `felt` is what lies on the stage. `say` gets what is to be told, whole lines. The stage outlives the watch.
+  /// `felt` is the program on the stage. `say` gets messages of whole lines. The stage outlives the watch.
   MaterialWatch(command::Choice choice, Stage& stage, const Program& felt, std::function<void(const std::string&)> say);
 
   enum class Outcome {
-    nothing,   ///< no file changed, or nothing that is felt did
-    replaced,  ///< another program is felt from the next tick on
-    refused    ///< what is wrong was said, and the old one stays
+    nothing,   ///< no file changed, or the program did not
+    replaced,  ///< the new program is active from the next tick on
+    refused    ///< the errors were told, and the previous version stays active
   };
-  /// Waits for a change up to `wait`. The first time it looks without waiting, since the file may have changed after it
-  /// was read.
+  /// Waits for a change, at most `wait`. The first call does not wait, since the file may have changed after it was
+  /// read.
   Outcome attend(std::chrono::milliseconds wait);
 
  private:
@@ -39,7 +39,7 @@ class MaterialWatch {
   std::vector<std::byte> felt_;  // the program's bytes
   bool vibrates_;
   std::string device_;
-  std::string refused_;  // what was said of it last; empty when it is felt
+  std::string refused_;  // the last message about it; empty while it is active
 };
 
 }  // namespace wale

@@ -21,7 +21,7 @@ void check_constants(const SyntaxTree& tree, const Surroundings& surroundings) {
     }
 }
 
-/// What the library of a file exports. It is listed once, when something is unknown.
+/// Looks names up among the exports of the library. The library is listed once, when the first name is unknown.
 FindExporter exporters_for(Resolver& resolver, const std::string& file) {
   return [&resolver, file,
           index = std::shared_ptr<const LibraryIndex>()](std::string_view name) mutable -> std::optional<Exporter> {

@@ -59,7 +59,7 @@ class MaterialChecker {
       material_.force = {force->x, force->y};
       material_.force_span = own.layers().empty() ? node_.name.span : own.layers().front().span;
     }
-    // What stands in an expression that could not be read or checked may be the use that is missed.
+    // An expression that could not be read or checked may hold the use that seems to be missing.
     if (whole_ && surroundings_.diagnostics.error_count() == errors_before_) own.warn_of_unused_names(node_.span);
     if (!material_.relief) find_relief(own);
     if (force) warn_of_scaled_textures();

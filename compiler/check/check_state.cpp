@@ -1,4 +1,4 @@
-// What a material remembers: states and memories, and how they change.
+// States and memories, and how they change.
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "compiler/command/command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
+#include "compiler/typed_number.hpp"
 
 namespace wale::command {
 namespace {
@@ -20,11 +22,46 @@ namespace {
 /// Carets in colour where a person reads them.
 bool colour(FILE* stream) { return isatty(fileno(stream)) && !std::getenv("NO_COLOR"); }
 
+Error not_a_setting(const std::string& text) {
+  return {.code = Code::malformed_value,
+          .sentence = fmt::format("expected NAME=VALUE, {}", found_typed(text)),
+          .mend = "for example, `--set wale=5mm`",
+          .place = {.name = "--set", .text = text}};
+}
+
+Error no_parameter(const PatchProgram& program, const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& parameter : program.parameters) known.push_back(parameter.name);
+  return {.code = Code::unknown_setting,
+          .sentence = fmt::format("`{}` has no parameter `{}`", program.material, name),
+          .mend = known.empty() ? "it has no parameters" : fmt::format("its parameters: {}", fmt::join(known, ", ")),
+          .place = {.name = "--set", .text = name}};
+}
+
 }  // namespace
 
 int refuse(const std::string& reason) {
   fmt::print(stderr, "wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
   return refused;
+}
+
+int refuse(const Error& error) { return refuse(error_text(error)); }
+
+void warn(const Error& warning) { fmt::print(stderr, "wale: {}\n", error_text(warning)); }
+
+std::string error_text(const Error& error) {
+  const Place& place = error.place;
+  std::string text = severity_of(error.code) == Severity::error ? "error" : "warning";
+  text += fmt::format("[{}]: {}{}", code_name(error.code), place.name,
+                      place.number ? fmt::format("{}{}", place.name.empty() ? "" : ":", *place.number) : "");
+  if (!place.name.empty() || place.number) text += ": ";
+  text += error.sentence;
+  if (!place.source.empty()) text += fmt::format(" (from {})", place.source);
+  for (const Place& before : error.led_to)
+    text += fmt::format("\n  after {} {} {}", before.name, before.number ? std::to_string(*before.number) : "",
+                        before.text);
+  if (!error.mend.empty()) text += "\n  = help: " + error.mend;
+  return text;
 }
 
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
@@ -80,30 +117,21 @@ std::vector<Program> load_programs(const Choice& choice, bool all) {
 
 std::optional<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {
   auto values = program.default_parameters();
-  QuantityReader reader;
+  const std::shared_ptr<const CommonModules> common = common_modules();
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
     const std::string name = setting.substr(0, equals);
     const auto index = program.parameter(name);
     if (equals == std::string::npos || !index) {
-      std::string known;
-      for (const auto& parameter : program.description().parameters)
-        known += (known.empty() ? "" : ", ") + parameter.name;
-      refuse(equals == std::string::npos
-                 ? fmt::format("--set takes NAME=VALUE, not `{}`", setting)
-                 : fmt::format("`{}` has no parameter `{}`; it has: {}", program.description().material, name,
-                               known.empty() ? "none" : known));
+      refuse(equals == std::string::npos ? not_a_setting(setting) : no_parameter(program.description(), name));
       return std::nullopt;
     }
-    const auto value =
-        reader.parameter("--set " + name, program.description().parameters[*index], setting.substr(equals + 1));
-    if (!value) {
-      print_diagnostics(stderr, reader.diagnostics(), reader.sources());
-      return std::nullopt;
-    }
-    values[*index] = *value;
+    const auto read = read_parameter(common->declarations, "--set", program.description().parameters[*index],
+                                     setting.substr(equals + 1));
+    if (!read) return refuse(read.error()), std::nullopt;
+    if (read->unusual) warn(*read->unusual);
+    values[*index] = read->value;
   }
-  print_diagnostics(stderr, reader.diagnostics(), reader.sources());  // warnings
   return values;
 }
 

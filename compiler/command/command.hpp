@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/open_file.hpp"
+#include "schema/result.hpp"
 
 /// What a person's command does: the verbs of the command line, which read files, print, and give an exit status. They
 /// are called by `wale.cpp`, which knows the words; nothing else calls them.
@@ -20,6 +21,13 @@ inline constexpr int misused = 2;
 
 /// Says why on standard error; `refused`.
 int refuse(const std::string& reason);
+int refuse(const Error& error);
+
+/// Says a warning on standard error.
+void warn(const Error& warning);
+
+/// "error[W0801]: --steps: expected …" and the mend in a line of its own, without a newline at the end.
+std::string error_text(const Error& error);
 
 /// With carets in colour where a person reads them.
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);

@@ -20,7 +20,7 @@ int explain(const ExplainOptions& options) {
     return done;
   }
   const auto code = code_named(options.code);
-  if (!code) return refuse(unknown_code_text(options.code));
+  if (!code) return refuse(code.error());
   fmt::print("{}", explanation_text(*code));
   return done;
 }

@@ -1,13 +1,20 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compiler/command/command.hpp"
 #include "compiler/command/verb.hpp"
+#include "compiler/typed_number.hpp"
 
-/// Options that several verbs take. Each is written to what it is given once the command line is read, so that must
-/// live as long as the verb.
+/// Options that several verbs take, and options for values. What is read is written to `into` and its like once the
+/// command line is read, so that must live as long as the verb.
+namespace CLI {
+class Option;
+}
+
 namespace wale::command {
 
 /// --library DIR, which may be repeated.
@@ -26,6 +33,21 @@ void offer_settings(CLI::App& verb, std::vector<std::string>& settings);
 void offer_json(CLI::App& verb, bool& json, const char* about);
 
 /// -o, --output FILE.
-void offer_output(CLI::App& verb, std::string& out, const char* about);
+CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);
+
+// Values of options are read here and never by CLI11, which takes "" for 0. Words that make no sense end the command
+// with `misused`, before the verb runs; `into` stays empty where the option is not given.
+
+/// A whole number: "12".
+CLI::Option* offer_count(CLI::App& verb, const char* option, std::optional<std::uint64_t>& into,
+                         const CountRange& range, const char* about);
+/// A plain number: "0.5".
+CLI::Option* offer_number(CLI::App& verb, const char* option, std::optional<double>& into, const NumberRange& range,
+                          const char* about);
+/// A duration, in s: "5", "5 s", "2 min".
+CLI::Option* offer_duration(CLI::App& verb, const char* option, std::optional<double>& into, const DurationRange& range,
+                            const char* about);
+/// A force above 0, in N: "3 N".
+CLI::Option* offer_force(CLI::App& verb, const char* option, std::optional<double>& into, const char* about);
 
 }  // namespace wale::command

@@ -9,9 +9,9 @@
 namespace wale {
 namespace {
 
-constexpr double same = 1e-3;  // relative: what an extraction of one and the same force may differ by
+constexpr double same = 1e-3;  // relative: two extractions of the same force may differ by this much
 
-/// The percept whose carrier the cue is, which says what force a carrier of that size exerts.
+/// The percept whose carrier is this cue. It says what force a carrier of a given size exerts.
 const char* percept_of(CueKind kind) {
   switch (kind) {
     case CueKind::stiffness: return "springiness";
@@ -22,7 +22,7 @@ const char* percept_of(CueKind kind) {
   }
 }
 
-/// Whether a difference of this cue is one of force, so that a floor can be told in newtons.
+/// Whether a difference of this cue is a difference of force, so that its threshold has a floor in newtons.
 bool exerts_force(CueKind kind) {
   switch (kind) {
     case CueKind::period:
@@ -56,10 +56,10 @@ Comparer::Comparer(const Declarations& declarations, const std::string& device) 
   }
 }
 
-/// In just noticeable differences, or nothing where no publication tells.
+/// The difference in just noticeable differences; nothing if no publication gives a threshold.
 std::optional<double> Comparer::noticeable(const CueFacts& facts, std::optional<double> a,
                                            std::optional<double> b) const {
-  // A period or an orientation that only one of them has is told by what else it has.
+  // If only one material has a period or an orientation, the other cues of that texture tell the two apart.
   if (!exerts_force(facts.kind) && (!a || !b)) return 0;
   const double x = a.value_or(0), y = b.value_or(0);
   if (facts.kind == CueKind::orientation) {
@@ -82,7 +82,7 @@ Comparison Comparer::compare(const Cues& a, const Cues& b) const {
   each_cue(a, b, [&](const CueFacts& facts, std::optional<double> noticeable) {
     CueDifference found{facts.kind, a[facts.kind], b[facts.kind], noticeable, nullptr, Evidence::estimated};
     const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
-    // What does not differ needs no publication to say so.
+    // Equal cues need no threshold.
     if (noticeable != 0.0) found.threshold = people.threshold(found.a.value_or(0), found.b.value_or(0));
     if (found.threshold) found.evidence = people.evidence(*found.threshold);
     unknown |= !noticeable;
@@ -142,7 +142,7 @@ std::vector<ComparedPair> ComparisonMatrix::nearest(std::size_t most) const {
   const auto nearer = [](const ComparedPair& a, const ComparedPair& b) {
     return std::tuple(a.distance.noticeable, a.a, a.b) < std::tuple(b.distance.noticeable, b.a, b.b);
   };
-  std::vector<ComparedPair> found;  // a heap, the farthest of the nearest on top
+  std::vector<ComparedPair> found;  // a heap: the farthest of the pairs kept is on top
   for (std::size_t a = 0; a < materials_.size(); ++a)
     for (std::size_t b = a + 1; b < materials_.size(); ++b) {
       const ComparedPair pair{a, b, distances_[index(a, b)]};

@@ -13,16 +13,16 @@ namespace wale {
 /// One cue of two materials.
 struct CueDifference {
   CueKind kind = CueKind::amplitude;
-  std::optional<double> a, b;               ///< SI; nothing where the material has none of it
-  std::optional<double> noticeable;         ///< in just noticeable differences at d' = 1; nothing: unknown
-  const Threshold* threshold = nullptr;     ///< by which; null where no publication tells, or nothing differs
+  std::optional<double> a, b;               ///< SI; nothing if the material does not have this cue
+  std::optional<double> noticeable;         ///< in just noticeable differences at d' = 1; nothing if unknown
+  const Threshold* threshold = nullptr;     ///< that gives `noticeable`; null if none is published or nothing differs
   Evidence evidence = Evidence::estimated;  ///< of the threshold on this device
 };
 
 enum class Verdict {
   apart,    ///< a cue differs by one just noticeable difference or more
   alike,    ///< every cue differs by less
-  unknown,  ///< no known cue tells them apart, but one differs for which no threshold is known
+  unknown,  ///< no cue with a known threshold tells them apart, but a cue without one differs
 };
 
 struct Comparison {
@@ -33,25 +33,25 @@ struct Comparison {
   const CueDifference* plainest() const;
 };
 
-/// How far apart two are, in short.
+/// How far apart two materials are, in short.
 struct Distance {
-  /// Of the cue that differs most plainly, in just noticeable differences at d' = 1; 0 where nothing is known to
-  /// differ.
+  /// The largest known difference of a cue, in just noticeable differences at d' = 1; 0 if no known difference exists.
   float noticeable = 0;
   Verdict verdict = Verdict::alike;
 };
 
-/// Compares materials on one device cue by cue: ln(ratio) / ln(1 + w), w the Weber fraction at d' = 1, and no more than
-/// the difference of their forces over the least force that is noticed, so that small forces are not told apart by
-/// their ratio. A cue that one has and the other has not is compared by that force alone. The declarations outlive it.
+/// Compares materials on one device cue by cue. The distance of a cue is ln(ratio) / ln(1 + w) with w the Weber
+/// fraction at d' = 1. It is at most the difference of the two forces over the smallest force that people notice, so
+/// that small forces are not told apart by their ratio alone. If only one material has a cue, only that difference of
+/// force counts. The declarations must outlive the comparer.
 class Comparer {
  public:
   Comparer(const Declarations& declarations, const std::string& device);
 
   Comparison compare(const Cues& a, const Cues& b) const;
-  /// The same in short, without the threshold of each cue: allocates nothing.
+  /// The same in short, without the threshold of each cue. Allocates nothing.
   Distance distance(const Cues& a, const Cues& b) const;
-  /// Adds those that this pair is compared by and that nobody has looked up.
+  /// Adds the thresholds that this pair is compared by and that nobody has looked up in the publication.
   void add_recalled(const Cues& a, const Cues& b, std::set<const Threshold*>& thresholds) const;
 
  private:
@@ -62,14 +62,14 @@ class Comparer {
   std::vector<Discrimination> people_;  ///< by `CueKind`
 };
 
-/// Two of many, a < b.
+/// Two of many materials, a < b.
 struct ComparedPair {
   std::size_t a = 0, b = 0;
   Distance distance;
 };
 
-/// Every pair of many materials on one device. Of each pair only how far apart the two are is kept: a thousand
-/// materials make half a million pairs.
+/// All pairs of many materials on one device. Only the distance of each pair is stored: a thousand materials have half
+/// a million pairs.
 class ComparisonMatrix {
  public:
   ComparisonMatrix(std::vector<Cues> materials, const Declarations& declarations);
@@ -79,12 +79,12 @@ class ComparisonMatrix {
   /// How many pairs have this verdict.
   std::size_t count(Verdict verdict) const;
   Distance distance(std::size_t a, std::size_t b) const;
-  /// The publications that pairs were compared by, although nobody has looked them up.
+  /// The thresholds that pairs are compared by and that nobody has looked up in the publication.
   std::set<const Threshold*> recalled() const;
   Comparison compare(std::size_t a, std::size_t b) const { return comparer_.compare(materials_[a], materials_[b]); }
 
-  /// The pairs that are told apart the least, nearest first, among equals in the order of the materials. Two of which
-  /// too little is known are near to nobody.
+  /// The pairs with the smallest distance, nearest first; equal pairs are in the order of the materials. Pairs whose
+  /// distance is unknown are left out.
   std::vector<ComparedPair> nearest(std::size_t most) const;
 
  private:
@@ -96,11 +96,11 @@ class ComparisonMatrix {
   std::vector<Distance> distances_;
 };
 
-/// Two materials cue by cue. Of more how far apart they are: a table where it fits a screen or is asked for, else those
-/// pairs that are hardly told apart; and the nearest pair cue by cue.
+/// For two materials: cue by cue. For more: a table of distances if it fits a screen or if `with_table` asks for it,
+/// otherwise the pairs that are hardly told apart; then the nearest pair cue by cue.
 std::string comparison_text(const ComparisonMatrix& matrix, bool with_table = false);
-/// An object with `materials`, each with its cues; `matrix`, how far apart each is from those behind it; and `pairs`
-/// cue by cue: of many materials the nearest ones only.
+/// An object with `materials`, each with its cues; `matrix`, the distances of each material from those after it; and
+/// `pairs`, cue by cue. With many materials, `pairs` has only the nearest ones.
 std::string comparison_json(const ComparisonMatrix& matrix);
 
 }  // namespace wale

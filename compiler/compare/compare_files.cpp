@@ -11,8 +11,8 @@
 namespace wale {
 namespace {
 
-/// Calls `work` for each of 0 .. count - 1 once, on as many threads as there are cores. Each takes what is next, since
-/// one material may take a hundred times as long as another.
+/// Calls `work` once for each of 0 .. count - 1, on as many threads as there are cores. A free thread takes the next
+/// number, since one material may take a hundred times as long as another.
 void for_each_in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   in_parallel(count, [&](std::size_t, std::size_t) {
@@ -20,7 +20,7 @@ void for_each_in_parallel(std::size_t count, const std::function<void(std::size_
   });
 }
 
-/// One material of a file on its way through the compiler.
+/// One material of a file, and what compiling it gave.
 struct MaterialReading {
   std::size_t file = 0;
   std::string name;
@@ -75,22 +75,28 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
   return files;
 }
 
-std::string why_not_compared(const std::vector<ComparedFile>& files) {
+Result<> comparable(const std::vector<ComparedFile>& files) {
   const Cues* first = nullptr;
   std::size_t count = 0;
   for (const ComparedFile& file : files)
     if (!file.vibrates.empty())
-      return fmt::format("`{}` is built for a device that only vibrates, and the cues that are compared are of forces",
-                         file.vibrates);
+      return Error{
+          Code::other_device,
+          fmt::format("`{}` is built for a device that only vibrates, and materials are compared by their forces",
+                      file.vibrates),
+          "compare it on a device that pushes"};
   for (const ComparedFile& file : files)
     for (const Cues& each : file.cues) {
       if (!first) first = &each;
       if (each.device != first->device)
-        return fmt::format("`{}` is built for `{}` and `{}` for `{}`: what is felt is compared on one device",
-                           first->material, first->device, each.material, each.device);
+        return Error{Code::other_device,
+                     fmt::format("`{}` is built for `{}` and `{}` for `{}`", first->material, first->device,
+                                 each.material, each.device),
+                     "build both for one device"};
       ++count;
     }
-  return count < 2 ? "there is only one material; name another to compare it with" : "";
+  if (count < 2) return Error{Code::unknown_material, "there is only one material", "name another to compare it with"};
+  return {};
 }
 
 }  // namespace wale

@@ -11,18 +11,18 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t most_in_table = 16;  // materials whose table fits a screen
-constexpr const char* shapes_are_not = "  (where features lie and what shape they have is not compared)\n";
+constexpr std::size_t most_in_table = 16;  // materials; a larger table does not fit a screen
+constexpr const char* shapes_are_not = "  (the position and the shape of features are not compared)\n";
 constexpr std::size_t most_listed = 20;  // pairs
 
 const CueFacts& facts_of(CueKind kind) { return cue_table()[static_cast<std::size_t>(kind)]; }
 
-/// "2.5 mm", "1.93 N", "45 degrees", "none": with the digits that such figures deserve, and so many `more`.
+/// "2.5 mm", "1.93 N", "45 degrees", "none": three significant digits, and `more`.
 std::string cue_text(CueKind kind, const std::optional<double>& value, int more = 0) {
   if (!value) return "none";
   if (kind == CueKind::period || kind == CueKind::bump_period) return fmt::format("{:.{}g} mm", 1e3 * *value, 3 + more);
   if (kind == CueKind::orientation) {
-    // 180 degrees are none: a texture has no front.
+    // 180 degrees is the same as 0: a texture has no front.
     const double unit = std::pow(10, -more);
     const double rounded = std::round(*value * 180 / std::numbers::pi / unit) * unit;
     return fmt::format("{:.{}f} degrees", std::fmod(rounded, 180) + 0.0, more);
@@ -31,7 +31,7 @@ std::string cue_text(CueKind kind, const std::optional<double>& value, int more 
   return fmt::format("{:.{}g}{}{}", *value, 3 + more, *facts.unit ? " " : "", facts.unit);
 }
 
-/// Both values of a cue, with more digits where they differ and would read the same.
+/// Both values of a cue; with more digits if they differ and three digits would not show it.
 std::pair<std::string, std::string> cue_texts(const CueDifference& cue) {
   constexpr int most = 3;
   for (int more = 0;; ++more) {
@@ -49,17 +49,18 @@ std::string noticeable_text(const std::optional<double>& noticeable) {
 std::string verdict_text(const Comparison& comparison) {
   const CueDifference* plainest = comparison.plainest();
   switch (comparison.verdict) {
-    case Verdict::apart: return fmt::format("told apart, most plainly by their {}", facts_of(plainest->kind).name);
-    case Verdict::alike: return "hardly told apart: every cue differs by less than is noticed";
+    case Verdict::apart:
+      return fmt::format("people can tell them apart, most easily by their {}", facts_of(plainest->kind).name);
+    case Verdict::alike: return "hard to tell apart: no cue differs by a noticeable amount";
     case Verdict::unknown: break;
   }
   std::string cues;
   for (const CueDifference& cue : comparison.cues)
     if (!cue.noticeable) cues += (cues.empty() ? "" : ", ") + std::string(facts_of(cue.kind).name);
-  return "unknown: they differ in " + cues + ", for which no threshold is known, and in nothing else that is noticed";
+  return "unknown: they differ in " + cues + ", which has no known threshold, and no other cue differs noticeably";
 }
 
-/// How far apart two are, in a cell of a table.
+/// The distance of two materials as a cell of a table.
 std::string cell_text(const Distance& distance) {
   return distance.verdict == Verdict::unknown ? "?" : noticeable_text(distance.noticeable);
 }
@@ -95,23 +96,23 @@ void write_table(std::string& text, const ComparisonMatrix& matrix) {
       text += fmt::format(" {:>5}", cell_text(matrix.distance(row, column)));
     text += '\n';
   }
-  text +=
-      "  in just noticeable differences of the cue by which two are told apart most plainly; ?: no threshold known\n";
+  text += "  in just noticeable differences of the cue that differs most; ?: no threshold is known\n";
 }
 
-/// Of many: those that are not told apart, since a table of all pairs is for machines to read.
+/// For many materials: the pairs that people can hardly tell apart. The table of all pairs is in the JSON.
 void write_alike(std::string& text, const ComparisonMatrix& matrix) {
   const std::size_t alike = matrix.count(Verdict::alike), unknown = matrix.count(Verdict::unknown);
-  text += fmt::format("{} of {} pairs are hardly told apart{}\n", alike, matrix.pair_count(), alike > 0 ? ":" : "");
+  text += fmt::format("{} of {} pairs are hard to tell apart{}\n", alike, matrix.pair_count(), alike > 0 ? ":" : "");
   for (const ComparedPair& pair : matrix.nearest(most_listed))
     if (pair.distance.verdict == Verdict::alike)
       text += fmt::format("  {:>4}  {} and {}\n", cell_text(pair.distance), matrix.materials()[pair.a].material,
                           matrix.materials()[pair.b].material);
   if (alike > most_listed) text += fmt::format("  and {} more; --json has all distances\n", alike - most_listed);
-  if (unknown > 0) text += fmt::format("of {} it is unknown: they differ in what no threshold is known for\n", unknown);
+  if (unknown > 0)
+    text += fmt::format("{} pairs are unknown: they differ in a cue that has no known threshold\n", unknown);
 }
 
-/// Cue by cue, for machines.
+/// One pair cue by cue, as JSON.
 nlohmann::ordered_json pair_json(const ComparisonMatrix& matrix, std::size_t a, std::size_t b) {
   using Json = nlohmann::ordered_json;
   const auto value = [](const std::optional<double>& each) { return each ? Json(*each) : Json(nullptr); };
@@ -135,8 +136,8 @@ nlohmann::ordered_json pair_json(const ComparisonMatrix& matrix, std::size_t a, 
   return json;
 }
 
-/// A row for each material but the last: how far it is from each behind it, null where that is not known. Written by
-/// hand: half a million numbers are too many for a tree of JSON.
+/// A row for each material but the last: its distance from each material after it, null if unknown. The text is written
+/// directly: half a million numbers are too many for a tree of JSON.
 std::string matrix_json(const ComparisonMatrix& matrix) {
   std::string text = "[";
   const std::size_t count = matrix.materials().size();

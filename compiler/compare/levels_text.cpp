@@ -18,8 +18,8 @@ std::string levels_line(const LevelProposal& proposal) {
 
 std::string proposal_text(const LevelProposal& proposal) {
   const std::size_t count = proposal.levels.size();
-  std::string text = fmt::format("{} levels of {} on {}, from the least to the greatest that it renders as measured\n",
-                                 count, proposal.asked, proposal.device);
+  std::string text = fmt::format("{} levels of {} on {}, over the range that was measured and that it renders\n", count,
+                                 proposal.asked, proposal.device);
   text += fmt::format("  {:<14} {:>8}  {:>14}  apart\n", "", "level", proposal.carrier);
   std::set<const Threshold*> thresholds;
   for (std::size_t i = 0; i < count; ++i) {
@@ -35,11 +35,12 @@ std::string proposal_text(const LevelProposal& proposal) {
     text += '\n';
     if (after.threshold) thresholds.insert(after.threshold);
   }
-  text += "  apart: just noticeable differences at d' = 1 from the one before";
-  for (const Threshold* each : thresholds) text += fmt::format("; {:.2g} of it ({})", each->weber, each->source);
+  text += "  apart: just noticeable differences at d' = 1 from the level before";
+  for (const Threshold* each : thresholds)
+    text += fmt::format("; Weber fraction {:.2g} ({})", each->weber, each->source);
   text +=
       fmt::format("\n  {} by {} ({})\n", proposal.carrier, proposal.map->source, evidence_word(proposal.map_evidence));
-  if (proposal.most > count) text += fmt::format("  {} would do\n", proposal.most);
+  if (proposal.most > count) text += fmt::format("  at most {} levels fit\n", proposal.most);
   return text + '\n' + levels_line(proposal) + '\n';
 }
 

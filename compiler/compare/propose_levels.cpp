@@ -8,16 +8,16 @@
 
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/level_scale.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {
 
-/// More than anybody can tell apart of anything that a device renders.
+/// More levels than people can tell apart on any device.
 constexpr std::size_t most_levels = 1000;
 
-/// Sizes from one to another, each so far apart from the one before: as many as fit, the first among them, but no more
-/// than `most`.
+/// Sizes from `from` to `to`, the first at `from`, each `apart` just noticeable differences above the one before: as
+/// many as fit, and at most `most`.
 std::vector<double> stairs(const LevelScale& scale, double from, double to, double apart, std::size_t most) {
   std::vector<double> sizes{from};
   while (sizes.size() < most) {
@@ -28,7 +28,7 @@ std::vector<double> stairs(const LevelScale& scale, double from, double to, doub
   return sizes;
 }
 
-/// So many sizes from one to another, evenly far apart: the farthest with which they fit.
+/// `count` sizes from `from` to `to` at the largest equal distance with which they fit.
 std::vector<double> even_stairs(const LevelScale& scale, double from, double to, double apart, std::size_t count) {
   double fits = apart, too_far = scale.people().distance(from, to).value_or(apart) + 1;
   for (int i = 0; i < 50; ++i) {
@@ -40,10 +40,11 @@ std::vector<double> even_stairs(const LevelScale& scale, double from, double to,
   return sizes;
 }
 
-/// The levels written with so many digits, the ends within what can be rendered.
+/// The levels rounded to `digits` after the point; the first is rounded up and the last down, so that both can be
+/// rendered.
 std::vector<double> rounded(const std::vector<double>& levels, int digits) {
   const double scale = std::pow(10, digits);
-  constexpr double slack = 1e-9;  // an end that was written with these digits stays what it is
+  constexpr double slack = 1e-9;  // keeps an end that already has no more digits
   std::vector<double> all;
   for (const double level : levels) all.push_back(std::round(level * scale) / scale);
   all.front() = std::ceil(levels.front() * scale - slack) / scale;
@@ -51,7 +52,7 @@ std::vector<double> rounded(const std::vector<double>& levels, int digits) {
   return all;
 }
 
-/// The least distance between neighbours and the greatest.
+/// The least and the greatest distance between neighbours, in just noticeable differences.
 std::pair<double, double> spacing(const LevelScale& scale, const std::vector<double>& levels) {
   double least = HUGE_VAL, greatest = 0;
   for (std::size_t i = 1; i < levels.size(); ++i) {
@@ -69,63 +70,69 @@ std::string candidates(const std::string& wrong, const std::vector<std::string>&
   return near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(names, ", "));
 }
 
-/// Why a percept has no map to set its levels by.
-std::string why_no_map(const Percept& percept, const MapChoice& choice, const std::string& device) {
+/// Why no map sets the levels of a percept.
+Error no_map(const Percept& percept, const MapChoice& choice, const std::string& device) {
   if (!percept.has_reference)
-    return fmt::format("{} has no reference stimulus yet, so it has an order and no levels", percept.name);
+    return {Code::untied_map,
+            fmt::format("{} has no reference stimulus, so it can be ordered but has no levels", percept.name)};
   if (!choice.rivals.empty())
-    return fmt::format("{} maps for {} would do on `{}`, and no rule of the device chooses one", choice.rivals.size(),
-                       percept.name, device);
+    return {Code::several_maps, fmt::format("{} maps of {} fit `{}`, and the device does not choose one",
+                                            choice.rivals.size(), percept.name, device)};
   if (!choice.untied.empty())
-    return fmt::format("what is known of {} is not tied to its reference stimulus, so it orders and cannot set levels",
-                       percept.name);
-  return fmt::format("no map ties {} to a force on `{}`", percept.name, device);
+    return {Code::untied_map,
+            fmt::format("no map of {} is tied to its reference stimulus, so they can order it but not set levels",
+                        percept.name)};
+  return {Code::no_map, fmt::format("no map ties {} to a force on `{}`", percept.name, device)};
 }
 
-std::string why_too_many(std::size_t steps, std::size_t most, double apart, const std::string& name) {
+Error too_many(std::size_t steps, std::size_t most, double apart, const std::string& name) {
   const std::string far =
       apart == 1 ? "one just noticeable difference" : fmt::format("{:.3g} just noticeable differences", apart);
-  if (most < 2) return fmt::format("no two levels of {} are {} apart here", name, far);
-  return fmt::format("{} levels of {} would be less than {} apart; {} would do", steps, name, far, most);
+  if (most < 2) return {Code::close_levels, fmt::format("no two levels of {} are {} apart on this device", name, far)};
+  return {Code::close_levels, fmt::format("{} levels of {} would be less than {} apart", steps, name, far),
+          fmt::format("ask for {} levels at most", most)};
 }
 
 }  // namespace
 
-std::variant<LevelProposal, std::string> propose_levels(const std::string& name, const std::string& device,
-                                                        std::optional<std::size_t> steps, double apart,
-                                                        const Declarations& declarations) {
+Result<LevelProposal> propose_levels(const std::string& name, const std::string& device,
+                                     std::optional<std::size_t> steps, double apart, const Declarations& declarations) {
   const PerceptName meant = declarations.percept_named(name);
   if (!meant.percept)
-    return fmt::format("nothing declares a percept `{}`; {}", name, candidates(name, declarations.percept_spellings()));
+    return Error{Code::unknown_name, fmt::format("no percept is called `{}`", name),
+                 candidates(name, declarations.percept_spellings())};
   const DeviceDeclaration* on = declarations.devices.find(device);
   if (!on)
-    return fmt::format("nothing declares a device `{}`; {}", device,
-                       candidates(device, declarations.devices.spellings()));
-  if (!(apart > 0)) return "levels are more than nothing apart: --jnd is above 0";
-  if (steps && *steps < 2) return "two levels are the fewest that can be apart";
+    return Error{Code::unknown_device, fmt::format("no device is called `{}`", device),
+                 candidates(device, declarations.devices.spellings())};
+  if (!(apart > 0)) return Error{Code::malformed_value, "the distance of levels must be above 0", {}, {"--jnd"}};
+  if (steps && *steps < 2) return Error{Code::malformed_value, "expected two levels or more", {}, {"--steps"}};
   if (on->profile.shaker && !on->realise.contains(meant.percept->name))
-    return fmt::format("`{}` only shakes, and has no realisation of {}", device, meant.percept->name);
+    return Error{Code::percept_unrealised,
+                 fmt::format("`{}` only shakes, and has no realisation of {}", device, meant.percept->name)};
   const Percept percept = carried_on(*on, *meant.percept, declarations);
   const MapChoice choice = percept.has_reference ? choose_map(percept, *on, declarations) : MapChoice{};
-  if (!choice.map) return why_no_map(percept, choice, device);
+  if (!choice.map) return no_map(percept, choice, device);
   const LevelScale scale(percept, *choice.map, declarations, *on);
   if (!scale.people().known())
-    return fmt::format("unknown: no published threshold says how little of {} is noticed", percept.name);
+    return Error{
+        Code::no_threshold,
+        fmt::format("unknown: no published threshold says how small a difference of {} is noticed", percept.name)};
 
-  // What is near threshold, beyond what was measured, or beyond the device, is no level to propose.
+  // Levels near the threshold, outside the measured range or beyond the device are not proposed.
   const double measured[] = {scale.level_of(choice.map->valid_low), scale.level_of(choice.map->valid_high)};
   const double most_level = std::isfinite(scale.most_size()) ? scale.level_of(scale.most_size()) : 1;
   const double low = std::max(std::min(measured[0], measured[1]), percept.near_threshold);
   const double high = std::min({std::max(measured[0], measured[1]), most_level, 1.0});
   const double from = scale.size_of(low), to = scale.size_of(high);
   if (!(low < high) || !std::isfinite(from) || !std::isfinite(to))
-    return fmt::format("`{}` renders nothing of {} within what was measured ({})", device, percept.name,
-                       choice.map->source);
+    return Error{Code::percept_unrealised, fmt::format("`{}` renders no {} within the range that was measured ({})",
+                                                       device, percept.name, choice.map->source)};
 
   LevelProposal proposal;
   proposal.most = stairs(scale, from, to, apart, most_levels).size();
   const std::size_t count = steps.value_or(proposal.most);
-  if (count > proposal.most || count < 2) return why_too_many(count, proposal.most, apart, name);
+  if (count > proposal.most || count < 2) return too_many(count, proposal.most, apart, name);
   std::vector<double> levels;
   for (const double size : even_stairs(scale, from, to, apart, count)) levels.push_back(scale.level_of(size));
   std::vector<double> written;

@@ -38,7 +38,7 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
                            .device = record.device,
                            .source = record.source};
   const float aimed = amplitude(bank, index);
-  // Only a carrier that is what the device puts out is what its limit cuts.
+  // The device's limit cuts only carriers in the unit of its output.
   const char* limited = program.vibrates() ? "m/s^2" : "N";
   const float most = record.unit == limited ? static_cast<float>(program.device.most()) : HUGE_VALF;
   percept.saturated = aimed > most;
@@ -48,6 +48,7 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   percept.magnitude = prediction.magnitude;
   tell_intervals(percept, record.scatter, record.spread, record.one > 0 ? percept.amplitude / record.one : 0,
                  record.near_threshold);
+  percept.observers = record.observers;
   percept.blended = record.blended;
   if (record.parameter) percept.asked = bank.registers()[program.first_parameter() + *record.parameter];
   constexpr float rounding = 1e-5f;
@@ -56,7 +57,7 @@ DescribedPercept describe_percept(const Bank& bank, std::size_t index) {
   return percept;
 }
 
-/// Whether code reads one of some registers.
+/// Whether code reads any of `count` registers from `first` on.
 bool reads(std::span<const Instruction> code, RegisterNumber first, std::size_t count) {
   return std::ranges::any_of(code, [&](const Instruction& instruction) {
     const std::string_view fields = facts(static_cast<Operation>(instruction.operation)).fields;
@@ -67,7 +68,7 @@ bool reads(std::span<const Instruction> code, RegisterNumber first, std::size_t 
   });
 }
 
-/// "its speed", "time", …: what the force depends on besides place, as its code reads it.
+/// What the force depends on besides the position, as its code reads it: "the hand's velocity", "time", …
 std::vector<std::string> dependences(const PatchProgram& program) {
   struct Dependence {
     const char* words;
@@ -86,35 +87,35 @@ std::vector<std::string> dependences(const PatchProgram& program) {
            {"time", {Input::time}},
            {"the button", {Input::button}}})
     if (any(each.inputs)) found.emplace_back(each.words);
-  if (!program.states.empty() || !program.grids.empty()) found.emplace_back("what it remembers");
+  if (!program.states.empty() || !program.grids.empty()) found.emplace_back("its memory");
   return found;
 }
 
-/// Why no texture is told, in a line; empty where one is.
+/// Why no texture is described, in a line; empty if one is.
 std::string why_no_texture(const PatchProgram& program, const Measured& force) {
   if (std::ranges::find(program.percepts, Extractor::lateral_force, &PerceptRecord::extractor) !=
       program.percepts.end())
     return {};
-  if (force.max_newton == 0) return "it pushes nowhere";
+  if (force.max_newton == 0) return "it does not push";
   const auto found = dependences(program);
-  if (found.empty()) return "its force is a field of places, of no carrier that a percept's map knows";
+  if (found.empty()) return "its force depends on the position in a way that no percept's map covers";
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i)
     text += (i == 0 ? "" : i + 1 == found.size() ? " and " : ", ") + found[i];
-  return fmt::format("its force depends on {}, so it is not one texture", text);
+  return fmt::format("its force depends on {}, so it has no single texture", text);
 }
 
-/// The force that it was seen to push with.
-Measured measured(const Bank& bank) {
+/// The measured force.
+Measured measured(const Bank& bank, const Declarations& declarations) {
   Measured force = measure(bank);
-  // What a program remembers pushes too, once it has something to remember.
+  // A program with memory may push harder once it has been rubbed.
   if (remembers(bank.program().description()))
-    for (const Force felt : rehearse(bank).forces)
+    for (const Force felt : rehearse(bank, declarations.hands.find("showing")).forces)
       force.max_newton = std::max(force.max_newton, std::hypot(felt.x, felt.y));
   return force;
 }
 
-/// What is proved of it.
+/// The proved bounds of the force.
 void describe_bounds(Description& description, const Program& program) {
   description.bound = force_bound(program);
   const Proof proof = prove(program);
@@ -122,36 +123,36 @@ void describe_bounds(Description& description, const Program& program) {
   description.asked = hull(proof.unlimited[0], proof.unlimited[1]);
 }
 
-/// How it pushes, how stable the loop is, and what its force tells.
-void describe_force(Description& description, const Bank& bank, const Declarations* declarations) {
+/// The force, the stability of the loop, and the percepts and the texture that the force shows.
+void describe_force(Description& description, const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
   Extraction found;
-  // None needs another; those that take longest come first.
+  // The tasks are independent; the longest come first.
   const std::array<std::function<void()>, 4> tasks = {
       [&] {
-        if (declarations) found = extract(bank, *declarations);
+        if (texture == Texture::extracted) found = extract(bank, declarations);
       },
-      [&] { description.grade = grade(bank); },
+      [&] { description.grade = grade(bank, normal_hand(declarations)); },
       [&] { describe_bounds(description, bank.program()); },
-      [&] { description.force = measured(bank); },
+      [&] { description.force = measured(bank, declarations); },
   };
   std::atomic<std::size_t> next = 0;
   const auto work = [&](std::size_t, std::size_t) {
     for (std::size_t task = next++; task < tasks.size(); task = next++) tasks[task]();
   };
-  // Of what is the same everywhere there is so little to read that it is not worth a thread.
+  // A force that is the same everywhere is measured too fast for a second thread to pay.
   if (depends_on_place(program))
     in_parallel(tasks.size(), work);
   else
     work(0, 1);
   description.no_percept = why_no_texture(program, description.force);
-  if (declarations) describe_extracted(description, bank, found, *declarations);
+  if (texture == Texture::extracted) describe_extracted(description, bank, found, declarations);
 }
 
-/// How it shakes a pad.
-void describe_shaking(Description& description, const Bank& bank) {
-  description.shaking = measure_shaking(bank);
-  if (description.percepts.empty()) description.no_percept = "nothing of it shakes the device";
+/// The shaking of a pad.
+void describe_shaking(Description& description, const Bank& bank, const Declarations& declarations) {
+  description.shaking = measure_shaking(bank, declarations.hands.find("normal"));
+  if (description.percepts.empty()) description.no_percept = "it does not shake the device";
 }
 
 }  // namespace
@@ -189,24 +190,24 @@ std::string mark_word(MarkKind kind) {
   return "unknown";
 }
 
-Description describe(const Bank& bank, const Declarations* declarations) {
+Description describe(const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
   for (std::size_t i = 0; i < program.percepts.size(); ++i) {
     const DescribedPercept percept = describe_percept(bank, i);
-    // A slider may make a viscosity or a spring push along instead of against: nothing that a map knows.
+    // A parameter may make a viscosity or a spring push along instead of against the hand, and no map covers that.
     if (std::isfinite(percept.level)) description.percepts.push_back(percept);
   }
   if (program.vibrates())
-    describe_shaking(description, bank);
+    describe_shaking(description, bank, declarations);
   else
-    describe_force(description, bank, declarations);
+    describe_force(description, bank, declarations, texture);
   description.fates = fates_at(bank, declarations);
   description.parameters = program.parameters;
   description.states = program.states;
   description.memories = program.grids;
-  // Without a surface of its own a program's relief is a constant.
+  // The relief of a program without a surface is a constant.
   const RegisterNumber relief = program.picture.relief;
   description.shows_relief = relief < first_constant || relief >= program.first_parameter();
   description.shows_colour = program.picture.colour.has_value();

@@ -13,9 +13,9 @@
 namespace wale {
 namespace {
 
-constexpr double normal_95 = 1.96;  // standard deviations on either side that hold 95 % of a normal distribution
+constexpr double normal_95 = 1.96;  // 95 % of a normal distribution lie within so many standard deviations of its mean
 
-/// The cue that an extractor reads, of a percept with this band of periods.
+/// The cue that an extractor reads for a percept with this band of periods.
 std::optional<CueKind> cue_of(const Percept& percept, const Declarations& declarations) {
   const Percept* roughness = declarations.percepts.find("roughness");
   switch (percept.extractor) {
@@ -48,19 +48,22 @@ DescribedPercept told_by(const Percept& percept, const Map& map, double size, co
   told.slope = map.slope, told.anchor = map.anchor;
   told.handle = map.device == description.device.name ? map.handle : Evidence::transferred;
   told.worst = std::max({told.slope, told.anchor, told.handle});
+  told.observers = map.observers;
   told.map = map.name.empty() ? fmt::format("{} from {}", map.percept, map.from) : map.name;
   told.device = map.device;
   told.source = map.source;
   return told;
 }
 
-/// A size to two significant digits: a stimulus at the very bound of a class falls where its author put it.
+/// A size to two significant digits, so that a stimulus at the bound of a class falls into the class that its author
+/// meant.
 double as_well_as_read(double size) {
   const double digit = std::pow(10, std::floor(std::log10(size)) - 1);
   return std::round(size / digit) * digit;
 }
 
-/// The kind of surface as the rules know it: what the subjects of chapter 4 were given, of one thing alone.
+/// The kind of surface in the words of the rules, which name the stimuli of chapter 4; each stimulus was one thing
+/// alone.
 std::string kind_of(const Cues& cues, const Extraction& found, double largest_newton) {
   if (cues[CueKind::amplitude]) return found.texture.regular() ? "grating" : "perlin";
   const auto things = std::ranges::count_if(cues.values, [](const auto& value) { return value.has_value(); });
@@ -83,7 +86,7 @@ DescribedTexture texture_of(const Cues& cues, const Extraction& found, double la
     if (!holds) continue;
     if (rule->name == "texture_class" && has_texture) texture.texture_class = holds->label;
     if (rule->name == "size_class" && has_texture) texture.size_class = holds->label;
-    // The rule's last case is of the stimuli that were gratings and noises: of nothing else it says anything.
+    // The last case of the rule covers gratings and noises only; it says nothing of other surfaces.
     if (rule->name == "texture_confidence" && (has_texture || !holds->kind.empty())) {
       texture.confidence = holds->label;
       texture.confidence_mean = holds->confidence, texture.confidence_spread = holds->spread;
@@ -102,7 +105,8 @@ void tell_intervals(DescribedPercept& percept, double scatter, double spread, do
     high = percept.level * std::pow(10, normal_95 * deviation);
   };
   within(scatter, percept.low, percept.high);
-  // People agree on the reference stimulus, which is level 1 to each of them, and differ the more the further from it.
+  // People agree on the reference stimulus, which is level 1 for everyone. They differ more the further a level is from
+  // it.
   const double apart = size_over_one > 0 ? spread * std::log10(size_over_one) : 0;
   within(std::hypot(scatter, apart), percept.individual_low, percept.individual_high);
   percept.near_threshold = percept.level < near_threshold;

@@ -6,14 +6,14 @@
 
 namespace wale {
 
-/// What follows from a level and its map's doubts: both 95 % intervals, by the scatter of means (of log10 magnitude)
-/// and the spread of single observers' exponents (0: not known), and whether it is near the threshold. `size_over_one`
-/// is the carrier's size over that of the reference stimulus.
+/// Fills in the 95 % intervals of a percept, and whether it is near the threshold. The interval of means follows from
+/// the scatter (standard deviation of the means, in log10 of magnitude); that of single people from the spread of their
+/// exponents (0: not known). `size_over_one` is the size of the carrier over its size at the reference stimulus.
 void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
                     double near_threshold);
 
-/// Adds to a description what the program's force alone tells, as it was `found` in it: the percepts that it has no
-/// record of, by the maps that set levels on its device, and its texture with the rules that classify it.
+/// Adds what the force alone shows, as `found` by an extraction: the percepts that the program has no record of, by the
+/// maps for its device, and the texture with the rules that classify it.
 void describe_extracted(Description& description, const Bank& bank, const Extraction& found,
                         const Declarations& declarations);
 

@@ -10,16 +10,16 @@
 
 namespace wale {
 
-/// A figure with the digits that single precision holds: 0.6, not 0.60000002384.
+/// A figure with the digits of single precision: 0.6, not 0.60000002384.
 inline double figure(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
 
-/// A parameter's value in its author's unit.
+/// A value of a parameter in the unit that its author used.
 inline double shown(float value, double unit_in_si) { return figure(value / unit_in_si); }
 
-/// What the cells of a memory take on the device.
+/// The size of a memory's cells on the device, in bytes.
 inline std::size_t bytes_of(const Grid& grid) { return std::size_t{grid.columns} * grid.rows * sizeof(float); }
 
-/// Each line of a documentation comment on a line of its own, `columns` from the left.
+/// Each line of a documentation comment on its own line, indented by `columns`.
 inline void write_documentation(std::string& text, std::size_t columns, const std::string& documentation) {
   for (std::size_t at = 0; at < documentation.size();) {
     const std::size_t end = std::min(documentation.find('\n', at), documentation.size());

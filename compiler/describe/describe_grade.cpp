@@ -17,32 +17,35 @@ std::string place_words(const WorstPlace& place) {
 }
 
 std::string damping_words(const Grade& grade) {
-  if (grade.required_damping == 0) return "asks for no damping";
+  if (grade.required_damping == 0) return "needs no damping";
   if (std::isinf(grade.required_damping)) return "no damping makes the sampled loop passive";
-  return fmt::format("needs b >= {:.3g} N s/m", grade.required_damping);
+  return fmt::format("needs a damping of {:.3g} N s/m or more", grade.required_damping);
 }
 
 std::string standing_line(const Grade& grade, const DeviceProfile& device) {
   std::string words = damping_words(grade);
-  if (grade.standing == Standing::not_analysed) return "too large to be derived";
+  if (grade.standing == Standing::not_analysed) return "not analysed: the program is too large";
   if (grade.required_damping == 0) return words;
   if (!grade.damping_known) {
-    words += device.damping > 0 ? fmt::format("; that of `{}` is assumed ({:.3g})", device.name, device.damping)
-                                : fmt::format("; that of `{}` is not known", device.name);
+    words += device.damping > 0 ? fmt::format("; the damping of `{}` is assumed ({:.3g})", device.name, device.damping)
+                                : fmt::format("; the damping of `{}` is not known", device.name);
     return words;
   }
-  words += fmt::format("; `{}` has {:.3g}, a margin of {:.3g}", device.name, device.damping, *grade.margin());
+  words +=
+      fmt::format("; `{}` has {:.3g}, which leaves a margin of {:.3g}", device.name, device.damping, *grade.margin());
   if (grade.standing == Standing::stable_in_the_hand || grade.standing == Standing::unstable)
     words += fmt::format(", and a hand adds {:.3g}", grade.hand_damping);
   return words;
 }
 
 std::string step_line(const Grade& grade) {
-  std::string words = fmt::format("{:.3g} N from one encoder count to the next", grade.step_newton);
+  std::string words =
+      fmt::format("the force changes by {:.3g} N from one encoder count to the next", grade.step_newton);
   if (grade.jumps) words += " (the force jumps)";
   if (grade.buzzes)
-    words += *grade.buzzes ? fmt::format(": more than friction of {:.3g} N holds, so it may buzz", grade.friction)
-                           : fmt::format(", which friction of {:.3g} N holds", grade.friction);
+    words += *grade.buzzes
+                 ? fmt::format(": more than the friction of {:.3g} N can hold, so it may buzz", grade.friction)
+                 : fmt::format(", which the friction of {:.3g} N holds", grade.friction);
   return words;
 }
 
@@ -50,10 +53,10 @@ std::string resolution_line(const Grade& grade) {
   std::string words =
       fmt::format("details of {:.3g} mm, {:.3g} encoder counts", 1e3 * grade.finest_period, grade.counts_per_period);
   if (grade.counts_per_period < grade.fewest_counts)
-    words += ", too few to be felt as it is";
+    words += ", too few for the encoder to show them as they are";
   else if (grade.counts_per_period < grade.faithful_counts)
     words += ", coarse";
-  words += fmt::format("; sampled in time up to {:.2g} m/s", grade.fastest_hand);
+  words += fmt::format("; sampled often enough up to {:.2g} m/s", grade.fastest_hand);
   return words;
 }
 
@@ -64,15 +67,15 @@ std::string grade_text(const Grade& grade, const DeviceProfile& device) {
   if (grade.standing == Standing::not_analysed) return text;
   for (const auto& reason : grade.energy.reasons) text += line("", reason);
   if (grade.standing == Standing::active && grade.energy.watt() > 0)
-    text += line("", fmt::format("up to {:.2g} W in a hand at its own pace", grade.energy.watt()));
-  if (grade.required_damping > 0) text += line("", fmt::format("most at {}", place_words(grade.worst)));
+    text += line("", fmt::format("gives a hand up to {:.2g} W", grade.energy.watt()));
+  if (grade.required_damping > 0) text += line("", fmt::format("largest at {}", place_words(grade.worst)));
   if (grade.stiffness > 0)
     text += line("stiffness", fmt::format("{:.4g} N/m at most, at {}", grade.stiffness, place_words(grade.stiffest)));
-  // Less than that no command shows.
+  // Smaller steps cannot be commanded.
   if (grade.step_newton > 0.1 * device.force_step()) text += line("steps", step_line(grade));
   if (grade.finest_period < device.workspace_diameter) text += line("resolution", resolution_line(grade));
   if (grade.force_levels > 0 && grade.force_levels < grade.fewest_levels)
-    text += line("", fmt::format("only {:.2g} command steps of force: coarse", grade.force_levels));
+    text += line("", fmt::format("only {:.2g} steps of force can be commanded: coarse", grade.force_levels));
   return text;
 }
 

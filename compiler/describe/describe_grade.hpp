@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// The lines under "stability" of a description, each with two spaces in front.
+/// The lines under "stability" of a description, each indented by two spaces.
 std::string grade_text(const Grade& grade, const DeviceProfile& device);
 
 }  // namespace wale

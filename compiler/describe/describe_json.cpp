@@ -98,57 +98,37 @@ void add_force(nlohmann::ordered_json& json, const Description& description) {
                        {"at", to_json(description.grade.stiffest)}};
 }
 
-nlohmann::ordered_json to_json(const Description& description) {
-  nlohmann::ordered_json json;
-  json["material"] = description.material;
-  json["device"] = description.device.name;
-  auto& representative = json["representative"] = nlohmann::ordered_json::object();
-  for (const auto& [key, values] : description.layers.representative) {
-    if (key == "called" || key == "feels")
-      representative[key] = values;
-    else
-      representative[key] = values.empty() ? "" : values.front();
-  }
-  json["documentation"] = description.layers.documentation;
-  auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
-  for (const auto& percept : description.percepts) {
-    auto& entry = percepts[percept.name];
-    entry["level"] = figure(percept.level);
-    entry["magnitude"] = figure(percept.magnitude);
-    entry["low"] = figure(percept.low);
-    entry["high"] = figure(percept.high);
-    entry["individual_low"] = figure(percept.individual_low);
-    entry["individual_high"] = figure(percept.individual_high);
-    entry["near_threshold"] = percept.near_threshold;
-    entry["read_from_force"] = percept.extracted;
-    entry["carrier"] = percept.carrier;
-    entry["size"] = figure(percept.amplitude);
-    entry["unit"] = percept.unit;
-    if (percept.unit == "N") entry["amplitude_newton"] = figure(percept.amplitude);
-    if (!percept.realisation.empty()) entry["realised_as"] = percept.realisation;
-    if (percept.asked) entry["asked"] = figure(*percept.asked);
-    entry["saturated"] = percept.saturated;
-    entry["outside_validity"] = percept.outside_validity;
-    entry["alone"] = percept.alone;
-    entry["evidence"] = evidence_word(percept.worst);
-    entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
-                            {"anchor", evidence_word(percept.anchor)},
-                            {"handle", evidence_word(percept.handle)}};
-    entry["map"] = percept.map;
-    entry["measured_on"] = percept.device;
-    entry["source"] = percept.source;
-  }
-  if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
-  if (description.texture) json["texture"] = to_json(*description.texture);
-  json["fates"] = to_json(description.fates);
-  if (description.shaking) {
-    json["shaking"] = to_json(*description.shaking);
-    json["grade"] = {{"name", "does not apply"}};
-  } else {
-    add_force(json, description);
-  }
-  auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
-  for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
+nlohmann::ordered_json to_json(const DescribedPercept& percept) {
+  nlohmann::ordered_json entry;
+  entry["level"] = figure(percept.level);
+  entry["magnitude"] = figure(percept.magnitude);
+  entry["low"] = figure(percept.low);
+  entry["high"] = figure(percept.high);
+  entry["individual_low"] = figure(percept.individual_low);
+  entry["individual_high"] = figure(percept.individual_high);
+  entry["near_threshold"] = percept.near_threshold;
+  entry["read_from_force"] = percept.extracted;
+  entry["carrier"] = percept.carrier;
+  entry["size"] = figure(percept.amplitude);
+  entry["unit"] = percept.unit;
+  if (percept.unit == "N") entry["amplitude_newton"] = figure(percept.amplitude);
+  if (!percept.realisation.empty()) entry["realised_as"] = percept.realisation;
+  if (percept.asked) entry["asked"] = figure(*percept.asked);
+  entry["saturated"] = percept.saturated;
+  entry["outside_validity"] = percept.outside_validity;
+  entry["alone"] = percept.alone;
+  entry["evidence"] = evidence_word(percept.worst);
+  entry["evidence_of"] = {{"slope", evidence_word(percept.slope)},
+                          {"anchor", evidence_word(percept.anchor)},
+                          {"handle", evidence_word(percept.handle)}};
+  entry["map"] = percept.map;
+  entry["measured_on"] = percept.device;
+  entry["source"] = percept.source;
+  return entry;
+}
+
+/// What the program remembers and shows.
+void add_memory_and_marks(nlohmann::ordered_json& json, const Description& description) {
   auto& states = json["states"] = nlohmann::ordered_json::array();
   for (const auto& state : description.states)
     states.push_back({{"name", state.name}, {"min_si", figure(state.low)}, {"max_si", figure(state.high)}});
@@ -165,9 +145,9 @@ nlohmann::ordered_json to_json(const Description& description) {
   auto& marks = shows["marks"] = nlohmann::ordered_json::array();
   for (const auto& mark : description.marks)
     marks.push_back({{"kind", mark_word(mark.kind)}, {"colour", fmt::format("#{:06x}", mark.colour & 0xffffff)}});
-  json["patch"] = {{"width_m", figure(description.patch.width)},
-                   {"height_m", figure(description.patch.height)},
-                   {"rim_m", figure(description.patch.rim)}};
+}
+
+void add_code(nlohmann::ordered_json& json, const Description& description) {
   json["instructions"] = description.code.tick;
   auto& sections = json["sections"];
   const auto section = [&](const char* name, std::size_t instructions, long cost) {
@@ -182,6 +162,38 @@ nlohmann::ordered_json to_json(const Description& description) {
   section("frame", code.frame, code.frame_cost);
   json["cost"] = description.code.tick_cost;
   json["bytes"] = description.bytes;
+}
+
+nlohmann::ordered_json to_json(const Description& description) {
+  nlohmann::ordered_json json;
+  json["material"] = description.material;
+  json["device"] = description.device.name;
+  auto& representative = json["representative"] = nlohmann::ordered_json::object();
+  for (const auto& [key, values] : description.layers.representative) {
+    if (key == "called" || key == "feels")
+      representative[key] = values;
+    else
+      representative[key] = values.empty() ? "" : values.front();
+  }
+  json["documentation"] = description.layers.documentation;
+  auto& percepts = json["percepts"] = nlohmann::ordered_json::object();
+  for (const auto& percept : description.percepts) percepts[percept.name] = to_json(percept);
+  if (!description.no_percept.empty()) json["no_percept"] = description.no_percept;
+  if (description.texture) json["texture"] = to_json(*description.texture);
+  json["fates"] = to_json(description.fates);
+  if (description.shaking) {
+    json["shaking"] = to_json(*description.shaking);
+    json["grade"] = {{"name", "does not apply"}};
+  } else {
+    add_force(json, description);
+  }
+  auto& parameters = json["parameters"] = nlohmann::ordered_json::array();
+  for (const auto& parameter : description.parameters) parameters.push_back(to_json(parameter));
+  add_memory_and_marks(json, description);
+  json["patch"] = {{"width_m", figure(description.patch.width)},
+                   {"height_m", figure(description.patch.height)},
+                   {"rim_m", figure(description.patch.rim)}};
+  add_code(json, description);
   return json;
 }
 
@@ -190,7 +202,7 @@ nlohmann::ordered_json to_json(const Description& description) {
 std::string descriptions_json(const std::vector<Description>& descriptions) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& description : descriptions) json.push_back(to_json(description));
-  // Names may hold any text a file brought along; what is no UTF-8 is replaced rather than thrown about.
+  // Names may hold any bytes from a file; bytes that are not UTF-8 are replaced instead of throwing.
   return (descriptions.size() == 1 ? json.front() : json)
              .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          "\n";

@@ -11,7 +11,7 @@
 namespace wale {
 namespace {
 
-/// The entries of one kind that the file itself offers, in the order written.
+/// The entries of one kind that the file itself exports, in the order written.
 template <typename T>
 std::vector<std::pair<std::string, const typename Names<T>::Entry*>> offered(const Names<T>& names,
                                                                              const CheckedModule& module) {
@@ -36,7 +36,7 @@ std::string unit_documentation(const CheckedModule& module, const Span& declared
   return {};
 }
 
-/// "woven(place: length, over = 1)": as its declaration reads.
+/// "woven(place: length, over = 1)", as in its declaration.
 std::string signature(const DescribedFunction& function) {
   std::string text;
   for (const auto& argument : function.arguments)

@@ -8,11 +8,11 @@
 
 namespace wale {
 
-/// An argument of a function that a file offers.
+/// An argument of a function that a file exports.
 struct DescribedArgument {
   std::string name;
-  std::string dimension;      ///< as declared, "length"; empty where any will do
-  std::string default_value;  ///< as written, "2.5 mm"; empty where it must be given
+  std::string dimension;      ///< as declared, "length"; empty if any dimension is accepted
+  std::string default_value;  ///< as written, "2.5 mm"; empty if the argument must be given
 };
 
 struct DescribedFunction {
@@ -29,7 +29,7 @@ struct DescribedConstant {
 
 struct DescribedUnit {
   std::string name;
-  std::string dimension;  ///< "length", or its units where it has no name
+  std::string dimension;  ///< "length", or its units if it has no name
   double in_si = 1;
   std::string si_unit;  ///< "m"; empty for a plain number
   std::string documentation;
@@ -40,7 +40,7 @@ struct DescribedDimension {
   std::string factors;  ///< "kg m^2 s^-2"
 };
 
-/// What a file offers to those that import it, each kind in the order written.
+/// What a file exports, each kind in the order written.
 struct ModuleDescription {
   std::string file;
   std::vector<DescribedFunction> functions;
@@ -51,13 +51,13 @@ struct ModuleDescription {
   bool empty() const { return functions.empty() && constants.empty() && units.empty() && dimensions.empty(); }
 };
 
-/// Describes what the file itself exports; of the files that every file knows, all that they declare. Materials are
-/// `describe`'s. The module has been checked without errors.
+/// Describes what a file exports; for a file that every file knows, all that it declares. Materials are described by
+/// `describe`. The module must have been checked without errors.
 ModuleDescription describe_module(const CheckedModule& module, const SourceSet& sources);
 
-/// As people read it.
+/// The description as text for people.
 std::string module_text(const ModuleDescription& description);
-/// An object with an array for each kind.
+/// JSON: an object with an array for each kind.
 std::string module_json(const ModuleDescription& description);
 
 }  // namespace wale

@@ -21,16 +21,18 @@ std::string heading(const Description& description) {
 void write_percepts(std::string& text, const Description& description) {
   text += "\nfeels\n";
   if (!description.no_percept.empty())
-    text += fmt::format("  {}: {}\n", description.percepts.empty() ? "none that can be told" : "no roughness",
+    text += fmt::format("  {}: {}\n", description.percepts.empty() ? "none can be read" : "no roughness",
                         description.no_percept);
   for (const auto& percept : description.percepts) {
-    text += fmt::format("  {:<12} {:.2f}   (95 % of such means: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
-                        percept.level, percept.low, percept.high, percept.magnitude);
+    text +=
+        fmt::format("  {:<12} {:.2f}   (95 % of the means of {}: {:.2f} .. {:.2f}; magnitude {:.3g})\n", percept.name,
+                    percept.level, percept.observers > 0 ? fmt::format("{} people", percept.observers) : "groups",
+                    percept.low, percept.high, percept.magnitude);
     text += fmt::format("  {:<12} {} {:.4g} {}{}\n", "", percept.carrier, percept.amplitude, percept.unit,
                         percept.asked       ? fmt::format(", solved for {} {:.3g}", percept.name, *percept.asked)
-                        : percept.blended   ? ", solved for what its components ask"
-                        : percept.extracted ? ", read from its force"
-                                            : ", fixed by the author");
+                        : percept.blended   ? ", solved for the levels of its components"
+                        : percept.extracted ? ", read from the force"
+                                            : ", written by the author");
     if (percept.individual_high > percept.high * 1.005)
       text += fmt::format("  {:<12} 95 % of single people: {:.2f} .. {:.2f}\n", "", percept.individual_low,
                           percept.individual_high);
@@ -40,11 +42,11 @@ void write_percepts(std::string& text, const Description& description) {
                           description.shaking ? "shake" : "push");
     if (!percept.realisation.empty())
       text += fmt::format("  {:<12} {}`{}` renders it as {}\n", "",
-                          description.shaking ? "" : "nothing was said of its physics: ", description.device.name,
+                          description.shaking ? "" : "the author wrote no physics: ", description.device.name,
                           percept.realisation);
-    if (percept.outside_validity) text += fmt::format("  {:<12} outside what was measured\n", "");
+    if (percept.outside_validity) text += fmt::format("  {:<12} outside the range that was measured\n", "");
     if (!percept.alone && !percept.extracted)
-      text += fmt::format("  {:<12} other {} too; a run cannot read it back\n", "",
+      text += fmt::format("  {:<12} other {} too, so a run cannot read it back\n", "",
                           description.shaking ? "percepts shake it" : "forces push");
     text += fmt::format("  {:<12} evidence: slope {}, anchor {}, handle {}\n", "", evidence_word(percept.slope),
                         evidence_word(percept.anchor), evidence_word(percept.handle));
@@ -73,10 +75,10 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
   }
 }
 
-/// Of a direction in [0, pi), whole and less than 180.
+/// A direction in [0, pi) in whole degrees below 180.
 long degrees(double radians) { return std::lround(radians * 180 / std::numbers::pi) % 180; }
 
-/// What the device makes of it: the percepts first, then the physics.
+/// What the device makes of the percepts, then of the physics.
 void write_fates(std::string& text, const Description& description) {
   if (description.fates.empty()) return;
   text += fmt::format("\non {}\n", description.device.name);
@@ -85,8 +87,9 @@ void write_fates(std::string& text, const Description& description) {
     std::string level;
     if (each.percept && each.fate == Fate::saturated)
       level = fmt::format(" from {:.2f} to {:.2f}", each.asked, each.given);
-    text += fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level,
-                        each.reason.empty() ? "" : ": ", each.reason, changes_text(described));
+    text +=
+        fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level, each.reason.empty() ? "" : ": ",
+                    each.reason, described.changes.empty() ? "" : "; " + changes_text(described));
   }
 }
 
@@ -94,7 +97,7 @@ void write_shaking(std::string& text, const MeasuredShaking& shaking) {
   text += fmt::format("\nshakes\n  {:.3f} m/s^2 at most under the hand `normal`: P99 {:.3f} m/s^2, RMS {:.3f} m/s^2\n",
                       shaking.max, shaking.p99, shaking.rms);
   if (shaking.highest > 0) text += fmt::format("  {:.4g} .. {:.4g} Hz\n", shaking.lowest, shaking.highest);
-  text += "\nstability\n  does not apply: it only vibrates, and closes no loop with the hand\n";
+  text += "\nstability\n  does not apply: it only vibrates, so there is no loop with the hand\n";
 }
 
 void write_texture(std::string& text, const Description& description) {
@@ -106,19 +109,20 @@ void write_texture(std::string& text, const Description& description) {
     text += fmt::format("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
                         force.maximum, force.rms, force.mean);
     if (force.regular())
-      text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} transitions a millimetre\n", 1e3 * force.period,
-                          100 * force.regularity, 1e-3 * force.transitions);
+      text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} sign changes per millimetre\n",
+                          1e3 * force.period, 100 * force.regularity, 1e-3 * force.transitions);
     else
-      text += fmt::format("  irregular, about {:.2g} mm; {:.2g} transitions a millimetre\n", 1e3 * force.period,
+      text += fmt::format("  irregular, about {:.2g} mm; {:.2g} sign changes per millimetre\n", 1e3 * force.period,
                           1e-3 * force.transitions);
-    text += fmt::format(
-        "  anisotropy {:.1f}{}\n", force.anisotropy,
-        force.oriented() ? fmt::format(", changes along {} degrees from x", degrees(force.orientation)) : "");
+    text += fmt::format("  anisotropy {:.1f}{}\n", force.anisotropy,
+                        force.oriented()
+                            ? fmt::format(", changes along the direction {} degrees from x", degrees(force.orientation))
+                            : "");
     if (force.waves.size() > 1)
       for (const TextureWave& wave : force.waves)
-        text += fmt::format("  {:.0f} % of it with a period of {:.2g} mm along {} degrees\n", 100 * wave.share,
+        text += fmt::format("  {:.0f} % of it has a period of {:.2g} mm along {} degrees\n", 100 * wave.share,
                             1e3 * wave.period, degrees(wave.orientation));
-    if (!texture.texture_class.empty()) text += fmt::format("  people would call it: {}\n", texture.texture_class);
+    if (!texture.texture_class.empty()) text += fmt::format("  people would call it {}\n", texture.texture_class);
     if (!texture.size_class.empty() && texture.size_class != "texture")
       text += fmt::format("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
                           texture.size_class == "transitional" ? "something between a texture and single features"
@@ -133,48 +137,49 @@ void write_texture(std::string& text, const Description& description) {
     text += fmt::format("  confidence that it is a texture: {} ({})\n", texture.confidence, texture.source);
 }
 
-/// Over every hand, parameter and size of patch that the runtime lets the program see.
+/// Over every hand, every parameter and every size of patch that the runtime allows.
 std::string bound_lines(const Description& description) {
   const ForceBound& bound = description.bound;
-  std::string line = fmt::format("  proved never to push harder than {:.3f} N", bound.newton);
+  std::string line = fmt::format("  proved never to push harder than {:.3f} N at any parameters", bound.newton);
   if (bound.found.newton > 0)
-    line += fmt::format(", {:.2f} times the largest found ({:.3f} N)", bound.ratio(), bound.found.newton);
+    line += fmt::format(", {:.2f} times the largest force found ({:.3f} N)", bound.ratio(), bound.found.newton);
   line += "\n";
   if (!description.limit_matters) return line;
   const double most = description.device.force_newton, asked = description.asked.largest();
   if (asked > most)
     line += fmt::format(
-        "  limited by the compiler: its formulas may ask for {} along x or y, where `{}` gives {:.4g} N; held there, "
-        "a\n"
-        "  force changes its direction, and under `force = … limit {:.4g} N` it would keep it\n",
+        "  limited by the compiler: the formulas may ask for {} along x or y, and `{}` gives {:.4g} N.\n"
+        "  Limiting x and y separately turns the force; `force = … limit {:.4g} N` keeps its direction\n",
         std::isfinite(asked) ? fmt::format("{:.3g} N", asked) : "any force", description.device.name, most, most);
   if (description.asked.maybe_nan)
-    line += "  limited by the compiler: where its formulas give no number, it pushes with nothing\n";
+    line += "  limited by the compiler: where its formulas give no number, the force is 0\n";
   return line;
 }
 
 void write_pushing(std::string& text, const Description& description) {
-  text += fmt::format("\npushes\n  {:.3f} N at most; at rest, over the patch: P99 {:.3f} N, RMS {:.3f} N\n",
-                      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
+  text += fmt::format(
+      "\npushes\n  {:.3f} N at most at these parameters; on a hand at rest, over the patch: P99 {:.3f} N, RMS {:.3f} "
+      "N\n",
+      description.force.max_newton, description.force.p99_newton, description.force.rms_newton);
   text += bound_lines(description);
   text += "\nstability\n" + grade_text(description.grade, description.device);
 }
 
-/// A program does not know the units of its states; in SI every figure means one thing.
+/// A program does not store the units of its states; in SI units every figure is unambiguous.
 void write_memory(std::string& text, const Description& description) {
   if (description.states.empty() && description.memories.empty()) return;
   text += "\nremembers (in SI units)\n";
   for (const auto& state : description.states)
     text += fmt::format("  {:<12} {:.6g} .. {:.6g}\n", state.name, state.low, state.high);
   for (const auto& grid : description.memories)
-    text += fmt::format("  {:<12} {:.6g} .. {:.6g}, {:.6g} at first; {} x {} cells, {} bytes\n", grid.name, grid.low,
+    text += fmt::format("  {:<12} {:.6g} .. {:.6g}, at first {:.6g}; {} x {} cells, {} bytes\n", grid.name, grid.low,
                         grid.high, grid.initial, grid.columns, grid.rows, bytes_of(grid));
 }
 
 void write_shown(std::string& text, const Description& description) {
   std::vector<std::string> shown;
   if (description.shows_relief) shown.emplace_back("its relief");
-  if (description.shows_colour) shown.emplace_back("colours of its own");
+  if (description.shows_colour) shown.emplace_back("its own colours");
   for (const auto& mark : description.marks)
     shown.push_back(fmt::format("{} #{:06x}", mark_word(mark.kind), mark.colour & 0xffffff));
   if (!shown.empty()) text += fmt::format("\nshows\n  {}\n", fmt::join(shown, ", "));

@@ -52,7 +52,7 @@ void write_material(std::string& text, const std::vector<const DeviceFates*>& de
   for (const DeviceFates* device : devices)
     for (const DescribedFate& each : device->fates)
       if (!each.changes.empty())
-        text += fmt::format("  {} on {}{}\n", each.record.name, device->device, changes_text(each).replace(0, 1, ":"));
+        text += fmt::format("  {} on {}{}\n", each.record.name, device->device, ": " + changes_text(each));
   for (const DeviceFates* device : devices)
     if (!device->refusal.empty()) text += fmt::format("  not for {}: {}\n", device->device, device->refusal);
 }

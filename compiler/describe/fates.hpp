@@ -11,12 +11,12 @@ namespace wale {
 struct DeviceFates {
   std::string material, device;
   std::vector<DescribedFate> fates;
-  std::string refusal;  ///< why it cannot be built for the device, in a line; empty where it can
+  std::string refusal;  ///< why it cannot be built for the device, in a line; empty if it can
 };
 
-/// Material by material, what becomes of each thing on each device: a column for each device.
+/// A table for each material: what becomes of each percept and of the physics, with a column for each device.
 std::string fates_text(const std::vector<DeviceFates>& all);
-/// An object: by material, by device, as `wale describe --json` has `fates`.
+/// JSON: an object by material, then by device, with `fates` as in `wale describe --json`.
 std::string fates_json(const std::vector<DeviceFates>& all);
 
 }  // namespace wale

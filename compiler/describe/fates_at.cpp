@@ -16,11 +16,12 @@
 namespace wale {
 namespace {
 
-constexpr double rounding = 5e-4;    // relative: what a level asked for and given may differ by in single precision
-constexpr float at_the_end = 1e-3f;  // of a parameter's range: what holds only there is not worth a word
+// relative: a level asked for and the level given may differ by this in single precision
+constexpr double rounding = 5e-4;
+constexpr float at_the_end = 1e-3f;  // of a parameter's range: a change that near its end is not reported
 constexpr int halvings = 14;         // of a parameter's range, to find where a fate changes
 
-/// Which registers matter to what comes after.
+/// Whether each register is read later.
 using LiveRegisters = std::vector<char>;
 
 void read_operands(const Instruction& instruction, LiveRegisters& live) {
@@ -30,8 +31,8 @@ void read_operands(const Instruction& instruction, LiveRegisters& live) {
     if (fields[i] == 'r') live[operands[i]] = true;
 }
 
-/// How one solved percept's size and level follow from the parameters: the part of the setup code that they need, which
-/// seldom holds a peak.
+/// The size and the level of one solved percept as functions of the parameters: the part of the setup code that they
+/// need, which seldom holds a peak.
 class SolvedSize {
  public:
   SolvedSize(const Bank& bank, std::size_t index)
@@ -57,12 +58,12 @@ class SolvedSize {
 
   bool depends_on(std::size_t parameter) const { return live_[program_.first_parameter() + parameter] != 0; }
 
-  /// The carrier's size at these registers, in the percept's unit.
+  /// The size of the carrier at these registers, in the percept's unit.
   double size(std::vector<float>& registers) const {
     run(code_, registers);
     return registers[percept_.amplitude];
   }
-  /// The level of a carrier of that size, after `size`.
+  /// The level of a carrier of that size. Call `size` first.
   double level(std::vector<float>& registers, double size) const {
     registers[static_cast<std::size_t>(Input::probe)] = static_cast<float>(size);
     run(percept_.prediction, registers);
@@ -82,7 +83,7 @@ class SolvedSize {
   const DecodedProgram& decoded_;
   const PatchProgram& program_;
   const PerceptRecord& percept_;
-  LiveRegisters live_;  ///< at the beginning of the code
+  LiveRegisters live_;  ///< read by the code before it is written
   std::vector<Instruction> code_;
 };
 
@@ -111,7 +112,7 @@ class FateFinder {
     const double size = size_.size(registers), level = size_.level(registers, std::min(size, most_));
     now.asked = registers[program_.first_parameter() + *percept_.parameter];
     now.given = std::isfinite(level) ? static_cast<float>(std::clamp(level, 0.0, 1.0)) : now.asked;
-    std::string how = without_saturation(record_.reason, program_.device.name);
+    std::string how = realised_how();
     now.fate = how.empty() ? Fate::kept : Fate::approximated;
     if (now.given < now.asked * (1 - rounding)) {
       now.fate = Fate::saturated;
@@ -122,13 +123,21 @@ class FateFinder {
     return now;
   }
 
+  /// How the percept is realised, which is the same at all parameters. The program's record says it, unless the percept
+  /// saturates at the defaults: then the record gives the saturation as its reason.
+  std::string realised_how() const {
+    if (record_.fate != Fate::saturated) return record_.reason;
+    const bool foreign = percept_.handle == Evidence::transferred && percept_.device != program_.device.name;
+    return realisation_reason(percept_.realisation, foreign ? percept_.source : "", percept_.device);
+  }
+
   FateRecord with(const std::vector<float>& registers, std::size_t parameter, float value) const {
     std::vector<float> changed = registers;
     changed[program_.first_parameter() + parameter] = value;
     return at(std::move(changed));
   }
 
-  /// Looks towards one end of a parameter's range, at which the fate may be another.
+  /// Finds where the fate changes towards one end of a parameter's range, if it is another at that end.
   void add_change(DescribedFate& fate, const std::vector<float>& registers, std::size_t index, bool above) const {
     const Parameter& parameter = program_.parameters[index];
     float same = registers[program_.first_parameter() + index], other = above ? parameter.high : parameter.low;
@@ -152,7 +161,7 @@ class FateFinder {
   double most_;  ///< of the carrier, in its own unit
 };
 
-/// The percept that a fate is of, where its level is a parameter of its own: not where it only shares a carrier.
+/// The percept of a fate if its level is a parameter of its own, and not if it only shares a carrier.
 std::optional<std::size_t> solved_percept(const PatchProgram& program, const FateRecord& fate) {
   if (!fate.percept || fate.fate == Fate::lost) return std::nullopt;
   for (std::size_t i = 0; i < program.percepts.size(); ++i) {
@@ -164,29 +173,29 @@ std::optional<std::size_t> solved_percept(const PatchProgram& program, const Fat
   return std::nullopt;
 }
 
-/// What the device gives at most, N or m/s^2: a pad that shakes at one rate, what it gives there.
-double most_given(const Bank& bank) {
+/// The largest output of the device, in N or m/s^2; for a pad that shakes at one frequency, the largest there.
+double most_given(const Bank& bank, const Declarations& declarations) {
   const DeviceProfile& device = bank.program().description().device;
   if (!device.shaker) return device.most();
   constexpr float steady = 1e-3f;
-  const MeasuredShaking shaking = measure_shaking(bank);
+  const MeasuredShaking shaking = measure_shaking(bank, declarations.hands.find("normal"));
   if (!(shaking.highest > 0) || shaking.highest - shaking.lowest > steady * shaking.highest) return device.most();
   return std::min(device.most(), device.shaker->acceleration(1, shaking.highest));
 }
 
-/// The largest carrier of a percept of which the device gives that, in the percept's unit.
-double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations* declarations,
+/// The largest size of a percept's carrier that an output of `given` allows, in the percept's unit.
+double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations& declarations,
                double given) {
   if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given;
-  const Percept* declared = declarations ? declarations->percepts.find(percept.name) : nullptr;
+  const Percept* declared = declarations.percepts.find(percept.name);
   return declared && declared->exerts > 0 ? given / declared->exerts : HUGE_VAL;
 }
 
 }  // namespace
 
-std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations* declarations) {
+std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
-  const double given = most_given(bank);
+  const double given = most_given(bank, declarations);
   std::vector<DescribedFate> all;
   for (const FateRecord& record : program.fates) {
     const auto index = solved_percept(program, record);
@@ -203,8 +212,9 @@ std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations* declar
 std::string changes_text(const DescribedFate& fate) {
   std::string text;
   for (const FateChange& each : fate.changes)
-    text += fmt::format("; {} {} {} {:.3g}{}{}", fate_word(each.fate), each.above ? "above" : "below", each.parameter,
-                        each.value, each.unit.empty() ? "" : " ", each.unit);
+    text += fmt::format("{}{} {} {} {:.3g}{}{}", text.empty() ? "" : "; ", fate_word(each.fate),
+                        each.above ? "above" : "below", each.parameter, each.value, each.unit.empty() ? "" : " ",
+                        each.unit);
   return text;
 }
 

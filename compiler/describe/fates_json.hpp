@@ -7,8 +7,9 @@
 
 namespace wale {
 
-/// `{"percepts": {NAME: {fate, asked, given, reason, changes}}, "physics": {NAME: {fate, reason}}}`, where `changes` is
-/// an array of `{fate, parameter, unit, above}`, or `below` instead of `above`; left out where there are none.
+/// `{"percepts": {NAME: {fate, asked, given, reason, changes}}, "physics": {NAME: {fate, reason}}}`. `changes` is an
+/// array of `{fate, parameter, unit, above}`, with `below` instead of `above` where the fate holds below; it is left
+/// out if empty.
 nlohmann::ordered_json to_json(const std::vector<DescribedFate>& fates);
 
 }  // namespace wale

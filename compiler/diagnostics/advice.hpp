@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// What a diagnostic says beyond what is wrong: the proposal, with the fixes that carry it out, and the places, facts
-/// and the rule that have to do with it. Where a proposal alone will do, a text is enough.
+/// What a diagnostic says beyond the error itself: the proposal with the fixes that carry it out, other places, facts,
+/// and the rule behind it. A text alone is enough for a proposal without them.
 class Advice {
  public:
   [[gnu::cold]] Advice(std::string help) : about_{.help = std::move(help)} {}
@@ -24,7 +24,7 @@ class Advice {
   Advice fix(Fix fix) &&;
   Advice fix(std::vector<Fix> fixes) &&;
 
-  /// Puts something before the proposal.
+  /// Puts a text before the proposal.
   Advice behind(const std::string& text) &&;
 
   [[gnu::cold]] Diagnostic about(Code code, Span span, std::string message) &&;
@@ -33,7 +33,7 @@ class Advice {
   Diagnostic about_;
 };
 
-/// "Did you mean `X`?" with the fix that writes it (`respell`), or `otherwise` when no candidate is near.
+/// "did you mean `X`?" with the fix that writes it (`respell`); `otherwise` if no candidate is near.
 [[gnu::cold]] Advice did_you_mean(Span span, std::string_view word, const std::vector<std::string>& candidates,
                                   Advice otherwise, bool may_be_safe = true);
 

@@ -6,10 +6,10 @@
 namespace wale {
 namespace {
 
-/// Edits by the byte where they begin, none in the way of another.
+/// Edits by their first byte; no two overlap.
 using Edits = std::map<std::uint32_t, Edit>;
 
-/// Adds the edit unless it changes what another changes, or inserts where another does: the order would be a guess.
+/// Adds the edit unless it overlaps with another or inserts at the same place, where the order would be a guess.
 bool add(Edits& edits, const Edit& edit) {
   const auto next = edits.lower_bound(edit.span.begin);
   if (next != edits.end() && (next->first == edit.span.begin || next->first < edit.span.end)) return false;
@@ -18,7 +18,7 @@ bool add(Edits& edits, const Edit& edit) {
   return true;
 }
 
-/// Adds all edits of the fix, or none.
+/// Adds all edits of the fix or none.
 bool add(Edits& edits, const Fix& fix, SourceId source, std::size_t text_size) {
   std::vector<std::uint32_t> added;
   const bool whole = std::ranges::all_of(fix.edits, [&](const Edit& edit) {

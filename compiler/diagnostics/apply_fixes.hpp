@@ -11,14 +11,14 @@ namespace wale {
 /// A text after some fixes.
 struct FixedText {
   std::string text;
-  std::vector<Fix> applied;  ///< in the order of the text; their spans are of the text before
+  std::vector<Fix> applied;  ///< in the order of the text; their spans refer to the text before the fixes
 };
 
-/// Applies fixes to the text of one source, each whole or not at all. A fix that touches another source, or a place
-/// that an earlier fix of the list changes, is left out: it may be right after the next look at the result.
+/// Applies fixes to the text of one source, each completely or not at all. A fix that touches another source, or
+/// overlaps with an earlier fix of the list, is left out; it may still apply to the result.
 FixedText apply_fixes(std::string_view text, SourceId source, const std::vector<Fix>& fixes);
 
-/// The safe fixes of a file's diagnostics, of each diagnostic the first.
+/// The first safe fix of each diagnostic.
 std::vector<Fix> safe_fixes(const std::vector<Diagnostic>& diagnostics);
 
 }  // namespace wale

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/text/embedded_files.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {
@@ -34,11 +35,16 @@ std::vector<Code> all_codes() {
   return codes;
 }
 
-std::optional<Code> code_named(std::string_view name) {
+Result<Code> code_named(std::string_view name) {
   const auto number = number_named(name);
-  for (const Code code : all_codes())
+  std::vector<std::string> names;
+  for (const Code code : all_codes()) {
     if (number && static_cast<unsigned>(code) == *number) return code;
-  return std::nullopt;
+    names.push_back(code_name(code));
+  }
+  const auto near = nearest_spelling(number ? fmt::format("W{:04}", *number) : std::string(name), names);
+  return Error{Code::unknown_name, fmt::format("no diagnostic has the code `{}`", name),
+               near ? fmt::format("did you mean `{}`?", *near) : "`wale explain` lists all codes"};
 }
 
 std::string_view explanation(Code code) {
@@ -70,15 +76,6 @@ std::string codes_text() {
   for (const Code code : all_codes())
     out += fmt::format("{}  {:<7}  {}\n", code_name(code), severity_name(severity_of(code)), code_title(code));
   return out;
-}
-
-std::string unknown_code_text(std::string_view name) {
-  std::vector<std::string> names;
-  for (const Code code : all_codes()) names.push_back(code_name(code));
-  const auto number = number_named(name);
-  const auto near = nearest_spelling(number ? fmt::format("W{:04}", *number) : std::string(name), names);
-  return fmt::format("no diagnostic has the code `{}`; {}", name,
-                     near ? fmt::format("did you mean `{}`?", *near) : "`wale explain` lists them all");
 }
 
 }  // namespace wale

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 

@@ -12,12 +12,12 @@ namespace wale {
 namespace {
 
 constexpr std::size_t tab_width = 4;
-/// Longer lines are cut to this many characters around the place; terminals wrap and then no caret points anywhere.
+/// Longer lines are cut to this many characters around the place: terminals wrap lines, and then carets point nowhere.
 constexpr std::size_t widest_line = 140;
-/// How much of a cut line stays visible before the place.
+/// The part of a cut line that stays visible before the place.
 constexpr std::size_t context_before = 30;
 
-/// One column of a displayed line: the bytes that fill it.
+/// One column of a displayed line and the bytes in it.
 using Columns = std::vector<std::string>;
 
 struct DisplayedLine {
@@ -25,7 +25,7 @@ struct DisplayedLine {
   std::size_t begin = 0, end = 0;  ///< columns of the carets
 };
 
-/// Control characters and broken UTF-8 become visible and harmless: a file must not steer the reader's terminal.
+/// Control characters and broken UTF-8 become visible and harmless: a file must not control the reader's terminal.
 std::string displayable(std::string_view bytes, const Character& character) {
   const bool control = character.code < ' ' || (character.code >= 0x7F && character.code < 0xA0);
   const bool reorders =
@@ -33,11 +33,11 @@ std::string displayable(std::string_view bytes, const Character& character) {
   return character.valid && !control && !reorders ? std::string(bytes) : "\uFFFD";
 }
 
-/// The line as columns, and the carets below the bytes `begin` .. `end`. Of a line of megabytes only the surroundings
-/// of the place are looked at.
+/// The line as columns, with carets below the bytes `begin` .. `end`. Only the surroundings of the place are read: a
+/// line may have megabytes.
 DisplayedLine display(std::string_view line, std::size_t begin, std::size_t end) {
   DisplayedLine result;
-  constexpr std::size_t most_bytes = 4 * 4 * widest_line;  // of UTF-8, to either side
+  constexpr std::size_t most_bytes = 4 * 4 * widest_line;  // of UTF-8, on either side
   begin = std::min(begin, line.size());
   end = std::min(end, begin + most_bytes);
   std::size_t from = begin > most_bytes ? begin - most_bytes : 0;
@@ -87,7 +87,7 @@ constexpr Palette plain = {"", "", "", ""};
 constexpr Palette error_colours = {"\x1b[1;31m", "\x1b[1m", "\x1b[1;34m", "\x1b[0m"};
 constexpr Palette warning_colours = {"\x1b[1;33m", "\x1b[1m", "\x1b[1;34m", "\x1b[0m"};
 
-/// The lines of a note after the first stand below its first character.
+/// The further lines of a note start below its first character.
 std::string indented(std::string_view text, std::size_t indent) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
@@ -102,17 +102,17 @@ std::string indented(std::string_view text, std::size_t indent) {
   return result;
 }
 
-/// A span with the sign that underlines it.
+/// A span and the character that underlines it.
 struct Marked {
   Span span;
   std::string_view label;
   char sign = '-';
 };
 
-/// What is underlined in one file: by line, the primary span's first.
+/// The underlined spans of one file by line, the primary span's line first.
 using MarkedLines = std::map<unsigned, std::vector<Marked>>;
 
-/// The excerpt of a diagnostic's files: lines with their numbers, and below them what is marked.
+/// The excerpt of a diagnostic's files: lines with their numbers, and marks below them.
 class Excerpt {
  public:
   Excerpt(const Diagnostic& diagnostic, const SourceSet& sources, const Palette& paint)
@@ -127,7 +127,7 @@ class Excerpt {
 
   std::string margin() const { return std::string(number_width_ + 1, ' '); }
 
-  /// The primary span's file first, the others in the order in which they are named.
+  /// The file of the primary span first, then the others in the order in which they are named.
   std::string text() const {
     std::string out;
     for (const auto& [source, lines] : files_) {
@@ -166,7 +166,7 @@ class Excerpt {
     return shown;
   }
 
-  /// A long line is cut around its first mark; a mark that then lies beyond the cut gets an excerpt of its own.
+  /// A long line is cut around its first mark; a mark beyond the cut gets its own excerpt.
   std::string line(unsigned number, const std::vector<Marked>& marks) const {
     std::string out, before;
     for (const Marked& marked : marks) {
@@ -202,7 +202,7 @@ std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, 
   std::string out =
       fmt::format("{}{}[{}]{}{}: {}{}\n", paint.severity, severity_name(severity), code_name(diagnostic.code),
                   paint.off, paint.bold, indented(diagnostic.message, 0), paint.off);
-  // What is wrong with a command line rather than a file has no place.
+  // An error of a command line has no place in a file.
   const Excerpt excerpt(diagnostic, sources, paint);
   out += excerpt.text();
   const std::string margin = excerpt.margin();

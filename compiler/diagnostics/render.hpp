@@ -10,12 +10,12 @@ namespace wale {
 /// "error" or "warning".
 std::string_view severity_name(Severity severity);
 
-/// A diagnostic as people read it: code, message, place, the line with carets (`^` under the primary span, `-` under
-/// the others, which may be on other lines and in other files), and the notes in the order cause, rule, proposal.
-/// `colour` adds ANSI colours.
+/// A diagnostic as text: code, message, place, the line with carets (`^` under the primary span, `-` under the others,
+/// which may be in other lines and files), and the notes in the order cause, rule, proposal. `colour` adds ANSI
+/// colours.
 std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, bool colour);
 
-/// All diagnostics as a JSON array of objects; schema/LANGUAGE.md, "Reading a diagnostic", lists their fields.
+/// All diagnostics as a JSON array of objects. Their fields are listed in schema/LANGUAGE.md, "Reading a diagnostic".
 std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources);
 
 }  // namespace wale

@@ -76,7 +76,7 @@ std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources
   Json list = Json::array();
   for (const Diagnostic& each : diagnostics.all()) list.push_back(json_of(each, sources));
   constexpr int indent = 2;
-  // Bytes that are no UTF-8 are shown as the replacement character: what is wrong with a file must not stop its report.
+  // Bytes that are not UTF-8 become the replacement character: an error in a file must not stop its report.
   return list.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -13,13 +13,13 @@ namespace wale {
 
 namespace {
 
-constexpr std::uint32_t peak_points = 16384;  // 164 of them above the 99th percentile
+constexpr std::uint32_t peak_points = 16384;  // 164 of them lie above the 99th percentile
 constexpr float peak_percentile = 0.99f;
 
-/// Of an operation, by number: what sections have to know of it.
+/// Facts about an operation that sections need, by its number.
 struct Shape {
   std::uint8_t results = 0;
-  bool looks_up = false;  ///< in the table or grid that its third field numbers
+  bool looks_up = false;  ///< in the table or grid whose number is its third field
 };
 
 constexpr auto shapes = [] {
@@ -123,11 +123,11 @@ class Emitter {
     }
   }
 
-  /// The lines that the instructions come from.
+  /// The source line of each instruction.
   SourcePlaces places(const SourceLines& lines) const {
     SourcePlaces places;
     std::map<SourceId, std::uint16_t> files;
-    // A node stands in several sections: its line is looked for once.
+    // A node may be in several sections; its line is searched once.
     std::vector<SourcePlaces::Run> known(graph_.size(), {0, 0, 0});
     const auto run_of = [&](NodeId id) {
       SourcePlaces::Run& run = known[id];
@@ -164,25 +164,26 @@ class Emitter {
  private:
   static constexpr std::uint32_t not_needed = ~std::uint32_t{0}, in_no_section = not_needed - 1;
 
-  /// What sections see of a node, each of them anew. A component is a register of its sample, which stands for it. What
-  /// is no operand is result 0 of `nothing_`.
+  /// A node as a section sees it; each section fills it in anew. A component is represented by its sample, as one of
+  /// the sample's registers. A missing operand is result 0 of `nothing_`.
   struct Step {
-    std::array<Step*, 3> operands{};  ///< of a component its sample
-    /// Which of that one's registers; of `nothing_` a table's number or a grid's.
+    std::array<Step*, 3> operands{};  ///< for a component, its sample
+    /// which of the operand's registers; for `nothing_`, the number of a table or a grid
     std::array<RegisterNumber, 3> results{};
     Operation operation = Operation::add;
     std::uint8_t width = 0;  ///< registers
-    /// The first of them; there may be more than a program may have: `emit` refuses it then.
+    /// The first register. It may be beyond the limit of a program; then `emit` refuses the program.
     std::uint32_t location = 0;
-    /// By the last section that works it out, from 1; else `not_needed`, or `in_no_section` where setup does or nobody.
+    /// The last section that computes it, from 1; otherwise `not_needed`, or `in_no_section` if setup or no section
+    /// computes it.
     std::uint32_t wanted = not_needed;
-    std::array<bool, 3> last_uses{};  ///< whether nobody uses the operand after it in that section
+    std::array<bool, 3> last_uses{};  ///< whether this is the last use of the operand in that section
   };
 
-  /// Finds what is needed at all, then lays out constants, parameters and setup results.
+  /// Finds the nodes that are needed, then assigns registers to constants, parameters and setup results.
   void plan() {
     find_needed();
-    // Each constant is one node, so there is nothing to look up: the register of the first comes first.
+    // Each constant is one node, so the registers follow the order of the nodes.
     const auto pooled = [&](float value) {
       program_.constants.push_back(value);
       return static_cast<std::uint32_t>(first_constant + program_.constants.size() - 1);
@@ -209,7 +210,7 @@ class Emitter {
     first_temporary_ = next + lowered_.states.size();
   }
 
-  /// Says what is needed, and what sections are to know of it.
+  /// Marks the nodes that are needed, and fills in what sections need to know of them.
   void find_needed() {
     steps_.assign(graph_.size(), Step{.operands = {&nothing_, &nothing_, &nothing_}});
     backwards_.resize(steps_.size());
@@ -228,7 +229,7 @@ class Emitter {
       Step& step = steps[id];
       if (step.wanted == not_needed) continue;
       const Node& node = graph_[id];
-      if (node.kind == Node::Kind::operation) {  // as most are
+      if (node.kind == Node::Kind::operation) {  // the most frequent kind
         look_at(node, step);
         for (Step* operand : step.operands) operand->wanted = in_no_section;
         if (node.rate == Rate::tick)
@@ -254,7 +255,7 @@ class Emitter {
     std::ranges::reverse(constant_nodes_);
   }
 
-  /// Fills in the step of an operation; there are no operands in it yet.
+  /// Fills in the step of an operation, without operands.
   void look_at(const Node& node, Step& step) {
     const Shape shape = shapes[static_cast<std::size_t>(node.operation)];
     step.operation = node.operation;
@@ -272,14 +273,14 @@ class Emitter {
     if (shape.looks_up) step.results[2] = static_cast<RegisterNumber>(node.index);
   }
 
-  /// Where a value is found.
+  /// The register that holds a value.
   RegisterNumber at(NodeId id) const {
     const Node& node = graph_[id];
     if (node.kind != Node::Kind::component) return static_cast<RegisterNumber>(steps_[id].location);
     return static_cast<RegisterNumber>(steps_[node.a].location + node.index);
   }
 
-  /// Writes the instruction of a step whose operands are found there.
+  /// Writes the instruction of a step.
   static void write(Instruction& instruction, const Step& step, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     instruction.operation = static_cast<std::uint8_t>(step.operation);
     instruction.destination = static_cast<RegisterNumber>(step.location);
@@ -313,11 +314,11 @@ class Emitter {
     }
   }
 
-  /// What a section has to work out for its roots, the last first. Values are asked for from the last to the first, so
-  /// whoever is first to ask for one is last to use it: `last_uses` says of which operands.
+  /// The steps of a section for its roots, last step first. Values are requested from the last to the first, so the
+  /// first to request a value is its last user: `last_uses` says for which operands.
   const std::vector<Step*>& backwards_from(const std::vector<NodeId>& roots) {
     const auto section = static_cast<std::uint32_t>(section_steps_.size() + 1);
-    std::size_t pending = 0;  // asked for and not looked at yet
+    std::size_t pending = 0;  // requested and not processed yet
     const auto want = [&](Step& step) {
       const bool first = step.wanted < section;
       step.wanted = std::max(step.wanted, section);
@@ -336,13 +337,13 @@ class Emitter {
       *next++ = step;
       step->last_uses[0] = want(*step->operands[0]);
       step->last_uses[1] = want(*step->operands[1]);
-      step->last_uses[2] = step->operands[2] != &nothing_ && want(*step->operands[2]);  // hardly ever
+      step->last_uses[2] = step->operands[2] != &nothing_ && want(*step->operands[2]);  // rarely
     }
     return section_steps_.emplace_back(backwards_.data(), next);
   }
 
-  /// The code that works out the roots from inputs, constants, parameters and setup results. Leaves in `steps_` the
-  /// temporaries of its values; the roots keep theirs to the end.
+  /// The code that computes the roots from inputs, constants, parameters and setup results. Leaves the temporaries of
+  /// its values in `steps_`; the roots keep theirs to the end.
   std::vector<Instruction> section(const std::vector<NodeId>& roots) {
     const std::vector<Step*>& backwards = backwards_from(roots);
     std::vector<Instruction> code(backwards.size());
@@ -350,7 +351,7 @@ class Emitter {
     return code;
   }
 
-  /// Writes an instruction for each step, the last step first. False where such temporaries do not do.
+  /// Writes an instruction for each step, last step first. False if that many temporaries are not enough.
   template <typename SomeTemporaries>
   bool write_code(const std::vector<Step*>& backwards, Instruction* next) {
     SomeTemporaries temporaries;
@@ -375,16 +376,17 @@ class Emitter {
   const SolvedMaterial& material_;
   PatchProgram program_;
 
-  /// Stands for the operands that an operation does not have: register 0, which no section sets.
+  /// The operand of an operation without this operand: register 0, which no section sets.
   Step nothing_{.wanted = in_no_section};
   std::vector<Step> steps_;       ///< by node
-  std::vector<Step*> backwards_;  ///< room for those of a section
+  std::vector<Step*> backwards_;  ///< storage for the steps of a section
   std::size_t first_temporary_ = 0;
   std::size_t most_temporaries_ = 0;
-  RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program that has none
-  std::vector<NodeId> constant_nodes_, parameter_nodes_, state_nodes_;  ///< those that are needed
-  std::vector<NodeId> setup_nodes_;                                     ///< what setup works out, an instruction each
-  std::vector<std::vector<Step*>> section_steps_;  ///< of the other sections, the last first; in the format's order
+  RegisterNumber zero_register_ = 0;  ///< of the constant 0: the relief of a program without one
+  std::vector<NodeId> constant_nodes_, parameter_nodes_, state_nodes_;  ///< the nodes that are needed
+  std::vector<NodeId> setup_nodes_;                                     ///< computed by setup, one instruction each
+  /// of the other sections, last step first; sections in the order of the format
+  std::vector<std::vector<Step*>> section_steps_;
 };
 
 }  // namespace
@@ -399,7 +401,7 @@ std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMat
                         .span = material.span,
                         .message = fmt::format("`{}` needs {} registers, and a patch program has {}", material.name,
                                                emitter.registers_needed(), register_limit),
-                        .help = "split the material, or let fewer values live at once"});
+                        .help = "split the material, or use values soon after they are computed"});
     return std::nullopt;
   }
   return program;

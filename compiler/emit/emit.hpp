@@ -9,10 +9,10 @@
 
 namespace wale {
 
-/// Sorts values into sections by their rate, gives them registers and writes the patch program.
+/// Sorts values into sections by their rate, assigns registers and writes the patch program.
 ///
-/// The same material gives the same program, byte for byte. Nothing, with a diagnostic, when the program has more
-/// registers than the format can name. Without `lines` the program does not say from which lines it comes.
+/// The same material gives the same program, byte for byte. If the program needs more registers than the format can
+/// number, the result is empty and a diagnostic is reported. Without `lines` the program does not record source lines.
 std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material,
                                  Diagnostics& diagnostics, const SourceLines* lines = nullptr);
 

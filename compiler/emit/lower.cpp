@@ -21,13 +21,13 @@ std::vector<TermId> roots_of(const SolvedMaterial& material) {
   return roots;
 }
 
-/// The terms that the roots are worked out from, in the order in which they become nodes: what was solved for as it was
-/// put together, then what each root needs besides. Operands stand before their users, here too.
+/// The terms that the roots need, in the order in which they become nodes: first the solutions in their own order, then
+/// the other terms of each root. Operands come before their users.
 std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& terms, TermId solutions_end) {
   enum Mark : char { none, asked_for, entered };
   std::vector<char> marks(terms.size(), none);
   std::vector<TermId> others(terms.size());
-  std::size_t count = 0, waiting = 0;  // of what is no solution
+  std::size_t count = 0, waiting = 0;  // counts terms that are not solutions
   char* const mark = marks.data();
   const auto ask = [&](TermId id) {
     waiting += mark[id] == none && id >= solutions_end ? 1 : 0;
@@ -50,7 +50,7 @@ std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& te
     }
     std::reverse(others.data() + first, others.data() + count);
   }
-  // By now it is known which of the solutions anybody needs.
+  // Now it is known which solutions are needed.
   std::vector<TermId> order;
   order.reserve(terms.size());
   for (TermId id = solutions_end; id-- > 0;) {
@@ -71,9 +71,10 @@ LoweredMaterial lower(const SolvedMaterial& material) {
 
   LoweredMaterial lowered;
   Graph& graph = lowered.graph;
-  graph.reserve(needed.size() + needed.size() / 4);  // about as many: gradients add some, constants fold
+  // about as many nodes as terms: gradients add some, constant folding removes some
+  graph.reserve(needed.size() + needed.size() / 4);
   graph.attribute(material.span);
-  // The patch less its rim: where peaks are taken.
+  // The patch without its rim, over which peaks are evaluated.
   const NodeId rim = graph.input(Input::patch_rim);
   const NodeId half_width = graph.apply(Operation::subtract, graph.input(Input::patch_half_width), rim);
   const NodeId half_height = graph.apply(Operation::subtract, graph.input(Input::patch_half_height), rim);
@@ -83,7 +84,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
   for (const TermId id : needed) {
     const Term& term = terms[id];
     graph.attribute(term.span == Span{} ? material.span : term.span);
-    if (term.kind == TermKind::operation) {  // as most are
+    if (term.kind == TermKind::operation) {  // the most frequent kind
       nodes[id] = graph.apply(term.operation, nodes[term.a], nodes[term.b], nodes[term.c], term.index);
       continue;
     }
@@ -100,7 +101,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
       case TermKind::open:
       case TermKind::cells:
       case TermKind::magnitude:
-      case TermKind::carrier: break;  // solved away
+      case TermKind::carrier: break;  // replaced by its solution
     }
   }
 

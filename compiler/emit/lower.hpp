@@ -9,7 +9,7 @@
 
 namespace wale {
 
-/// A solved material as values of its program: what `emit` makes sections of.
+/// A solved material as the values of its program, which `emit` sorts into sections.
 struct LoweredMaterial {
   struct Percept {
     NodeId amplitude, magnitude, level;
@@ -21,17 +21,17 @@ struct LoweredMaterial {
     NodeId u, v, value;
   };
   Graph graph;
-  std::array<NodeId, 2> force{};    ///< each a final limit at its ceiling; on a pad amplitude and frequency
-  std::array<NodeId, 2> ceiling{};  ///< the device's force, or its acceleration and its greatest frequency
+  std::array<NodeId, 2> force{};    ///< each limited at its ceiling; on a pad the amplitude and the frequency
+  std::array<NodeId, 2> ceiling{};  ///< the device's force, or its acceleration and its highest frequency
   std::optional<NodeId> relief;
   std::optional<std::array<NodeId, 3>> colour;
-  std::vector<State> states;               ///< beside `SolvedMaterial::states`
-  std::vector<Write> writes;               ///< beside `SolvedMaterial::writes`
-  std::vector<std::vector<NodeId>> marks;  ///< operands, beside `SolvedMaterial::marks`
-  std::vector<Percept> percepts;           ///< beside `SolvedMaterial::percepts`
+  std::vector<State> states;               ///< in the order of `SolvedMaterial::states`
+  std::vector<Write> writes;               ///< in the order of `SolvedMaterial::writes`
+  std::vector<std::vector<NodeId>> marks;  ///< operands, in the order of `SolvedMaterial::marks`
+  std::vector<Percept> percepts;           ///< in the order of `SolvedMaterial::percepts`
 };
 
-/// Turns terms into single-assignment values: constants folded, equal values shared, gradients written out.
+/// Turns terms into single-assignment values: folds constants, shares equal values and writes out gradients.
 LoweredMaterial lower(const SolvedMaterial& material);
 
 }  // namespace wale

@@ -9,15 +9,15 @@
 
 namespace wale {
 
-/// What people call the files of a compilation, and the lines of their texts. Outlived by both.
+/// The names of a compilation's files, and line numbers in their texts. Both arguments must outlive it.
 class SourceLines {
  public:
   SourceLines(const SourceSet& sources, const ModuleSet& modules);
 
-  /// The name under which the file was first imported, "fabric.denim"; else its own without its folder. So it does not
-  /// depend on the folder in which someone compiles.
+  /// The name under which the file was first imported, "fabric.denim"; otherwise its file name without the folder, so
+  /// that the name does not depend on the folder of the compilation.
   std::string file(SourceId source) const;
-  /// From 1.
+  /// The line of a span, from 1.
   std::uint32_t line(Span span) const { return sources_.place(span).line; }
 
  private:

@@ -27,7 +27,7 @@ Value applied(Reading& reading, const OperatorUse& use);
 /// `if condition then yes else no`, all checked.
 Value chosen(Reading& reading, const Value& condition, const Value& yes, const Value& no, Span span);
 
-/// What to do with a value of a type that is neither number nor vector.
+/// The mend for a value that is neither number nor vector.
 std::string make_calculable(Value::Type type);
 
 }  // namespace wale

@@ -70,14 +70,11 @@ Value relief(const BuiltinCall& call) {
   const auto file = file_argument(call);
   if (!file) return call.failed();
   auto read = read_height_image(std::as_bytes(std::span(file->bytes)), file->name, *smooth / *scale);
-  if (const auto* problem = std::get_if<ImageProblem>(&read))
-    return call.reading.calls.report(
-        problem->size ? Code::image_size : Code::unreadable_image, call.actuals[0].span,
-        fmt::format("`{}` {}", call.value(0).text, problem->reason), "",
-        problem->size ? fmt::format("give it at least {0} x {0} pixels, and at most {1} million in all",
-                                    smallest_image_side, most_image_pixels / 1'000'000)
-                      : "save it as PNG, TIFF, JPEG or EXR");
-  auto& picture = std::get<HeightImage>(read);
+  if (!read)
+    return call.reading.calls.report(read.error().code, call.actuals[0].span,
+                                     fmt::format("`{}`: {}", call.value(0).text, read.error().sentence), "",
+                                     read.error().mend);
+  HeightImage& picture = *read;
   Field field{.kind = Field::Kind::relief,
               .from = declarations.dimension("length"),
               .to = declarations.dimension("length"),
@@ -99,24 +96,24 @@ Value table(const BuiltinCall& call) {
       return call.failed();
   const auto file = file_argument(call);
   if (!file) return call.failed();
-  const auto read = read_measured_table(file->bytes, std::string(call.value(1).text), std::string(call.value(2).text),
-                                        *call.reading.names);
-  if (const auto* problem = std::get_if<TableProblem>(&read))
-    return call.reading.calls.report(
-        Code::unreadable_table, call.actuals[0].span,
-        problem->line == 0 ? fmt::format("`{}` {}", call.value(0).text, problem->reason)
-                           : fmt::format("`{}`, line {}: {}", call.value(0).text, problem->line, problem->reason),
-        "", problem->mend);
-  const auto& measured = std::get<MeasuredTable>(read);
+  const auto measured = read_measured_table(file->bytes, std::string(call.value(1).text),
+                                            std::string(call.value(2).text), *call.reading.names);
+  if (!measured) {
+    const Error& error = measured.error();
+    const std::string line = error.place.number ? fmt::format(", line {}", *error.place.number) : "";
+    return call.reading.calls.report(Code::unreadable_table, call.actuals[0].span,
+                                     fmt::format("`{}`{}: {}", call.value(0).text, line, error.sentence), "",
+                                     error.mend);
+  }
   Field field{.kind = Field::Kind::table,
-              .from = measured.from,
-              .to = measured.to,
-              .samples = measured.table.width,
-              .first = measured.first,
-              .step = measured.step,
-              .low = measured.low,
-              .span = measured.high - measured.low};
-  field.index = add_table(call.reading.tables, measured.table);
+              .from = measured->from,
+              .to = measured->to,
+              .samples = measured->table.width,
+              .first = measured->first,
+              .step = measured->step,
+              .low = measured->low,
+              .span = measured->high - measured->low};
+  field.index = add_table(call.reading.tables, measured->table);
   return {
       .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
 }

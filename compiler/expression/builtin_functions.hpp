@@ -9,7 +9,7 @@
 
 namespace wale {
 
-/// A call of a function of the compiler's own, with its arguments checked and those needed given.
+/// A call of a builtin function, with its arguments checked and those needed given.
 struct BuiltinCall {
   Reading& reading;
   const std::vector<Actual>& actuals;
@@ -23,7 +23,7 @@ struct BuiltinCall {
     return {.type = Value::Type::number, .x = x, .dimension = dimension, .span = span};
   }
 
-  // What arguments must be; false or nothing where they are not, which is reported.
+  // Checks of arguments: false or nothing where one fails, which is reported.
   bool number(std::size_t i) const;
   bool plain(std::size_t i) const;
   bool is_vector(std::size_t i) const;
@@ -33,7 +33,7 @@ struct BuiltinCall {
   std::optional<double> constant_argument(std::size_t i, const Dimension& dimension, const char* example) const;
 };
 
-/// A function of the compiler's own: its name, its arguments, how many of them are needed, and what it gives.
+/// A builtin function: its name, its arguments, how many of them are needed, and what it gives.
 struct Builtin {
   std::string_view name;
   std::vector<std::string_view> formals;

@@ -27,7 +27,7 @@ Value ambiguous_unit(Reading& reading, const Word& word, Span declared) {
           .see(declared, "the name is declared here"));
 }
 
-/// What follows the units of a number is a product or quotient with names: `0.3 denim`, `5 N / mass`.
+/// Names behind the units of a number multiply or divide it: `0.3 denim`, `5 N / mass`.
 Value times_name(Reading& reading, const Value& value, const SuffixFactor& part, Scope& scope) {
   if (!has_value(reading, part.name.text, scope)) {
     if (const auto hidden = private_name(reading, part.name)) return *hidden;

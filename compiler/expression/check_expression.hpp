@@ -58,7 +58,7 @@ class ExpressionChecker {
 /// The value of an expression: what `ExpressionChecker::check` gives, for the parts of the checker.
 Value check_expression(Reading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope);
 
-/// What makes a value change while the hand rests, in words.
+/// In words, the quantity by which a value changes while the hand rests.
 std::string what_changes(const Dependence& dependence);
 
 /// A material that needs more terms than this is far beyond what a patch program holds.
@@ -85,7 +85,7 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 /// The fix that writes a forgotten unit behind a bare number; none where the expression is something else.
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources);
 
-/// What to write in the place of a word that is no unit: the symbol of a unit written out, or the nearest name.
+/// The mend for a word that is no unit: the symbol of a unit written out, or the nearest name.
 Advice unit_mend(const Word& word, const Declarations& declarations);
 
 }  // namespace wale

@@ -8,7 +8,7 @@ namespace wale {
 [[gnu::cold]] void report_dimension(Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                                     const Dimension& found, const Dimension& expected);
 
-/// What makes a quantity of `expected` of an expression whose dimension is `found`.
+/// How to make a quantity of dimension `expected` of an expression of dimension `found`.
 [[gnu::cold]] Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                                     const Dimension& expected, const Dimension& found);
 

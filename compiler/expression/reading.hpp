@@ -23,7 +23,7 @@ struct Exporter {
 };
 using FindExporter = std::function<std::optional<Exporter>(std::string_view name)>;
 
-/// What surrounds the expressions of one material or declaration while they are checked.
+/// The surroundings of the expressions of one material or declaration.
 struct Surroundings {
   const SourceSet& sources;
   const Declarations& declarations;  ///< of the file whose expressions are checked
@@ -32,7 +32,7 @@ struct Surroundings {
   const FindExporter* find_exporter = nullptr;  ///< for what to import; null where nothing is to be imported
 };
 
-/// What reading expressions leaves behind besides terms and tables.
+/// The results of reading expressions besides terms and tables.
 struct CallRecord {
   std::vector<Carrier> carriers;
   std::vector<Span> open_spans;      ///< one for each open quantity: the call that leaves it open
@@ -45,14 +45,14 @@ struct CallRecord {
   const Field* keep(Field field) { return fields.emplace_back(std::make_unique<const Field>(std::move(field))).get(); }
 };
 
-/// What names have come to, so that each is read once and each mistake is reported once.
+/// Names that have been read, so that each is read once and each mistake is reported once.
 struct KnownNames {
   std::map<const Constant*, Value> constants;
   std::set<std::pair<SourceId, std::uint32_t>> misspelt;  ///< by the place where a word begins
   std::vector<Span> ambiguous;                            ///< declarations of names that are units too
 };
 
-/// What the parts of the expression checker share while they read the expressions of one material.
+/// The state that the parts of the expression checker share while they read the expressions of one material.
 struct Reading {
   Reading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
       : surroundings(around),

@@ -9,10 +9,10 @@
 namespace wale {
 namespace {
 
-/// Waves that are as strong as the strongest but for rounding go in one order, those along x first: rounding does not
-/// choose among them.
+/// Waves whose strength differs by rounding only are ordered by direction, those along x first, so that rounding does
+/// not choose among them.
 constexpr float as_strong_as = 0.9999f;
-constexpr std::ptrdiff_t reach_of_peak = 2;  // coefficients on either side that the window spreads one wave over
+constexpr std::ptrdiff_t reach_of_peak = 2;  // the window spreads one wave over so many coefficients on either side
 
 }  // namespace
 
@@ -35,11 +35,11 @@ BandSpectrum::BandSpectrum(const ForceField& field, const PeriodBand& band)
   const double fastest = 1 / (band.low * band.low);
   std::vector<double> right(side_);
   for (std::size_t column = 0; column < side_; ++column) right[column] = periods_over(side_, column) / extent_.x;
-  // The two halves of a transform are each other's mirror images, and so are the powers.
+  // The two halves of a transform are mirror images, and so are their powers.
   for (std::size_t row = 0; row <= side_ / 2; ++row) {
     const double down = periods_over(side_, row) / extent_.y;
     for (std::size_t column = 0; column < side_; ++column) {
-      // The transform of x + i y holds one of theirs in a coefficient and the other in its mirror image.
+      // In the transform of x + i y, a coefficient and its mirror image together hold those of x and of y.
       const std::size_t at = row * side_ + column;
       const std::size_t mirror = (side_ - row) % side_ * side_ + (side_ - column) % side_;
       const float here = 0.5f * (size(spectrum[at]) + size(spectrum[mirror]));
@@ -48,7 +48,7 @@ BandSpectrum::BandSpectrum(const ForceField& field, const PeriodBand& band)
       const double share = share_let_through(band, squared);
       const double through = here * share * share;
       power_[at] = power_[mirror] = static_cast<float>(through);
-      const double count = row == 0 || 2 * row == side_ ? 1 : 2;  // those lines are met twice
+      const double count = row == 0 || 2 * row == side_ ? 1 : 2;  // these lines occur twice in the whole
       if (squared > fastest) fast_ += count * (here - through);
       if (through <= 0) continue;
       whole_ += count * through;
@@ -82,8 +82,8 @@ float BandSpectrum::unlimited_at(std::ptrdiff_t column, std::ptrdiff_t row) cons
 }
 
 double BandSpectrum::off_peak(double before, double at, double after) const {
-  // Under Hann's window the larger neighbour of a wave's strongest coefficient has the share r of it, in amplitude,
-  // where the wave is (2 r - 1) / (1 + r) coefficients further on: Grandke 1983, IEEE Trans. Instrum. Meas. 32(2).
+  // Under Hann's window, let r be the ratio in amplitude of the larger neighbour to a wave's strongest coefficient. The
+  // wave then lies (2 r - 1) / (1 + r) coefficients further on: Grandke 1983, IEEE Trans. Instrum. Meas. 32(2).
   const double ratio = std::sqrt(std::max(before, after) / at);
   const double off = std::clamp((2 * ratio - 1) / (1 + ratio), 0.0, 0.5);
   return after > before ? off : -off;
@@ -92,7 +92,7 @@ double BandSpectrum::off_peak(double before, double at, double after) const {
 std::vector<WaveComponent> BandSpectrum::components(std::size_t most, double least_share) const {
   std::vector<WaveComponent> found;
   if (whole_ <= 0) return found;
-  // Of two coefficients that are each other's mirror images one is enough.
+  // One of two coefficients that are mirror images is enough.
   const std::size_t half = side_ / 2 + 1;
   std::vector<float> left(half * side_);
   for (std::size_t row = 0; row < side_; ++row)
@@ -116,7 +116,7 @@ std::vector<WaveComponent> BandSpectrum::components(std::size_t most, double lea
     for (std::ptrdiff_t down = -reach_of_peak; down <= reach_of_peak; ++down)
       for (std::ptrdiff_t right = -reach_of_peak; right <= reach_of_peak; ++right) {
         sum += std::exchange(at(column + right, row + down), 0.0f);
-        // The lines of no periods across hold both images.
+        // Lines with zero periods across hold both images.
         if (column + right == 0) at(0, -row - down) = 0;
       }
     WaveComponent component;

@@ -17,8 +17,8 @@ bool has_any(const Cues& cues, std::initializer_list<CueKind> kinds) {
   return std::ranges::any_of(kinds, [&](CueKind kind) { return cues[kind].has_value(); });
 }
 
-/// N: what none of the cues reads of the force: on a hand at rest, or, where that is less, on one that moves and is
-/// held back along one way and pushed on along another.
+/// N: the force that none of the cues reads, on a hand at rest, or on a moving hand that is held back along one axis
+/// and pushed along the other; the smaller of the two.
 double unread_force(const Cues& cues, const Extraction& found) {
   using enum CueKind;
   const bool at_rest = has_any(cues, {amplitude, bump_amplitude, stiffness, wall_stiffness, friction});

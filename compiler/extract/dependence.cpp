@@ -19,7 +19,7 @@ bool reads(const PatchProgram& program, std::initializer_list<Input> inputs) {
 }
 
 bool depends_on_place(const PatchProgram& program) {
-  // States may begin as the hand's position.
+  // A state may start as the hand's position.
   return !program.states.empty() || !program.grids.empty() ||
          reads(program, {Input::x, Input::y, Input::workspace_x, Input::workspace_y});
 }

@@ -6,13 +6,13 @@
 
 namespace wale {
 
-/// Whether the force of a tick is worked out from one of these inputs.
+/// Whether a tick computes the force from one of these inputs.
 bool reads(const PatchProgram& program, std::initializer_list<Input> inputs);
 
-/// Whether the force of a hand that has just come in depends on where it is.
+/// Whether the force on a hand that has just entered depends on its position.
 bool depends_on_place(const PatchProgram& program);
 
-/// Whether one tick may change what another one does.
+/// Whether one tick may change the result of a later one.
 bool remembers_anything(const PatchProgram& program);
 
 }  // namespace wale

@@ -10,11 +10,11 @@
 namespace wale {
 namespace {
 
-constexpr double alike = 0.15;         // of a stiffness, here and there
+constexpr double alike = 0.15;         // relative difference at which two stiffnesses count as one
 constexpr double longest_bump = 0.4;   // of the patch
 constexpr double least_outward = 0.1;  // of the whole force
 
-/// What draws the hand back, where it is the same in the middle as on the whole patch.
+/// The stiffness that draws the hand back, if it is the same in the middle as on the whole patch.
 double even_stiffness(const StaticForce& force) {
   const std::size_t side = force.whole.side;
   const double everywhere = force.slope.stiffness();
@@ -22,7 +22,7 @@ double even_stiffness(const StaticForce& force) {
   return std::abs(more) <= alike * std::abs(everywhere) ? everywhere : 0;
 }
 
-/// Whether what a plane says of the force is that it goes outward, and it says more than the ends of waves do.
+/// Whether a fitted plane says that the force points outward, and says more than the incomplete waves at the edges do.
 bool pushes_away(const StaticForce& force) {
   const double half = 0.25 * (force.whole.extent().x + force.whole.extent().y);
   return -force.slope.stiffness() * half > least_outward * force.largest;
@@ -31,7 +31,7 @@ bool pushes_away(const StaticForce& force) {
 }  // namespace
 
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps) {
-  if (bank.program().description().vibrates()) return {};  // it has no force to read
+  if (bank.program().description().vibrates()) return {};  // such a program has no force
   Extraction found;
   std::optional<StaticForce> still;
   const bool remembers = remembers_anything(bank.program().description());
@@ -42,7 +42,7 @@ Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBan
     found.bumps = texture_force(bank, force, bumps, std::max(least_force, least_of_texture * found.texture.amplitude));
   };
   const auto read_moving = [&] {
-    // A face bends the force, unless it remembers and gave way to the hands that were set down behind it.
+    // A face bends the force, unless the program has memory and yielded to the hands that were placed behind the face.
     if (remembers || still->bent >= least_force) found.wall = wall_face(bank);
     found.opposing = opposing_force(bank);
     found.inertia = inertia(bank);
@@ -51,13 +51,13 @@ Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBan
   const auto read = [&](std::size_t begin, std::size_t end) {
     for (std::size_t part = begin; part < end; ++part) part == 0 ? read_still() : read_moving();
   };
-  // Strokes tick by tick take as long as all that is still.
+  // Strokes that run tick by tick take as long as all static measurements together.
   if (remembers)
     in_parallel(2, read);
   else
     read(0, 2);
   if (!found.wall) found.stiffness = even_stiffness(*still);
-  // A hill that the patch does not hold twice is not told from a spring that gives way.
+  // A hill that does not fit twice into the patch cannot be distinguished from a spring that weakens.
   if (found.bumps.period > longest_bump * still->whole.extent().x) found.bumps = {};
   return found;
 }

@@ -8,15 +8,15 @@
 
 namespace wale {
 
-/// What a program's force is made of, whatever its text says: the carriers of percepts, each read from something of its
-/// own, so that none is taken for another.
+/// The carriers of percepts in a program's force, whatever its text says. Each carrier is read from its own part of the
+/// force, so that none is mistaken for another.
 struct Extraction {
-  /// N: about the 99th percentile of the force on hands at rest; below 0 where on the whole it pushes them away from
-  /// the middle.
+  /// N: about the 99th percentile of the force on hands at rest; negative if the force mostly pushes away from the
+  /// middle.
   double force = 0;
   TextureForce texture, bumps;
-  /// N/m: of what draws the hand back, alike over the whole patch and in its middle. What saturates, or is a wall, has
-  /// no one stiffness, and 0 here.
+  /// N/m: of the force that draws the hand back, if it is alike over the whole patch and in its middle. A force that
+  /// saturates, or a wall, has no single stiffness: 0.
   double stiffness = 0;
   OpposingForce opposing;
   double inertia = 0;  ///< kg
@@ -24,7 +24,7 @@ struct Extraction {
   std::optional<WallFace> wall;
 };
 
-/// Runs the program at this bank's parameters. The bands are those of the percepts that are read. Deterministic.
+/// Runs the program at this bank's parameters. The bands of periods are those of the percepts. Deterministic.
 Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBand& bumps);
 
 }  // namespace wale

@@ -9,8 +9,8 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t hands_at_once = 2048;  // they stay in the cache
-/// More than this, in units of cost over all hands, is worth another thread: about a millisecond.
+constexpr std::size_t hands_at_once = 2048;  // so many stay in the cache
+/// Work above this, in units of cost over all hands, is worth another thread: about a millisecond.
 constexpr double worth_another_thread = 2e6;
 
 }  // namespace
@@ -18,7 +18,7 @@ constexpr double worth_another_thread = 2e6;
 ForceField sample_force_field(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, std::size_t side) {
   ForceField field{side, centre, size / static_cast<double>(side), std::vector<Force>(side * side)};
   const std::size_t lines = std::clamp<std::size_t>(hands_at_once / side, 1, side);
-  // Every line has forces of its own, so that it does not matter which thread works out which.
+  // Each line writes only its own forces, so the division among threads does not change the result.
   const auto sample = [&](std::size_t begin, std::size_t end) {
     std::vector<Hand> hands(std::min(lines, end - begin) * side);
     for (std::size_t first = begin; first < end; first += lines) {
@@ -44,7 +44,7 @@ LinearField linear_part(const ForceField& field) {
   LinearField part;
   const auto count = static_cast<double>(field.side * field.side);
   const double middle = 0.5 * (static_cast<double>(field.side) - 1);
-  double squares = 0;  // of the columns' distances from the middle, as of the rows'
+  double squares = 0;  // of the distances from the middle, the same for columns and rows
   for (std::size_t row = 0; row < field.side; ++row) {
     glm::dvec2 sum{0};
     for (std::size_t column = 0; column < field.side; ++column) {

@@ -15,7 +15,7 @@ class LineTransform {
       : plan_(kiss_fft_alloc(static_cast<int>(count), back, nullptr, nullptr), &kiss_fft_free) {}
 
   void operator()(const std::complex<float>* from, std::complex<float>* to) const {
-    // A complex number is two floats one after the other in either library.
+    // Both libraries store a complex number as two consecutive floats.
     kiss_fft(plan_.get(), reinterpret_cast<const kiss_fft_cpx*>(from), reinterpret_cast<kiss_fft_cpx*>(to));
   }
 
@@ -23,12 +23,12 @@ class LineTransform {
   std::unique_ptr<kiss_fft_state, decltype(&kiss_fft_free)> plan_;
 };
 
-/// Of nothing nothing comes: of what is slow most lines are empty.
+/// Most lines of a slow field are empty, and their transform is zero.
 bool is_empty(std::span<const std::complex<float>> line) {
   return std::ranges::all_of(line, [](const std::complex<float>& value) { return value == 0.0f; });
 }
 
-/// A matrix of `side` * `side` values with its rows and columns changed, a block at a time, which stays in the cache.
+/// Transposes a matrix of `side` * `side` values, a block at a time, which stays in the cache.
 Spectrum transposed(std::size_t side, const Spectrum& values) {
   constexpr std::size_t block = 16;
   Spectrum result(values.size());

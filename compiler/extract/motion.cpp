@@ -19,19 +19,20 @@
 namespace wale {
 namespace {
 
-constexpr std::array<double, 3> speeds = {0.05, 0.1, 0.2};  // m/s, those of a hand that explores
-constexpr double stretch = 0.024;                           // m, gone over there and back
-constexpr double least_stretch = 0.5;                       // of the patch's extent, where that is smaller
-constexpr double looked_at = 0.5;  // of the stretch, in its middle: what remembers has taken up its load there
+constexpr std::array<double, 3> speeds = {0.05, 0.1, 0.2};  // m/s, speeds of an exploring hand
+constexpr double stretch = 0.024;                           // m, length of a stroke, which goes there and back
+constexpr double least_stretch = 0.5;                       // of the patch's extent, if that is smaller
+constexpr double looked_at = 0.5;  // of the stretch, in its middle: there a program with memory has settled
 constexpr int lines = 4;           // parallel strokes
-constexpr int places = 64;         // of a stroke, where nothing remembers
+constexpr int places = 64;         // of a stroke, for programs without memory
 constexpr double push = 1;         // m/s^2
 constexpr std::size_t still_places = 8;
 constexpr double still_seconds = 1;
 constexpr double nothing = 1e-5;  // N
 
-/// A stroke goes over half of its stretch, back over the whole and there again. The first half settles what remembers;
-/// the middles of the other two are looked at, which see the same places, so that what depends on place cancels.
+/// A stroke goes over half of its stretch, back over the whole, and forward over the whole. The first half settles a
+/// program with memory. The middles of the other two are evaluated: they pass the same positions, so that forces that
+/// depend on position cancel.
 struct Stroke {
   glm::dvec2 direction{0}, middle{0};
   double speed = 0;
@@ -39,7 +40,7 @@ struct Stroke {
 
   long ticks() const { return pass / 2 + 2 * pass; }
 
-  /// A hand `along` it (m from the middle), on its way there or back.
+  /// A hand at `along` (m from the middle of the stroke), moving there or back.
   Hand hand(double along, bool forth) const {
     Hand hand;
     hand.position = hand.workspace = glm::vec2(middle + along * direction);
@@ -47,23 +48,23 @@ struct Stroke {
     return hand;
   }
 
-  /// m from the middle at a tick, and whether it goes there.
+  /// The distance from the middle in m at a tick, and whether the hand moves there or back.
   std::pair<double, bool> at(long tick, double rate) const {
     const double half = 0.5 * static_cast<double>(pass) * speed / rate;
-    const long since = tick + pass / 2;  // as if it had begun at the stretch's end
+    const long since = tick + pass / 2;  // as if the stroke had begun at the end of its stretch
     const double gone = (static_cast<double>(since % pass) + 0.5) * speed / rate;
     const bool forth = since / pass % 2 == 0;
     return {forth ? gone - half : half - gone, forth};
   }
 };
 
-/// The patch less its rim: half of it, m.
+/// Half the extent of the patch without its rim, m.
 glm::dvec2 half_of(const Bank& bank) {
   const PatchSize patch = bank.size();
   return 0.5 * glm::dvec2(patch.width, patch.height) - static_cast<double>(patch.rim);
 }
 
-/// m to either side of a stroke's middle.
+/// m on either side of the middle of a stroke.
 double reach_of(const Bank& bank) {
   const glm::dvec2 half = half_of(bank);
   return std::min(stretch / 2, least_stretch * std::min(half.x, half.y));
@@ -82,7 +83,7 @@ std::vector<Stroke> strokes_over(const Bank& bank) {
   return strokes;
 }
 
-/// The mean force against each stroke, N, of a program whose ticks do not know of one another.
+/// The mean force against each stroke, N, for a program whose ticks are independent.
 std::vector<double> opposed_anywhere(const Bank& bank, const std::vector<Stroke>& strokes) {
   std::vector<Hand> hands;
   hands.reserve(strokes.size() * 2 * places);
@@ -101,8 +102,8 @@ std::vector<double> opposed_anywhere(const Bank& bank, const std::vector<Stroke>
   return means;
 }
 
-/// The same of a program that remembers in states alone, tick by tick: one hand after the other, since so few would
-/// leave most lanes of a block without work.
+/// The same for a program that remembers in states only, tick by tick. The hands run one after another: there are too
+/// few to fill the lanes of a block.
 std::vector<double> opposed_one_by_one(const Bank& bank, const std::vector<Stroke>& strokes) {
   const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
   Bank own = bank;
@@ -127,7 +128,7 @@ std::vector<double> opposed_one_by_one(const Bank& bank, const std::vector<Strok
   return means;
 }
 
-/// The same of any program; memories stay as they are at the beginning.
+/// The same for any program; memories stay as they are at the start.
 std::vector<double> opposed_on_the_way(const Bank& bank, const std::vector<Stroke>& strokes) {
   if (bank.program().description().grids.empty()) return opposed_one_by_one(bank, strokes);
   const double rate = bank.program().description().device.rate, middle = looked_at * reach_of(bank);
@@ -152,8 +153,7 @@ std::vector<double> opposed_on_the_way(const Bank& bank, const std::vector<Strok
   return sums;
 }
 
-/// The forces on hands that hold still at a few places, tick by tick for as long as they are looked at; empty where
-/// they cannot change.
+/// The forces on hands that hold still at a few positions, for each tick; empty if they cannot change.
 std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
   const PatchProgram& program = bank.program().description();
   const bool timed = reads(program, {Input::time});
@@ -163,7 +163,7 @@ std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
   const auto ticks = static_cast<std::size_t>(std::lround(still_seconds * rate));
   std::vector<Hand> hands(still_places);
   for (std::size_t i = 0; i < still_places; ++i) {
-    // On a spiral, so that no two are at the same distance or angle.
+    // On a spiral, so that no two positions have the same distance or angle.
     const auto number = static_cast<double>(i);
     const double radius = 0.8 * number / still_places, angle = number * std::numbers::pi * (3 - std::sqrt(5.0));
     hands[i].position = hands[i].workspace =
@@ -188,7 +188,7 @@ std::vector<std::vector<Force>> felt_at_rest(const Bank& bank) {
     batch.tick(hands, forces);
     for (std::size_t i = 0; i < still_places; ++i) felt[i][tick] = forces[i];
     for (std::size_t i = 0; i < all; ++i) now[i] = batch.state(i / still_places, i % still_places);
-    // What stands still and has no clock does so for good.
+    // Without a clock, a force that does not change in one tick never changes.
     if (!timed && tick > 0 && now == before) {
       for (auto& each : felt) each.assign(ticks, each[tick]);
       break;

@@ -10,17 +10,17 @@ struct PeriodBand {
   double low = 0, high = 0;
 };
 
-/// From 1 to 0 as the period goes from one to the other, on a logarithmic scale.
+/// Goes from 1 to 0 as the period goes from one to the other, on a logarithmic scale.
 inline double fade(double period, double from, double to) {
   if (period <= from) return 1;
   if (period >= to) return 0;
   return 0.5 + 0.5 * std::cos(std::numbers::pi * std::log(period / from) / std::log(to / from));
 }
 
-/// At the ends of a band components are let in gradually, over this ratio of periods.
+/// At its ends a band fades in over this ratio of periods.
 inline constexpr double gradual = 1.2;
 
-/// How much of an amplitude a band lets through at a square of periods over a metre.
+/// The share of an amplitude that a band passes at a square of the number of periods per metre.
 inline double share_let_through(const PeriodBand& band, double waves_squared) {
   const auto beyond = [&](double period) { return waves_squared * period * period; };
   if (beyond(band.high * gradual) <= 1 || beyond(band.low / gradual) >= 1) return 0;

@@ -9,16 +9,16 @@
 namespace wale {
 namespace {
 
-constexpr double reach = 0.3;         // of the field's side: so far apart windows still see much in common
-constexpr double forgotten = 0.5;     // less agreement than this has been, or it has not begun to change
-constexpr int waves_a_period = 8;     // to one period
-constexpr double as_strong = 0.5;     // of the strongest wave's power: another that counts beside it
-constexpr double least_angle = 0.2;   // rad between them
+constexpr double reach = 0.3;         // of the field's side: windows at this distance still overlap enough
+constexpr double forgotten = 0.5;     // agreement must have fallen below this before a return counts
+constexpr int waves_a_period = 8;     // steps per period
+constexpr double as_strong = 0.5;     // of the strongest wave's power: a second wave of this power counts too
+constexpr double least_angle = 0.2;   // rad between the two waves
 constexpr double whole_again = 0.95;  // agreement after a period ...
-constexpr double not_yet = 0.9;       // ... and less than this before
-constexpr double least_power = 1e-4;  // of the strongest coefficient's, that counts where many are summed
+constexpr double not_yet = 0.9;       // and less than this before
+constexpr double least_power = 1e-4;  // of the strongest coefficient's; smaller powers are left out of long sums
 
-/// What a window and itself moved by some samples have in common, as a share, with what comes in from behind.
+/// The share of a window that overlaps with itself moved by some samples, including the part that comes in from behind.
 class CommonShare {
  public:
   explicit CommonShare(std::size_t side) : shared_(side) {
@@ -37,8 +37,8 @@ class CommonShare {
   std::vector<double> shared_;
 };
 
-/// How well a texture agrees with itself at distances that are whole samples, 1 at none. Waves that are too fine for
-/// the samples count as what they are.
+/// The agreement of a texture with itself at distances of whole samples; 1 at distance 0. Waves that are too fine for
+/// the samples are used as they are.
 class Agreement {
  public:
   explicit Agreement(const BandSpectrum& spectrum) : side_(spectrum.side()), common_(side_) {
@@ -53,7 +53,7 @@ class Agreement {
     return sums_[row * side_ + column].real() / sums_.front().real() / (common_.at(column) * common_.at(row));
   }
 
-  /// Between samples, nearly.
+  /// Between samples, approximately.
   double between(glm::dvec2 distance) const {
     const glm::dvec2 low = glm::floor(distance), part = distance - low;
     const auto right = static_cast<std::ptrdiff_t>(low.x), down = static_cast<std::ptrdiff_t>(low.y);
@@ -67,7 +67,7 @@ class Agreement {
   Spectrum sums_;
 };
 
-/// The same at any distance (m), summed over the waves themselves.
+/// The same at any distance (m), as a sum over the waves.
 double agreement_after(const BandSpectrum& spectrum, const CommonShare& common, glm::dvec2 distance) {
   const std::vector<float>& power = spectrum.power();
   const float least = static_cast<float>(least_power) * *std::ranges::max_element(power);
@@ -83,11 +83,11 @@ double agreement_after(const BandSpectrum& spectrum, const CommonShare& common, 
   return sum / all / (common.between(samples.x) * common.between(samples.y));
 }
 
-/// How far one goes along a direction (of length 1) until a texture begins to agree with where one came from again, m;
-/// nothing where it never changes.
+/// The distance along a direction (of length 1) at which a texture begins to agree with its start again, m; nothing if
+/// it never changes.
 std::optional<double> first_change(const Agreement& agreement, glm::dvec2 along, glm::dvec2 spacing, double farthest) {
   const double metres = 0.5 * std::min(spacing.x, spacing.y);
-  const glm::dvec2 step = metres * along / spacing;  // in samples, of which it is half of one or less
+  const glm::dvec2 step = metres * along / spacing;  // in samples; at most half a sample
   double changed = metres, last = 1;
   for (int i = 1; 0.5 * i < farthest; ++i) {
     const double here = agreement.between(static_cast<double>(i) * step);
@@ -97,7 +97,7 @@ std::optional<double> first_change(const Agreement& agreement, glm::dvec2 along,
   return last > forgotten ? std::nullopt : std::optional(changed);
 }
 
-/// The shorter of the two steps that lead from crest to crest of one wave along those of the other, m.
+/// The shorter of the two steps from crest to crest of one wave along the crests of the other, m.
 std::optional<glm::dvec2> step_between(glm::dvec2 one, glm::dvec2 other) {
   const double area = one.x * other.y - one.y * other.x;
   if (std::abs(area) < least_angle * glm::length(one) * glm::length(other)) return std::nullopt;
@@ -119,7 +119,7 @@ double regularity(const BandSpectrum& spectrum, glm::dvec2 strongest) {
   for (std::ptrdiff_t down = 0; down <= most; ++down)
     for (std::ptrdiff_t right = -most; right <= most; ++right) {
       const glm::dvec2 distance = spacing * glm::dvec2(static_cast<double>(right), static_cast<double>(down));
-      // Along its crests anything stays as it is.
+      // Along its crests a wave does not change.
       if (std::abs(glm::dot(distance, along)) > *changed) found = std::max(found, agreement.at(right, down));
     }
   return std::min(found, 1.0);

@@ -12,11 +12,11 @@ namespace wale {
 namespace {
 
 constexpr std::size_t every = 4;
-constexpr int times = 4;  // that means over four samples are taken
+constexpr int times = 4;  // how often the mean over four samples is taken
 constexpr std::size_t taps = times * (every - 1) + 1, before = taps / 2;
 
-/// What the mean over four samples, taken four times, weighs them by: nothing of what every fourth sample would mistake
-/// for something slow gets through.
+/// The weights of a mean over four samples that is taken four times. It removes everything that would look slow on
+/// every fourth sample.
 constexpr std::array<float, taps> weights_of_means() {
   std::array<float, taps> weights{};
   weights[0] = 1;
@@ -29,13 +29,13 @@ constexpr std::array<float, taps> weights_of_means() {
   return weights;
 }
 
-/// How much of a component of so many periods a sample they let through.
+/// The share of a component that these means pass, at so many periods per sample.
 double let_through_by_means(double periods) {
   const double angle = std::numbers::pi * periods;
   return angle == 0 ? 1 : std::pow(std::sin(every * angle) / (every * std::sin(angle)), times);
 }
 
-/// Adds an even number of forces, times a weight, to others: two at a time, which the compiler does not see by itself.
+/// Adds an even number of forces, times a weight, to others, two at a time: compilers do not vectorise the plain loop.
 void add_weighted(const Force* from, float weight, Force* to, std::size_t count) {
   using TwoForces [[gnu::vector_size(16)]] = float;
   static_assert(sizeof(TwoForces) == 2 * sizeof(Force));
@@ -54,7 +54,7 @@ SlowForce::SlowForce(const ForceField& field) : side_(field.side), centre_(field
   static constexpr std::array<float, taps> weights = weights_of_means();
   const std::size_t coarse = side_ / every;
   const auto around = [&](std::size_t index) { return index % side_; };
-  // Whole lines first, of which the processor adds several places at once; then along the few that are left.
+  // Whole lines first, since the processor adds several positions at once; then along the few lines that are left.
   std::vector<Force> lines(coarse * side_, Force(0)), both(coarse * coarse);
   for (std::size_t row = 0; row < coarse; ++row)
     for (std::size_t k = 0; k < taps; ++k)
@@ -106,7 +106,7 @@ double SlowForce::ceiling_within(const PeriodBand& band) const {
   each_within(band, [&](std::size_t column, std::size_t row, double share) {
     squares += std::norm(spectrum_[row * (side_ / every) + column]) * share * share / (count * count);
   });
-  // Markov's inequality: a hundredth of two thirds of the places holds no more than all of the square.
+  // By Markov's inequality, a hundredth of two thirds of the positions holds no more than the whole square.
   return std::sqrt(squares / (0.01 * 2 / 3));
 }
 

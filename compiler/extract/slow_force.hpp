@@ -6,24 +6,24 @@
 
 namespace wale {
 
-/// What of a field is slow: has periods of many of its samples. Worked out on every fourth line and column.
+/// The slow part of a field, with periods of many samples. It is computed on every fourth line and column.
 class SlowForce {
  public:
   SlowForce() = default;
-  /// Of a field whose side is a multiple of four; it is taken to go on from its other end.
+  /// The side of the field is a multiple of four; the field is continued periodically.
   explicit SlowForce(const ForceField& field);
 
-  /// What has periods within a band of at least eight samples, up to any length where that is the band's; on every
+  /// The part with periods within a band of at least eight samples; a band without an upper end has none here. On every
   /// other line and column of the field, from the first.
   ForceField within(const PeriodBand& band) const { return on_lines_of(side_ / 2, band); }
-  /// The same on every fourth.
+  /// The same on every fourth line and column.
   ForceField coarsely_within(const PeriodBand& band) const { return on_lines_of(side_ / 4, band); }
 
-  /// N: no more than that is the 99th percentile of its size, wherever one looks at two thirds of it or more.
+  /// N: an upper bound of the 99th percentile of its size, over any part of two thirds of the field or more.
   double ceiling_within(const PeriodBand& band) const;
 
  private:
-  /// Calls `visit(column, row, share)` for all coefficients of which a share of the amplitude counts.
+  /// Calls `visit(column, row, share)` for each coefficient of which a share of the amplitude counts.
   template <typename Visit>
   void each_within(const PeriodBand& band, const Visit& visit) const;
   ForceField on_lines_of(std::size_t side, const PeriodBand& band) const;
@@ -33,7 +33,7 @@ class SlowForce {
   Spectrum spectrum_;                  // of every fourth line and column
 };
 
-/// The same on twice as many lines and columns, between those that there are by cubics; it goes on from its other end.
+/// The same field on twice as many lines and columns, interpolated by cubics and continued periodically.
 ForceField refined(const ForceField& field);
 
 }  // namespace wale

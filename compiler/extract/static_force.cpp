@@ -13,26 +13,27 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t first_side = 64;  // to find where a texture is busiest
-/// Of the whole patch, 0.8 mm apart or less on one of 160 mm: enough for the size of the force, unless it has periods
-/// that would seem slow on the one and do not on the next. Sides of which transforms are quick.
+constexpr std::size_t first_side = 64;  // to find where a texture is strongest
+/// Over the whole patch, 0.8 mm apart or less on a patch of 160 mm. This is enough for the size of the force, unless it
+/// has periods that look slow at one spacing and not at the next. Transforms of these sides are fast.
 constexpr std::array<std::size_t, 3> whole_sides = {192, 216, 256};
-constexpr double crooked = 0.987;        // of the patch: so that round periods fall on ever other places
-constexpr std::size_t close_side = 128;  // 0.3 mm apart, so that periods of 0.6 mm and more are told
+// of the patch: not round, so that round periods are sampled at ever different phases
+constexpr double crooked = 0.987;
+constexpr std::size_t close_side = 128;  // 0.3 mm apart, so that periods of 0.6 mm and more are resolved
 constexpr double close_window = 0.0384;  // m
-constexpr std::size_t blocks = 8;        // on a side, among which the busiest is looked for
-constexpr double deceptive = 0.01;       // of a texture's power, from which what seems slow counts
-constexpr std::size_t every_line = 8;    // on which that is looked for
-constexpr double seems_slow = 8e-3;      // m: a period that is longer than any texture's, or nearly
+constexpr std::size_t blocks = 8;        // per side, among which the strongest is chosen
+constexpr double deceptive = 0.01;       // of a texture's power: aliases above this count
+constexpr std::size_t every_line = 8;    // only these lines are checked for aliases
+constexpr double seems_slow = 8e-3;      // m: longer than the period of any texture, or nearly
 constexpr double least_plane = 0.05;     // of the whole force
 
-/// The patch less its rim, m.
+/// The patch without its rim, m.
 glm::dvec2 inside_of(const Bank& bank) {
   const glm::dvec2 size(bank.size().width, bank.size().height);
   return glm::max(size - 2.0 * bank.size().rim, 0.25 * size);
 }
 
-/// Where the texture varies most, of the blocks into which the patch is cut: its middle.
+/// The middle of the block in which the texture varies most.
 glm::dvec2 busiest_place(const ForceField& whole) {
   double most = -1;
   glm::dvec2 found{0};
@@ -46,7 +47,7 @@ glm::dvec2 busiest_place(const ForceField& whole) {
           change += squared(whole.forces[at + 1] - whole.forces[at]) +
                     squared(whole.forces[at + whole.side] - whole.forces[at]);
         }
-      // The middle is preferred to what is hardly busier.
+      // The middle is preferred to blocks that are hardly stronger.
       const glm::dvec2 middle = whole.place(left + block / 2, top + block / 2);
       const double preferred =
           change * (1 - 0.1 * std::min(1.0, glm::length(middle) / glm::length(0.5 * whole.extent())));
@@ -55,7 +56,7 @@ glm::dvec2 busiest_place(const ForceField& whole) {
   return found;
 }
 
-/// What periods a texture has along some of its lines and of its columns.
+/// The periods of a texture along some of its lines and columns.
 class LinePeriods {
  public:
   explicit LinePeriods(const ForceField& close) : extent_(close.extent()), count_(close.side) {
@@ -78,8 +79,8 @@ class LinePeriods {
     }
   }
 
-  /// Whether a good part of it has periods so near to the spacing (m) of another field that they seem slow there: such
-  /// as go along its lines or its columns.
+  /// Whether a considerable part of it has periods so near to the spacing (m) of another field that they would look
+  /// slow there: such waves go along its lines or columns.
   bool deceive(glm::dvec2 spacing) const {
     double deceiving = 0;
     const double half = 0.5 * static_cast<double>(count_);
@@ -126,7 +127,7 @@ StaticForce::StaticForce(const Bank& bank) {
   std::vector<float> sizes;
   for (std::size_t i = 0; i < whole.forces.size(); i += 7) sizes.push_back(std::sqrt(squared(whole.forces[i])));
   largest = quantile(std::move(sizes), 0.99);
-  // What is left of waves that do not fit the patch is not worth a plane.
+  // The plane that incomplete waves at the edges leave is ignored.
   const glm::dvec2 half = 0.5 * whole.extent();
   const double plane = glm::length(slope.mean) + glm::length(slope.by_x) * half.x + glm::length(slope.by_y) * half.y;
   if (plane > least_plane * largest) whole = without(std::move(whole), slope);

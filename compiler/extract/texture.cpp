@@ -15,18 +15,18 @@
 namespace wale {
 namespace {
 
-constexpr double edge = 0.1;  // of a window on each side: what a transform rings at its ends
+constexpr double edge = 0.1;  // of a window on each side: the ends of a transform ring there
 constexpr std::size_t change_places = 1024;
-constexpr double difference = 2e-5;    // m: the distance over which the force's change is taken
-constexpr double fewest_waves = 14;    // over a window, from which noise is told from what comes back
-constexpr std::size_t most_waves = 4;  // that are told ...
+constexpr double difference = 2e-5;    // m: the step for the change of the force
+constexpr double fewest_waves = 14;    // over a window: with fewer waves noise looks regular
+constexpr std::size_t most_waves = 4;  // that are reported ...
 constexpr double least_share = 0.1;    // ... each with that much of the power
-constexpr double a_multiple = 0.05;    // how near to a whole multiple of another's wave counts as one
-constexpr double periodic = 0.9;       // regularity from which all may come back
-constexpr double coarser = 3;          // than the band: where a coarse texture is looked at for its regularity
-constexpr double no_direction = 0.05;  // anisotropy of which the direction is chance
+constexpr double a_multiple = 0.05;    // tolerance for a whole multiple of another wave
+constexpr double periodic = 0.9;       // regularity above which the texture counts as periodic
+constexpr double coarser = 3;          // than the band: the regularity of a coarse texture is read there
+constexpr double no_direction = 0.05;  // below this anisotropy the direction is chance
 
-/// Where between the lines and columns of a field nothing of a transform's ends is seen.
+/// The part of a field in which the ends of a transform do not ring.
 template <typename Visit>
 void each_inside(std::size_t side, const Visit& visit) {
   const auto margin = static_cast<std::size_t>(edge * static_cast<double>(side));
@@ -34,7 +34,7 @@ void each_inside(std::size_t side, const Visit& visit) {
     for (std::size_t column = margin; column < side - margin; ++column) visit(row * side + column);
 }
 
-/// The half of a field about its busiest place.
+/// The half of a field around its strongest place.
 ForceField busiest_half(const StaticForce& force) {
   const ForceField& whole = force.whole;
   const std::size_t side = whole.side / 2;
@@ -66,7 +66,7 @@ bool seen_closely(const StaticForce& force, const PeriodBand& band) {
   return 3 * band.low < window && band.high <= window;
 }
 
-/// How strong a texture is, of a field that has nothing slower; this share of its amplitude counts.
+/// The strength of a texture, from a field without slower parts; this share of its amplitude counts.
 void tell_size(TextureForce& texture, const ForceField& field, double share) {
   std::vector<float> sizes;
   sizes.reserve(field.forces.size());
@@ -82,27 +82,27 @@ void tell_size(TextureForce& texture, const ForceField& field, double share) {
   texture.amplitude = quantile(std::move(sizes), 0.99);
 }
 
-/// In [0, pi).
+/// The direction in [0, pi).
 double half_turn(double angle) {
   while (angle < 0) angle += std::numbers::pi;
   while (angle >= std::numbers::pi) angle -= std::numbers::pi;
   return angle;
 }
 
-/// Whether one wave goes a whole number of times into another.
+/// Whether one wave fits a whole number of times into another.
 bool multiple(glm::dvec2 waves, glm::dvec2 of) {
   const double times = std::round(glm::length(waves) / glm::length(of));
   const auto near = [&](glm::dvec2 expected) { return glm::length(waves - expected) < a_multiple * glm::length(of); };
   return times >= 1 && (near(times * of) || near(-times * of));
 }
 
-/// The waves that it is made of, and which way they go.
+/// The waves of a texture and its direction.
 void tell_waves(TextureForce& texture, const BandSpectrum& spectrum, const std::vector<WaveComponent>& components) {
   const glm::dvec2 strongest = components.front().waves, directions = spectrum.directions();
   texture.anisotropy = std::min(1.0, glm::length(directions) / spectrum.whole_power());
   texture.orientation = half_turn(texture.anisotropy < no_direction ? std::atan2(strongest.y, strongest.x)
                                                                     : 0.5 * std::atan2(directions.y, directions.x));
-  // Each wave has two changes of sign a period; the mean square of their numbers tells how many there are.
+  // Each wave has two sign changes per period; the mean square of the numbers of periods gives the number of all.
   texture.transitions = 2 * std::sqrt(spectrum.mean_square_waves(glm::normalize(strongest)));
   std::vector<glm::dvec2> told;
   for (const WaveComponent& each : components) {
@@ -113,15 +113,15 @@ void tell_waves(TextureForce& texture, const BandSpectrum& spectrum, const std::
   }
 }
 
-/// How far it comes back, and after which period. Few waves come back by chance, so a window should hold many: where
-/// the closer one does not, half of the patch is looked at or the whole. What is too fine for their samples is among
-/// these as regular as it is anywhere.
+/// The regularity of a texture and its period. A few waves may repeat by chance, so a window should hold many: if the
+/// closer window does not, half of the patch or the whole is used. Waves that are too fine for their samples count
+/// there as regular as they are anywhere.
 void tell_regularity(TextureForce& texture, const StaticForce& force, const PeriodBand& band,
                      const BandSpectrum& spectrum, const std::vector<WaveComponent>& components) {
   std::optional<BandSpectrum> wider;
   const double waves = glm::length(components.front().waves), all = force.whole.extent().x;
   if (waves * spectrum.extent().x < fewest_waves && spectrum.extent().x < 0.5 * all) {
-    // Of a coarse noise only the finest part is in the band, and any narrow band of waves comes back for a while.
+    // Only the finest part of a coarse noise is in the band, and a narrow band of waves always repeats for a while.
     if (waves * 0.5 * all < fewest_waves)
       wider.emplace(thinned(force.whole), PeriodBand{band.low, coarser * band.high});
     else
@@ -131,7 +131,7 @@ void tell_regularity(TextureForce& texture, const StaticForce& force, const Peri
   texture.period = texture.regularity >= periodic ? repetition(spectrum, components) : 1 / waves;
 }
 
-/// How suddenly the force changes, as against its size.
+/// The steepness of the force, relative to its size.
 void tell_steepness(TextureForce& texture, const Bank& bank, const ForceField& seen) {
   std::vector<Hand> hands;
   hands.reserve(4 * change_places);

@@ -13,17 +13,17 @@ namespace wale {
 namespace {
 
 constexpr int scan_lines = 5;          // in each of four directions
-constexpr double step = 0.5e-3;        // m between the places of a scan
-constexpr int steps_free = 8;          // 4 mm without force before a face, which no texture has
-constexpr int steps_deep = 3;          // 1.5 mm over which the force has to grow in proportion
+constexpr double step = 0.5e-3;        // m between the positions of a scan
+constexpr int steps_free = 8;          // 4 mm without force before a face; no texture has so much
+constexpr int steps_deep = 3;          // 1.5 mm over which the force must grow in proportion to depth
 constexpr double least_push = 0.02;    // N at that depth
-constexpr double proportional = 0.15;  // how far it may be from a straight line, of the force
-constexpr double slow = 0.02;          // m/s, at which damping is looked at
+constexpr double proportional = 0.15;  // of the force: tolerance for a straight line
+constexpr double slow = 0.02;          // m/s, the speed at which damping is measured
 
-/// A line that hands at rest are put on one after the other, or one hand goes along step by step where that matters.
+/// A line of hands at rest. If the program has memory, one hand goes along the line step by step instead.
 struct Scan {
   glm::dvec2 from{0}, direction{0};
-  std::size_t first = 0, count = 0;  // of the hands
+  std::size_t first = 0, count = 0;  // index of the first hand and their number
 
   Hand hand(double steps, glm::dvec2 velocity = {0, 0}) const {
     Hand hand;
@@ -48,8 +48,8 @@ std::vector<Scan> scans_of(PatchSize patch) {
   return scans;
 }
 
-/// The forces along all lines, one after the other. What remembers is felt by hands that came the whole way, as slowly
-/// as can be: a wall may give way to who is set down behind its face.
+/// The forces along all lines, one after another. A program with memory is scanned by hands that move the whole way
+/// slowly: a wall may yield to a hand that is placed behind its face.
 std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans) {
   std::vector<Force> forces(scans.back().first + scans.back().count);
   if (!remembers_anything(bank.program().description())) {
@@ -77,8 +77,7 @@ std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans
   return forces;
 }
 
-/// The forces on hands that came along a line, so many steps from its beginning, and then have each of these
-/// velocities.
+/// The forces on hands that moved along a line for so many steps and then have each of these velocities.
 std::array<Force, 3> forces_at(const Bank& bank, const Scan& scan, double steps,
                                const std::array<glm::dvec2, 3>& velocities) {
   std::array<Force, 3> forces{};
@@ -103,14 +102,14 @@ std::optional<WallFace> wall_face(const Bank& bank) {
   const std::vector<Force> forces = forces_along(bank, scans);
   std::optional<WallFace> stiffest;
   const Scan* met = nullptr;
-  double depth_met = 0;  // steps from its beginning
+  double depth_met = 0;  // steps from the start of the line
   for (const Scan& scan : scans) {
     const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(forces[scan.first + i]), scan.direction); };
     std::size_t free = 0;
     for (std::size_t i = 0; i + steps_deep + 1 < scan.count; ++i) {
       const bool touched = glm::length(forces[scan.first + i]) > 1e-4f;
       if (touched && free >= steps_free) {
-        // The force at the two ends of a straight line tells where it began, at most a step before.
+        // The two ends of a straight line give the depth at which the force began, at most a step earlier.
         const double near = against(i), far = against(i + steps_deep), slope = (far - near) / (steps_deep * step);
         const double middle = against(i + 1), expected = near + slope * step;
         const bool straight = std::abs(middle - expected) <= proportional * far;

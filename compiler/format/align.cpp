@@ -5,17 +5,17 @@
 namespace wale::formatting {
 namespace {
 
-/// Longer names do not push the values of their neighbours away: they are followed by one space.
+/// Names longer than this do not move the values of their neighbours; one space follows them.
 constexpr std::size_t widest_aligned_name = 12;
-/// Nor do longer lines push away comments and descriptions.
+/// Lines longer than this do not move comments and descriptions.
 constexpr std::size_t widest_aligned_line = 72;
 constexpr std::size_t before_description = 2;
 constexpr std::size_t before_comment = 3;
 
-/// Lines `begin` .. `end` are aligned with each other where they have the stop.
+/// Aligns lines `begin` .. `end` at their stops.
 using Run = std::vector<Line*>;
 
-/// Puts spaces before the values of a run.
+/// Puts spaces before the values of a run of lines.
 void align_values(const Run& run) {
   std::size_t widest = 0;
   for (const Line* line : run)
@@ -53,8 +53,8 @@ void align_comments(const Run& run) {
   }
 }
 
-/// Finds runs: `joins` says whether a line with a stop may stand in the run of the one before, `ends` whether a line
-/// ends the run before it.
+/// Finds runs of lines: `joins` says whether a line with a stop may be in the run of the line before, `ends` whether a
+/// line ends the run.
 template <class Has, class Joins, class Ends, class Align>
 void for_each_run(std::vector<Line>& lines, Has has, Joins joins, Ends ends, Align align) {
   Run run;

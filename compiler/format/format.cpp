@@ -11,7 +11,7 @@
 namespace wale {
 namespace {
 
-/// What must not change: the tree, and every token and comment but for `;`.
+/// What formatting must not change: the tree, and every token and comment except `;`.
 struct Content {
   std::string tree;
   std::vector<std::string> pieces;
@@ -45,12 +45,12 @@ std::optional<std::string> format(const SourceSet& sources, SourceId source, Dia
   Diagnostics already_reported;
   const auto pieces = formatting::pieces_of(sources[source].text, lex(sources, source, already_reported));
   std::string text = formatting::aligned(formatting::lines_of(formatting::rows_of(pieces), formatting::roles_of(tree)));
-  // Nobody's work is overwritten with something else, whatever this program gets wrong.
+  // A file is never overwritten with a different one, even if the formatter has a fault.
   if (!(content_of(text) == content_of(tree, pieces))) {
     diagnostics.report({.code = Code::unexpected_token,
                         .span = {source, 0, 0},
-                        .message = "this file cannot be formatted without changing what it means, and was left alone",
-                        .help = "the fault is the formatter's, not yours"});
+                        .message = "the file was not formatted, because formatting would change its meaning",
+                        .help = "this is a fault of the formatter; the file is unchanged"});
     return std::nullopt;
   }
   return text;

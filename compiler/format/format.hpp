@@ -7,11 +7,12 @@
 
 namespace wale {
 
-/// Lines are broken behind this column where they can be.
+/// Lines are broken at this column if they can be.
 constexpr std::size_t format_columns = 100;
 
-/// The file in Wale's one style. Comments, the order of everything and what the file means stay; white space, `;`, and
-/// the spelling of `±` do not. Formatting twice is formatting once. None when the file has errors, which are reported.
+/// The file in the one style of Wale. Comments, the order of everything and the meaning stay the same; white space, `;`
+/// and the spelling of `±` may change. Formatting a formatted file changes nothing. Empty if the file has errors, which
+/// are reported.
 std::optional<std::string> format(const SourceSet& sources, SourceId source, Diagnostics& diagnostics);
 
 }  // namespace wale

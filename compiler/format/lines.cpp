@@ -9,7 +9,7 @@
 namespace wale::formatting {
 namespace {
 
-/// How well a line may be broken behind a token: the loosest bond first, nothing where it may not.
+/// How well a line may be broken after a token, best first; nothing if it may not be broken there.
 std::optional<int> bond(TokenKind kind) {
   switch (kind) {
     case TokenKind::comma: return 0;
@@ -31,7 +31,7 @@ std::optional<int> bond(TokenKind kind) {
 }
 constexpr int bond_of_conditional = 3;
 
-/// Lays out one row: pieces `begin` .. `end` of it are a line.
+/// Lays out one row; pieces `begin` .. `end` of it are a line.
 class RowSetter {
  public:
   RowSetter(const Row& row, const Roles& roles, std::vector<Line>& lines) : row_(row), roles_(roles), lines_(lines) {}
@@ -56,7 +56,7 @@ class RowSetter {
     return begin == 0 || first.is(TokenKind::left_brace) ? base : base + 2;
   }
 
-  /// Comments at the end of a line are set apart from it, unless they are all of it.
+  /// Separates the comments at the end of a line from its text, unless the line is only a comment.
   std::size_t end_of_code(std::size_t begin, std::size_t end) const {
     std::size_t code = end;
     while (code > begin && row_.pieces[code - 1].is_comment()) --code;
@@ -78,7 +78,7 @@ class RowSetter {
     return result;
   }
 
-  /// Finds the name of a setting, or of a declaration whose `=` or `:` may stand below its neighbours'.
+  /// Finds the name of a setting, or of a declaration whose `=` or `:` may be aligned with its neighbours'.
   void find_name() {
     const auto& pieces = row_.pieces;
     if (pieces[0].is_comment()) return;
@@ -104,8 +104,8 @@ class RowSetter {
       line.description = {at, 0, kind_};
   }
 
-  /// Where the line of these pieces is broken if it is too long: at the outermost parentheses that can be broken, there
-  /// at the loosest bond, there as far to the right as fits. Gives the piece that begins the next line.
+  /// Where a line of these pieces is broken if it is too long: in the outermost parentheses that can be broken, there
+  /// at the loosest bond, there as far to the right as fits. Returns the piece that begins the next line.
   std::optional<std::size_t> place_to_break(std::size_t begin, std::size_t end) const {
     const std::size_t code = end_of_code(begin, end);
     const auto fits = [&](std::size_t until) { return indentation_ + width_of(text(begin, until)) <= format_columns; };
@@ -119,7 +119,7 @@ class RowSetter {
     std::size_t depth = open_.size();
     for (std::size_t i = begin; i + 1 < code; ++i) {
       const Piece &piece = row_.pieces[i], &next = row_.pieces[i + 1];
-      if (piece.is(TokenKind::left_brace)) break;  // a block in one line fits
+      if (piece.is(TokenKind::left_brace)) break;  // a block on one line fits
       if (piece.is(TokenKind::left_parenthesis)) ++depth;
       if (piece.is(TokenKind::right_parenthesis) && depth > 0) --depth;
       if (piece.is_comment()) continue;
@@ -127,7 +127,7 @@ class RowSetter {
       const auto found = conditional ? bond_of_conditional : bond(piece.token.kind);
       if (!found || (!conditional && depth == 0 && !continues(piece.token.kind))) continue;
       if (is_sign(row_.pieces, i, roles_) || next.is(TokenKind::right_parenthesis)) continue;
-      if (!conditional && !spaced(row_.pieces, i + 1, depth, roles_)) continue;  // N/m stays together
+      if (!conditional && !spaced(row_.pieces, i + 1, depth, roles_)) continue;  // keeps N/m together
       candidates.push_back({depth, *found, i + 1});
     }
     const auto best = std::min_element(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
@@ -168,7 +168,7 @@ class RowSetter {
   const Row& row_;
   const Roles& roles_;
   std::vector<Line>& lines_;
-  std::vector<std::size_t> open_;  ///< indentations of the lines in which parentheses were opened
+  std::vector<std::size_t> open_;  ///< indentations of the lines with the open parentheses
   std::size_t indentation_ = 0;
   std::size_t last_of_name_ = none;
   std::string name_, kind_;

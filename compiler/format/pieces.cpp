@@ -11,7 +11,7 @@ std::string_view without_blanks_at_end(std::string_view line) {
   return line;
 }
 
-/// `//why` as `// why`; a row of slashes stays one.
+/// Writes `//why` as `// why`; a row of slashes stays as it is.
 std::string line_comment(std::string_view text) {
   text = without_blanks_at_end(text);
   const std::size_t slashes = std::min(text.find_first_not_of('/'), text.size());
@@ -34,7 +34,7 @@ std::string block_comment(std::string_view text) {
 
 bool documents(std::string_view comment) { return comment.starts_with("///") && !comment.starts_with("////"); }
 
-/// Reads the gaps between tokens, in which everything that is no white space is a comment.
+/// Reads the gaps between tokens; everything in them that is not white space is a comment.
 class Collector {
  public:
   Collector(std::string_view text, const Tokens& tokens) : text_(text), tokens_(tokens.tokens) {}
@@ -45,7 +45,7 @@ class Collector {
       gap(token.begin);
       at_ = token.end;
       if (token.kind == TokenKind::semicolon) {
-        // Above a `;` nothing is documented; without it, what comes next would be.
+        // A comment before a `;` documents nothing. Without the `;` it would document what comes next.
         for (std::size_t i = first_comment; i < pieces_.size(); ++i)
           if (documents(pieces_[i].text)) pieces_[i].text.erase(0, 1);
         after_semicolon_ = true;

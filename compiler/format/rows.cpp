@@ -49,7 +49,7 @@ class RowCutter {
   void take(std::size_t index) {
     Piece& piece = pieces_[index];
     const bool opens = piece.is(TokenKind::left_brace), closes = piece.is(TokenKind::right_brace);
-    // A block's `{` stands behind its heading, unless that ends in a comment.
+    // The `{` of a block comes after its heading on the same line, unless the heading ends in a comment.
     if (opens && !rows_.back().pieces.empty() && !rows_.back().pieces.back().is_comment()) piece.newlines = 0;
     if (inline_block_) piece.newlines = 0;
     if (piece.is(TokenKind::left_parenthesis)) ++parentheses_;
@@ -67,7 +67,7 @@ class RowCutter {
     at_ = index + 1;
   }
 
-  /// Whether the block that opens here is `{}`, or was written in one line with one statement in it.
+  /// Whether the block that opens here is `{}`, or was written on one line with one statement in it.
   bool stays_in_line(std::size_t open) const {
     std::size_t width = 2 * depth_ + 2;
     for (const Piece& piece : rows_.back().pieces) width += 1 + width_of(piece.text);
@@ -95,15 +95,15 @@ class RowCutter {
     return piece.newlines > 1 && !rows_.empty() && !rows_.back().pieces.back().is(TokenKind::left_brace);
   }
 
-  /// Gives the comments before a row to the row above, to rows of their own, or leaves them to the row that begins at
-  /// `token`, from `at_` on.
+  /// Assigns the comments before a row, from `at_` on: to the row above, to rows of their own, or to the row that
+  /// begins at `token`.
   void comments_between_rows(std::size_t token) {
-    std::size_t first_line = at_;  // of these comments stand in the line above
+    std::size_t first_line = at_;  // the comments up to here are on the line above
     if (!rows_.empty())
       while (first_line < token && pieces_[first_line].newlines == 0) ++first_line;
     const bool ends = token == pieces_.size() || pieces_[token].is(TokenKind::right_brace);
     if (!ends && first_line == token && pieces_[token].newlines == 0) {
-      // Nothing but comments between two statements in one line: what stands before the `;` is the first one's.
+      // Between two statements on one line there are only comments; those before the `;` belong to the first statement.
       first_line = at_;
       for (std::size_t i = at_; i <= token; ++i)
         if (pieces_[i].after_semicolon) first_line = i;
@@ -132,7 +132,7 @@ class RowCutter {
   std::size_t depth_ = 0;
   std::size_t parentheses_ = 0;
   bool inline_block_ = false;
-  bool ends_line_ = false;  ///< nothing may stand behind the last token
+  bool ends_line_ = false;  ///< nothing may follow the last token on its line
 };
 
 }  // namespace

@@ -7,16 +7,17 @@
 
 namespace wale::formatting {
 
-/// One statement with the comments inside it, the heading of a block, a `}`, or comments alone: what begins a line.
+/// The content of one line or of a broken one: a statement with the comments inside it, the heading of a block, a `}`,
+/// or comments alone.
 struct Row {
   std::vector<Piece> pieces;
-  std::string trailing;   ///< comments behind its end
-  std::size_t depth = 0;  ///< of the braces around it
+  std::string trailing;   ///< comments after its end
+  std::size_t depth = 0;  ///< number of braces around it
   bool blank_before = false;
 };
 
-/// Cuts a file without errors into rows. Blocks that the author wrote in one line stay there when they hold one
-/// statement and no comment and fit.
+/// Cuts a file without errors into rows. A block that the author wrote on one line stays there if it holds one
+/// statement and no comment, and fits.
 std::vector<Row> rows_of(std::vector<Piece> pieces);
 
 }  // namespace wale::formatting

@@ -39,8 +39,8 @@ bool ends_value(const Piece& piece) {
 
 bool is_plus_or_minus(const Piece& piece) { return piece.is(TokenKind::minus) || piece.is(TokenKind::plus); }
 
-/// `N/m` and `24/256` have no spaces, `10 N / 512` and `5 N / mass` do: a `/` before a unit is tight, one before
-/// another name of a suffix or between two numbers is as it was written.
+/// `N/m` and `24/256` have no spaces; `10 N / 512` and `5 N / mass` have them. A `/` before a unit is tight; before
+/// another name of a suffix, or between two numbers, it stays as written.
 bool is_tight_slash(const std::vector<Piece>& pieces, std::size_t slash, const Roles& roles) {
   if (!pieces[slash].is(TokenKind::slash) || slash == 0 || slash + 1 >= pieces.size()) return false;
   const Piece &before = pieces[slash - 1], &after = pieces[slash + 1];
@@ -96,7 +96,7 @@ bool spaced(const std::vector<Piece>& pieces, std::size_t index, std::size_t par
     case TokenKind::caret: return false;
     case TokenKind::colon: return parentheses == 0;  // `state p : position`, but `period: 2 mm`
     case TokenKind::left_parenthesis:
-      // Behind a setting's key, where values are put below each other, as if nobody had written it close.
+      // After the key of a setting, where values are aligned, it has the space of an argument.
       if (roles.setting_keys.count(previous.token.begin) > 0) return true;
       if (previous.is(TokenKind::name)) return roles.called.count(previous.token.begin) == 0 && !piece.touches;
       break;
@@ -112,7 +112,7 @@ bool spaced(const std::vector<Piece>& pieces, std::size_t index, std::size_t par
     case TokenKind::slash: return !is_tight_slash(pieces, index - 1, roles);
     case TokenKind::minus:
     case TokenKind::plus:
-      // `+-` would be a tolerance.
+      // `+-` would be read as a tolerance.
       return is_plus_or_minus(piece) || !is_sign(pieces, index - 1, roles);
     default: return true;
   }

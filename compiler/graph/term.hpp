@@ -32,7 +32,7 @@ enum class TermKind : std::uint8_t {
   peak,       ///< 99th percentile of `a` over the patch less its rim
 };
 
-/// What a term's value changes with, a bit each.
+/// The quantities that a term's value changes with, a bit each.
 class Dependence {
  public:
   enum Cause : std::uint8_t {

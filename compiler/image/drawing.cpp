@@ -1,5 +1,7 @@
 #include "compiler/image/drawing.hpp"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -9,29 +11,29 @@
 
 namespace wale {
 
-std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawing& drawing, const std::string& name) {
-  try {
-    return image_library().encode_drawing(drawing, name);
-  } catch (const NoImageLibrary& reason) {
-    return DrawingProblem{fmt::format("cannot write {}: {}", name, reason.what())};
-  }
+Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std::string& name) {
+  const auto library = image_library();
+  if (!library) return library.error();
+  return (*library)->encode_drawing(drawing, name);
 }
 
-std::optional<DrawingProblem> save_drawing(const Drawing& drawing, const std::string& path) {
-  auto encoded = encode_drawing(drawing, path);
-  if (auto* problem = std::get_if<DrawingProblem>(&encoded)) return *problem;
-  const auto& bytes = std::get<std::vector<std::byte>>(encoded);
+Result<> save_drawing(const Drawing& drawing, const std::string& path) {
+  const auto bytes = encode_drawing(drawing, path);
+  if (!bytes) return bytes.error();
 
+  const auto unwritable = [&](int error) {
+    return Error{Code::unwritable_file, fmt::format("cannot write the picture: {}", std::strerror(error)), {}, {path}};
+  };
   std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (!file) return DrawingProblem{fmt::format("cannot write {}: {}", path, std::strerror(errno))};
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (!file) return unwritable(errno);
+  const bool written = std::fwrite(bytes->data(), 1, bytes->size(), file) == bytes->size();
   const int write_error = errno;
-  if (std::fclose(file) == 0 && written) return std::nullopt;
+  if (std::fclose(file) == 0 && written) return {};
   const int error = written ? errno : write_error;
-  // Half a picture is worse than none; a device such as /dev/full is not ours to remove.
+  // Half a picture is worse than none. A device such as /dev/full is not removed: it is not a file of this program.
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
-  return DrawingProblem{fmt::format("cannot write {}: {}", path, std::strerror(error))};
+  return unwritable(error);
 }
 
 }  // namespace wale

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
+
+#include "schema/result.hpp"
 
 namespace wale {
 
@@ -13,23 +13,21 @@ namespace wale {
 struct Drawing {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
-  /// False when no font is installed: then the picture is whole but carries no text (Debian: fonts-dejavu-core).
+  /// False if no font is installed (Debian: fonts-dejavu-core): the picture is then complete but for its text.
   bool has_text = true;
 
   friend bool operator==(const Drawing&, const Drawing&) = default;
 };
 
-/// Why a drawing could not be written; a whole phrase, "cannot write wall.png: Permission denied".
-struct DrawingProblem {
-  std::string reason;
-};
+/// The bytes of a picture file in the format that the extension of `name` says: png, or another that OpenImageIO writes
+/// to memory. The same drawing gives the same bytes: they hold no date and no name of a machine or program.
+///
+/// Errors: `Code::malformed_value` for an extension of no such format, `unwritable_file`, `missing_library`; the place
+/// has `name`.
+Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std::string& name);
 
-/// The bytes of a picture file in the format that `name`'s extension names: png, or what else OpenImageIO writes to
-/// memory. The same drawing gives the same bytes: no date, no name of a machine or program.
-std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawing& drawing, const std::string& name);
-
-/// Encodes by the extension of `path` and writes the file; nothing when all went well. A file that cannot be written
-/// whole is removed.
-std::optional<DrawingProblem> save_drawing(const Drawing& drawing, const std::string& path);
+/// Encodes by the extension of `path` and writes the file. A regular file that cannot be written whole is removed.
+/// Errors: as `encode_drawing`.
+Result<> save_drawing(const Drawing& drawing, const std::string& path);
 
 }  // namespace wale

@@ -2,25 +2,30 @@
 
 #include <dlfcn.h>
 
+#include <string>
+
 namespace wale {
 namespace {
 
-const ImageLibrary& opened_image_library() {
-  // Where it was built; else, for a program that was moved, wherever the system looks.
+Result<const ImageLibrary*> opened_image_library() {
+  // Where it was built; for a program that was moved, where the system looks.
   for (const char* path : {WALE_IMAGE_LIBRARY, "libwale_images.so"}) {
     if (void* library = dlopen(path, RTLD_NOW | RTLD_LOCAL)) {
       if (const void* functions = dlsym(library, "wale_image_library"))
-        return *static_cast<const ImageLibrary*>(functions);
+        return static_cast<const ImageLibrary*>(functions);
     }
   }
   const char* reason = dlerror();
-  throw NoImageLibrary(std::string("this Wale has no image library: ") + (reason ? reason : "not found"));
+  return Error{Code::missing_library,
+               std::string("the image library cannot be opened: ") + (reason ? reason : "not found"),
+               "put libwale_images.so in a folder that LD_LIBRARY_PATH names",
+               {"libwale_images.so"}};
 }
 
 }  // namespace
 
-const ImageLibrary& image_library() {
-  static const ImageLibrary& library = opened_image_library();
+Result<const ImageLibrary*> image_library() {
+  static const Result<const ImageLibrary*> library = opened_image_library();
   return library;
 }
 

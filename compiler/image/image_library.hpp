@@ -2,38 +2,32 @@
 
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "compiler/image/drawing.hpp"
 #include "compiler/image/image.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
-/// What needs OpenImageIO, which brings 250 shared libraries and a quarter of a second to the start of every program
-/// that is linked with it. So it is a library of its own, `wale_images`, which is opened when the first picture is read
-/// or drawn: most runs of `wale` need none.
+/// The functions that need OpenImageIO. It brings 250 shared libraries, and a program linked with it starts a quarter
+/// of a second later. So these functions are in a library of their own, `wale_images`, which is opened when the first
+/// picture is read or drawn: most runs of `wale` need none.
 struct ImageLibrary {
   /// As the function of that name in image.hpp.
-  std::variant<HeightImage, ImageProblem> (*read_height_image)(std::span<const std::byte> bytes,
-                                                               const std::string& name, double smooth_pixels);
+  Result<HeightImage> (*read_height_image)(std::span<const std::byte> bytes, const std::string& name,
+                                           double smooth_pixels);
   /// As the function of that name in drawing.hpp.
-  std::variant<std::vector<std::byte>, DrawingProblem> (*encode_drawing)(const Drawing& drawing,
-                                                                         const std::string& name);
-  /// A picture of red, green and blue in 0 .. 1, `width` by `height`, made smaller by means over boxes, to 8 bits each.
+  Result<std::vector<std::byte>> (*encode_drawing)(const Drawing& drawing, const std::string& name);
+  /// Reduces a picture of `width` by `height` pixels to `columns` by `rows` by means over boxes. `rgb` is in 0 .. 1;
+  /// the result has 8 bits for each colour.
   std::vector<std::uint8_t> (*shrunk)(std::span<const float> rgb, int width, int height, int columns, int rows);
-  /// The mean about each of `side` by `side` values, a Gaussian some `reach` pixels wide.
+  /// The weighted mean around each of `side` by `side` values; the weights are a Gaussian about `reach` pixels wide.
   std::vector<float> (*surroundings)(std::span<const float> values, int side, double reach);
 };
 
-/// Why the library cannot be opened.
-struct NoImageLibrary : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Opens the library at its first use and keeps it; any thread may ask. Throws `NoImageLibrary`.
-const ImageLibrary& image_library();
+/// Opens the library at its first use and keeps it; never null. Any thread may ask. Error: `Code::missing_library`.
+Result<const ImageLibrary*> image_library();
 
 }  // namespace wale

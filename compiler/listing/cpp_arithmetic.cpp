@@ -8,8 +8,8 @@ namespace wale {
 namespace {
 
 constexpr std::string_view helpers = R"(
-/// A constant that the compiler does not see, so that it does not calculate with it: it does not know that subnormals
-/// are zero.
+/// A constant that the C++ compiler cannot see, so that it does not fold expressions with it: it does not know that
+/// subnormal numbers count as zero.
 inline float hidden(float constant) {
   auto bits = std::bit_cast<std::uint32_t>(constant);
   asm("" : "+r"(bits));
@@ -23,7 +23,7 @@ inline float lattice_coordinate(std::uint32_t i, std::uint32_t step) {
   return static_cast<float>(static_cast<std::int32_t>((i * step) ^ 0x80000000u)) * 0x1p-31f;
 }
 
-/// Of n values in order, number ceil(fraction n).
+/// The value number ceil(fraction n) of n sorted values.
 inline float percentile_of(std::vector<float>& values, float fraction) {
   const auto count = static_cast<std::uint32_t>(values.size());
   const auto rank = static_cast<std::uint32_t>(std::ceil(fraction * static_cast<float>(count)));
@@ -57,7 +57,7 @@ std::string cpp_arithmetic(std::string_view file, const std::string& name_space)
       const std::string_view line = each.text.substr(at, end - at);
       const bool own_files =
           line.starts_with("#pragma") || (line.starts_with("#include") && !line.ends_with("intrin.h>"));
-      if (!own_files) text.append(line) += '\n';  // the head has the others' includes
+      if (!own_files) text.append(line) += '\n';  // includes of the standard library are at the head
       at = end + 1;
     }
   }

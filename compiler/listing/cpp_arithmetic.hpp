@@ -5,15 +5,15 @@
 
 namespace wale {
 
-/// A file of runtime/machine, "arithmetic.hpp", as a part of another file: without what only a file of its own needs,
-/// its declarations in the namespace and inline. Files of the project that it includes stand before it, the standard
-/// library's includes at the head.
+/// A file of runtime/machine, such as "arithmetic.hpp", as a part of another file: its declarations are inline in the
+/// namespace, and what only a separate file needs is left out. Files of the project that it includes come before it,
+/// the includes of the standard library at the head.
 std::string cpp_arithmetic(std::string_view file, const std::string& name_space);
 
-/// What stands for schema/patch_program.hpp where the machine's splines are made.
+/// The part of schema/patch_program.hpp that the machine's splines need.
 std::string cpp_height_table(const std::string& name_space);
 
-/// What every program uses besides, and what those with peaks do.
+/// What else every program uses, and what programs with peaks use.
 std::string cpp_helpers(bool with_peaks);
 
 }  // namespace wale

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t comment_column = 84;
 
-/// The column `meaning` of schema/instruction.def as it is written there; nothing for special operations.
+/// The column `meaning` of schema/instruction.def as written there; nothing for special operations.
 constexpr std::string_view meaning_of(Operation operation) {
   // clang-format off
   switch (operation) {
@@ -32,7 +32,7 @@ constexpr std::string_view meaning_of(Operation operation) {
 
 bool in_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
-/// The meaning with operands in the place of a, b and c.
+/// The meaning with the operands in place of a, b and c.
 std::string with_operands(std::string_view meaning, const std::array<std::string, 3>& operands) {
   std::string text;
   for (std::size_t at = 0; at < meaning.size();) {

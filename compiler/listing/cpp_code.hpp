@@ -8,33 +8,34 @@
 
 namespace wale {
 
-/// A section's code as C++: a constant for each result, no register written twice, what no root needs left out.
+/// The code of a section as C++: a constant for each result, each register written once, and results that no root needs
+/// left out.
 class CppCode {
  public:
-  /// Runs in the order of the program's instructions; `prefix` and the instruction's number name its result.
+  /// In the order of the program's instructions. `prefix` and the number of an instruction name its result.
   CppCode(const PatchProgram& program, CodeSection section, std::size_t index, std::string prefix,
           std::vector<RegisterNumber> roots);
 
-  /// Registers that the code, or a root, reads and the code has not written by then.
+  /// Registers that the code or a root reads before the code writes them.
   const std::vector<RegisterNumber>& read_from_outside() const { return outside_; }
 
   struct Surroundings {
-    /// The C++ for a register that is not the section's own; never a constant's.
+    /// The C++ for a register of another section; never called for a constant.
     std::function<std::string(RegisterNumber)> outside;
     std::function<std::string(std::uint16_t)> table, grid_shape, grid_cells;
-    /// Lines that work out a peak, and its result's name.
+    /// The lines that compute a peak, and the name of its result.
     std::function<void(const Instruction&, const std::function<std::string(RegisterNumber)>& now,
                        const std::string& name, std::string& lines)>
         peak = {};
   };
-  /// The lines, each with `indent` before it and its line of Wale behind it.
+  /// The lines of C++, each with `indent` before it and its line of Wale after it.
   std::string lines(const Surroundings& surroundings, std::size_t indent);
-  /// After `lines`: the C++ for a register as the code leaves it.
+  /// The C++ for a register at the end of the code. Call `lines` first.
   std::string result(RegisterNumber number) const;
 
  private:
   void find_needed(const std::vector<RegisterNumber>& roots);
-  /// What an instruction reads: a peak also what its code reads from outside.
+  /// The registers that an instruction reads; for a peak also those that its code reads from outside.
   std::vector<RegisterNumber> reads(const Instruction& instruction) const;
   std::string operand(RegisterNumber number) const;
   std::string expression(const Instruction& instruction) const;
@@ -46,13 +47,13 @@ class CppCode {
   const std::vector<Instruction>& code_;
   std::vector<char> needed_;             ///< by instruction
   std::vector<RegisterNumber> outside_;  ///< sorted
-  std::vector<std::string> names_;       ///< by register: what it is at present, where the code has written it
-  Surroundings kept_;                    ///< what `lines` was given
+  std::vector<std::string> names_;       ///< by register: its present name, if the code has written it
+  Surroundings kept_;                    ///< as given to `lines`
 };
 
-/// A float as C++ as the machine takes it, a subnormal one being zero: "2.5f", "(-1.0f)", "arithmetic::infinity".
+/// A float as C++ with the machine's value, where a subnormal is zero: "2.5f", "(-1.0f)", "arithmetic::infinity".
 std::string cpp_literal(float number);
-/// The same, hidden from the compiler where it would calculate as if subnormals were not zero.
+/// The same, hidden from the C++ compiler if it would fold it as if subnormals were not zero.
 std::string cpp_hidden(float value);
 
 }  // namespace wale

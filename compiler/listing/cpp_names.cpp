@@ -14,7 +14,7 @@ constexpr std::string_view keywords =
     "static_assert static_cast struct switch template this thread_local throw true try typedef typeid "
     "typename union unsigned using virtual void volatile wchar_t while xor xor_eq reinterpret_cast ";
 
-// What people write has ASCII letters only as far as C++ is concerned.
+// C++ allows only ASCII letters in the names that people write.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -38,7 +38,7 @@ std::string CppNames::sanitised(std::string_view wanted) {
   std::string name;
   for (const char c : wanted) {
     const char usable = is_letter(c) || is_digit(c) ? c : '_';
-    if (usable == '_' && name.ends_with('_')) continue;  // two in a row are the implementation's
+    if (usable == '_' && name.ends_with('_')) continue;  // names with two underscores in a row are reserved
     name += usable;
   }
   if (name.empty() || !is_letter(name[0])) name.insert(0, "v");

@@ -6,16 +6,16 @@
 
 namespace wale {
 
-/// Identifiers of one C++ file: words that mean something already are never given out, and none is given out twice.
+/// The identifiers of one C++ file. Words with a meaning are never given out, and no identifier is given out twice.
 class CppNames {
  public:
-  /// Knows the keywords of C++. Numbered names (`t12`, `peak0`) are left to the writer.
+  /// Knows the keywords of C++. Numbered names (`t12`, `peak0`) are reserved for the writer.
   CppNames();
-  /// A word that means something else.
+  /// Reserves a word that has another meaning.
   void reserve(std::string_view word) { taken_.emplace(word); }
-  /// `wanted` with whatever C++ does not allow in a name replaced, and a number behind it when it is taken.
+  /// `wanted` with the characters that C++ does not allow replaced, and a number appended if it is taken.
   std::string take(std::string_view wanted);
-  /// The same without asking whether it is taken.
+  /// The same without checking whether it is taken.
   static std::string sanitised(std::string_view wanted);
 
  private:

@@ -10,7 +10,7 @@ namespace wale {
 namespace {
 
 constexpr std::size_t place_column = 76;
-/// A term as long as this gets a line of its own though it is used once.
+/// A term of this length gets its own line even if it is used once.
 constexpr std::size_t longest_term = 60;
 
 class CheckedPrinter {
@@ -71,7 +71,7 @@ class CheckedPrinter {
     return roots;
   }
 
-  /// How often each term stands in another one or in a result; 0 for those that nothing needs.
+  /// How often each term is used in another one or in a result; 0 for terms that are not needed.
   void count_uses() {
     for (const TermId root : roots()) ++uses_[root];
     for (TermId id = static_cast<TermId>(uses_.size()); id-- > 0;)
@@ -79,7 +79,7 @@ class CheckedPrinter {
         for (const TermId operand : operands(material_.terms[id])) ++uses_[operand];
   }
 
-  /// Finds the text that stands for a term: its expression, or the name of a line of its own.
+  /// Finds the text for a term: its expression, or the name of its own line.
   void write(TermId id) {
     const Term& term = material_.terms[id];
     std::string text = expression(term);
@@ -93,7 +93,7 @@ class CheckedPrinter {
     texts_[id] = fmt::format("t{}", id);
   }
 
-  /// A term's text where nothing stands beside it that could be taken for a part of it.
+  /// The text of a term in a place that needs no parentheses.
   std::string bare(TermId id) const {
     const Term& term = material_.terms[id];
     const std::string& text = texts_[id];

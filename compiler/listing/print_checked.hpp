@@ -7,11 +7,10 @@
 
 namespace wale {
 
-/// A material as `check` leaves it, all in SI units: parameters, states and memories with their ranges, the percepts
-/// asked for, the carriers that tell of percepts, and every expression with functions inlined and vectors taken apart.
+/// A material after `check`, in SI units: parameters, states and memories with their ranges, the percepts asked for,
+/// the carriers of percepts, and every expression with functions inlined and vectors split into components.
 ///
-/// What is used more than once is a line of its own, `t12 = …`, so that sharing shows; `?0` is the quantity that is
-/// left open for `solve`.
+/// A term that is used more than once has its own line, `t12 = …`. `?0` is the quantity that is left open for `solve`.
 std::string print_checked(const CheckedMaterial& material, const DimensionNames& dimensions, const SourceLines& lines);
 
 }  // namespace wale

@@ -82,8 +82,7 @@ class CppPrinter {
                              "u",
                              "v"})
       names_.reserve(word);
-      // Functions that meanings call.
-      // clang-format off
+      // Functions that the column `meaning` calls.
 #define INSTRUCTION(number, name, fields, results, cost, meaning, ...) reserve_words(#meaning);
 #include "schema/instruction.def"
     // clang-format on
@@ -100,7 +99,7 @@ class CppPrinter {
   }
 
   std::string run() {
-    // What comes last is made first: setup works out only what the others need.
+    // The last part is written first: setup computes only what the others need.
     const std::string tick = print_tick();
     const std::string enter = print_enter();
     const std::string setup = print_setup();
@@ -146,7 +145,7 @@ class CppPrinter {
     return number >= program_.first_state() && number < program_.first_temporary();
   }
 
-  /// The member of `Setup` that keeps what setup leaves in a register; notes that it is needed.
+  /// The member of `Setup` that holds the result of setup in a register; records that it is needed.
   std::string member_of_setup(RegisterNumber number) {
     if (is_parameter(number)) {
       kept_.insert(number);
@@ -156,7 +155,7 @@ class CppPrinter {
     return fmt::format("v{}", number - program_.first_setup());
   }
 
-  /// A register that a run of enter or tick finds there.
+  /// A register that is set before enter or tick runs.
   std::string in_run(RegisterNumber number) {
     switch (static_cast<Input>(number)) {
       case Input::patch_half_width: return "bank.patch.half_width";
@@ -195,8 +194,8 @@ class CppPrinter {
     const std::string lines = code.lines(surroundings_of_run(), 2);
 
     std::string text = program_.vibrates()
-                           ? "\n/// One tick: how to shake under a hand within the envelope; then the state goes on.\n"
-                           : "\n/// One tick: the force on a hand within the envelope, in N; then the state goes on.\n";
+                           ? "\n/// One tick: the shaking under a hand within the envelope. Advances the state.\n"
+                           : "\n/// One tick: the force on a hand within the envelope, in N. Advances the state.\n";
     text += fmt::format(
         "inline Force tick([[maybe_unused]] const Setup& bank, [[maybe_unused]] State& state,{}\n"
         "                  [[maybe_unused]] const Hand& hand) {{\n",
@@ -227,7 +226,7 @@ class CppPrinter {
     std::vector<RegisterNumber> roots;
     for (const State& state : program_.states) roots.push_back(state.initial);
     CppCode code(program_, CodeSection::enter, 0, "t", roots);
-    std::string text = "\n/// What the state begins with when a hand within the envelope enters the patch.\n";
+    std::string text = "\n/// The state at the moment when a hand within the envelope enters the patch.\n";
     text += "inline State enter([[maybe_unused]] const Setup& bank, [[maybe_unused]] const Hand& hand) {\n";
     text += code.lines(surroundings_of_run(), 2);
     text += "  State state;\n";
@@ -239,7 +238,7 @@ class CppPrinter {
     return text + "  return state;\n}\n";
   }
 
-  /// A register that setup finds there.
+  /// A register that is set before setup runs.
   std::string in_setup(RegisterNumber number) const {
     switch (static_cast<Input>(number)) {
       case Input::patch_half_width: return "patch.half_width";
@@ -248,7 +247,7 @@ class CppPrinter {
       case Input::seconds_per_tick: return "seconds_per_tick";
       default: break;
     }
-    if (number < first_constant) return input_name(number);  // of a peak's point
+    if (number < first_constant) return input_name(number);  // of a point of a peak
     return parameters_[number - program_.first_parameter()];
   }
 
@@ -269,7 +268,8 @@ class CppPrinter {
                             std::string& lines) { print_peak(instruction.a, surroundings, now, name, lines); };
     const std::string lines = code.lines(surroundings, 2);
 
-    std::string text = "\n/// What parameters and patch come to. Not for real-time use: it runs the peaks.\n";
+    std::string text =
+        "\n/// Computes what ticks need from the parameters and the patch. Not for real-time use: it runs the peaks.\n";
     text += "inline Setup setup([[maybe_unused]] const Parameters& asked, const Patch& placed) {\n";
     text +=
         "  using arithmetic::flushed;\n"
@@ -326,23 +326,23 @@ class CppPrinter {
   }
 
   void print_head() {
-    add(R"(// {0}: a patch program of Wale as C++, written by `wale build --emit cpp`. It needs nothing but a compiler:
+    add(R"(// {0}: a patch program of Wale as C++, written by `wale build --emit cpp`. It needs only a C++20 compiler:
 //
 //   g++ -std=c++20 -O3 -march=x86-64-v3 -ffp-contract=off -c FILE.cpp
 //
 // Everything is in namespace {1}:
 //
-//   Parameters                        what stays adjustable, in SI units, at its defaults
+//   Parameters                        adjustable, in SI units, with their defaults
 //   Patch                             half its width and height, and its rim, m
-//   Setup setup(Parameters, Patch)    what they come to; not real-time (peaks, tables)
-//   Hand within_envelope(Hand)        as the runtime hands it on: within the device's reach and speed, not subnormal
+//   Setup setup(Parameters, Patch)    computes what ticks need; not real-time (peaks, tables)
+//   Hand within_envelope(Hand)        within the device's reach and speed, not subnormal, as the runtime does
 //   State enter(Setup, Hand)          when the hand enters the patch
 //   Force tick(Setup, State&, {2}Hand)
-//                                     at each period of the device, {3} s
+//                                     call it once per period of the device, {3} s
 //
-// The same bits as Wale's own machine, provided that whoever calls rounds to nearest and takes subnormals for zero (on
-// x86, bits FTZ 0x8000 and DAZ 0x0040 of MXCSR), and that this is compiled with -ffp-contract=off and without
-// -ffast-math. Functions are inline and change nothing but what they are handed; enter and tick allocate nothing.
+// The result has the same bits as Wale's own machine if the caller rounds to nearest and flushes subnormals to zero (on
+// x86, bits FTZ 0x8000 and DAZ 0x0040 of MXCSR), and if this file is compiled with -ffp-contract=off and without
+// -ffast-math. Functions are inline and change only their arguments; enter and tick do not allocate.
 // Pictures and predictions are left out. `t12` is instruction 12 of its section, as in `wale build --emit listing`.
 )",
         program_.material, name_space_, program_.grids.empty() ? "" : "Cells&, ",
@@ -399,9 +399,10 @@ class CppPrinter {
     add("}};\n\nstruct Patch {{\n  float half_width = {}, half_height = {}, rim = {};  ///< m\n}};\n",
         cpp_literal(0.5f * program_.patch_width), cpp_literal(0.5f * program_.patch_height),
         cpp_literal(program_.patch_rim));
-    add("\n/// What a tick knows besides the hand; only `setup` makes it.\nstruct Setup {{\n{}}};\n", members_);
+    add("\n/// What a tick needs besides the hand; made by `setup` only.\nstruct Setup {{\n{}}};\n", members_);
     print_hand();
-    add("\n/// What is remembered from tick to tick, and what it was when the hand entered.\nstruct State {{\n");
+    add("\n/// What is remembered from tick to tick, and its values at the moment when the hand entered.\nstruct State "
+        "{{\n");
     for (std::size_t i = 0; i < program_.states.size(); ++i) {
       const State& state = program_.states[i];
       const float begin = initial_state(arithmetic::not_a_number, StateRule(state));
@@ -413,14 +414,15 @@ class CppPrinter {
     add("}};\n");
     if (!program_.grids.empty()) print_cells();
     add("\nstruct Force {{\n  float x = 0, y = 0;  ///< {}\n}};\n",
-        program_.vibrates() ? "the device only vibrates: its amplitude in m/s^2, and its frequency in Hz" : "N");
+        program_.vibrates() ? "the device only vibrates: amplitude in m/s^2 and frequency in Hz" : "N");
   }
 
   void print_hand() {
-    add("\n/// m, m/s and m/s^2 from the patch's centre; `workspace` from the device's; `button` is 1 while it is "
+    add("\n/// In m, m/s and m/s^2 from the patch's centre; `workspace` from the device's centre; `button` is 1 while "
+        "it is "
         "pressed.\nstruct Hand {{\n");
     for (const Input input : hand_inputs) add("  float {} = 0;\n", input_name(static_cast<unsigned>(input)));
-    add("}};\n\n/// Each component within what the device can do, not-a-number as 0, subnormal numbers as zeros.\n"
+    add("}};\n\n/// Each component limited to the range of the device; not-a-number and subnormal numbers become 0.\n"
         "inline Hand within_envelope(const Hand& hand) {{\n  using arithmetic::flushed;\n  Hand within;\n");
     const DeviceProfile& device = program_.device;
     for (const Input input : hand_inputs) {
@@ -467,7 +469,7 @@ class CppPrinter {
     add("  }}\n}};\n");
   }
 
-  /// Text of the author's behind `//`.
+  /// The author's text after `//`.
   static std::string one_line(std::string text) {
     for (char& c : text)
       if (static_cast<unsigned char>(c) < ' ' || c == '\\') c = ' ';
@@ -478,7 +480,7 @@ class CppPrinter {
   std::string name_space_;
   CppNames names_;
   std::vector<std::string> parameters_, states_, at_entry_, grids_, shapes_;
-  std::set<RegisterNumber> kept_;  ///< parameters and results of setup that a run reads
+  std::set<RegisterNumber> kept_;  ///< parameters and results of setup that enter or tick reads
   std::set<std::uint16_t> used_tables_;
   std::string members_;  ///< of `Setup`
   bool has_peaks_ = false;

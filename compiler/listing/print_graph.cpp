@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t rate_column = 8, value_column = 30, origin_column = 76;
 
-/// Sections that work out values of the tick's rate, a bit each.
+/// The sections that compute values at the rate of the tick, one bit each.
 enum SectionBit : unsigned { peak = 1, enter = 2, tick = 4, picture = 8, frame = 16, prediction = 32 };
 
 class GraphPrinter {
@@ -57,7 +57,7 @@ class GraphPrinter {
     for (NodeId id = static_cast<NodeId>(graph_.size()); id-- > 0;) {
       if (!needed_[id]) continue;
       const Node& node = graph_[id];
-      // What a peak is taken of is worked out over its lattice; its box is not.
+      // The value of a peak is computed over its lattice; the extents of the lattice are not.
       if (node.kind == Node::Kind::peak) want(node.a, peak);
       for (const NodeId operand : graph_.operands(id))
         want(operand, node.kind == Node::Kind::peak || node.rate != Rate::tick ? 0 : sections_[id]);
@@ -96,7 +96,7 @@ class GraphPrinter {
 
   void print_value(NodeId id) {
     const Node& node = graph_[id];
-    // The line that a constant or an input first stood on says nothing of its other uses.
+    // The line of a constant's or an input's first use says nothing of its other uses.
     const bool placed =
         node.kind == Node::Kind::operation || node.kind == Node::Kind::component || node.kind == Node::Kind::peak;
     std::string text = beside(fmt::format("  %{}", id), rate_column, rate_of(id));
@@ -135,7 +135,7 @@ class GraphPrinter {
   const Graph& graph_;
   const SolvedMaterial& material_;
   const SourceLines& lines_;
-  std::vector<unsigned> sections_;  ///< by value: those that work it out
+  std::vector<unsigned> sections_;  ///< by value: the sections that compute it
   std::vector<char> needed_;
   std::string text_;
 };

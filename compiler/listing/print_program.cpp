@@ -142,7 +142,7 @@ class ProgramPrinter {
     for (const auto& result : results_of(section, index)) line("       {}", result);
   }
 
-  /// What becomes of what a section has worked out.
+  /// What the program does with the results of a section.
   std::vector<std::string> results_of(CodeSection section, std::size_t index = 0) const {
     std::vector<std::string> results;
     switch (section) {

@@ -8,14 +8,14 @@
 
 namespace wale {
 
-/// What the result of an instruction is known to lie in, in words ("-0.5 .. 2"), where anything is known of it.
+/// The interval of an instruction's result in words ("-0.5 .. 2"), if it is known.
 using IntervalOf =
     std::function<std::optional<std::string>(CodeSection section, std::size_t index, std::size_t instruction)>;
 
-/// The program as the machine runs it: registers, then each section's instructions with their cost, their line of Wale
-/// and, where `interval_of` knows it, their interval; what becomes of the results; and what all of it costs.
+/// The program as the machine runs it: registers; then the instructions of each section with their cost, their line of
+/// Wale and, if `interval_of` gives it, their interval; the use of the results; and the total cost.
 ///
-/// Operands that have a name (inputs, parameters, states) go by it, constants by their value, all others by register.
+/// Inputs, parameters and states are shown by name, constants by value, all other operands by register.
 std::string print_program(const PatchProgram& program, const IntervalOf& interval_of = {});
 
 }  // namespace wale

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/parser.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 namespace {

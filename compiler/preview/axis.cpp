@@ -33,7 +33,7 @@ Notation speed_notation(double largest) {
 double round_number(double most) {
   if (!(most > 0)) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(most)));
-  // The slack keeps 5 from being read as 4.9999999 after a change of unit.
+  // The slack makes up for rounding: 5 may be 4.9999999 after a change of unit.
   for (double digit : {5.0, 2.0}) {
     if (digit * power <= most * (1 + 1e-9)) return digit * power;
   }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "compiler/image/image_library.hpp"
 #include "compiler/text/utf8.hpp"
 
 namespace wale {
@@ -15,7 +14,7 @@ constexpr std::array<std::string_view, 5> sans_fonts = {"DejaVuSans.ttf", "Liber
 constexpr std::array<std::string_view, 4> serif_fonts = {"DejaVuSerif.ttf", "LiberationSerif-Regular.ttf",
                                                          "NotoSerif-Regular.ttf", "FreeSerif.ttf"};
 
-/// What a font can set: control characters become spaces, and bytes that are not UTF-8 question marks.
+/// The text as a font can draw it: control characters become spaces, and bytes that are not UTF-8 question marks.
 std::string printable(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
@@ -32,7 +31,7 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-/// From `text`, its last letter removed.
+/// Removes the last letter of `text`.
 void drop_letter(std::string& text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.pop_back();
   if (!text.empty()) text.pop_back();
@@ -45,7 +44,7 @@ double distance_to_segment(PagePoint p, PagePoint a, PagePoint b) {
   return std::hypot(to.x - t * along.x, to.y - t * along.y);
 }
 
-/// The pieces that the dashes of a pen leave of a line.
+/// The pieces of a line that the dashes of a pen draw.
 std::vector<std::vector<PagePoint>> dashed(std::span<const PagePoint> points, double dash) {
   std::vector<std::vector<PagePoint>> pieces;
   if (dash <= 0) return {std::vector<PagePoint>(points.begin(), points.end())};
@@ -111,7 +110,7 @@ void Canvas::outline(const PageBox& box, const Pen& pen) {
   stroke(corners, pen);
 }
 
-// ImageBufAlgo::render_line has neither width nor smooth edges, so lines are covered here by their distance.
+// ImageBufAlgo::render_line has neither width nor smooth edges, so lines are drawn here by the distance of each pixel.
 void Canvas::stroke(std::span<const PagePoint> points, const Pen& pen) {
   if (points.size() < 2) return;
   const double radius = pen.width * fineness / 2;
@@ -217,7 +216,7 @@ void Canvas::write(PagePoint at, std::string_view text, const Type& type, Align 
 
 void Canvas::write_within(PagePoint at, double width, std::string_view text, const Type& type, Align align) {
   std::string shown = printable(text);
-  // Whoever writes a novel into a title gets its beginning; measuring all of it would take as long as reading it.
+  // Of a very long title only the beginning is measured; measuring all of it would take as long as reading it.
   if (shown.size() > 500) shown.resize(500), shown = printable(shown);
   if (width_of(shown, type) <= width) return write(at, shown, type, align);
   while (!shown.empty() && width_of(shown + "…", type) > width) drop_letter(shown);
@@ -239,9 +238,9 @@ void Canvas::place(const PageBox& box, std::span<const Colour> pixels) {
   }
 }
 
-Drawing Canvas::finish() const {
+Drawing Canvas::finish(const ImageLibrary& images) const {
   const int width = width_ / fineness, height = height_ / fineness;
-  return {width, height, image_library().shrunk(pixels_, width_, height_, width, height), static_cast<bool>(sans_)};
+  return {width, height, images.shrunk(pixels_, width_, height_, width, height), static_cast<bool>(sans_)};
 }
 
 }  // namespace wale

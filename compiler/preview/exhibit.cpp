@@ -8,9 +8,9 @@
 namespace wale {
 namespace {
 
-/// N; smaller forces are taken for none: a hundredth of what the finest joystick commands.
+/// N; smaller forces count as none: a hundredth of what the finest joystick commands
 constexpr float no_force = 1e-4f;
-/// m/s; a brisk stroke of the hand over a surface.
+/// m/s; a fast stroke of the hand over a surface
 constexpr double brisk = 0.5;
 constexpr int periods_shown = 8;
 
@@ -34,8 +34,8 @@ double spread(const std::vector<float>& values) {
   return static_cast<double>(*most) - *least;
 }
 
-/// The period of a regularly sampled signal in samples: where its autocorrelation first comes back above 0.7 after
-/// having fallen below 0.3. Nothing for what does not repeat three times.
+/// The period of a regularly sampled signal in samples: the first lag at which its autocorrelation is above 0.7 again
+/// after falling below 0.3. Nothing if the signal does not hold three periods.
 std::optional<double> period_of(std::vector<float> signal) {
   const std::size_t count = signal.size();
   double mean = 0;
@@ -58,7 +58,7 @@ std::optional<double> period_of(std::vector<float> signal) {
     const double after = correlation(lag + 1);
     fell = fell || here < 0.3;
     if (fell && here > 0.7 && here >= before && here >= after) {
-      // The vertex of the parabola through three lags lies between samples.
+      // The vertex of the parabola through three lags gives the position between samples.
       const double bend = before - 2 * here + after;
       return static_cast<double>(lag) + (bend < 0 ? 0.5 * (before - after) / bend : 0.0);
     }
@@ -68,7 +68,7 @@ std::optional<double> period_of(std::vector<float> signal) {
   return std::nullopt;
 }
 
-/// The texture's period along an axis, in m, on the line that lies `aside` from the centre.
+/// The period of the texture along an axis, in m, on the line at a distance of `aside` from the centre.
 std::optional<double> relief_period(const Bank& bank, const Memory* memory, int axis, double length, float aside) {
   constexpr int count = 3072;
   std::vector<glm::vec2> line(count, glm::vec2(aside));
@@ -87,10 +87,10 @@ double in_three_digits(double value) {
 }
 
 struct Look {
-  double relief = 0, force = 0;  // how much they vary
+  double relief = 0, force = 0;  // range of each
 };
 
-/// How much relief and force at rest vary over a set of positions.
+/// The variation of relief and of the force at rest over a set of positions.
 Look look_at(const Bank& bank, const Memory* memory, const std::vector<glm::vec2>& positions,
              std::vector<Force>* at_rest = nullptr) {
   std::vector<Hand> hands;
@@ -102,7 +102,7 @@ Look look_at(const Bank& bank, const Memory* memory, const std::vector<glm::vec2
   return look;
 }
 
-/// Of a tick's two numbers the force along the axis; of a pad how strongly it shakes.
+/// The force along the axis; for a pad, the amplitude of its shaking.
 int component_of(const Bank& bank, const Exhibit& exhibit) {
   return bank.program().description().vibrates() ? 0 : exhibit.axis;
 }
@@ -116,7 +116,7 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
   const double limit = bank.program().description().device.speed_limit;
   exhibit.speed = limit > 0 ? std::min(limit, brisk) : brisk;
 
-  // An odd lattice over the whole patch that no regular texture is in step with.
+  // A lattice over the whole patch with an odd number of points, so that no regular texture is in step with it.
   constexpr int lattice = 61;
   std::vector<glm::vec2> positions;
   for (int row = 0; row < lattice; ++row) {
@@ -142,21 +142,21 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
 
   if (exhibit.has_relief) {
     for (int axis : {0, 1}) {
-      // The rim's fade is no part of the texture.
+      // The fade at the rim is not part of the texture.
       const double length = (axis == 0 ? size.width : size.height) - 2.0 * size.rim;
       for (double aside : {0.0, 0.137}) {
         const auto period = relief_period(bank, memory, axis, length, static_cast<float>(aside * length));
         if (period) exhibit.period = std::max(exhibit.period.value_or(0.0), *period);
       }
     }
-    // Found from samples, so that the last digits are chance: 19.9973 mm is shown as 20.
-    // Marks are where their author put them, near a rib or far from it.
+    // The period comes from samples, so its last digits are random: 19.9973 mm is shown as 20.
+    // With marks the whole patch is shown: they may be anywhere on it.
     const bool marked = !bank.program().description().picture.marks.empty();
     if (exhibit.period && !marked)
       exhibit.side = std::min(exhibit.side, in_three_digits(periods_shown * *exhibit.period));
   }
 
-  // The section runs along x through the centre, unless nothing varies there: along ribs, or between rows of bumps.
+  // The section runs along x through the centre, unless nothing changes there: then along y, or between rows of bumps.
   constexpr int points = 997;
   const auto along = [&](int axis, double aside) {
     std::vector<glm::vec2> line(points, glm::vec2(static_cast<float>(aside)));

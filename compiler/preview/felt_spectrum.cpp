@@ -9,7 +9,6 @@
 #include "compiler/extract/band_spectrum.hpp"
 #include "compiler/extract/fourier.hpp"
 #include "compiler/measure/strokes.hpp"
-#include "compiler/modules/load_modules.hpp"
 
 namespace wale {
 namespace {
@@ -21,17 +20,17 @@ constexpr double turn = 6.283185307179586;
 
 }  // namespace
 
-FeltStroke felt_along(Bank bank, const Exhibit& exhibit) {
+FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand) {
   const DeviceProfile& device = bank.program().description().device;
   FeltStroke felt{.rate = device.rate > 0 ? device.rate : 1000, .forces = {}};
   double reach = room_to_stroke(bank.size()), frequency = 1;
-  if (const HandDeclaration* hand = common_modules()->declarations.hands.find("showing")) {
+  if (hand) {
     reach = std::min(reach, hand->lateral_amplitude);
     frequency = hand->lateral_frequency;
   }
   const auto place = [&](double time) {
     glm::dvec2 at(exhibit.aside);
-    at[exhibit.axis] = -reach * std::cos(turn * frequency * time);  // begins where it turns, at rest
+    at[exhibit.axis] = -reach * std::cos(turn * frequency * time);  // starts at rest at a turning point
     return at;
   };
   Memory memory(bank.program());
@@ -63,7 +62,7 @@ FeltSpectrum spectrum_of(std::span<const float> signal, double rate) {
     const Spectrum coefficients = fourier_of_line(part);
     std::vector<double>& amplitudes = spectrum.windows.emplace_back();
     for (std::size_t line = 0; line < lines; ++line) {
-      const bool alone = line == 0 || 2 * line == length;  // has no mirror image
+      const bool alone = line == 0 || 2 * line == length;  // this line has no mirror image
       amplitudes.push_back((alone ? 1 : 2) * std::abs(coefficients[line]) / gain);
       squares[line] += amplitudes.back() * amplitudes.back();
     }

@@ -28,7 +28,7 @@ std::vector<fs::path> font_folders() {
   return folders;
 }
 
-/// The file of that name anywhere below a folder, empty if there is none.
+/// The file of that name anywhere below a folder; empty if there is none.
 fs::path find_below(const fs::path& folder, std::string_view file_name) {
   std::error_code error;
   auto entry = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error);
@@ -44,7 +44,7 @@ struct Font::Face {
   std::vector<unsigned char> file;
   stbtt_fontinfo info{};
 
-  /// Calls `set(glyph, x)` with each letter's glyph and where it begins; returns where the next would.
+  /// Calls `set(glyph, x)` with each letter's glyph and its position; returns the position after the last.
   template <typename Set>
   double lay_out(std::string_view text, double size, Set set) const {
     const double scale = stbtt_ScaleForMappingEmToPixels(&info, static_cast<float>(size));

@@ -10,14 +10,14 @@ namespace wale {
 namespace {
 
 constexpr double stroke_width = 3;        // pixels; of lines, rings and springs
-constexpr double wire_width = 2;          // pixels; of springs, whose coils may lie close
-constexpr double halo = 3.5;              // pixels; by which the light edge behind a line is wider
-constexpr double least_diameter = 6;      // pixels; of a point, to be seen
-constexpr int coils = 8;                  // a spring keeps its coils however far it is stretched
-constexpr double lead = 0.1;              // of a spring's length, straight at either end
-constexpr double farthest = 1000;         // sides of the picture
-constexpr int fading_steps = 24;          // of a trajectory, from old to new
-constexpr PagePoint shadow = {2.5, 3.5};  // pixels; the lamp is at the upper left
+constexpr double wire_width = 2;          // pixels; of springs, whose coils may be close together
+constexpr double halo = 3.5;              // pixels; the light edge behind a line is wider by this
+constexpr double least_diameter = 6;      // pixels; of a point, so that it can be seen
+constexpr int coils = 8;                  // a spring keeps its number of coils when it is stretched
+constexpr double lead = 0.1;              // of a spring's length: the straight part at either end
+constexpr double farthest = 1000;         // sides of the picture; farther marks are left out
+constexpr int fading_steps = 24;          // steps of colour along a trajectory, from old to new
+constexpr PagePoint shadow = {2.5, 3.5};  // pixels; the light comes from the upper left
 constexpr float shadow_opacity = 0.2f;
 
 Colour colour_of(std::uint32_t code) {
@@ -63,7 +63,7 @@ class MarkPainter {
     }
   }
 
-  /// The hand: a ring that hides little of what it is on.
+  /// The hand: a ring, which hides little of the surface.
   void draw_hand(glm::vec2 place) {
     const PagePoint at = page(place.x, place.y);
     circle(at, 11, {4.5, style::paper, 0.7f});
@@ -102,7 +102,7 @@ class MarkPainter {
   }
 
   void rectangle(PagePoint at, double width, double height, double angle, Colour colour) {
-    // Turned counterclockwise on the patch, whose y goes up while the page's goes down.
+    // Counterclockwise on the patch: its y points up, and that of the page down.
     const PagePoint along = PagePoint(std::cos(angle), -std::sin(angle)) * (width / 2),
                     across = PagePoint(std::sin(angle), std::cos(angle)) * (height / 2);
     std::array corners = {at - along - across, at + along - across, at + along + across, at - along + across};
@@ -124,7 +124,7 @@ class MarkPainter {
     const double length = std::hypot(along.x, along.y);
     const PagePoint way = length > 0 ? along / length : PagePoint(1, 0), side(-way.y, way.x);
     std::vector<PagePoint> points = {from};
-    constexpr int swings = 2 * coils;  // to one side and the other
+    constexpr int swings = 2 * coils;  // turns to one side and the other
     for (int i = 0; i <= swings + 1; ++i) {
       const double part = lead + (1 - 2 * lead) * i / (swings + 1);
       const double aside = i == 0 || i > swings ? 0 : (i % 2 == 1 ? 0.5 : -0.5) * width;
@@ -136,7 +136,7 @@ class MarkPainter {
     dot(to, 7, colour, 1);
   }
 
-  /// Old parts are pale: mixed rather than see-through, so that pieces that overlap leave no beads.
+  /// Old parts are pale. The colour is mixed and not transparent, so that overlapping pieces leave no beads.
   void trajectory(const std::vector<glm::vec2>& path, PagePoint now, Colour colour) {
     std::vector<PagePoint> points;
     for (glm::vec2 place : path) {

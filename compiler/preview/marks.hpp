@@ -6,9 +6,8 @@
 
 namespace wale {
 
-/// The shapes that a program shows, at the end of its rehearsal, over the exhibit's square and clipped to it; before
-/// them, where the program remembers, the ring that is the hand. Shapes that are nowhere (not-a-number, or a thousand
-/// pictures away) are left out.
+/// Draws the marks of a program at the end of its rehearsal, clipped to the exhibit's square; first, if the program has
+/// memory, the ring of the hand. Marks without a position (not-a-number, or a thousand pictures away) are left out.
 void draw_marks(Canvas& canvas, const PageBox& box, const Exhibit& exhibit, const Rehearsal& rehearsal);
 
 }  // namespace wale

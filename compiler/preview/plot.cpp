@@ -12,7 +12,7 @@ struct AxisRange {
   double low = 0, high = 0;
 };
 
-/// The y axis of a plot, in shown units, with air above and below the curves.
+/// The y axis of a plot, in shown units, with space above and below the curves.
 AxisRange y_range(const Plot& plot) {
   double low = 1e300, high = -1e300;
   for (const Curve& curve : plot.curves) {
@@ -30,7 +30,7 @@ std::string with_unit(const std::string& name, const Notation& notation) {
   return notation.unit.empty() ? name : name + ", " + notation.unit;
 }
 
-/// The names of the curves, each after a stroke of its colour, ending at the right of the title's line.
+/// The names of the curves, each after a line in its colour, right-aligned with the title.
 void write_key(Canvas& canvas, const PageBox& box, const Plot& plot) {
   double right = box.right;
   for (std::size_t i = plot.curves.size(); i-- > 0;) {

@@ -26,16 +26,16 @@ constexpr double margin = 64;
 constexpr PageBox picture = {margin, 196, margin + 580, 776};
 constexpr PageBox upper_plot = {764, 226, page_width - margin, 456};
 constexpr PageBox lower_plot = {764, 534, page_width - margin, 776};
-// Where both have an axis of their own below.
+// For two plots that each have an axis below.
 constexpr PageBox upper_of_two = {764, 226, page_width - margin, 438};
 constexpr PageBox lower_of_two = {764, 564, page_width - margin, 776};
 constexpr PageBox tall_plot = {764, 226, page_width - margin, 776};
-// Below the words at the foot.
+// Below the words at the foot of the page.
 constexpr PageBox spectrum_plot = {margin + 70, 1050, margin + 650, 1250};
 constexpr PageBox spectrogram_plot = {margin + 770, 1050, page_width - margin, 1250};
-constexpr double least_force = 1e-4;  // N; weaker ones are none
+constexpr double least_force = 1e-4;  // N; weaker forces count as none
 constexpr int curve_points = 1801;
-constexpr double stroking_speed = 0.1;  // m/s; of the second force curve, where motion is resisted
+constexpr double stroking_speed = 0.1;  // m/s; of the second force curve, drawn if the program resists motion
 
 const char* axis_name(const Exhibit& exhibit) { return exhibit.axis == 0 ? "x" : "y"; }
 
@@ -54,7 +54,7 @@ void write_caption(Canvas& canvas, const std::string& text) {
   canvas.write({picture.right, picture.bottom + 24.5}, text, style::label, Align::right);
 }
 
-/// Where on the relief the curves beside it were taken.
+/// Marks the line on the relief along which the curves beside it were taken.
 void mark_section(Canvas& canvas, const Exhibit& exhibit) {
   const double aside = exhibit.aside / exhibit.side * picture.width();
   const double x = (picture.left + picture.right) / 2 + aside, y = (picture.top + picture.bottom) / 2 - aside;
@@ -116,7 +116,7 @@ Plot speed_plot(const Bank& bank, const Exhibit& exhibit) {
   return plot;
 }
 
-/// How strongly a pad shakes.
+/// How strongly a pad shakes, against velocity.
 Plot shaking_plot(const Bank& bank, const Exhibit& exhibit) {
   Plot plot = speed_plot(bank, exhibit);
   plot.title = fmt::format("Amplitude of the shaking against velocity along {}", axis_name(exhibit));
@@ -125,7 +125,7 @@ Plot shaking_plot(const Bank& bank, const Exhibit& exhibit) {
   return plot;
 }
 
-/// Where the hand was along x while it rubbed.
+/// The position of the hand along x while it rubbed.
 Plot stroke_plot(const Rehearsal& rehearsal) {
   Plot plot;
   plot.title = "The hand along x, rubbing to and fro";
@@ -138,7 +138,7 @@ Plot stroke_plot(const Rehearsal& rehearsal) {
   return plot;
 }
 
-/// What it felt meanwhile.
+/// The force over the same time.
 Plot felt_plot(const Rehearsal& rehearsal) {
   Plot plot;
   plot.title = "Force on the hand";
@@ -155,9 +155,13 @@ Plot felt_plot(const Rehearsal& rehearsal) {
   return plot;
 }
 
-void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+/// Whether the force is shown against velocity: the program only resists motion.
+bool is_of_velocity(const Exhibit& exhibit) { return !exhibit.pushes_at_rest && exhibit.resists_motion; }
+
+void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
+                  const ImageLibrary& images) {
   const bool in_time = remembers(bank.program().description());
-  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit);
+  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit, images);
   if (exhibit.has_relief) mark_section(canvas, exhibit);
   draw_marks(canvas, picture, exhibit, rehearsal);
   const Notation length = length_notation(exhibit.side);
@@ -187,7 +191,7 @@ void draw_field_and_scale(Canvas& canvas, const Bank& bank, const Exhibit& exhib
   }
 }
 
-/// Beside what has neither relief nor memory: how it pushes, and how it resists.
+/// The plots of a program without relief and memory: how it pushes, and how it resists motion.
 void draw_force_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
   if (of_velocity) return draw_plot(canvas, tall_plot, speed_plot(bank, exhibit));
   Plot at_rest = force_plot(bank, exhibit);
@@ -219,10 +223,10 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
   canvas.write_within({margin, 957}, width, text.evidence, style::label);
 }
 
-/// What there is to hear of a stroke, where the force is one and changes on the way.
-std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit) {
+/// The spectrum of the force under a stroking hand; nothing for a pad, and for a force that does not change on the way.
+std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit, const HandDeclaration* hand) {
   if (bank.program().description().vibrates()) return std::nullopt;
-  const FeltStroke felt = felt_along(bank, exhibit);
+  const FeltStroke felt = felt_along(bank, exhibit, hand);
   FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
   const auto& amplitudes = spectrum.amplitudes;
   if (amplitudes.empty() || !(*std::max_element(amplitudes.begin(), amplitudes.end()) > least_force))
@@ -230,50 +234,69 @@ std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhib
   return spectrum;
 }
 
+/// The left half of the page: the surface, or the field of a force without one.
+void draw_picture(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
+                  const ImageLibrary& images) {
+  const PatchProgram& program = bank.program().description();
+  const bool has_surface = exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() ||
+                           remembers(program) || program.vibrates();
+  if (has_surface)
+    draw_surface(canvas, bank, exhibit, rehearsal, images);
+  else
+    draw_field_and_scale(canvas, bank, exhibit, is_of_velocity(exhibit));
+}
+
+void draw_shaking_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  // A pad without a position shakes alike however the hand moves.
+  const bool of_speed = bank.program().description().device.has_position();
+  const bool both = exhibit.has_relief && of_speed;
+  if (exhibit.has_relief)
+    draw_plot(canvas, both ? upper_of_two : tall_plot, height_plot(bank, rehearsal.memory, exhibit));
+  if (of_speed) draw_plot(canvas, both ? lower_of_two : tall_plot, shaking_plot(bank, exhibit));
+}
+
+/// The plots of a program that remembers: its surface or the hand's way, and the force over the rehearsal.
+void draw_rehearsed_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  if (!exhibit.has_relief) {
+    draw_plot(canvas, upper_plot, stroke_plot(rehearsal));
+    return draw_plot(canvas, lower_plot, felt_plot(rehearsal));
+  }
+  Plot heights = height_plot(bank, rehearsal.memory, exhibit);
+  heights.x_name = fmt::format("position {}", axis_name(exhibit));
+  draw_plot(canvas, upper_of_two, heights);
+  draw_plot(canvas, lower_of_two, felt_plot(rehearsal));
+}
+
+/// The right half of the page.
+void draw_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal) {
+  const PatchProgram& program = bank.program().description();
+  if (program.vibrates()) return draw_shaking_plots(canvas, bank, exhibit, rehearsal);
+  if (remembers(program)) return draw_rehearsed_plots(canvas, bank, exhibit, rehearsal);
+  if (!exhibit.has_relief) return draw_force_plots(canvas, bank, exhibit, is_of_velocity(exhibit));
+  draw_plot(canvas, upper_plot, height_plot(bank, rehearsal.memory, exhibit));
+  draw_plot(canvas, lower_plot, force_plot(bank, exhibit));
+}
+
 }  // namespace
 
-Drawing draw_preview(const Bank& bank, const PreviewText& text) {
-  const PatchProgram& program = bank.program().description();
-  const Rehearsal rehearsal = rehearse(bank);
+Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations) {
+  const auto images = image_library();
+  if (!images) return images.error();
+  const HandDeclaration* hand = declarations.hands.find("showing");
+  const Rehearsal rehearsal = rehearse(bank, hand);
   const Exhibit exhibit = exhibit_of(bank, &rehearsal.memory);
-  const bool of_velocity = !exhibit.pushes_at_rest && exhibit.resists_motion;
-  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit);
+  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit, hand);
   Canvas canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
   write_words(canvas, bank, text);
-  if (exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() || remembers(program)) {
-    draw_surface(canvas, bank, exhibit, rehearsal);
-  } else if (program.vibrates()) {
-    draw_surface(canvas, bank, exhibit, rehearsal);
-  } else {
-    draw_field_and_scale(canvas, bank, exhibit, of_velocity);
-  }
-  if (program.vibrates()) {
-    const bool of_speed = program.device.has_position();  // otherwise it shakes as it does, however the hand goes
-    const bool both = exhibit.has_relief && of_speed;
-    if (exhibit.has_relief)
-      draw_plot(canvas, both ? upper_of_two : tall_plot, height_plot(bank, rehearsal.memory, exhibit));
-    if (of_speed) draw_plot(canvas, both ? lower_of_two : tall_plot, shaking_plot(bank, exhibit));
-  } else if (remembers(program) && exhibit.has_relief) {
-    Plot heights = height_plot(bank, rehearsal.memory, exhibit);
-    heights.x_name = fmt::format("position {}", axis_name(exhibit));
-    draw_plot(canvas, upper_of_two, heights);
-    draw_plot(canvas, lower_of_two, felt_plot(rehearsal));
-  } else if (remembers(program)) {
-    draw_plot(canvas, upper_plot, stroke_plot(rehearsal));
-    draw_plot(canvas, lower_plot, felt_plot(rehearsal));
-  } else if (exhibit.has_relief) {
-    draw_plot(canvas, upper_plot, height_plot(bank, rehearsal.memory, exhibit));
-    draw_plot(canvas, lower_plot, force_plot(bank, exhibit));
-  } else {
-    draw_force_plots(canvas, bank, exhibit, of_velocity);
-  }
+  draw_picture(canvas, bank, exhibit, rehearsal, **images);
+  draw_plots(canvas, bank, exhibit, rehearsal);
   canvas.outline(picture, {1, style::rule});
   if (spectrum) {
     canvas.line({margin, 985}, {page_width - margin, 985}, {1, style::rule});
     draw_spectrum(canvas, spectrum_plot, *spectrum);
     draw_spectrogram(canvas, spectrogram_plot, *spectrum);
   }
-  return canvas.finish();
+  return canvas.finish(**images);
 }
 
 }  // namespace wale

@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
   return text;
 }
 
-/// What the representative layer says under a word, empty when it does not.
+/// The entries of the representative layer under a key; empty if there are none.
 std::vector<std::string> said(const Layers& layers, std::string_view word) {
   for (const auto& [name, values] : layers.representative) {
     if (name == word) return values;
@@ -27,21 +27,21 @@ std::vector<std::string> said(const Layers& layers, std::string_view word) {
 }
 
 /// "roughness: measured (Minsky 1995, figure 19) on sandpaper, 95 % of observers' means within 0.48 .. 0.75": the worst
-/// of the three grades, where it comes from and how sure it is.
+/// of the three grades, its source and its interval.
 std::string evidence_of(const DescribedPercept& percept) {
   std::string text = fmt::format("{}: {}", percept.name, evidence_word(percept.worst));
   if (!percept.source.empty()) text += fmt::format(" ({})", percept.source);
   if (!percept.device.empty()) text += " on " + percept.device;
   if (percept.low < percept.high)
     text += fmt::format(", 95 % of means within {:.2f} .. {:.2f}", percept.low, percept.high);
-  if (percept.saturated) text += ", all that the device can push";
+  if (percept.saturated) text += ", limited by the device";
   if (percept.outside_validity) text += ", outside the measured range";
   return text;
 }
 
 }  // namespace
 
-PreviewText preview_text(const Bank& bank) {
+PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   PreviewText text;
   text.title = joined(said(program.layers, "title"), " ");
@@ -51,7 +51,7 @@ PreviewText preview_text(const Bank& bank) {
   }
   text.names = joined(said(program.layers, "called"), " · ");
 
-  const Description description = describe(bank);
+  const Description description = describe(bank, declarations, Texture::left_out);
   std::vector<std::string> evidence;
   for (const DescribedPercept& percept : description.percepts) {
     text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});
@@ -59,9 +59,9 @@ PreviewText preview_text(const Bank& bank) {
     text.figures.push_back({percept.carrier, shown_quantity(percept.amplitude, notation)});
     evidence.push_back(evidence_of(percept));
   }
-  text.evidence = evidence.empty() ? "described by its physics alone: no percept" : joined(evidence, " · ");
+  text.evidence = evidence.empty() ? "physics only, without a percept" : joined(evidence, " · ");
   if (description.shaking)
-    text.figures.push_back({"most shaking", shown_quantity(description.shaking->max, {"m/s²", 1})});
+    text.figures.push_back({"maximum shaking", shown_quantity(description.shaking->max, {"m/s²", 1})});
   else
     text.figures.push_back(
         {"maximum force", shown_quantity(description.force.max_newton, force_notation(description.force.max_newton))});

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "compiler/image/image_library.hpp"
 #include "wale/picture.hpp"
 
 namespace wale {
@@ -14,11 +13,11 @@ constexpr Colour plaster = {0.865f, 0.820f, 0.745f};
 constexpr Colour umbra = {0.225f, 0.190f, 0.180f};
 constexpr Colour glint = {1.0f, 0.992f, 0.965f};
 
-/// Rows from the top, one more pixel on every side than is shown, so that slopes at the edge have both neighbours.
+/// Rows from the top, with one more pixel on every side than is shown, so that slopes at the edge have both neighbours.
 struct Heights {
   int side = 0;
   std::vector<float> values;
-  std::vector<Colour> colours;  // beside `values`; empty where the program says none
+  std::vector<Colour> colours;  // for each value; empty if the program has no colours
   std::size_t index(int column, int row) const { return static_cast<std::size_t>(row * side + column); }
   float at(int column, int row) const { return values[index(column, row)]; }
 };
@@ -38,28 +37,29 @@ Heights heights_of(const Bank& bank, const Memory* memory, const Exhibit& exhibi
   }
   const auto [least, most] = std::minmax_element(heights.values.begin(), heights.values.end());
   const float low = *least, range = *most - *least;
-  // What is flat is level ground at its top.
+  // A flat surface is level ground at height 1.
   for (float& value : heights.values) value = range > 1e-30f ? (value - low) / range : 1.0f;
   return heights;
 }
 
-/// A surface of a colour where plaster would look like `lamp`.
+/// A surface of its own colour in the light in which plaster looks like `lamp`.
 Colour lit_by(Colour lamp, Colour surface) {
   const auto part = [](float light, float white, float own) { return std::min(own * light / white, 1.0f); };
   return {part(lamp.red, plaster.red, surface.red), part(lamp.green, plaster.green, surface.green),
           part(lamp.blue, plaster.blue, surface.blue)};
 }
 
-/// How far each point lies below its surroundings, 0 .. 1: the light that a hollow does not get. `reach` in pixels.
-std::vector<float> hollowness(const Heights& heights, double reach) {
-  std::vector<float> hollow = image_library().surroundings(heights.values, heights.side, reach);
+/// The depth of each point below its surroundings, 0 .. 1, which darkens hollows. `reach` is in pixels.
+std::vector<float> hollowness(const Heights& heights, double reach, const ImageLibrary& images) {
+  std::vector<float> hollow = images.surroundings(heights.values, heights.side, reach);
   for (std::size_t i = 0; i < hollow.size(); ++i) hollow[i] = std::clamp(hollow[i] - heights.values[i], 0.0f, 1.0f);
   return hollow;
 }
 
 }  // namespace
 
-void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit) {
+void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit,
+                 const ImageLibrary& images) {
   const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness));
   const Heights heights = heights_of(bank, memory, exhibit, shown);
 
@@ -76,11 +76,11 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Mem
   }
   const auto steep = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() * 98 / 100);
   std::nth_element(slopes.begin(), steep, slopes.end());
-  // A flank at the 98th percentile stands at 50 degrees.
+  // A flank at the 98th percentile of steepness is drawn at 50 degrees.
   const float exaggeration = 1.2f / std::max(*steep, 1e-9f);
 
   const double texture = exhibit.period.value_or(exhibit.side / 8) / exhibit.side * shown;
-  const std::vector<float> hollow = hollowness(heights, texture);
+  const std::vector<float> hollow = hollowness(heights, texture, images);
 
   const float light[3] = {-0.52f, 0.52f, 0.68f};
   std::vector<Colour> pixels;
@@ -92,7 +92,7 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Mem
       const float lit = (-s.x * light[0] - s.y * light[1] + light[2]) * normal;
       const float height = heights.at(column + 1, row + 1);
       const float in_hollow = hollow[static_cast<std::size_t>((row + 1) * heights.side + column + 1)];
-      // Level ground keeps the plaster's own colour; flanks go to the glint or the shadow.
+      // Level ground has the colour of plaster; flanks go towards the glint or the shadow.
       const float tone = lit - light[2];
       const float shade =
           std::clamp(0.42f * in_hollow + 0.10f * (1 - height) + (tone < 0 ? -0.95f * tone : 0.0f), 0.0f, 0.92f);

@@ -5,9 +5,9 @@
 
 namespace wale {
 
-/// The surface under a lamp at the upper left, over the exhibit's square, as the memory has it: plaster or, where the
-/// program says colours, those times the lamp's light, 1 on level ground. Steepness is exaggerated to what the eye
-/// likes; height is not to scale.
-void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit);
+/// Draws the surface over the exhibit's square, lit from the upper left, with the heights of the memory. It is plaster,
+/// or has the program's colours. Steepness is exaggerated for the eye; height is not to scale.
+void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit,
+                 const ImageLibrary& images);
 
 }  // namespace wale

@@ -11,11 +11,11 @@
 namespace wale {
 namespace {
 
-/// Of the power: what lies above the shown frequencies is no more.
+/// The share of the power above the shown frequencies is at most this.
 constexpr double unseen_power = 0.002;
 constexpr double least_lines = 8;
 
-/// Hz; both panels end here.
+/// The highest frequency of both panels, Hz.
 double highest_shown(const FeltSpectrum& spectrum) {
   double whole = 0, sum = 0;
   for (const double amplitude : spectrum.amplitudes) whole += amplitude * amplitude;
@@ -28,7 +28,7 @@ double highest_shown(const FeltSpectrum& spectrum) {
   return std::min(spectrum.frequencies.back(), std::max(1.15 * spectrum.frequencies[line], least_lines * width));
 }
 
-/// Between four lines: where a pixel lies between two windows and two frequencies.
+/// Interpolates for a pixel between two windows and two frequencies.
 double amplitude_at(const FeltSpectrum& spectrum, double window, double line) {
   const auto between = [](std::size_t count, double at) {
     const double low = std::clamp(std::floor(at), 0.0, static_cast<double>(count - 1));
@@ -44,9 +44,9 @@ double amplitude_at(const FeltSpectrum& spectrum, double window, double line) {
   return of(spectrum.windows[early]) + later_share * (of(spectrum.windows[late]) - of(spectrum.windows[early]));
 }
 
-/// Paper, then the colour of forces, then ink.
+/// From paper over the colour of forces to ink.
 Colour shade_of(double share) {
-  const auto part = static_cast<float>(std::sqrt(std::clamp(share, 0.0, 1.0)));  // so that the weak is seen too
+  const auto part = static_cast<float>(std::sqrt(std::clamp(share, 0.0, 1.0)));  // so that weak components are visible
   return part < 0.7f ? mixed(style::field_weak, style::force, part / 0.7f)
                      : mixed(style::force, style::ink, (part - 0.7f) / 0.3f);
 }
@@ -79,7 +79,7 @@ void draw_spectrogram(Canvas& canvas, const PageBox& box, const FeltSpectrum& sp
   const auto rows = static_cast<std::size_t>(std::lround(box.height() * Canvas::fineness));
   std::vector<Colour> pixels;
   pixels.reserve(columns * rows);
-  // The first and the last window reach to the stroke's ends; a window stands for its middle.
+  // The first and the last window reach the ends of the stroke; a window is drawn at its middle.
   const double half_window = 0.5 / spectrum.frequencies[1];
   const double apart = spectrum.windows.size() > 1
                            ? (spectrum.seconds - 2 * half_window) / static_cast<double>(spectrum.windows.size() - 1)

@@ -5,10 +5,10 @@
 
 namespace wale {
 
-/// The force's amplitude over its frequencies, up to the highest that matters. `box` is the frame, as a plot's is.
+/// The amplitude of the force over frequency, up to the highest that matters. `box` is the frame, as for a plot.
 void draw_spectrum(Canvas& canvas, const PageBox& box, const FeltSpectrum& spectrum);
 
-/// The same over the time of the stroke: the darker the stronger.
+/// The same over the time of the stroke; darker is stronger.
 void draw_spectrogram(Canvas& canvas, const PageBox& box, const FeltSpectrum& spectrum);
 
 }  // namespace wale

@@ -2,14 +2,14 @@
 
 #include "compiler/preview/canvas.hpp"
 
-/// The colours and letters of a preview, in one place. Each colour differs from its neighbours in lightness too, so
-/// that a grey print says the same.
+/// The colours and letters of a preview. Neighbouring colours differ in lightness too, so that a grey print is
+/// readable.
 namespace wale::style {
 
 inline constexpr Colour paper = {0.992f, 0.988f, 0.976f};
 inline constexpr Colour ink = {0.13f, 0.125f, 0.12f};
-inline constexpr Colour quiet = {0.45f, 0.43f, 0.41f};    // words of second rank
-inline constexpr Colour rule = {0.83f, 0.81f, 0.775f};    // lines that only order the page
+inline constexpr Colour quiet = {0.45f, 0.43f, 0.41f};    // secondary text
+inline constexpr Colour rule = {0.83f, 0.81f, 0.775f};    // lines that divide the page
 inline constexpr Colour height = {0.49f, 0.335f, 0.17f};  // the surface
 inline constexpr Colour force = {0.10f, 0.29f, 0.46f};    // the force at rest
 inline constexpr Colour moving = {0.80f, 0.42f, 0.17f};   // the force on a moving hand

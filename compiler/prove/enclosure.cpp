@@ -11,16 +11,17 @@ namespace wale {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Half a unit in the last place of a float: what a correctly rounded operation may add, of its result.
+/// Half a unit in the last place of a float, relative: the error of a correctly rounded operation.
 constexpr double half_unit = 0x1p-24;
-/// What may become zero, twice over: operands and results.
+/// The size below which numbers may be flushed to zero, twice: for operands and results.
 constexpr double flushed_operands = 2 * 1.1754943508222875e-38;
-/// Of all figures of a form together: far more than a few operations in double, summed over a hundred quantities, lose.
+/// Relative to all figures of a form together: far more than the rounding of a few operations in double over a hundred
+/// quantities.
 constexpr double double_rounding = 0x1p-44;
 
 constexpr double ln_2 = 0.69314718055994531;
 
-/// scale_a a + scale_b b + offset, the forms alone. The result's rest has no rounding yet.
+/// scale_a a + scale_b b + offset, for the forms only. The result's rest does not include rounding yet.
 Enclosure combined(const Enclosure& a, double scale_a, const Enclosure& b, double scale_b, double offset = 0) {
   Enclosure result;
   result.centre = scale_a * a.centre + scale_b * b.centre + offset;
@@ -29,14 +30,14 @@ Enclosure combined(const Enclosure& a, double scale_a, const Enclosure& b, doubl
   return result;
 }
 
-/// value + slope (a - at): a line through a smooth function's graph.
+/// value + slope (a - at): a tangent of a smooth function.
 Enclosure line(const Enclosure& a, double slope, double value, double at) {
   Enclosure result = combined(a, slope, {}, 0);
   result.centre = value + slope * (a.centre - at);
   return result;
 }
 
-/// A form and an interval that both hold, made one; `error` is what the machine may add to the form.
+/// Joins a form and an interval that both hold. `error` is the machine's possible error in the form.
 Enclosure finished(Enclosure form, const Interval& range, double error) {
   double size = std::abs(form.centre) + form.rest;
   for (const double slope : form.slopes) size += std::abs(slope);
@@ -45,7 +46,7 @@ Enclosure finished(Enclosure form, const Interval& range, double error) {
   if (!(radius < unbounded) || !std::isfinite(form.centre)) return Enclosure::of(range);
   const double low = form.centre - radius, high = form.centre + radius;
   form.range = intersection(range, outward(low - double_rounding * size, high + double_rounding * size, true));
-  // A form that is much wider than what is known anyway says nothing more.
+  // A form that is much wider than the interval adds nothing.
   const double known = (static_cast<double>(form.range.high) - form.range.low) / 2;
   if (radius > 2 * known) return Enclosure::of(form.range);
   return form;
@@ -56,8 +57,8 @@ double reach(const Interval& range, double at) {
   return std::max(std::abs(static_cast<double>(range.low) - at), std::abs(static_cast<double>(range.high) - at));
 }
 
-/// A smooth function by its tangent in the middle: `value` and `slope` there, no more than `curvature` of second
-/// derivative anywhere, `error` of the machine's function and of the two figures.
+/// A smooth function by its tangent in the middle: `value` and `slope` there; `curvature` bounds the second derivative;
+/// `error` bounds the error of the machine's function and of the two figures.
 Enclosure smooth(const Enclosure& a, const Interval& range, float at, double value, double slope, double curvature,
                  double error) {
   const double distance = reach(a.range, at);
@@ -81,7 +82,7 @@ Enclosure quotient(const Enclosure& a, const Enclosure& b, const Interval& range
       std::min(std::abs(static_cast<double>(b.range.low)), std::abs(static_cast<double>(b.range.high)));
   const double at = middle(b);
   const double distance = reach(b.range, at);
-  // 1 / b, of which no register holds a rounded value.
+  // 1 / b, which is not rounded since no register holds it.
   Enclosure reciprocal = line(b, -1 / (at * at), 1 / at, at);
   reciprocal.rest += distance * distance / (least * least * least);
   reciprocal.rest += double_rounding * (std::abs(reciprocal.centre) + reciprocal.radius());
@@ -97,6 +98,44 @@ Enclosure wave(const Enclosure& a, const Interval& range, float (*of)(float), do
   return smooth(a, range, at, of(at), slope, 1, 2 * error + error * reach(a.range, at));
 }
 
+/// The enclosure of a smooth function of one operand; of other operations only the range.
+Enclosure smooth_function(Operation operation, const Enclosure& a, const Interval& range) {
+  if (!a.range.is_finite()) return Enclosure::of(range);
+  switch (operation) {
+    case Operation::sine: return wave(a, range, sine_of, cosine_of(middle(a)));
+    case Operation::cosine: return wave(a, range, cosine_of, -static_cast<double>(sine_of(middle(a))));
+    case Operation::exp2: {
+      constexpr double error = 2e-7;
+      const double largest = range.high, value = exp2_of(middle(a));
+      return smooth(a, range, middle(a), value, ln_2 * value, ln_2 * ln_2 * largest,
+                    error * (largest + value * (1 + reach(a.range, middle(a)))));
+    }
+    case Operation::log2: {
+      constexpr double error = 2e-7;
+      if (a.range.low <= 0) break;
+      const double at = middle(a), value = log2_of(middle(a)), least = a.range.low;
+      return smooth(a, range, middle(a), value, 1 / (ln_2 * at), 1 / (ln_2 * least * least),
+                    error * (range.largest() + std::abs(value)));
+    }
+    case Operation::square_root: {
+      if (a.range.low <= 0) break;
+      const double value = std::sqrt(static_cast<double>(middle(a))), least = a.range.low;
+      return smooth(a, range, middle(a), value, 0.5 / value, 0.25 / (least * std::sqrt(least)),
+                    range.largest() * half_unit);
+    }
+    case Operation::normal: {
+      // of the density, whose slope is 0.2420 at one standard deviation
+      constexpr double error = 2e-7, steepest_change = 0.25;
+      const float at = middle(a);
+      const double density = 0.39894228040143268 * exp2_of(at * at * -0.72134752f);
+      return smooth(a, range, at, normal_of(at), density, steepest_change,
+                    2 * error + 1e-5 * reach(a.range, at));  // the density, with its argument rounded
+    }
+    default: break;
+  }
+  return Enclosure::of(range);
+}
+
 }  // namespace
 
 Enclosure Enclosure::of(const Interval& range) {
@@ -107,7 +146,7 @@ Enclosure Enclosure::of(const Interval& range) {
     return result;
   }
   result.centre = 0.5 * (static_cast<double>(range.low) + range.high);
-  // The ends are floats, so that the middle and half the width are exact in double but for floats very far apart.
+  // The ends are floats, so the middle and half the width are exact in double unless the floats are very far apart.
   result.rest = 0.5 * (static_cast<double>(range.high) - range.low) * (1 + 0x1p-50) + flushed_operands;
   return result;
 }
@@ -149,7 +188,7 @@ Enclosure enclose(Operation operation, const Enclosure& a, const Enclosure& b, c
       if (a.range.low >= 0) return chosen(a);
       if (a.range.high <= 0) return finished(combined(a, -1, a, 0), range, 0);
       break;
-    // In these a comparison with not-a-number gives a, whatever b is.
+    // A comparison with not-a-number gives a.
     case Operation::minimum:
       if (a.range.high <= b.range.low) return chosen(a);
       if (b.range.high < a.range.low && !b.range.maybe_nan) return chosen(b);
@@ -158,7 +197,7 @@ Enclosure enclose(Operation operation, const Enclosure& a, const Enclosure& b, c
       if (a.range.low >= b.range.high) return chosen(a);
       if (b.range.low > a.range.high && !b.range.maybe_nan) return chosen(b);
       break;
-    case Operation::floor: {  // a, less a fraction in [0, 1)
+    case Operation::floor: {  // a minus a fraction in [0, 1)
       if (!finite) break;
       Enclosure below = combined(a, 1, {}, 0);
       below.centre -= 0.5;
@@ -173,37 +212,7 @@ Enclosure enclose(Operation operation, const Enclosure& a, const Enclosure& b, c
       if (a.range.largest() <= b.range.low) return chosen(a);
       if (a.range.low >= b.range.high) return chosen(b);
       break;
-    case Operation::sine: return finite ? wave(a, range, sine_of, cosine_of(middle(a))) : Enclosure::of(range);
-    case Operation::cosine:
-      return finite ? wave(a, range, cosine_of, -static_cast<double>(sine_of(middle(a)))) : Enclosure::of(range);
-    case Operation::exp2: {
-      constexpr double error = 2e-7;
-      if (!finite) break;
-      const double largest = range.high, value = exp2_of(middle(a));
-      return smooth(a, range, middle(a), value, ln_2 * value, ln_2 * ln_2 * largest,
-                    error * (largest + value * (1 + reach(a.range, middle(a)))));
-    }
-    case Operation::log2: {
-      constexpr double error = 2e-7;
-      if (!finite || a.range.low <= 0) break;
-      const double at = middle(a), value = log2_of(middle(a)), least = a.range.low;
-      return smooth(a, range, middle(a), value, 1 / (ln_2 * at), 1 / (ln_2 * least * least),
-                    error * (range.largest() + std::abs(value)));
-    }
-    case Operation::square_root: {
-      if (!finite || a.range.low <= 0) break;
-      const double value = std::sqrt(static_cast<double>(middle(a))), least = a.range.low;
-      return smooth(a, range, middle(a), value, 0.5 / value, 0.25 / (least * std::sqrt(least)), rounding);
-    }
-    case Operation::normal: {
-      constexpr double error = 2e-7, steepest_change = 0.25;  // of the density: 0.2420 at one standard deviation
-      if (!finite) break;
-      const float at = middle(a);
-      const double density = 0.39894228040143268 * exp2_of(at * at * -0.72134752f);
-      return smooth(a, range, at, normal_of(at), density, steepest_change,
-                    2 * error + 1e-5 * reach(a.range, at));  // the density, with its argument rounded
-    }
-    default: break;
+    default: return smooth_function(operation, a, range);
   }
   return Enclosure::of(range);
 }

@@ -11,19 +11,19 @@
 namespace wale {
 namespace {
 
-/// A bound this much above what was found is as good as exact.
+/// A bound this close to the found force counts as exact.
 constexpr double close_enough = 1.001;
-/// The share of the effort after which it is given up, if all that time the bound has not come down by a thousandth.
+/// The search stops after this share of the effort without an improvement by a thousandth.
 constexpr long patience = 16;
-/// What an evaluation costs besides its instructions, in instructions.
+/// The fixed cost of an evaluation, in instructions.
 constexpr long evaluation_overhead = 40;
 
-/// A part of the domain and what is proved there.
+/// A part of the domain with its proved bound.
 struct Part {
   Domain domain;
   Interval x, y;  ///< force, N
   double bound;   ///< N
-  long number;    ///< of its evaluation: parts of one bound are split in the order in which they were made
+  long number;    ///< of its evaluation; parts with equal bounds are split in this order
 };
 
 struct Lower {
@@ -49,8 +49,7 @@ class Splitting {
             evaluations_++};
   }
 
-  /// Where to split `part`: the quantity without whose spread the bound would be lowest. None when there is nothing to
-  /// split.
+  /// The quantity to split `part` by: the one whose spread raises the bound most. None if there is nothing to split.
   const Quantity* widest(const Part& part) {
     const Quantity* best = nullptr;
     double lowest = std::numeric_limits<double>::infinity(), widest = 0;
@@ -61,7 +60,7 @@ class Splitting {
       Domain narrowed = part.domain;
       quantity.in(narrowed) = Interval::between(at, at);
       const double bound = evaluated(narrowed).bound;
-      // Where no single quantity tells, the one that has been split least.
+      // If no single quantity matters most, the one that was split least.
       const double share = (static_cast<double>(range.high) - range.low) / whole_width(quantity);
       if (bound < lowest || (bound == lowest && share > widest)) best = &quantity, lowest = bound, widest = share;
     }
@@ -75,7 +74,7 @@ class Splitting {
     quantity.in(low) = Interval::between(range.low, at, range.maybe_nan);
     quantity.in(high) = Interval::between(at, range.high, range.maybe_nan);
     std::array<Part, 2> both = {evaluated(low), evaluated(high)};
-    // What holds of the whole holds of its halves.
+    // The bound of the whole holds for its halves.
     for (Part& half : both) half.bound = std::min(half.bound, part.bound);
     return both;
   }

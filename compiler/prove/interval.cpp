@@ -17,14 +17,14 @@ using arithmetic::infinity;
 using arithmetic::least_normal;
 
 constexpr float most = std::numeric_limits<float>::max();
-constexpr float pi = 3.14159274f;  // the float, which is above the number: what `arctangent_of` gives at most
+constexpr float pi = 3.14159274f;  // the float, which is above pi: the largest result of `arctangent_of`
 
-// A result whose exact value is a little below the least normal number rounds up to it before it is flushed, so that an
-// end at that number may be zero as well.
+// A result slightly below the least normal number may round up to it before it is flushed, so an end at that number may
+// also be zero.
 float low_end(float low) { return low > 0 && low <= least_normal ? 0.0f : low; }
 float high_end(float high) { return high < 0 && high >= -least_normal ? 0.0f : high; }
 
-/// From the least to the greatest of `values`, not-a-number left out. At least one is a number.
+/// From the least to the greatest of `values` without not-a-number. At least one must be a number.
 Interval hull_of(std::initializer_list<float> values, bool maybe_nan) {
   float low = infinity, high = -infinity;
   for (const float value : values) {
@@ -35,7 +35,7 @@ Interval hull_of(std::initializer_list<float> values, bool maybe_nan) {
   return Interval::between(low, high, maybe_nan);
 }
 
-/// For a function that keeps order but for an error, `value` at each end of the operand.
+/// For a function that is monotonic within an error: `value` at each end of the operand.
 Interval spread(float at_low, float at_high, double relative, double absolute, bool maybe_nan) {
   const double low = static_cast<double>(at_low) - (std::abs(static_cast<double>(at_low)) * relative + absolute);
   const double high = static_cast<double>(at_high) + (std::abs(static_cast<double>(at_high)) * relative + absolute);
@@ -47,21 +47,21 @@ Interval within(const Interval& a, float low, float high) {
   return {std::clamp(a.low, low, high), std::clamp(a.high, low, high), a.maybe_nan};
 }
 
-/// Twice the stated errors of the machine's functions, and a little for the sums made of them here.
+/// Twice the stated errors of the machine's functions, and a little for sums of them here.
 constexpr double sine_error = 2 * 1.5e-7 * 1.01;
 constexpr double exp2_error = 2 * 2e-7 * 1.01;
 constexpr double log2_error = 2 * 2e-7 * 1.01;
 constexpr double normal_error = 2 * 2e-7 * 1.01;
 constexpr double arctangent_error = 2 * 2e-7 * 1.01;
 
-/// Sine or, a quarter turn later, cosine.
+/// Sine, or cosine with a shift of a quarter turn.
 Interval wave(const Interval& a, float (*of)(float), double quarter_turns) {
   constexpr double turn = 6.283185307179586;
-  constexpr float exact_below = 1e4f;  // rad: where the error is stated
+  constexpr float exact_below = 1e4f;  // rad: the error is stated below this
   const bool maybe_nan = a.maybe_nan || a.has_infinity();
   if (a.low < -exact_below || a.high > exact_below) return {-1, 1, maybe_nan};
-  // Crests are whole numbers of `phase`, troughs half a turn later. A crest that is missed because it lies within the
-  // rounding of `phase` is as high as its neighbour within the error that is added anyway.
+  // Crests are at whole numbers of `phase`, troughs half a turn later. A crest that is missed because of the rounding
+  // of `phase` is within the added error of its neighbour.
   const double from = a.low / turn + quarter_turns / 4 - 0.25, to = a.high / turn + quarter_turns / 4 - 0.25;
   const bool crest = std::floor(to) > std::floor(from) || std::floor(from) == from;
   const bool trough = std::floor(to - 0.5) > std::floor(from - 0.5) || std::floor(from - 0.5) == from - 0.5;
@@ -122,7 +122,7 @@ Interval difference(const Interval& a, const Interval& b) { return sum(a, negati
 Interval product(const Interval& a, const Interval& b) {
   const bool maybe_nan = a.maybe_nan || b.maybe_nan || (a.has_zero() && b.has_infinity()) ||
                          (b.has_zero() && a.has_infinity());  // 0 * inf
-  // Where an end is 0 * inf, the finite values beside the infinity give 0.
+  // If an end is 0 * inf, the finite values next to the infinity give 0.
   const auto end = [](float x, float y) { return x == 0 || y == 0 ? 0.0f : x * y; };
   return hull_of({end(a.low, b.low), end(a.low, b.high), end(a.high, b.low), end(a.high, b.high)}, maybe_nan);
 }
@@ -135,7 +135,7 @@ Interval square(const Interval& a) {
 Interval quotient(const Interval& a, const Interval& b) {
   if (b.has_zero()) return Interval::everything(true);
   const bool maybe_nan = a.maybe_nan || b.maybe_nan || (a.has_infinity() && b.has_infinity());  // inf / inf
-  // Where an end is inf / inf, what is finite beside the one infinity over the other gives 0.
+  // If an end is inf / inf, finite values next to one infinity over the other give 0.
   const auto end = [](float x, float y) { return std::isinf(x) && std::isinf(y) ? 0.0f : x / y; };
   return hull_of({end(a.low, b.low), end(a.low, b.high), end(a.high, b.low), end(a.high, b.high)}, maybe_nan);
 }
@@ -204,12 +204,12 @@ Interval limit(const Interval& a, const Interval& b) {
 Interval arctangent(const Interval& a, const Interval& b) {
   const bool maybe_nan = a.maybe_nan || b.maybe_nan;
   const bool left = b.low < 0;
-  if (a.has_zero() && b.has_zero()) {  // the origin, around which all directions of the box are
+  if (a.has_zero() && b.has_zero()) {  // the box contains the origin, so all directions occur
     if (a.low < 0) return left ? Interval{-pi, pi, maybe_nan} : Interval{-pi / 2, pi / 2, maybe_nan};
     return {0, left ? pi : pi / 2, maybe_nan};
   }
-  if (left && a.low < 0 && a.high >= 0) return {-pi, pi, maybe_nan};  // both sides of the angle's jump
-  // Elsewhere the extremes of the angle over a box are at its corners.
+  if (left && a.low < 0 && a.high >= 0) return {-pi, pi, maybe_nan};  // both sides of the jump of the angle
+  // Otherwise the extremes of the angle over a box are at its corners.
   float low = infinity, high = -infinity;
   for (const float y : {a.low, a.high}) {
     for (const float x : {b.low, b.high}) {
@@ -228,7 +228,7 @@ Interval random() { return {0, 1 - 0x1p-24f, false}; }
 Interval range_of(Operation operation, const Interval& A, const Interval& B, const Interval& C) {
   const int operands = facts(operation).operands;
   const bool points = A.is_point() && (operands < 2 || B.is_point()) && (operands < 3 || C.is_point());
-  // The quotient alone knows the sign of a zero, which an interval does not.
+  // The sign of a zero decides, and an interval does not know it.
   if (points && operands > 0 && operation != Operation::divide && facts(operation).fields[2] != 't' &&
       facts(operation).fields[2] != 'g') {
     return Interval::of(result_of(operation, A.low, B.low, C.low));

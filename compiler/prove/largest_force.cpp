@@ -14,18 +14,18 @@ namespace {
 
 constexpr std::size_t starts = 1024;      ///< hands for each choice of parameters
 constexpr std::size_t neighbours = 128;   ///< hands of one step around the best
-constexpr int steps = 14;                 ///< each half as wide as the one before
-constexpr int passes = 4;                 ///< of all steps, the first of which may lead out of a dead end again ...
-constexpr double gaining = 1.0001;        ///< ... as long as one brings so much more, which is what is told
-constexpr std::size_t refined = 4;        ///< of the choices of parameters, the best
-constexpr double near_enough = 0.9;       ///< of what is looked for
-constexpr double budget = 1.6e7;          ///< units of cost over all points of peaks and all hands: some milliseconds
-constexpr double single = 4;              ///< what a hand by itself costs more than one of many
-constexpr std::size_t most_choices = 32;  ///< of parameters
+constexpr int steps = 14;                 ///< each step is half as wide as the one before
+constexpr int passes = 4;                 ///< passes over all steps; the wide first steps may leave a local maximum
+constexpr double gaining = 1.0001;        ///< passes go on while one raises the force by this factor
+constexpr std::size_t refined = 4;        ///< the best choices of parameters, which are refined
+constexpr double near_enough = 0.9;       ///< of the force that is looked for
+constexpr double budget = 1.6e7;          ///< units of cost over all points of peaks and all hands, some milliseconds
+constexpr double single = 4;              ///< a single hand costs this much more than one of many
+constexpr std::size_t most_choices = 32;  ///< choices of parameters
 constexpr std::size_t strokes = 16, stroke_ticks = 256;
-constexpr double longest = 60;  ///< s; how late a hand is looked at
+constexpr double longest = 60;  ///< s; the latest time of a hand
 
-/// Numbers in [0, 1) that are the same everywhere.
+/// Random numbers in [0, 1) that are the same everywhere.
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : state_(seed) {}
@@ -36,7 +36,7 @@ class Dice {
   std::uint32_t state_;
 };
 
-/// What of a hand is one of a program's inputs; null for what the hand does not have.
+/// The member of a hand for a program's input; null if the hand does not have it.
 float* component(Hand& hand, Input input) {
   switch (input) {
     case Input::x: return &hand.position.x;
@@ -81,7 +81,7 @@ class Search {
     for (const Choice& choice : choices()) {
       Tried& now = tried.emplace_back(best_of(choice));
       if (enough(now.best)) return now.best;
-      // The first that comes near may get there at once, which spares the peaks of all further choices.
+      // If the first hand near the goal reaches it at once, the peaks of further choices are not computed.
       if (hoped || now.best.newton < near_enough * enough_) continue;
       hoped = true;
       refine(now);
@@ -103,7 +103,7 @@ class Search {
     if (remembers_)
       for (const Tried& each : tried)
         if (&each == &tried.front() || left_ > 0) consider(stroked({each.bank}));
-    // What was remembered under one setting of the parameters is felt under another.
+    // Memory written with one setting of the parameters is felt with another.
     if (remembers_ && !live_.empty()) {
       std::vector<Bank> banks;
       for (const Tried& each : tried)
@@ -130,13 +130,13 @@ class Search {
     return 1.0 + static_cast<double>(cost_of(description_.enter) + cost_of(description_.tick));
   }
 
-  /// How many choices half of the budget allows.
+  /// The number of choices that half of the budget allows.
   std::size_t affordable() const {
     const double each = cost_of_setup() + starts * cost_of_hand();
     return static_cast<std::size_t>(std::clamp(budget / 2 / each, 3.0, static_cast<double>(most_choices)));
   }
 
-  /// The program's defaults, the corners of its parameters' ranges that are likeliest to matter, then any within.
+  /// The program's defaults, the corners of the parameters' ranges that are likeliest to matter, then random values.
   std::vector<Choice> choices() const {
     const auto within = [](const Interval& range, float value) { return std::clamp(value, range.low, range.high); };
     const auto size_of = [&](float half_width, float half_height, float rim) {
@@ -181,7 +181,7 @@ class Search {
       Choice any = usual;
       for (const std::size_t i : live_) {
         const Interval& range = domain_.parameters[i];
-        // At the ends of most ranges forces are at their largest; in others, as of angles, anywhere.
+        // Forces are mostly largest at the ends of a range; for others, such as angles, anywhere.
         const double end = dice.next(), share = end < 0.35 ? 0.0 : end < 0.7 ? 1.0 : dice.next();
         any.parameters[i] = within(range, static_cast<float>(range.low + share * (range.high - range.low)));
       }
@@ -190,7 +190,8 @@ class Search {
     return all;
   }
 
-  /// A hand within the domain: each input by a share of 0 .. 1 of its range, or of its part that lies over the patch.
+  /// A hand within the domain: each input is given by a share of 0 .. 1 of its range, or of the part of the range over
+  /// the patch.
   template <typename Share>
   Hand hand(const Share& share) const {
     Hand result;
@@ -244,7 +245,7 @@ class Search {
     return std::sqrt(static_cast<double>(force.x) * force.x + static_cast<double>(force.y) * force.y);
   }
 
-  /// Takes the hand that is pushed hardest, if harder than `best` is.
+  /// Keeps the hand with the largest force if it exceeds `best`.
   static void look_at(const std::vector<Hand>& hands, const std::vector<Force>& forces, LargestForce& best) {
     for (std::size_t i = 0; i < hands.size(); ++i) {
       const double newton = size_of(forces[i]);
@@ -266,7 +267,7 @@ class Search {
     if (moving_.empty() || std::exchange(tried.refined, true)) return;
     LargestForce& best = tried.best;
     Dice dice(3);
-    Batch batch(tried.bank, neighbours);  // as tick_all, with one block to work in for all steps
+    Batch batch(tried.bank, neighbours);  // like tick_all, with one block for all steps
     std::vector<Hand> hands;
     std::vector<Force> forces(neighbours);
     double before = 0;
@@ -279,7 +280,7 @@ class Search {
         for (const Input input : moving_) {
           const Interval& range = domain_[input];
           const double change = (2 * dice.next() - 1) * width;
-          if (i % 2 == 0 && dice.coin()) continue;  // along some axes only
+          if (i % 2 == 0 && dice.coin()) continue;  // moves along some axes only
           if (input == Input::time) near.time = std::clamp<double>(near.time + change * longest, range.low, range.high);
           if (float* value = component(near, input)) {
             const double wide = static_cast<double>(range.high) - range.low;
@@ -295,8 +296,8 @@ class Search {
     }
   }
 
-  /// The hand goes from place to place while the program remembers, at steady speeds and by leaps. Each time any of the
-  /// banks, all of one patch size, takes over.
+  /// Moves the hand from position to position while the program remembers, at steady speeds and in jumps. At each
+  /// position one of the banks, all with one patch size, takes over.
   LargestForce stroked(std::vector<Bank> banks) {
     left_ -= strokes * stroke_ticks * single * cost_of_hand();
     const PatchSize size = banks.front().size();
@@ -342,7 +343,7 @@ class Search {
     return best;
   }
 
-  /// One parameter after the other, at the best hand and around it.
+  /// Varies one parameter after the other, at the best hand and around it.
   LargestForce refined_parameters(LargestForce best) {
     if (best.after_a_stroke) return best;
     std::size_t left = most_choices;
@@ -372,8 +373,8 @@ class Search {
   const PatchProgram& description_;
   const Domain& domain_;
   double enough_;                  ///< N
-  std::vector<Input> moving_;      ///< inputs that the force depends on
-  std::vector<std::size_t> live_;  ///< parameters likewise
+  std::vector<Input> moving_;      ///< the inputs that the force depends on
+  std::vector<std::size_t> live_;  ///< the parameters that the force depends on
   bool remembers_ = false;
   double left_ = budget;
 };

@@ -9,14 +9,15 @@
 namespace wale {
 namespace {
 
-/// Of the largest coefficient: what the rounding of weights, products and sums may add. In each of two directions four
-/// weights, each wrong by a few units in the last place of a float, four products and three sums: 22 units together.
+/// Relative to the largest coefficient: the rounding of weights, products and sums. In each of two directions there are
+/// four weights, each wrong by a few units in the last place of a float, four products and three sums: 22 units
+/// together.
 constexpr double table_rounding = 32 * 0x1p-24;
-/// Of the largest cell: the same for two weights in each direction.
+/// Relative to the largest cell: the same for two weights in each direction.
 constexpr double grid_rounding = 16 * 0x1p-24;
-/// What products and sums that are flushed to zero may take away.
+/// The error from products and sums that are flushed to zero.
 constexpr double flushed_sums = 32 * 1.1754943508222875e-38;
-/// Coefficients that are looked at for one instruction, at most.
+/// The most coefficients that are read for one instruction.
 constexpr double most_coefficients = 4096;
 
 }  // namespace
@@ -65,7 +66,7 @@ ResultRanges TableRanges::at(const Interval& a, const Interval& b) const {
     return !coordinate.maybe_nan && coordinate.low >= 0 && coordinate.high <= static_cast<float>(samples - 1);
   };
   if (!inside(a, spline_.width) || !inside(b, spline_.height)) return whole_;
-  // Within the table the machine's own way to the cell is exact, and a cell has four coefficients on either axis.
+  // Within the table the machine's computation of the cell is exact, and a cell has four coefficients on either axis.
   const auto first = [](float low) { return static_cast<std::size_t>(low); };
   const auto count = [](float low, float high) {
     return static_cast<std::size_t>(high) - static_cast<std::size_t>(low) + 4;

@@ -8,19 +8,20 @@
 
 namespace wale {
 
-/// The ranges of the results of one instruction; those that it does not have are zero.
+/// The ranges of the results of one instruction; unused ones are zero.
 using ResultRanges = std::array<Interval, 3>;
 
-/// What `sample` can find in one table.
+/// The values that `sample` can read from one table.
 ///
-/// The value of a B-spline is a mean of its coefficients, and its derivative along an axis one of the differences of
-/// neighbours, so that their extremes bound both; what the machine's rounding may add is stated with them.
+/// The value of a B-spline is a weighted mean of its coefficients, and its derivative along an axis is a weighted mean
+/// of the differences of neighbours, so their extremes bound both. The machine's rounding is added.
 class TableRanges {
  public:
-  /// Reads all coefficients. `spline` outlives this.
+  /// Reads all coefficients. `spline` must outlive this object.
   explicit TableRanges(const Spline& spline);
 
-  /// For coordinates in `a` and `b`. Where these keep to a part of the table that has few samples, its own extremes.
+  /// For coordinates in `a` and `b`. If these stay in a part of the table with few samples, the extremes of that part
+  /// are used.
   ResultRanges at(const Interval& a, const Interval& b) const;
 
  private:
@@ -30,15 +31,15 @@ class TableRanges {
   ResultRanges extremes(const Rectangle& part, bool may_run_backwards) const;
 
   const Spline& spline_;
-  double largest_;  ///< size of a coefficient
+  double largest_;  ///< largest absolute coefficient
   ResultRanges whole_;
 };
 
-/// What `recall` can find in a grid whose cells are within its bounds. Differences of bounds so far apart that they
-/// overflow may come out as anything.
+/// The values that `recall` can read from a grid whose cells are within its bounds. If the bounds are so far apart that
+/// their difference overflows, the result may be any float.
 ResultRanges recall_ranges(const Grid& grid);
 
-/// What `cell` can find.
+/// The values that `cell` can read.
 Interval cell_range(const Grid& grid);
 
 }  // namespace wale

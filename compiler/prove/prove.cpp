@@ -21,7 +21,7 @@ Proof prove(const Program& program, const Domain& domain) {
   machine.start(domain, quantities);
   proof.peaks.resize(description.peaks.size());
   const Relations relations(description, description.setup, description.tick);
-  // A peak finds the setup registers as they are when its instruction runs it.
+  // A peak reads the setup registers as they are when its instruction runs.
   for (const Instruction& instruction : description.setup) {
     if (instruction.operation == static_cast<std::uint8_t>(Operation::peak)) {
       const std::vector<Instruction>& code = description.peaks[instruction.a].code;
@@ -44,8 +44,8 @@ Proof prove(const Program& program, const Domain& domain) {
   proof.bound_newton =
       std::min(length_bound(proof.force[0], proof.force[1]), machine.length(relations, values[0], values[1]));
   for (const Output& output : description.outputs) {
-    // The last instruction that writes it is its limit. What that is given is what a run up to it leaves, since
-    // registers are used again.
+    // The last instruction that writes the register is its limit. Registers are used again, so the operand of the limit
+    // is read from a run up to it.
     std::size_t limit = description.tick.size() - 1;
     while (description.tick[limit].destination != output.value) --limit;
     const std::span before(description.tick.data(), limit);

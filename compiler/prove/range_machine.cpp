@@ -69,7 +69,7 @@ Enclosure RangeMachine::related(const Instruction& i, std::size_t number, const 
   const Enclosure& a = registers_[i.a];
   if (operation == Operation::select) {
     if (const auto guarded = relations.guarded(number, known())) {
-      // The form of a choice without a bound says nothing; what its guard leaves of it does.
+      // The form of an unbounded choice says nothing; the range under its guard does.
       const Enclosure& choice = registers_[guarded->operand == 1 ? i.b : i.c];
       Enclosure narrowed = choice.range.is_finite() ? choice : Enclosure::of(guarded->range);
       narrowed.range = intersection(choice.range, guarded->range);
@@ -130,7 +130,7 @@ void RangeMachine::run_peak(std::size_t index, std::span<const Instruction> code
   registers_[y] = hand_y;
 }
 
-/// A percentile lies between the least and the greatest of its values, of which those that are not finite count as 0.
+/// A percentile lies between the least and the greatest of its values; values that are not finite count as 0.
 Interval RangeMachine::peak_range(std::size_t index) {
   run_peak(index, peaks_[index]);
   const Interval value = range(description_.peaks[index].value);

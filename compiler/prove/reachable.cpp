@@ -8,11 +8,11 @@
 namespace wale {
 namespace {
 
-/// Ticks after which ends that still move go to their bounds at once, ticks until then nothing moves any more, and how
-/// often the ranges are shrunk again.
+/// Number of ticks after which moving ends jump to their bounds; number of ticks after which nothing may move any more;
+/// and how often the ranges are shrunk again.
 constexpr int patient_ticks = 4, most_ticks = 16, most_shrinkings = 24;
 
-/// What a program remembers: ranges of states, then of memories' cells.
+/// The memory of a program: ranges of states, then of memories' cells.
 using Remembered = std::vector<Interval>;
 
 bool contains(const Interval& outer, const Interval& inner) {
@@ -40,7 +40,8 @@ class Reaching {
       for (std::size_t i = 0; i < next.size(); ++i) next[i] = grown(now[i], next[i], bounds_[i], tick >= patient_ticks);
       now = std::move(next);
     }
-    // What a tick leaves of ranges that it does not leave holds too, if a tick does not leave that either.
+    // If a tick does not leave a set of ranges, the image of these ranges is also such a set, provided that a tick does
+    // not leave it either.
     Remembered next = after(now);
     for (int i = 0; i < most_shrinkings && next != now; ++i) {
       Remembered beyond = after(next);
@@ -67,13 +68,13 @@ class Reaching {
     return result;
   }
 
-  /// A value as it is remembered; not-a-number is not.
+  /// A value as it is stored; not-a-number is not stored.
   static Interval held(const Interval& value, const Interval& bounds) {
     return Interval::between(std::clamp(value.low, bounds.low, bounds.high),
                              std::clamp(value.high, bounds.low, bounds.high));
   }
 
-  /// What states and cells begin with.
+  /// The initial values of states and cells.
   Remembered begin() {
     machine_.start(whole_, quantities_);
     machine_.run(description_.setup, relations_, 0);
@@ -89,7 +90,7 @@ class Reaching {
     return result;
   }
 
-  /// What they may be after any tick from `remembered` on, or begin with again.
+  /// Their values after any tick from `remembered` on, or after starting again.
   Remembered after(const Remembered& remembered) {
     machine_.start(domain(remembered), quantities_);
     machine_.run(description_.setup, relations_, 0);

@@ -5,10 +5,10 @@
 
 namespace wale {
 
-/// `whole_domain` with states and cells narrowed to what a run can come to, from entering on: ranges that what they
-/// begin with lies in and that no tick leaves, whatever the hand does and however parameters are moved in between. By
-/// following a tick over ranges that grow, then to their bounds where they go on growing, and then shrink again as far
-/// as they still hold.
+/// `whole_domain` with states and cells narrowed to what a run can reach from entering on. These ranges contain the
+/// initial values, and no tick leaves them, whatever the hand does and however parameters change. The function follows
+/// a tick over growing ranges, widens ranges that keep growing to their bounds, and then shrinks them as far as they
+/// still hold.
 Domain reachable_domain(const Program& program);
 
 }  // namespace wale

@@ -10,17 +10,18 @@
 namespace wale {
 namespace {
 
-/// What a handful of roundings in float may add to a ratio or a length, relatively, and what flushed squares may add.
+/// The relative error of a ratio or a length from a few roundings in float, and the absolute error from flushed
+/// squares.
 constexpr double roundings = 0x1p-20;
 constexpr double flushed_squares = 1e-17;
 constexpr float one = 1 + 0x1p-20f;
-/// The largest value of the fifth power's smooth step: its polynomial's terms of up to 15 cancel, so that some of their
-/// last places are left.
+/// The largest value of the smooth step of fifth power: terms of up to 15 cancel in its polynomial, so some of their
+/// last places remain.
 constexpr float one_of_cancelling = 1 + 0x1p-18f;
-/// Above it a component whose square is flushed, 1.1e-19 at most, does not count in a length. Below it a unit vector's
-/// components may be 1 each.
+/// Above this length a component whose square is flushed, 1.1e-19 at most, does not count. Below it both components of
+/// a unit vector may be 1.
 constexpr float exact_above = 1e-15f;
-/// How far back vectors are followed, and how many pairs of values are looked at.
+/// How far back vectors are followed, and how many pairs of values are examined.
 constexpr int deepest = 16, most_pairs = 64;
 
 }  // namespace
@@ -33,7 +34,7 @@ Relations::Relations(const PatchProgram& program, std::span<const Instruction> s
     const Instruction& instruction = i < setup.size() ? setup[i] : tick[i - setup.size()];
     const auto operation = static_cast<Operation>(instruction.operation);
     const OperationFacts& known = facts(operation);
-    // Operands that are no registers name none either.
+    // Operands that are not registers have no value.
     const auto value = [&](int operand, RegisterNumber number) {
       return operand < known.operands ? last_[number] : ValueNumber{0};
     };
@@ -53,7 +54,7 @@ const Relations::Definition* Relations::made_by(ValueNumber value, Operation ope
   return made != nullptr && made->operation == operation ? made : nullptr;
 }
 
-/// A sum of squares and nothing else; adds what is squared.
+/// Whether a value is a sum of squares only; adds the squared values.
 bool Relations::is_square_sum(ValueNumber sum, std::vector<ValueNumber>& components, int depth) const {
   if (depth > deepest) return false;
   if (const Definition* square = made_by(sum, Operation::multiply)) {
@@ -78,18 +79,18 @@ bool Relations::is_length_of(ValueNumber length, ValueNumber component) const {
   return std::find(all.begin(), all.end(), component) != all.end();
 }
 
-/// The quotient where its divisor is at least `least`, which is above 0.
+/// The quotient if its divisor is at least `least`, which is above 0.
 Interval Relations::quotient_above(const Definition& quotient, float least, const KnownRanges& known) const {
   const auto [x, r, unused] = quotient.operands;
   const Interval& divisor = known(r);
-  if (divisor.high < least) return known(x);  // the choice is never taken: any range will do
+  if (divisor.high < least) return known(x);  // the choice is never taken, so any range holds
   const Interval above{std::max(divisor.low, least), divisor.high, false};
   const Interval range = range_of(Operation::divide, known(x), above, {});
   return is_length_of(r, x) ? intersection(range, {-one, one, true}) : range;
 }
 
-/// x - p floor(x / p), which is in [0, p] but for the rounding of the quotient and the product: each as large as a
-/// float's last place of x.
+/// x - p floor(x / p), which is in [0, p] apart from the rounding of the quotient and the product: each is at most a
+/// unit in the last place of x.
 std::optional<Interval> Relations::remainder(const Definition& difference, const KnownRanges& known) const {
   const ValueNumber x = difference.operands[0];
   const Definition* product = made_by(difference.operands[1], Operation::multiply);
@@ -99,12 +100,12 @@ std::optional<Interval> Relations::remainder(const Definition& difference, const
     const Definition* whole = made_by(product->operands[i], Operation::floor);
     const Definition* quotient = whole != nullptr ? made_by(whole->operands[0], Operation::divide) : nullptr;
     if (quotient == nullptr || quotient->operands[0] != x || quotient->operands[1] != period) continue;
-    // Where the quotient or the product overflows there is no remainder.
+    // If the quotient or the product overflows, there is no remainder.
     if (!(known(period).low > 0) || !known(x).is_finite() || !known(whole->operands[0]).is_finite() ||
         !known(difference.operands[1]).is_finite()) {
       continue;
     }
-    // A quotient so small that it is flushed to zero has a floor of 0, also below 0.
+    // A quotient that is flushed to zero has a floor of 0, also if it is negative.
     const double error = known(x).largest() * roundings + flushed_squares +
                          static_cast<double>(known(period).high) * arithmetic::least_normal * (1 + roundings);
     return outward(-error, known(period).high * (1 + roundings) + error, true);
@@ -134,7 +135,7 @@ bool Relations::is_smoother_step(const Definition& product, const KnownRanges& k
   return false;
 }
 
-/// What `factor` is multiplied by in `product`, where it is one.
+/// The other factor of `product` if `factor` is one of its two.
 std::optional<ValueNumber> Relations::times(ValueNumber product, ValueNumber factor) const {
   const Definition* made = made_by(product, Operation::multiply);
   if (made == nullptr) return {};
@@ -143,7 +144,7 @@ std::optional<ValueNumber> Relations::times(ValueNumber product, ValueNumber fac
   return {};
 }
 
-/// a + t (b - a) is between a and b for a t in [0, 1], and no further off than t is.
+/// a + t (b - a) is between a and b for t in [0, 1]; outside it is off by as much as t is.
 std::optional<Interval> Relations::mixture(const Definition& sum, const KnownRanges& known) const {
   for (const std::size_t i : {0u, 1u}) {
     const ValueNumber from = sum.operands[i];
@@ -166,7 +167,7 @@ std::optional<Interval> Relations::mixture(const Definition& sum, const KnownRan
   return {};
 }
 
-/// u1 v1 + u2 v2 is no larger than the two vectors' lengths, of which one is a direction.
+/// u1 v1 + u2 v2 is at most the product of the two lengths, of which one is 1.
 std::optional<Interval> Relations::scalar_product(const Definition& sum, const KnownRanges& known) const {
   const Definition* first = made_by(sum.operands[0], Operation::multiply);
   const Definition* second = made_by(sum.operands[1], Operation::multiply);
@@ -196,7 +197,7 @@ std::optional<Interval> Relations::scalar_product(const Definition& sum, const K
   return outward(-most, most, true);
 }
 
-/// The sine and the cosine of one angle, which is not so large that they lose their error bounds.
+/// The sine and the cosine of one angle that is small enough for their error bounds.
 bool Relations::is_turn(const Definition& a, const Definition& b, const KnownRanges& known) const {
   constexpr float largest_angle = 1e4f;
   return a.operands[0] == b.operands[0] && known(a.operands[0]).largest() <= largest_angle &&
@@ -204,7 +205,7 @@ bool Relations::is_turn(const Definition& a, const Definition& b, const KnownRan
           (a.operation == Operation::cosine && b.operation == Operation::sine));
 }
 
-/// How large g (C / g) can be at most, where the quotient is finite: as large as C, but for two roundings.
+/// The largest g (C / g) with a finite quotient: C, apart from two roundings.
 std::optional<double> Relations::cancelled(ValueNumber factor, ValueNumber quotient, const KnownRanges& known) const {
   const Definition* made = made_by(quotient, Operation::divide);
   if (made == nullptr || !known(quotient).is_finite() || !known(made->operands[0]).is_finite()) return {};
@@ -275,7 +276,7 @@ std::optional<Relations::Guarded> Relations::guarded(std::size_t number, const K
   if (const Definition* quotient = divided_by(1, second); quotient != nullptr && known(first).low >= 0) {
     return Guarded{1, quotient_above(*quotient, std::max(known(first).low, arithmetic::least_normal), known)};
   }
-  // divisor < bound ? .. : x / divisor, where the divisor is at least the bound, or one of them not a number
+  // divisor < bound ? .. : x / divisor: the divisor is at least the bound, or one of them is not a number
   if (const Definition* quotient = divided_by(2, first); quotient != nullptr &&
                                                          known(second).low >= arithmetic::least_normal &&
                                                          !known(second).maybe_nan && !known(first).maybe_nan) {
@@ -294,8 +295,8 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known)
   return length(x, y, known, 0, left);
 }
 
-/// x = u s and y = v s where s = min(.., A / |(u, v)|), so that the vector is no longer than A. Not-a-number in u or v
-/// leaves the other as it is, which `ceiling` must then hold within A.
+/// x = u s and y = v s with s = min(.., A / |(u, v)|), so the vector is no longer than A. If u or v is not a number,
+/// `ceiling` must hold the other within A.
 std::optional<Relations::Limited> Relations::limited(ValueNumber x, ValueNumber y, std::optional<ValueNumber> ceiling,
                                                      const KnownRanges& known) const {
   const Definition* first = made_by(x, Operation::multiply);
@@ -321,7 +322,7 @@ std::optional<Relations::Limited> Relations::limited(ValueNumber x, ValueNumber 
         const bool held = ceiling && *ceiling == most;
         const bool numbers = !known(u).maybe_nan && !known(v).maybe_nan && !known(most).maybe_nan &&
                              known(most).is_finite() && known(most).low >= 0;
-        // Where the length is zero the scale is the other operand, times squares that were flushed.
+        // If the length is zero, the scale is the other operand, and the squares were flushed.
         if (!other.is_finite() || other.low < 0 || other.maybe_nan || (u == v) || (!held && !numbers)) continue;
         return Limited{most, flushed_squares * (1 + static_cast<double>(other.high))};
       }
@@ -353,10 +354,10 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known,
   if (first == nullptr || second == nullptr || depth > deepest || --left < 0) return alone;
   const auto less_of = [alone](double length) {
     const double rounded = length * (1 + roundings) + flushed_squares;
-    return rounded < alone ? rounded : alone;  // and not where it is not a number
+    return rounded < alone ? rounded : alone;  // not for not-a-number
   };
   const auto pair = [&](ValueNumber u, ValueNumber v) { return length(u, v, known, depth + 1, left); };
-  // A unit vector, where the divisor is not zero.
+  // A unit vector if the divisor is not zero.
   const auto unit = [&](const Definition& u, const Definition& v) {
     return u.operation == Operation::divide && v.operation == Operation::divide && u.operands[1] == v.operands[1] &&
            u.operands[0] != v.operands[0] && is_length_of(u.operands[1], u.operands[0]) &&
@@ -368,7 +369,7 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known,
   const auto& b = second->operands;
   switch (first->operation) {
     case Operation::limit: {
-      // Holding the components within ceilings makes no vector longer.
+      // Limiting the components does not make a vector longer.
       double best = pair(a[0], b[0]);
       if (a[1] == b[1]) {
         if (const auto held = limited(a[0], b[0], a[1], known)) best = std::min(best, held->length(known));
@@ -386,7 +387,7 @@ double Relations::length(ValueNumber x, ValueNumber y, const KnownRanges& known,
       if (const auto held = limited(x, y, std::nullopt, known)) best = std::min(best, held->length(known));
       for (const std::size_t i : {0u, 1u}) {
         for (const std::size_t j : {0u, 1u}) {
-          // Infinity times zero would be not-a-number, which counts as zero; infinity times anything else has no bound.
+          // Infinity times zero is not-a-number, which counts as zero; infinity times anything else has no bound.
           if (a[i] == b[j] && known(a[i]).is_finite()) {
             best = std::min(best, less_of(known(a[i]).largest() * pair(a[1 - i], b[1 - j])));
             if (const auto back = scaled_back(a[i], a[1 - i], b[1 - j], known)) best = std::min(best, *back);

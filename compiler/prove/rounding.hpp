@@ -7,7 +7,7 @@
 
 namespace wale {
 
-/// The greatest float that is not above `value`, and the least that is not below it.
+/// The greatest float not above `value`, and the least not below it.
 inline float rounded_down(double value) {
   const auto nearest = static_cast<float>(value);
   return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
@@ -17,7 +17,7 @@ inline float rounded_up(double value) {
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
 
-/// The floats that contain low .. high, neither of them not-a-number.
+/// The smallest interval of floats that contains low .. high, both numbers.
 inline Interval outward(double low, double high, bool maybe_nan = false) {
   return Interval::between(rounded_down(low), rounded_up(high), maybe_nan);
 }

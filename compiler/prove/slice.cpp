@@ -5,7 +5,7 @@
 namespace wale {
 namespace {
 
-/// Registers whose value matters to what comes after.
+/// Whether the value of each register is read later.
 using Live = std::vector<char>;
 
 void read(const Instruction& instruction, Live& live) {
@@ -15,8 +15,8 @@ void read(const Instruction& instruction, Live& live) {
   if (operands > 2) live[instruction.c] = true;
 }
 
-/// The instructions of `code` that what is live at its end depends on; `live` becomes what is live at its beginning.
-/// `also` is told of each.
+/// The instructions of `code` that the live registers at its end depend on; `live` becomes the live registers at its
+/// beginning. `also` is called for each.
 template <typename Also>
 std::vector<Instruction> sliced(const std::vector<Instruction>& code, Live& live, const Also& also) {
   std::vector<Instruction> kept;

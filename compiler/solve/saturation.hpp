@@ -6,20 +6,18 @@
 
 namespace wale {
 
-/// Why a percept is rendered less than it was asked for: the device's limit cuts it alone, or what it shares with
-/// others.
+/// Why a percept is rendered weaker than it was asked for: the device's limit cuts it alone, or `together` with others.
 inline std::string saturation_reason(const std::string& device, bool together) {
   return fmt::format("`{}` gives no more{}", device, together ? " to all together" : "");
 }
 
-/// What a fate's reason says besides that: how it is realised.
-inline std::string without_saturation(const std::string& reason, const std::string& device) {
-  for (const bool together : {true, false}) {
-    const std::string why = saturation_reason(device, together);
-    if (reason == why) return {};
-    if (reason.starts_with(why + "; ")) return reason.substr(why.size() + 2);
-  }
-  return reason;
+/// How a percept is realised: by the device's own force for it, by a map that was measured on another device, or by
+/// both. An empty name means that there is none; both are empty for a percept that is realised as it is declared.
+inline std::string realisation_reason(const std::string& realisation, const std::string& map,
+                                      const std::string& map_device) {
+  std::string how = realisation.empty() ? "" : fmt::format("rendered as {}", realisation);
+  if (!map.empty()) how += fmt::format("{}by {}, on {}", how.empty() ? "" : "; ", map, map_device);
+  return how;
 }
 
 }  // namespace wale

@@ -227,11 +227,12 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   } else if (rule != realised_.end() || foreign) {
     record.fate = Fate::approximated;
   }
-  if (rule != realised_.end())
-    record.reason += fmt::format("{}rendered as {}", record.reason.empty() ? "" : "; ", rule->second);
-  if (foreign)
-    record.reason += fmt::format("{}by {}, on {}", record.reason.empty() ? "" : "; ",
-                                 map.name.empty() ? map.source : map.name, map.device);
+  const std::string how = realisation_reason(rule == realised_.end() ? "" : rule->second,
+                                             !foreign           ? ""
+                                             : map.name.empty() ? map.source
+                                                                : map.name,
+                                             map.device);
+  if (!how.empty()) record.reason += (record.reason.empty() ? "" : "; ") + how;
   return record;
 }
 

@@ -11,7 +11,7 @@
 #include "compiler/solve/copy_terms.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 #include "compiler/solve/vibration.hpp"
-#include "compiler/text/spelling.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 

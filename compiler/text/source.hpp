@@ -23,7 +23,7 @@ struct Span {
   friend bool operator==(const Span&, const Span&) = default;
 };
 
-/// A place as people count it: line and column from 1, columns in characters (UTF-8 code points).
+/// Line and column as people count them: from 1, columns in characters (UTF-8 code points).
 struct LineColumn {
   unsigned line = 1, column = 1;
 };

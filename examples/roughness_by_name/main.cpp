@@ -18,17 +18,17 @@ int main(int argc, char** argv) {
   wale::Stage stage(*joystick);
   stage.place(std::get<wale::Program>(surface));
   const auto run = stage.run({.seconds = 3, .virtual_time = true});
-  if (const auto* refusal = std::get_if<wale::Refusal>(&run)) {
-    std::fprintf(stderr, "%s\n", refusal->reason.c_str());
+  if (!run) {
+    std::fprintf(stderr, "%s\n", wale::in_words(run.error()).c_str());
     return 1;
   }
 
-  const auto felt = wale::measure(std::get<wale::RunResult>(run).record,
+  const auto felt = wale::measure(run->record,
                                   {.position_step = joystick->profile().position_step(),
                                    .predicted_amplitude = wale::predicted_amplitude(*stage.bank()),
                                    .settling = 0.5});
   for (const auto& level : wale::levels_back(*stage.bank(), felt))
-    if (const auto* back = std::get_if<wale::Prediction>(&level.back))
+    if (level.back)
       std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99,
-                  back->level);
+                  level.back->level);
 }

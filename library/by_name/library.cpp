@@ -4,9 +4,9 @@
 #include <cctype>
 
 #include "compiler/compile.hpp"
+#include "compiler/declarations/declared_devices.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/load_modules.hpp"
-#include "library/devices_known.hpp"
 
 namespace wale {
 
@@ -60,7 +60,7 @@ std::variant<Program, Unavailable> Library::material(const std::string& file, co
   return compile_text(file, std::move(read->bytes), name, device);
 }
 
-std::vector<DeclaredDevice> Library::devices() const { return devices_known(parts_->common->declarations); }
+std::vector<DeclaredDevice> Library::devices() const { return declared_devices(parts_->common->declarations); }
 
 std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& name) const {
   const HandDeclaration* found = parts_->common->declarations.hands.find(name);

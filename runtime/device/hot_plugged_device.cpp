@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "runtime/device/driver.hpp"
+
 namespace wale {
 namespace {
 
-/// Ticks in which the velocity filter forgets where the device was before, at least.
+/// The number of ticks after which the velocity filter holds no position from before.
 long ticks_to_settle(const DeviceProfile& profile) {
   return std::max(1L, static_cast<long>(profile.velocity_window) + 1);
 }
@@ -106,7 +108,7 @@ bool HotPluggedDevice::rest() {
   return !ends_;
 }
 
-/// The side thread.
+/// Runs on the other thread.
 void HotPluggedDevice::attend() {
   while (rest()) {
     std::unique_ptr<PluggedDevice> lost(retired_.exchange(nullptr, std::memory_order_acquire));
@@ -120,14 +122,13 @@ void HotPluggedDevice::attend() {
     lost.reset();
     do {
       OpenedDevice opened = reopen_();
-      auto* device = std::get_if<std::unique_ptr<PluggedDevice>>(&opened);
       {
         const std::lock_guard lock(mutex_);
-        report_.refusal = device != nullptr ? "" : std::get<Refusal>(opened).reason;
+        report_.refusal = opened ? "" : in_words(opened.error());
       }
-      if (device == nullptr) continue;
+      if (!opened) continue;
       returns_.fetch_add(1, std::memory_order_relaxed);
-      offered_.store(device->release(), std::memory_order_release);
+      offered_.store(opened->release(), std::memory_order_release);
       break;
     } while (rest());
   }

@@ -16,25 +16,25 @@
 
 namespace wale {
 
-/// What became of a device while it was used.
+/// What happened to a device while it was used.
 struct HotPlugReport {
-  long losses = 0;      ///< times that it was lost: unplugged, or not answering as it should
-  long returns = 0;     ///< times that it was set up anew
-  std::string reason;   ///< why it was lost last; empty: never
-  std::string refusal;  ///< why it could not be set up anew, when it was tried last; empty: it could, or never was
-  std::string manner;   ///< how it is or was driven last
-  std::vector<std::pair<std::string, long>> tally;  ///< of all that it has done, before and after
+  long losses = 0;                                  ///< how often it was unplugged or stopped answering
+  long returns = 0;                                 ///< how often it was set up again
+  std::string reason;                               ///< why it was last lost; empty: never
+  std::string refusal;                              ///< why the last attempt to set it up again failed; empty: none did
+  std::string manner;                               ///< how it is driven, or was last
+  std::vector<std::pair<std::string, long>> tally;  ///< of the whole time, before and after losses
 };
 
-/// A device of hardware as the stage uses it: turned as it lies on the desk, and set up anew when it comes back after
-/// it was lost. In between it reads `Contact::lost` at its last place, and no force is exerted. A new one is not used
-/// until the velocity filter has seen nothing but its positions; then the guards let the force slew in.
+/// A hardware device as the stage uses it: turned as it lies on the desk, and set up again when it comes back after a
+/// loss. In between it reads `Contact::lost` at its last place, and exerts no force. A device that came back is not
+/// used until the velocity filter holds only positions of it; then the guards let the force slew in.
 ///
-/// Letting a lost device go and opening another is the business of a thread of its own: the real-time thread gives one
-/// away and takes another by exchanging a pointer.
+/// A thread of its own closes a lost device and opens it again. The real-time thread hands over and takes devices by
+/// exchanging a pointer.
 class HotPluggedDevice final : public Device {
  public:
-  /// Opens the device once more where it is there again. Called on a thread of its own; may take its time.
+  /// Opens the device again, once it is plugged in again. Called on the other thread; may block.
   using Reopen = std::function<OpenedDevice()>;
 
   HotPluggedDevice(std::unique_ptr<PluggedDevice> device, DeviceWiring wiring, Reopen reopen,
@@ -49,12 +49,12 @@ class HotPluggedDevice final : public Device {
   Reading sample() noexcept override;
   Force command(Force force) noexcept override;
 
-  /// While nobody else uses the device, as after a run.
+  /// Only while nobody else uses the device, as after a run.
   HotPlugReport report() const;
 
  private:
   void attend();
-  /// Waits until something is to be done; false: nothing more.
+  /// Waits for the next look; false: the device is being destroyed.
   bool rest();
   static void add(std::vector<std::pair<std::string, long>>& sum,
                   const std::vector<std::pair<std::string, long>>& more);
@@ -64,16 +64,16 @@ class HotPluggedDevice final : public Device {
   const Reopen reopen_;
   const std::chrono::milliseconds patience_;
 
-  // The real-time thread's.
+  // Used by the real-time thread only.
   PluggedDevice* held_;
   Reading last_;
   long settling_ = 0;  // ticks until a new device is used
 
-  std::atomic<PluggedDevice*> offered_{nullptr};  // to the real-time thread
-  std::atomic<PluggedDevice*> retired_{nullptr};  // by it
+  std::atomic<PluggedDevice*> offered_{nullptr};  // handed to the real-time thread
+  std::atomic<PluggedDevice*> retired_{nullptr};  // handed over by it
   std::atomic<long> losses_{0}, returns_{0};
 
-  mutable std::mutex mutex_;  // of what follows; never taken by the real-time thread
+  mutable std::mutex mutex_;  // guards all below; the real-time thread never takes it
   std::condition_variable news_;
   bool ends_ = false;
   HotPlugReport report_;

@@ -7,21 +7,21 @@
 namespace wale {
 namespace {
 
-// A gentle push: as hard as it must be and not harder, and slow enough that whoever holds the handle can let go.
+// A gentle push: no harder than needed, and slow enough that a person who holds the handle can let go.
 constexpr double share_of_peak = 0.2;   // of the device's force, at most
 constexpr double rise_seconds = 2;      // from none to the most allowed
 constexpr double hold_seconds = 0.5;    // at the most allowed, before it counts as not having moved
 constexpr double ease_seconds = 0.1;    // back to none
-constexpr double rest_seconds = 1.5;    // waited for the handle to come to rest, at most
-constexpr double still_seconds = 0.2;   // without a move of two counts: it rests
-constexpr double share_to_move = 0.02;  // of the workspace's diameter: it has moved
-constexpr double share_to_show = 0.1;   // moved by hand, so plainly that it is no slip
-constexpr double shown_seconds = 0.3;   // for so long
+constexpr double rest_seconds = 1.5;    // longest wait for the handle to come to rest
+constexpr double still_seconds = 0.2;   // without a move of two counts the handle is at rest
+constexpr double share_to_move = 0.02;  // of the workspace's diameter; then it has moved
+constexpr double share_to_show = 0.1;   // the same, moved by hand: more than a slip
+constexpr double shown_seconds = 0.3;   // held there for so long
 constexpr double person_seconds = 15;   // a person's time to do what was asked for
-constexpr double least_counts = 8;      // an encoder's noise is no move
+constexpr double least_counts = 8;      // more than an encoder's noise
 constexpr double plainly = 2;           // one axis moved so many times as far as the other
 
-/// The axis along which something moved plainly, and which way.
+/// The axis along which the handle moved plainly, and which way.
 std::optional<SignedAxis> plain_axis(glm::dvec2 moved) {
   const double x = std::abs(moved.x), y = std::abs(moved.y);
   if (std::max(x, y) < plainly * std::min(x, y)) return std::nullopt;
@@ -49,9 +49,9 @@ std::string_view Identification::request() const {
     case Phase::rest:
     case Phase::push:
     case Phase::hold:
-    case Phase::ease: return "Keep your hand off the handle, or lay it on loosely: it will be pushed gently.";
+    case Phase::ease: return "Keep your hand off the handle, or lay it on loosely: the device pushes it gently.";
     case Phase::ask_right: return "Now move the handle to the right yourself, and hold it there.";
-    case Phase::back: return "Let it go back to where it was.";
+    case Phase::back: return "Move it back to where it was.";
     case Phase::ask_away: return "Now move the handle away from you, and hold it there.";
     case Phase::done: break;
   }
@@ -115,7 +115,7 @@ Force Identification::tick(glm::ivec2 counts) {
   return force;
 }
 
-/// What the person shows counts once the handle has been there for a moment.
+/// A movement by hand counts once the handle has stayed there for a moment.
 void Identification::watch_person(glm::dvec2 position) {
   const glm::dvec2 moved = position - start_;
   const bool is_back = phase_ == Phase::back;
@@ -143,16 +143,16 @@ Identified Identification::result() const {
       auto moves = plain_axis(push.moved);
       if (moves && way == 1) moves->sign = -moves->sign;
       if (!moves) {
-        answer.problem = "it moved along both axes alike";
+        answer.problem = "the handle moved along both axes alike";
       } else if (answer.moves && *answer.moves != *moves) {
-        answer.problem = "it moved otherwise one way than the other: was it held?";
+        answer.problem = "the handle moved differently each way; perhaps a hand held it";
       } else {
         answer.moves = moves;
       }
       answer.newton = answer.newton > 0 ? std::min(answer.newton, push.newton) : push.newton;
     }
     if (!(answer.newton > 0))
-      answer.problem = "nothing moved: its friction is greater than the force, or it is blocked";
+      answer.problem = "nothing moved: its friction is greater than the force, or the handle is blocked";
     if (!answer.problem.empty()) answer.moves.reset();
   }
   const auto& [first, second] = found.motors;
@@ -161,14 +161,13 @@ Identified Identification::result() const {
     return found;
   }
   if (first.moves->axis == second.moves->axis) {
-    found.problem = "both motors moved it along the same axis";
+    found.problem = "both motors moved the handle along the same axis";
     return found;
   }
-  // The device's own axes, unless the person has shown that they lie otherwise; one of the two tells which the other
-  // is.
+  // The device's own axes, unless the person has shown that they lie otherwise. One of the two determines the other.
   std::array<SignedAxis, 2> axes{{{0}, {1}}};
   if (shown_[0] && shown_[1] && shown_[0]->axis == shown_[1]->axis) {
-    found.problem = "it was moved along the same axis to the right and away";
+    found.problem = "the person moved the handle along the same axis to the right and away";
     return found;
   }
   for (std::size_t i = 0; i < 2; ++i) {

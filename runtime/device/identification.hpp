@@ -13,50 +13,50 @@
 namespace wale {
 
 struct IdentifyOptions {
-  /// N along one motor, what the user allows; a fifth of the profile's peak force is not exceeded either.
+  /// N along one motor, the limit of the user; it never exceeds a fifth of the profile's peak force either.
   double most_newton = 1e9;
-  /// Whether a person is there to move the handle when asked. Otherwise the device's own axes are taken for those that
-  /// its kind's standard says.
+  /// Whether a person is there to move the handle when asked. Otherwise the device's axes are assumed to lie as its
+  /// standard says.
   bool asks = false;
 };
 
-/// How the handle answered to one motor.
+/// How the handle answered one motor.
 struct MotorAnswer {
-  std::optional<SignedAxis> moves;  ///< the device's own axis that a push of it moves, and which way
+  std::optional<SignedAxis> moves;  ///< the device's own axis that it moves, and which way
   double newton = 0;                ///< the least force at which the handle began to move; 0: it did not
-  std::string problem;              ///< why nothing can be told; empty otherwise
+  std::string problem;              ///< why it is not known what it moves; empty otherwise
 };
 
 struct Identified {
   std::array<MotorAnswer, 2> motors;
-  std::array<std::optional<SignedAxis>, 2> shown;  ///< what the person moved it along: to the right, and away
-  /// Both motors and both axes; none: it could not be told.
+  std::array<std::optional<SignedAxis>, 2> shown;  ///< the axes that the person moved: to the right, and away
+  /// Both axes and both motors; nothing where they are not known.
   std::optional<std::array<SignedAxis, 2>> axes_settled, motors_settled;
   std::string problem;  ///< why not; empty otherwise
 };
 
-/// Finds out which of a device's motors moves which of its axes, and which way. Each motor in turn pushes one way and
-/// the other, with a force that rises slowly until the handle has moved a little, or the most allowed is reached; in
-/// between the handle comes to rest. Then, if somebody is there, the handle is moved to the right and away by hand, and
-/// the device does not push.
+/// Finds out which motor of a device moves which of its axes, and which way. Each motor in turn pushes one way and then
+/// the other. The force rises slowly until the handle has moved a little, or the largest force allowed is reached; in
+/// between the handle comes to rest. Then a person, if one is there, moves the handle to the right and away by hand,
+/// while the device does not push.
 ///
-/// It knows no device: it is given counts along the device's own axes once a tick and tells the force to command along
+/// It needs no device: once a tick it takes counts along the device's own axes, and gives the force to command along
 /// its own motors.
 class Identification {
  public:
   /// The profile's rate, workspace, counts and force are positive.
   Identification(const DeviceProfile& profile, const IdentifyOptions& options);
 
-  /// The force (N along the device's own motors) from now on, with the handle at `counts`. Never beyond the most
-  /// allowed, along one motor at a time, and none when it is done.
+  /// The force (N along the device's own motors) to command while the handle is at `counts`: along one motor at a time,
+  /// never above `most_newton()`, and none when it is done.
   Force tick(glm::ivec2 counts);
 
   bool is_done() const { return phase_ == Phase::done; }
   /// What the person should do now; changes from phase to phase.
   std::string_view request() const;
-  /// When it is done.
+  /// Once it is done.
   Identified result() const;
-  /// The most that it pushes with, N.
+  /// The largest force that it pushes with, N.
   double most_newton() const { return most_; }
 
  private:

@@ -28,14 +28,14 @@ PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
 
 }  // namespace
 
-std::variant<Program, Refusal> Program::load(std::span<const std::byte> bytes) {
-  auto read = read_patch_program(bytes);
-  if (auto* refusal = std::get_if<Refusal>(&read)) return std::move(*refusal);
-  return load(std::get<PatchProgram>(std::move(read)));
+Result<Program> Program::load(std::span<const std::byte> bytes) {
+  Result<PatchProgram> read = read_patch_program(bytes);
+  if (!read) return std::move(read).error();
+  return load(*std::move(read));
 }
 
-std::variant<Program, Refusal> Program::load(PatchProgram program) {
-  if (auto refusal = verify(program)) return std::move(*refusal);
+Result<Program> Program::load(PatchProgram program) {
+  if (Result<> verified = verify(program); !verified) return std::move(verified).error();
   return Program(std::make_shared<const DecodedProgram>(std::move(program)));
 }
 

@@ -6,12 +6,11 @@
 #include <initializer_list>
 
 #include "runtime/machine/verify_figures.hpp"
-#include "schema/refuse.hpp"
 
 namespace wale {
 namespace {
 
-using Code = std::span<const Instruction>;
+using Instructions = std::span<const Instruction>;
 
 /// Inputs as a set: bit number n for register n.
 using Inputs = std::uint32_t;
@@ -113,7 +112,7 @@ class Verifier {
     const Registers registers{first_setup_, program_.setup_registers, always};
     const Section setup{"setup", CodeSection::setup, 0, patch_inputs, registers, true, false, false};
     begin(setup);
-    const Code code = program_.setup;
+    const Instructions code = program_.setup;
     std::vector<char> invoked(program_.peaks.size());
     for (std::size_t number = 0; number < code.size(); ++number) {
       const Instruction& instruction = code[number];
@@ -209,7 +208,7 @@ class Verifier {
     require_result(section, percept.level, "level");
   }
 
-  void run(const Section& section, Code code) {
+  void run(const Section& section, Instructions code) {
     begin(section);
     const Registers registers = section.registers;  // a copy, which nothing that is written below can change
     for (std::size_t number = 0; number < code.size(); ++number) {
@@ -247,7 +246,7 @@ class Verifier {
   }
 
   /// Says what is wrong with an instruction that is not legal.
-  [[noreturn, gnu::noinline]] void refuse_illegal(const Section& section, Code code, std::size_t number) const {
+  [[noreturn, gnu::noinline]] void refuse_illegal(const Section& section, Instructions code, std::size_t number) const {
     const Instruction& instruction = code[number];
     const LegalFields& legal = legal_fields[instruction.operation];
     if (!legal.known) {
@@ -370,7 +369,7 @@ class Verifier {
   }
 
   void verify_output(const Output& output, const std::string& name) const {
-    const Code code = program_.tick;
+    const Instructions code = program_.tick;
     const auto last = last_writer(code, code.size(), output.value);
     if (!last) refuse(name, " is register ", output.value, ", which tick does not write");
     const Section tick{"tick", CodeSection::tick};
@@ -405,7 +404,7 @@ class Verifier {
   }
 
   /// The last instruction before number `end` that writes the register.
-  static std::optional<std::size_t> last_writer(Code code, std::size_t end, RegisterNumber number) {
+  static std::optional<std::size_t> last_writer(Instructions code, std::size_t end, RegisterNumber number) {
     for (std::size_t i = end; i-- > 0;) {
       const Instruction& instruction = code[i];
       if (number >= instruction.destination &&
@@ -418,7 +417,7 @@ class Verifier {
 
   /// Refuses an instruction, and shows it with those that its operands come from: the nearest first, as many as fit.
   template <typename... Parts>
-  [[noreturn]] void refuse_at(const Section& section, Code code, std::size_t number, const Parts&... parts) const {
+  [[noreturn]] void refuse_at(const Section& section, Instructions code, std::size_t number, const Parts&... parts) const {
     std::vector<std::size_t> shown = {number};
     for (std::size_t next = 0; next < shown.size() && shown.size() < shown_instructions; ++next) {
       const Instruction& instruction = code[shown[next]];
@@ -430,11 +429,12 @@ class Verifier {
       }
     }
     std::sort(shown.begin(), shown.end());
-    Refusal refusal{sentence(parts...), {}};
-    for (const std::size_t each : shown) {
-      refusal.instructions.push_back({section.name, each, listed(code[each]), line_of(section, each)});
-    }
-    throw refusal;
+    const auto at = [&](std::size_t each) {
+      return Place{section.name, each, listed(code[each]), line_of(section, each)};
+    };
+    Error error{.code = Code::refused_program, .sentence = sentence(parts...), .place = at(number)};
+    for (const std::size_t each : shown) error.led_to.push_back(at(each));
+    throw error;
   }
 
   /// "corduroy.wale:9", where the program says.
@@ -473,24 +473,14 @@ class Verifier {
 
 }  // namespace
 
-std::optional<Refusal> verify(const PatchProgram& program) {
+Result<> verify(const PatchProgram& program) {
   try {
     verify_figures(program);
     Verifier(program).verify_program();
-    return std::nullopt;
-  } catch (const Refusal& refusal) {
-    return refusal;
+    return {};
+  } catch (const Error& error) {
+    return error;
   }
-}
-
-std::string explained(const Refusal& refusal) {
-  std::string text = refusal.reason + "\n";
-  for (const RefusedInstruction& each : refusal.instructions) {
-    text += "  " + each.section + " " + std::to_string(each.number) + "  " + each.text;
-    if (!each.place.empty()) text += "  (" + each.place + ")";
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace wale

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "schema/patch_program.hpp"
 
 namespace wale {
 
-/// Most that one tick may cost, as a fraction of the device's period, at one nanosecond a unit: room for a cold
+/// Most that one tick may cost, as a fraction of the device's period, at one nanosecond a unit. The rest is for a cold
 /// cache, a machine several times slower and the runtime's own work.
 inline constexpr double tick_share_of_period = 0.25;
 /// Most that setup and its peaks may cost together, in units: about a second on the control thread.
@@ -23,18 +20,18 @@ inline constexpr std::size_t cells_limit = std::size_t{1} << 20;
 /// Most grid writes of a tick and marks of a picture.
 inline constexpr std::size_t writes_limit = 16, marks_limit = 1024;
 
-/// Most instructions that a refusal shows.
+/// Most instructions that an error shows.
 inline constexpr std::size_t shown_instructions = 5;
 
-/// Why a program may not run, or nothing when it may. The rules are listed in schema/PATCH_PROGRAM.md. A refusal of
-/// code shows the instructions that led to it, at most `shown_instructions`, with the lines that they come from where
-/// the program carries them.
+/// Checks that a program may run. schema/PATCH_PROGRAM.md lists the rules.
 ///
-/// A program that passes stops in time, reads nothing that is not defined, remembers a bounded amount, and commands no
-/// force beyond its ceilings, whatever its registers hold. Takes time and memory in proportion to the program.
-std::optional<Refusal> verify(const PatchProgram& program);
-
-/// A refusal in several lines: its reason, then the instructions that led to it, one a line.
-std::string explained(const Refusal& refusal);
+/// A program that passes stops in time, reads only what is defined, remembers a bounded amount, and commands no force
+/// beyond its ceilings, whatever its registers hold. Takes time and memory in proportion to the program. From any
+/// thread.
+///
+/// The error is `refused_program`. Where an instruction breaks a rule, `place` is that instruction (its section, its
+/// number from 0, its text, and the line of Wale where the program carries it), and `led_to` has the instructions that
+/// its operands come from and itself, in the order in which they run, at most `shown_instructions`.
+Result<> verify(const PatchProgram& program);
 
 }  // namespace wale

@@ -6,12 +6,11 @@
 
 #include "runtime/machine/arithmetic.hpp"
 #include "runtime/machine/verify.hpp"
-#include "schema/refuse.hpp"
 
 namespace wale {
 namespace {
 
-/// `value` in low .. high, which not-a-number never is.
+/// Refuses a value outside low .. high, not-a-number included.
 template <typename... What>
 void require_within(double value, double low, double high, const What&... what) {
   if (!(value >= low && value <= high)) refuse(what..., " is ", value, " and must be in ", low, " .. ", high);
@@ -89,7 +88,7 @@ void verify_marks(const PatchProgram& program) {
     const std::size_t operands = mark_operands(marks[i].kind);
     if (operands == 0) refuse("mark ", i, " is of a kind that this Wale does not know");
     for (std::size_t beyond = operands; beyond < marks[i].operands.size(); ++beyond) {
-      if (marks[i].operands[beyond] != 0) refuse("mark ", i, " has ", operands, " operands and more that are not zero");
+      if (marks[i].operands[beyond] != 0) refuse("mark ", i, " has ", operands, " operands, and one beyond them is not zero");
     }
     if (marks[i].colour > 0xffffff) refuse("mark ", i, " has a colour beyond red, green and blue");
   }
@@ -121,29 +120,29 @@ void verify_lattices(const PatchProgram& program) {
 void verify_patch(const PatchProgram& program) {
   const double most = program.device.widest_patch();
   const auto side = [most](float value, std::string_view what) {
-    if (!(value >= 2 * arithmetic::least_normal && value <= most)) {  // half of less is zero to the machine
-      refuse("the patch's ", what, " is ", value, " m and must be above 0 and at most the workspace's ", most);
+    if (!(value >= 2 * arithmetic::least_normal && value <= most)) {  // the machine flushes half of a smaller one to zero
+      refuse("the patch's ", what, " is ", value, " m and must be above 0 and at most the workspace's ", most, " m");
     }
   };
   side(program.patch_width, "width");
   side(program.patch_height, "height");
   const float half = 0.5f * std::min(program.patch_width, program.patch_height);
   if (!(program.patch_rim >= 0 && program.patch_rim < half)) {
-    refuse("the patch's rim is ", program.patch_rim, " m and must leave a middle of its ", 2 * half);
+    refuse("the patch's rim is ", program.patch_rim, " m and must be less than half of its smaller side, ", 2 * half, " m");
   }
   if (!(program.active_watt >= 0 && program.active_watt <= most_active_watt)) {
-    refuse("the program gives ", program.active_watt, " W by itself and must give 0 .. ", most_active_watt);
+    refuse("the program declares that it gives ", program.active_watt, " W by itself, and the range is 0 .. ", most_active_watt);
   }
 }
 
-/// What a pad vibrates with: every acceleration that it can be asked for has a command.
+/// A pad's vibration: every acceleration that a program may ask for has a command.
 void verify_vibration(const Shaker& vibration) {
   require_within(vibration.frequency_low, 1e-3, 1e5, "the device's least frequency (Hz)");
   require_within(vibration.frequency_high, vibration.frequency_low, 1e5, "the device's greatest frequency (Hz)");
   require_within(vibration.command_steps, 0, 1e9, "the device's number of command steps");
   require_within(vibration.spin_up, 0, 10, "the device's spin-up (s)");
   const bool has_position = vibration.position != PositionSource::none;
-  if (vibration.position > PositionSource::touch) refuse("the device takes its position from an unknown source");
+  if (vibration.position > PositionSource::touch) refuse("the device has a source of its position that this Wale does not know");
   require_within(vibration.exploring_speed, has_position ? 0 : 1e-3, 100, "the device's exploring speed (m/s)");
   require_within(static_cast<double>(vibration.response.size()), 1, 4096, "the number of frequencies in its response");
   double frequency = 0;
@@ -225,7 +224,7 @@ void verify_percepts(const PatchProgram& program) {
     require_within(percept.floor, 0, 1e9, name, "'s least difference");
     if (!graded(percept.slope) || !graded(percept.anchor) || !graded(percept.handle) ||
         !graded(percept.weber_evidence)) {
-      refuse(name, " grades its evidence in a way that this Wale does not know");
+      refuse(name, " has a grade of evidence that this Wale does not know");
     }
   }
 }
@@ -235,7 +234,7 @@ void verify_fates(const PatchProgram& program) {
     const FateRecord& fate = program.fates[i];
     const std::string name = "fate " + std::to_string(i);
     if (fate.name.empty()) refuse(name, " has no name");
-    if (fate.fate < Fate::kept || fate.fate > Fate::lost) refuse(name, " is none that this Wale knows");
+    if (fate.fate < Fate::kept || fate.fate > Fate::lost) refuse(name, " is of a kind that this Wale does not know");
     require_within(fate.asked, 0, 1, name + "'s level asked for");
     require_within(fate.given, 0, 1, name + "'s level given");
   }

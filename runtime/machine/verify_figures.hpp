@@ -1,14 +1,22 @@
 #pragma once
 
 #include "schema/patch_program.hpp"
+#include "schema/sentence.hpp"
 
 namespace wale {
 
-/// The part of `verify` that looks at figures rather than code: sizes of the register space and of tables, parameters,
-/// states, grids, marks, peaks' lattices, the patch, the device, percepts. Throws a `Refusal`.
+/// Ends verifying with a sentence made of `parts`, thrown as an `Error` that `verify` returns.
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  fail(Code::refused_program, parts...);
+}
+
+/// The part of `verify` that checks figures and not code: the size of the register space and of tables, parameters,
+/// states, grids, marks, the lattices of peaks, the patch, the device, percepts. Throws as `refuse` does.
 void verify_figures(const PatchProgram& program);
 
-/// The part that looks at what code costs: each run within its share of the period, setup within its limit. Throws too.
+/// The part that checks the cost of code: each run within its share of the period, setup within its limit. Throws as
+/// `refuse` does.
 void verify_costs(const PatchProgram& program);
 
 }  // namespace wale

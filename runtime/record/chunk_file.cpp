@@ -10,8 +10,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "schema/refuse.hpp"
-
 namespace wale {
 namespace {
 
@@ -19,55 +17,62 @@ using namespace recording_format;
 
 constexpr std::size_t least_page = 4096;
 
-std::string said_of(int error) { return std::generic_category().message(error); }
-
-std::string mend_of(int error) {
+/// "cannot record in `run.wrec`", with the reason and what to do about it.
+Error unwritable(const std::string& what, const std::string& path, int error) {
+  const auto because = [&](const std::string& reason, const std::string& mend) {
+    return Error{.code = Code::unwritable_file,
+                 .sentence = what + " `" + path + "`: " + reason,
+                 .mend = mend,
+                 .place = {.name = path}};
+  };
   switch (error) {
     case EEXIST:
-      return ": it is there already, and a recording is never written over; delete it or choose another name";
-    case ENOENT: return ": there is no such folder; make it first";
+      return because("the file exists already, and a recording never overwrites a file",
+                     "delete it or choose another name");
+    case ENOENT: return because("there is no such folder", "make it first");
     case EACCES:
-    case EROFS: return ": nothing may be written there; choose another folder";
-    case EFBIG: return ": no file may become that large here (ulimit -f); raise the limit or record elsewhere";
+    case EROFS: return because("nothing may be written there", "choose another folder");
+    case EFBIG:
+      return because("no file may become that large here (ulimit -f)", "raise the limit or record elsewhere");
     case ENOSPC:
-    case EDQUOT: return ": the disk is full; make room or record elsewhere";
-    default: return ": " + said_of(error);
+    case EDQUOT: return because("the disk is full", "make room or record elsewhere");
+    default: return because(std::generic_category().message(error), "");
   }
 }
 
 }  // namespace
 
-ChunkFile::ChunkFile(std::string path) : path_(std::move(path)) {
-  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file_ < 0) refuse("cannot record in `", path_, "`", mend_of(errno));
+Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file < 0) return unwritable("cannot record in", path, errno);
   FileHeader header{.magic = magic,
                     .version = version,
                     .first_chunk = first_chunk,
                     .chunk_size = chunk_size,
                     .tick_size = sizeof(TickEntry)};
   header.check = check_of(header);
-  int error = posix_fallocate(file_, 0, first_chunk);
-  if (error == 0 && pwrite(file_, &header, sizeof header, 0) != sizeof header) error = ENOSPC;
-  if (error == 0) return;
-  close(file_);
-  unlink(path_.c_str());
-  refuse("cannot record in `", path_, "`", mend_of(error));
+  int error = posix_fallocate(file, 0, first_chunk);
+  if (error == 0 && pwrite(file, &header, sizeof header, 0) != sizeof header) error = ENOSPC;
+  if (error == 0) return std::unique_ptr<ChunkFile>(new ChunkFile(path, file));
+  close(file);
+  unlink(path.c_str());
+  return unwritable("cannot record in", path, error);
 }
 
 ChunkFile::~ChunkFile() { close(file_); }
 
-std::byte* ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
+Result<std::byte*> ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
   const auto offset = static_cast<off_t>(first_chunk + chunks_.size() * chunk_size);
   if (const int error = posix_fallocate(file_, offset, chunk_size)) {
-    [[maybe_unused]] const int cut = ftruncate(file_, offset);  // a part of a chunk is no chunk
-    refuse("cannot go on recording in `", path_, "`", mend_of(error));
+    [[maybe_unused]] const int cut = ftruncate(file_, offset);  // so that the file ends with a whole chunk
+    return unwritable("cannot go on recording in", path_, error);
   }
   void* mapped = mmap(nullptr, chunk_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file_, offset);
-  if (mapped == MAP_FAILED) refuse("cannot go on recording in `", path_, "`", mend_of(errno));
+  if (mapped == MAP_FAILED) return unwritable("cannot go on recording in", path_, errno);
   chunks_.push_back(kind);
   auto* chunk = static_cast<std::byte*>(mapped);
-  // Populating makes pages present, only a store makes them writable.
+  // Populating makes pages present; only a store makes them writable.
   for (std::size_t at = 0; at < chunk_size; at += least_page)
     *const_cast<volatile std::byte*>(chunk + at) = std::byte{0};
   ChunkHeader header{.kind = kind, .check = 0, .number = number};
@@ -87,7 +92,7 @@ void ChunkFile::unmap(std::byte* chunk) noexcept {
 void ChunkFile::cut(std::size_t unused) noexcept {
   const std::lock_guard lock(mutex_);
   for (; unused > 0 && !chunks_.empty() && chunks_.back() == ChunkKind::ticks; --unused) chunks_.pop_back();
-  // What stays is longer than need be, and just as good.
+  // If this fails, the file is longer than needed and still correct.
   [[maybe_unused]] const int cut = ftruncate(file_, static_cast<off_t>(first_chunk + chunks_.size() * chunk_size));
 }
 

@@ -2,35 +2,38 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "runtime/record/format.hpp"
-#include "wale/program.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
-/// A recording's file as it grows: chunks one after the other, each mapped for itself. What is stored in a mapped chunk
-/// is in the file whatever becomes of the process.
+/// A recording's file as it grows: chunks one after the other, each mapped for itself. Bytes that are stored in a mapped
+/// chunk are in the file even if the process is killed.
 class ChunkFile {
  public:
-  /// A new file. Throws a `Refusal` when there is one already, or none can be made.
-  explicit ChunkFile(std::string path);
+  /// Makes a new file. Error: `unwritable_file`, also when there is a file of that name already.
+  static Result<std::unique_ptr<ChunkFile>> create(const std::string& path);
   ~ChunkFile();
   ChunkFile(const ChunkFile&) = delete;
   ChunkFile& operator=(const ChunkFile&) = delete;
 
-  /// One more chunk, whose blocks on the disk are its own already and whose every page has been written once, so that
-  /// storing in it asks the system for nothing. (A page that the kernel has written out meanwhile is write-protected,
-  /// and the next store into it traps once.) Throws a `Refusal` when the disk is full. From any thread.
-  std::byte* grow(recording_format::ChunkKind kind, std::uint64_t number);
+  /// One more chunk. Its blocks on the disk are allocated and each of its pages has been written once, so that storing
+  /// in it asks the system for nothing. (A page that the kernel has written out meanwhile is write-protected, and the
+  /// next store into it traps once.) Error: `unwritable_file`, when the disk is full. From any thread.
+  Result<std::byte*> grow(recording_format::ChunkKind kind, std::uint64_t number);
   static void unmap(std::byte* chunk) noexcept;
 
-  /// Cuts off the last `unused` chunks of ticks, as far as nothing lies behind them. Nobody has them mapped.
+  /// Cuts off the last `unused` chunks of ticks, as far as nothing lies behind them. They must not be mapped.
   void cut(std::size_t unused) noexcept;
 
  private:
+  ChunkFile(std::string path, int file) : path_(std::move(path)), file_(file) {}
+
   std::string path_;
   int file_ = -1;
   std::mutex mutex_;

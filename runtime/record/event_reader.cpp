@@ -1,17 +1,26 @@
 #include "runtime/record/event_reader.hpp"
 
 #include "runtime/record/profile_program.hpp"
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 
 namespace wale {
 
 using namespace recording_format;
 
-void EventReader::read(const EventHeader& header, std::span<const std::byte> payload) {
+Result<> EventReader::read(const EventHeader& header, std::span<const std::byte> payload) {
+  try {
+    read_whole(header, payload);
+    return {};
+  } catch (const Error& error) {
+    return error;
+  }
+}
+
+void EventReader::read_whole(const EventHeader& header, std::span<const std::byte> payload) {
   const auto code = static_cast<EventCode>(header.kind);
   Bytes in("an event", payload);
-  if ((code == EventCode::header) == has_header_) refuse("the header stands first, and once");
-  if (contents_.said_ticks) refuse("something comes after the end");
+  if ((code == EventCode::header) == has_header_) damaged("the header must be the first event, and the only one of its kind");
+  if (contents_.said_ticks) damaged("something comes after the end");
   if (code == EventCode::header) {
     read_header(in, payload);
   } else if (code == EventCode::program) {
@@ -27,25 +36,27 @@ void EventReader::read(const EventHeader& header, std::span<const std::byte> pay
 void EventReader::read_header(Bytes& in, std::span<const std::byte> payload) {
   RecordingHeader& header = contents_.header;
   header.most_newton = in.f64();
-  if (!(header.most_newton > 0)) refuse("a largest force of ", header.most_newton, " N is none");
-  header.virtual_time = in.boolean("virtual time");
+  if (!(header.most_newton > 0)) damaged("the largest force is ", header.most_newton, " N, and must be positive");
+  header.virtual_time = in.boolean("whether time is virtual");
   header.hand = in.text("the hand");
   const std::uint32_t size = in.u32();
-  if (size != in.remaining()) refuse("the device's profile should have ", size, " bytes and has ", in.remaining());
-  header.device = read_profile(payload.last(size));
+  if (size != in.remaining()) damaged("the device's profile should have ", size, " bytes and has ", in.remaining());
+  Result<DeviceProfile> device = read_profile(payload.last(size));
+  if (!device) throw std::move(device).error();
+  header.device = *std::move(device);
   has_header_ = true;
 }
 
 void EventReader::read_program(Bytes& in, std::span<const std::byte> payload) {
   const std::uint64_t hash = in.u64();
   const auto bytes = payload.last(in.remaining());
-  if (hash != hash_of(bytes)) refuse("its bytes are not those of its hash");
+  if (hash != hash_of(bytes)) damaged("the program's bytes do not match its hash");
   contents_.programs.push_back({hash, bytes});
 }
 
 std::uint32_t EventReader::program(Bytes& in) const {
   const std::uint32_t number = in.u32();
-  if (number >= contents_.programs.size()) refuse("program ", number, " has not been recorded");
+  if (number >= contents_.programs.size()) damaged("program ", number, " has not been recorded");
   return number;
 }
 
@@ -65,7 +76,7 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
       event.kind = RecordedEvent::Kind::add;
       placement();
       event.layer = in.f32();
-      if (std::isnan(event.layer)) refuse("a layer is a number");
+      if (std::isnan(event.layer)) damaged("the layer is not a number");
       event.parameters.resize(in.count(sizeof(float), "parameters"));
       for (float& value : event.parameters) value = in.f32();
       return event;
@@ -88,7 +99,7 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
     case EventCode::publish:
       event.kind = RecordedEvent::Kind::publish;
       event.revision = in.u32();
-      if (event.revision != revision_ + 1) refuse("revision ", event.revision, " comes after revision ", revision_);
+      if (event.revision != revision_ + 1) damaged("revision ", event.revision, " comes after revision ", revision_);
       revision_ = event.revision;
       return event;
     case EventCode::end:
@@ -98,7 +109,7 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
     case EventCode::header:
     case EventCode::program: break;
   }
-  refuse("kind ", static_cast<std::uint32_t>(code), " is not known");
+  damaged("kind ", static_cast<std::uint32_t>(code), " is not known");
 }
 
 }  // namespace wale

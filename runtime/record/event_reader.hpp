@@ -8,20 +8,23 @@
 
 namespace wale {
 
-/// Reads one event after the other into what is known of a recording.
+/// Reads one event after the other into the contents of a recording.
 class EventReader {
  public:
   explicit EventReader(RecordingContents& contents) : contents_(contents) {}
 
-  /// Throws a `Refusal` when it makes no sense where it stands. `payload` lies in `RecordingContents::events_bytes`.
-  void read(const recording_format::EventHeader& header, std::span<const std::byte> payload);
+  /// `payload` lies in `RecordingContents::events_bytes`. Error: `damaged_file`, when the event makes no sense where it
+  /// stands.
+  Result<> read(const recording_format::EventHeader& header, std::span<const std::byte> payload);
 
   bool has_header() const { return has_header_; }
-  /// The last that was published.
+  /// The last one that was published.
   std::uint32_t revision() const { return revision_; }
 
  private:
+  // These throw `Error`, which `read` returns.
   using Bytes = patch_program_format::ByteReader;
+  void read_whole(const recording_format::EventHeader& header, std::span<const std::byte> payload);
   void read_header(Bytes& in, std::span<const std::byte> payload);
   void read_program(Bytes& in, std::span<const std::byte> payload);
   RecordedEvent read_event(recording_format::EventCode code, Bytes& in);

@@ -12,7 +12,7 @@ EventStream::~EventStream() {
   for (std::byte* chunk : chunks_) ChunkFile::unmap(chunk);
 }
 
-void EventStream::append(EventCode kind, std::uint64_t ticks, std::span<const std::byte> payload) {
+Result<> EventStream::append(EventCode kind, std::uint64_t ticks, std::span<const std::byte> payload) {
   EventHeader header{.size = static_cast<std::uint32_t>(payload.size()) + 1,
                      .check = 0,
                      .ticks = ticks,
@@ -22,22 +22,25 @@ void EventStream::append(EventCode kind, std::uint64_t ticks, std::span<const st
   std::memcpy(bytes.data(), &header, sizeof header);
 
   constexpr std::size_t held_back = sizeof header.size + sizeof header.check;
-  store(std::array<std::byte, held_back>{});  // zero is the end of the stream
+  if (auto stored = store(std::array<std::byte, held_back>{}); !stored) return stored;  // zeros are the stream's end
   std::byte* const begin = chunks_.back() + chunk_header_size + used_ - held_back;
-  store(std::span(bytes).subspan(held_back));
-  store(payload);
-  constexpr std::array<std::byte, event_alignment> nothing{};
-  store(std::span(nothing).first(aligned(payload.size()) - payload.size()));
+  constexpr std::array<std::byte, event_alignment> zeros{};
+  const std::span<const std::byte> padding = std::span(zeros).first(aligned(payload.size()) - payload.size());
+  for (const std::span<const std::byte> part : {std::span<const std::byte>(bytes).subspan(held_back), payload, padding})
+    if (auto stored = store(part); !stored) return stored;
   std::uint64_t whole = 0;
   std::memcpy(&whole, bytes.data(), sizeof whole);
   std::atomic_ref(*reinterpret_cast<std::uint64_t*>(begin)).store(whole, std::memory_order_release);
   leave_all_but_last();
+  return {};
 }
 
-void EventStream::store(std::span<const std::byte> bytes) {
+Result<> EventStream::store(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     if (used_ == events_per_chunk) {
-      chunks_.push_back(file_.grow(ChunkKind::events, made_++));
+      const Result<std::byte*> chunk = file_.grow(ChunkKind::events, made_++);
+      if (!chunk) return chunk.error();
+      chunks_.push_back(*chunk);
       used_ = 0;
     }
     const std::size_t fitting = std::min(bytes.size(), events_per_chunk - used_);
@@ -45,6 +48,7 @@ void EventStream::store(std::span<const std::byte> bytes) {
     used_ += fitting;
     bytes = bytes.subspan(fitting);
   }
+  return {};
 }
 
 void EventStream::leave_all_but_last() noexcept {

@@ -21,7 +21,7 @@ class EventBytes {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     return *this;
   }
-  /// With its length before it.
+  /// A text, after its length.
   EventBytes& operator<<(std::string_view text) {
     return *this << static_cast<std::uint32_t>(text.size()) << std::as_bytes(std::span(text));
   }
@@ -32,7 +32,7 @@ class EventBytes {
   std::vector<std::byte> bytes_;
 };
 
-/// The events of a recording: frames one after the other across chunks of their own. One thread at a time.
+/// The events of a recording: frames one after the other across chunks of their own. One thread at a time may use it.
 class EventStream {
  public:
   explicit EventStream(ChunkFile& file) : file_(file) {}
@@ -40,16 +40,16 @@ class EventStream {
   EventStream(const EventStream&) = delete;
   EventStream& operator=(const EventStream&) = delete;
 
-  /// One more event, which is in the file as a whole or, should the process end meanwhile, not at all. Throws a
-  /// `Refusal` when the disk is full.
-  void append(recording_format::EventCode kind, std::uint64_t ticks, std::span<const std::byte> payload);
+  /// One more event. If the process is killed meanwhile, the file has all of it or nothing of it. Error:
+  /// `unwritable_file`, when the disk is full.
+  Result<> append(recording_format::EventCode kind, std::uint64_t ticks, std::span<const std::byte> payload);
 
  private:
-  void store(std::span<const std::byte> bytes);
+  Result<> store(std::span<const std::byte> bytes);
   void leave_all_but_last() noexcept;
 
   ChunkFile& file_;
-  std::vector<std::byte*> chunks_;  // those that the event under way lies in
+  std::vector<std::byte*> chunks_;  // those of the event that is being stored
   std::uint64_t made_ = 0;
   std::size_t used_ = recording_format::events_per_chunk;  // of the last chunk
 };

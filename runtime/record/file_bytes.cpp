@@ -10,12 +10,14 @@
 
 namespace wale {
 
-std::variant<FileBytes, Refusal> FileBytes::map(const std::string& path) {
-  const auto refusal = [&](int error) {
-    return Refusal{"`" + path + "` cannot be read: " + std::generic_category().message(error), {}};
+Result<FileBytes> FileBytes::map(const std::string& path) {
+  const auto unreadable = [&](int error) {
+    return Error{.code = Code::unreadable_file,
+                 .sentence = "`" + path + "` cannot be read: " + std::generic_category().message(error),
+                 .place = {.name = path}};
   };
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return refusal(errno);
+  if (file < 0) return unreadable(errno);
   struct stat status {};
   int error = fstat(file, &status) != 0  ? errno
               : S_ISDIR(status.st_mode)  ? EISDIR
@@ -31,7 +33,7 @@ std::variant<FileBytes, Refusal> FileBytes::map(const std::string& path) {
       bytes.mapped_ = {static_cast<const std::byte*>(mapped), size};
   }
   close(file);
-  if (error != 0) return refusal(error);
+  if (error != 0) return unreadable(error);
   return bytes;
 }
 

@@ -4,20 +4,19 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
-/// Bytes to read from: a mapped file's, or some at hand.
+/// Bytes to read from: a mapped file, or bytes in memory.
 class FileBytes {
  public:
   FileBytes() = default;
   explicit FileBytes(std::vector<std::byte> bytes) : held_(std::move(bytes)) {}
-  /// Refused when the file cannot be read.
-  static std::variant<FileBytes, Refusal> map(const std::string& path);
+  /// Error: `unreadable_file`.
+  static Result<FileBytes> map(const std::string& path);
   ~FileBytes();
   FileBytes(FileBytes&& other) noexcept { *this = std::move(other); }
   FileBytes& operator=(FileBytes&& other) noexcept {

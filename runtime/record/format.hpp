@@ -10,16 +10,16 @@
 
 #include "wale/recording.hpp"
 
-/// What the writer and the reader of recordings agree on; the prose is RECORDING.md.
+/// The format of recordings, for their writer and reader. RECORDING.md describes it.
 namespace wale::recording_format {
 
-static_assert(std::endian::native == std::endian::little, "recordings are stored as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "recordings are stored in the memory's byte order");
 
-/// As in PNG: a byte no text has, the name, and the line ends and end-of-file marks that a text-mode transfer mangles.
+/// As in PNG: a byte that no text has, the name, and the line ends and end-of-file mark that a transfer as text changes.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
 inline constexpr std::uint32_t version = 1;
 
-/// Bytes before the first chunk, and of a chunk: wherever a chunk begins, a page does, of whatever size (4 to 64 KiB).
+/// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, whatever the pages' size (4 to 64 KiB).
 inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;
 inline constexpr std::size_t chunk_header_size = 64;
 
@@ -41,7 +41,7 @@ struct ChunkHeader {
 };
 static_assert(sizeof(ChunkHeader) == 16);
 
-/// A tick as it lies in a chunk. `sequence`, the tick's number and one, is stored last.
+/// A tick as it is stored in a chunk. `sequence`, one more than the tick's number, is stored last.
 struct TickEntry {
   std::uint64_t sequence = 0;
   std::int64_t period = 0;
@@ -63,18 +63,18 @@ inline constexpr std::size_t events_per_chunk = chunk_size - chunk_header_size; 
 inline constexpr std::uint32_t contact_mask = 3, button_flag = 4, inside_flag = 8;
 inline constexpr int guards_shift = 8;
 
-/// Before each event's payload in the stream of events. `size` and `check` are stored last, together.
+/// The header before each event's payload. `size` and `check` are stored last, together.
 struct EventHeader {
-  std::uint32_t size = 0;   ///< bytes of the payload, and one
-  std::uint32_t check = 0;  ///< of what follows
-  std::uint64_t ticks = 0;  ///< done when it came
+  std::uint32_t size = 0;   ///< one more than the payload's bytes
+  std::uint32_t check = 0;  ///< of the size, the fields below and the payload
+  std::uint64_t ticks = 0;  ///< done before the event
   std::uint32_t kind = 0;   ///< `EventCode`
   std::uint32_t reserved = 0;
 };
 static_assert(sizeof(EventHeader) == 24);
 
-/// With the header the stream's first event and `program`, which brings a program's bytes before it is first named; the
-/// others are those of `RecordedEvent::Kind`.
+/// `header` is the stream's first event. `program` has a program's bytes and comes before the first event that names it.
+/// The others are those of `RecordedEvent::Kind`.
 enum class EventCode : std::uint32_t {
   header = 1,
   program = 2,
@@ -93,8 +93,8 @@ constexpr std::size_t aligned(std::size_t size) {
   return (size + event_alignment - 1) / event_alignment * event_alignment;
 }
 
-/// Tells a changed word for sure and anything else all but so. Each step is one-to-one in the sum so far and in the
-/// word. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+/// A checksum that always notices one changed word, because each step is one-to-one in the sum so far and in the word.
+/// It misses any other damage with a probability of 2^-32. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 class Check {
  public:
   void add(std::uint64_t word) noexcept {

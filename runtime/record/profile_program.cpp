@@ -1,15 +1,13 @@
 #include "runtime/record/profile_program.hpp"
 
 #include <utility>
-#include <variant>
 
-#include "schema/refuse.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
 namespace {
 
-constexpr float some_width = 1e-3f;  ///< m; the profile may have no patches of its own
+constexpr float some_width = 1e-3f;  // m; a profile may lack a size of patches, and a program needs one
 
 PatchProgram nothing_on(const DeviceProfile& profile) {
   PatchProgram program;
@@ -36,16 +34,16 @@ PatchProgram nothing_on(const DeviceProfile& profile) {
 
 }  // namespace
 
-std::vector<std::byte> write_profile(const DeviceProfile& profile) {
+Result<std::vector<std::byte>> write_profile(const DeviceProfile& profile) {
   PatchProgram program = nothing_on(profile);
-  if (auto loaded = Program::load(program); auto* refusal = std::get_if<Refusal>(&loaded)) throw std::move(*refusal);
+  if (auto loaded = Program::load(program); !loaded) return std::move(loaded).error();
   return write_patch_program(program);
 }
 
-DeviceProfile read_profile(std::span<const std::byte> bytes) {
+Result<DeviceProfile> read_profile(std::span<const std::byte> bytes) {
   auto loaded = Program::load(bytes);
-  if (auto* refusal = std::get_if<Refusal>(&loaded)) throw std::move(*refusal);
-  return std::get<Program>(loaded).description().device;
+  if (!loaded) return std::move(loaded).error();
+  return loaded->description().device;
 }
 
 }  // namespace wale

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "schema/device_profile.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
-/// A device's profile as the patch program that does nothing on it: so it has the one form that profiles are stored in,
-/// and is checked as they are. Both throw a `Refusal`.
-std::vector<std::byte> write_profile(const DeviceProfile& profile);
-DeviceProfile read_profile(std::span<const std::byte> bytes);
+/// A device's profile is stored as a patch program that does nothing on it: profiles have one stored form, and one
+/// check. Errors: those of `Program::load`.
+Result<std::vector<std::byte>> write_profile(const DeviceProfile& profile);
+Result<DeviceProfile> read_profile(std::span<const std::byte> bytes);
 
 }  // namespace wale

@@ -8,32 +8,41 @@
 #include <utility>
 
 #include "runtime/record/profile_program.hpp"
-#include "schema/refuse.hpp"
 
 namespace wale {
 
 using namespace recording_format;
 
-RecordWriter::RecordWriter(const std::string& path, const RecordingHeader& header, bool ticks_may_wait)
-    : file_(path), events_(file_), waits_(ticks_may_wait) {
-  try {
-    EventBytes bytes;
-    bytes << header.most_newton << static_cast<std::uint8_t>(header.virtual_time) << std::string_view(header.hand);
-    const auto profile = write_profile(header.device);
-    bytes << static_cast<std::uint32_t>(profile.size()) << profile;
-    events_.append(EventCode::header, 0, bytes.bytes());
-    map_ahead();
-    if (!waits_) {
-      const double chunk_seconds = static_cast<double>(ticks_per_chunk) / header.device.rate;
-      mapper_ = std::thread([this, pause = std::min(0.1, chunk_seconds / 4)] { keep_ahead(pause); });
-    }
-  } catch (const std::system_error& error) {
-    remove(path.c_str());  // ours, and empty
-    refuse("no thread for recording: ", error.what());
-  } catch (...) {
-    remove(path.c_str());
-    throw;
+Result<std::unique_ptr<RecordWriter>> RecordWriter::begin(const std::string& path, const RecordingHeader& header,
+                                                          bool ticks_may_wait) {
+  Result<std::unique_ptr<ChunkFile>> file = ChunkFile::create(path);
+  if (!file) return std::move(file).error();
+  std::unique_ptr<RecordWriter> writer(new RecordWriter(*std::move(file), ticks_may_wait));
+  if (auto started = writer->start(header); !started) {
+    writer.reset();
+    remove(path.c_str());  // this process made it, and it holds no run
+    return std::move(started).error();
   }
+  return writer;
+}
+
+Result<> RecordWriter::start(const RecordingHeader& header) {
+  const Result<std::vector<std::byte>> profile = write_profile(header.device);
+  if (!profile) return profile.error();
+  EventBytes bytes;
+  bytes << header.most_newton << static_cast<std::uint8_t>(header.virtual_time) << std::string_view(header.hand);
+  bytes << static_cast<std::uint32_t>(profile->size()) << *profile;
+  if (auto appended = events_.append(EventCode::header, 0, bytes.bytes()); !appended) return appended;
+  if (auto mapped = map_ahead(); !mapped) return mapped;
+  if (waits_) return {};
+  const double chunk_seconds = static_cast<double>(ticks_per_chunk) / header.device.rate;
+  try {
+    mapper_ = std::thread([this, pause = std::min(0.1, chunk_seconds / 4)] { keep_ahead(pause); });
+  } catch (const std::system_error& error) {
+    return Error{.code = Code::short_of_resources,
+                 .sentence = std::string("the system gives no thread for recording: ") + error.what()};
+  }
+  return {};
 }
 
 RecordWriter::~RecordWriter() {
@@ -46,7 +55,7 @@ RecordWriter::~RecordWriter() {
   ChunkFile::unmap(chunk_);
   for (auto& chunk : full_) ChunkFile::unmap(chunk.load());
   for (auto& chunk : ahead_) ChunkFile::unmap(chunk.load());
-  file_.cut(made_ - taken_);
+  file_->cut(made_ - taken_);
 }
 
 void RecordWriter::append(const RecordedTick& tick) noexcept {
@@ -67,17 +76,11 @@ void RecordWriter::append(const RecordedTick& tick) noexcept {
 bool RecordWriter::next_chunk() noexcept {
   const std::size_t place = taken_ % chunks_ahead;
   if (waits_ && ahead_[place].load(std::memory_order_relaxed) == nullptr) {
-    try {
-      map_ahead();
-    } catch (const Refusal& refusal) {
-      give_up(refusal.reason);
-    } catch (...) {
-      give_up("no memory is left");
-    }
+    if (auto mapped = map_ahead(); !mapped) give_up(mapped.error());
   }
   std::byte* const next = ahead_[place].exchange(nullptr, std::memory_order_acquire);
   if (next == nullptr) return false;
-  // Its place is free: the chunk that left it was let go before the one that is taken now was mapped.
+  // The place is free: the chunk that was in it was unmapped before the one taken now was mapped.
   if (chunk_ != nullptr) full_[place].store(chunk_, std::memory_order_release);
   chunk_ = next;
   used_ = 0;
@@ -85,14 +88,17 @@ bool RecordWriter::next_chunk() noexcept {
   return true;
 }
 
-void RecordWriter::map_ahead() {
+Result<> RecordWriter::map_ahead() {
   for (std::size_t i = 0; i < chunks_ahead; ++i) {
     const std::size_t place = made_ % chunks_ahead;
-    if (ahead_[place].load(std::memory_order_acquire) != nullptr) return;
+    if (ahead_[place].load(std::memory_order_acquire) != nullptr) return {};
     ChunkFile::unmap(full_[place].exchange(nullptr, std::memory_order_acquire));
-    ahead_[place].store(file_.grow(ChunkKind::ticks, made_), std::memory_order_release);
+    const Result<std::byte*> chunk = file_->grow(ChunkKind::ticks, made_);
+    if (!chunk) return chunk.error();
+    ahead_[place].store(*chunk, std::memory_order_release);
     ++made_;
   }
+  return {};
 }
 
 void RecordWriter::keep_ahead(double seconds) {
@@ -101,37 +107,34 @@ void RecordWriter::keep_ahead(double seconds) {
     ending_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return over_; });
     if (over_ || failed_.load(std::memory_order_relaxed)) continue;
     lock.unlock();
-    try {
-      map_ahead();
-    } catch (const Refusal& refusal) {
-      give_up(refusal.reason);
-    }
+    if (auto mapped = map_ahead(); !mapped) give_up(mapped.error());
     lock.lock();
   }
 }
 
-void RecordWriter::give_up(const std::string& reason) noexcept {
+void RecordWriter::give_up(const Error& error) noexcept {
   failed_.store(true, std::memory_order_relaxed);
   const std::lock_guard lock(mutex_);
-  if (reason_.empty()) reason_ = reason;
+  if (!problem_) problem_ = error;
 }
 
-std::string RecordWriter::ended_early() const {
-  if (whole_ && !lost_.load(std::memory_order_relaxed)) return {};
+std::optional<Error> RecordWriter::ended_early() const {
+  if (whole_ && !lost_.load(std::memory_order_relaxed)) return std::nullopt;
   const std::lock_guard lock(mutex_);
-  const std::string after = "the recording ends after " + std::to_string(ticks_.load()) + " ticks: ";
-  return after + (reason_.empty() ? "the disk was slower than the loop; record on a faster one" : reason_);
+  Error error = problem_.value_or(Error{.code = Code::unwritable_file,
+                                        .sentence = "the disk was slower than the loop",
+                                        .mend = "record on a faster one"});
+  error.sentence = "the recording ends after " + std::to_string(ticks_.load()) + " ticks: " + error.sentence;
+  return error;
 }
 
 void RecordWriter::note(EventCode kind, const EventBytes& payload) noexcept {
   if (!whole_) return;
-  try {
-    events_.append(kind, ticks_.load(std::memory_order_relaxed), payload.bytes());
-  } catch (const Refusal& refusal) {
-    give_up(refusal.reason);
-    whole_ = false;
-    lost_.store(true, std::memory_order_relaxed);  // ticks without what was done to them say nothing
-  }
+  const auto appended = events_.append(kind, ticks_.load(std::memory_order_relaxed), payload.bytes());
+  if (appended) return;
+  give_up(appended.error());
+  whole_ = false;
+  lost_.store(true, std::memory_order_relaxed);  // ticks cannot be replayed without the changes of the stage
 }
 
 std::uint32_t RecordWriter::number_of(const Program& program) {

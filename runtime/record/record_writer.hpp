@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,16 +19,17 @@
 
 namespace wale {
 
-/// Records a run in a file, as it happens: what was appended is in the file even if the process is killed the next
-/// moment. Ticks come from the real-time thread, which stores them in chunks that another thread has mapped ahead;
-/// events from the control side. When the disk is full, or slower than the loop, the recording ends there, and the run
-/// goes on.
+/// Records a run in a file as it happens: a tick that was appended is in the file even if the process is killed at once.
+/// Ticks come from the real-time thread, which stores them in chunks that another thread has mapped in advance; events
+/// come from the control side. When the disk is full, or slower than the loop, the recording ends and the run goes on.
 class RecordWriter final : public TickSink {
  public:
-  /// A new file. With `ticks_may_wait`, as in virtual time, whoever appends maps chunks itself. Throws a `Refusal` when
-  /// there is no file to be had or the profile is none that a program may be built for.
-  RecordWriter(const std::string& path, const RecordingHeader& header, bool ticks_may_wait);
-  /// Ends the file where it is.
+  /// Begins a new file. With `ticks_may_wait`, as in virtual time, the thread that appends maps chunks itself. Errors:
+  /// `unwritable_file`, `short_of_resources` without a thread, and `refused_program` for a profile on which no program
+  /// may run.
+  static Result<std::unique_ptr<RecordWriter>> begin(const std::string& path, const RecordingHeader& header,
+                                                     bool ticks_may_wait);
+  /// Ends the file after the last tick.
   ~RecordWriter() override;
   RecordWriter(const RecordWriter&) = delete;
   RecordWriter& operator=(const RecordWriter&) = delete;
@@ -35,57 +37,62 @@ class RecordWriter final : public TickSink {
   /// Real-time, unless ticks may wait: allocates nothing, takes no lock, makes no system call, does not throw.
   void append(const RecordedTick& tick) noexcept override;
 
-  /// What is done to the stage: one thread at a time, in the order in which it happens. Never throw.
+  /// Changes of the stage, in the order in which they happen. One thread at a time may call these.
   void place(const Program& program, glm::vec2 position, PatchSize size) noexcept;
   void add(const Program& program, glm::vec2 position, PatchSize size, float layer,
            std::span<const float> parameters) noexcept;
   void replace(std::size_t patch, const Program& program) noexcept;
   void set(std::size_t patch, std::size_t parameter, float value) noexcept;
   void move(std::size_t patch, glm::vec2 position) noexcept;
-  /// All that was done so far is about to be handed to the loop as this revision.
+  /// All changes so far are about to be handed to the loop as this revision.
   void publish(std::uint32_t revision) noexcept;
-  /// The run is over, and no tick comes any more: the recording is whole.
+  /// The run is over and no more ticks come: the recording is complete.
   void end() noexcept;
 
-  /// Why it ended before the run; empty where it did not. When no tick comes any more.
-  std::string ended_early() const;
+  /// Why the recording ended before the run; nothing where it did not. Call it when no more ticks come.
+  std::optional<Error> ended_early() const;
 
  private:
   static constexpr std::size_t chunks_ahead = 4;
 
+  RecordWriter(std::unique_ptr<ChunkFile> file, bool ticks_may_wait)
+      : file_(std::move(file)), events_(*file_), waits_(ticks_may_wait) {}
+
+  /// Stores the header and the first chunks, and starts the thread that maps.
+  Result<> start(const RecordingHeader& header);
   void note(recording_format::EventCode kind, const EventBytes& payload) noexcept;
-  /// The number of a program, which is stored when it comes for the first time.
+  /// The number of a program. Its bytes are stored at its first use.
   std::uint32_t number_of(const Program& program);
-  /// Maps what is missing ahead and lets go what is full.
-  void map_ahead();
+  /// Maps the chunks that are missing ahead, and unmaps the full ones.
+  Result<> map_ahead();
   void keep_ahead(double seconds);
-  void give_up(const std::string& reason) noexcept;
+  void give_up(const Error& error) noexcept;
   bool next_chunk() noexcept;
 
-  ChunkFile file_;
+  std::unique_ptr<ChunkFile> file_;
   EventStream events_;
   bool waits_;
-  bool whole_ = true;  // the control side's: every event so far is in the file
+  bool whole_ = true;  // every event so far is in the file; the control side's
   std::map<const DecodedProgram*, std::pair<Program, std::uint32_t>> known_;
   std::map<std::uint64_t, std::uint32_t> by_hash_;
 
-  // The real-time thread's.
+  // Used by the real-time thread.
   std::byte* chunk_ = nullptr;
   std::size_t used_ = recording_format::ticks_per_chunk;
   std::uint64_t taken_ = 0;
   std::atomic<std::uint64_t> ticks_ = 0;
 
-  // Between it and the one that maps: chunk number n lies in place n % chunks_ahead.
+  // Shared by the real-time thread and the one that maps: chunk number n is in place n % chunks_ahead.
   std::array<std::atomic<std::byte*>, chunks_ahead> ahead_{};
   std::array<std::atomic<std::byte*>, chunks_ahead> full_{};
   std::atomic<bool> lost_ = false;    // a tick found no chunk
-  std::atomic<bool> failed_ = false;  // there will be no more chunks
+  std::atomic<bool> failed_ = false;  // no more chunks can be mapped
   std::uint64_t made_ = 0;
 
-  mutable std::mutex mutex_;  // of the reason, and of ending
+  mutable std::mutex mutex_;  // guards `over_` and `problem_`
   std::condition_variable ending_;
   bool over_ = false;
-  std::string reason_;
+  std::optional<Error> problem_;
   std::thread mapper_;
 };
 

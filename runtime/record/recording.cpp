@@ -10,7 +10,7 @@
 #include "runtime/record/file_bytes.hpp"
 #include "runtime/record/format.hpp"
 #include "runtime/record/recording_contents.hpp"
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 
 namespace wale {
 namespace {
@@ -21,30 +21,29 @@ bool all_zero(std::span<const std::byte> bytes) {
   return std::ranges::all_of(bytes, [](std::byte byte) { return byte == std::byte{0}; });
 }
 
-/// Beyond these no run goes, and sums of them overflow nothing.
+/// No run has more than these, and sums of them do not overflow.
 constexpr std::int32_t most_counts = 1 << 29;
 constexpr std::int64_t most_periods = std::int64_t{1} << 53;
 
-/// Reads a recording up to where it ends, or is damaged.
+/// Reads a recording up to its end or to the first damage.
 class RecordingReader {
  public:
   RecordingReader(RecordingContents& contents, std::size_t most_ticks)
       : contents_(contents), bytes_(contents.bytes.span()), most_ticks_(most_ticks) {}
 
-  /// Throws a `Refusal`.
-  void read() {
-    read_file_header();
+  Result<> read() {
+    if (auto header = read_file_header(); !header) return header;
     find_chunks();
     read_events();
     read_ticks();
-    if (problem_.empty() && contents_.said_ticks && contents_.ticks != *contents_.said_ticks &&
-        most_ticks_ > contents_.ticks)
-      problem_ =
-          sentence("its end says that there are ", *contents_.said_ticks, " ticks, and there are ", contents_.ticks);
-    if (!problem_.empty() && most_ticks_ > contents_.ticks) {
-      if (contents_.ticks == 0) refuse(problem_, "; nothing of it can be read");
-      refuse(problem_, "; the ", contents_.ticks, " ticks before are whole, and can be had: --ticks ", contents_.ticks);
-    }
+    if (!problem_ && contents_.said_ticks && contents_.ticks != *contents_.said_ticks && most_ticks_ > contents_.ticks)
+      note(sentence("its end declares ", *contents_.said_ticks, " ticks, and it has ", contents_.ticks), bytes_.size());
+    if (!problem_ || most_ticks_ <= contents_.ticks) return {};
+    problem_->mend = contents_.ticks == 0
+                         ? "nothing of it can be read; record again"
+                         : sentence("the ", contents_.ticks, " ticks before it are intact: read them with --ticks ",
+                                    contents_.ticks);
+    return *problem_;
   }
 
  private:
@@ -55,44 +54,58 @@ class RecordingReader {
     return value;
   }
 
-  void read_file_header() const {
-    if (bytes_.empty()) refuse("it is empty: nothing was recorded in it");
+  static Error damaged_at(std::size_t byte, std::string sentence, std::string mend = {}) {
+    return {.code = Code::damaged_file,
+            .sentence = std::move(sentence),
+            .mend = std::move(mend),
+            .place = {.name = {}, .number = byte}};
+  }
+
+  /// Keeps the first damage that is found, at a byte of the file.
+  void note(std::string sentence, std::size_t byte) { problem_ = damaged_at(byte, std::move(sentence)); }
+
+  Result<> read_file_header() const {
+    if (bytes_.empty()) return damaged_at(0, "it is empty, and nothing was recorded in it");
     const auto begins = [&](std::size_t length) {
       return std::equal(magic.begin(), magic.begin() + static_cast<std::ptrdiff_t>(length), bytes_.begin(),
                         [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); });
     };
     if (!begins(std::min(magic.size(), bytes_.size()))) {
-      const bool named = bytes_.size() >= 4 && begins(4);
-      refuse(named
-                 ? "a transfer as text has damaged it: copy it as binary"
-                 : "it is no recording: it does not begin as one does; `wale feel FILE --record NAME.wrec` makes one");
+      if (bytes_.size() >= 4 && begins(4))
+        return damaged_at(4, "a transfer as text has damaged it", "copy it as binary");
+      return damaged_at(0, "it is not a recording: it does not begin as one does",
+                        "make one with `wale feel FILE --record NAME.wrec`");
     }
     if (bytes_.size() < first_chunk)
-      refuse("it is cut short within its header, at byte ", bytes_.size(), ": copy it again");
+      return damaged_at(bytes_.size(), sentence("it is cut short within its header, at byte ", bytes_.size()),
+                        "copy it again");
     const auto header = at<FileHeader>(0);
     if (header.version > version && header.check == check_of(header))
-      refuse("it is of format ", header.version, ", and this Wale reads up to ", version, ": update Wale");
+      return Error{.code = Code::newer_file,
+                   .sentence = sentence("it has format ", header.version, ", and this Wale reads up to ", version),
+                   .mend = "update Wale"};
     if (header.check != check_of(header) || header.version != version || header.first_chunk != first_chunk ||
         header.chunk_size != chunk_size || header.tick_size != sizeof(TickEntry))
-      refuse("its header (byte 0) is damaged: copy it again");
+      return damaged_at(0, "its header (byte 0) is damaged", "copy it again");
+    return {};
   }
 
   void find_chunks() {
     std::vector<std::size_t> event_chunks;
     std::size_t offset = first_chunk;
-    for (; offset + chunk_size <= bytes_.size() && problem_.empty(); offset += chunk_size) {
+    for (; offset + chunk_size <= bytes_.size() && !problem_; offset += chunk_size) {
       const auto header = at<ChunkHeader>(offset);
-      if (header.kind == ChunkKind::none && all_zero(bytes_.subspan(offset, chunk_size))) continue;  // never begun
+      if (header.kind == ChunkKind::none && all_zero(bytes_.subspan(offset, chunk_size))) continue;  // it was never begun
       auto* const chunks = header.kind == ChunkKind::ticks    ? &contents_.tick_chunks
                            : header.kind == ChunkKind::events ? &event_chunks
                                                               : nullptr;
       if (chunks == nullptr || header.check != check_of(header) || header.number != chunks->size())
-        problem_ = sentence("the chunk at byte ", offset, " is damaged");
+        note(sentence("the chunk at byte ", offset, " is damaged"), offset);
       else
         chunks->push_back(offset);
     }
-    if (problem_.empty() && offset < bytes_.size() && !all_zero(bytes_.subspan(offset)))
-      problem_ = sentence("it is cut short within the chunk at byte ", offset);
+    if (!problem_ && offset < bytes_.size() && !all_zero(bytes_.subspan(offset)))
+      note(sentence("it is cut short within the chunk at byte ", offset), offset);
     for (const std::size_t chunk : event_chunks) {
       const auto part = bytes_.subspan(chunk + chunk_header_size, events_per_chunk);
       contents_.events_bytes.insert(contents_.events_bytes.end(), part.begin(), part.end());
@@ -100,7 +113,7 @@ class RecordingReader {
     event_chunks_ = std::move(event_chunks);
   }
 
-  /// Where in the file a byte of the stream of events lies.
+  /// The place in the file of a byte of the stream of events.
   std::size_t place_of_event(std::size_t at) const {
     return event_chunks_[at / events_per_chunk] + chunk_header_size + at % events_per_chunk;
   }
@@ -109,7 +122,7 @@ class RecordingReader {
     const std::span<const std::byte> stream = contents_.events_bytes;
     std::size_t at = 0;
     const auto damaged = [&](const std::string& how) {
-      problem_ = sentence("the event at byte ", place_of_event(at), " ", how);
+      note(sentence("the event at byte ", place_of_event(at), " ", how), place_of_event(at));
     };
     EventReader reader(contents_);
     for (; at + sizeof(EventHeader) <= stream.size();) {
@@ -120,14 +133,10 @@ class RecordingReader {
       if (header.size == 0 || header.size - 1 > rest) return damaged("is damaged");
       const auto payload = stream.subspan(at + sizeof header, header.size - 1);
       if (header.check != check_of(header, payload)) return damaged("is damaged");
-      try {
-        reader.read(header, payload);
-      } catch (const Refusal& refusal) {
-        return damaged("is none: " + refusal.reason);
-      }
+      if (auto read = reader.read(header, payload); !read) return damaged("makes no sense: " + in_words(read.error()));
       at += aligned(sizeof header + payload.size());
     }
-    if (!reader.has_header() && problem_.empty()) problem_ = "it ends before anything was recorded";
+    if (!reader.has_header() && !problem_) note("it ends before anything was recorded", bytes_.size());
     most_revision_ = reader.revision();
   }
 
@@ -139,8 +148,8 @@ class RecordingReader {
       if (entry.sequence == 0 && (number + 1 == room || contents_.entry(number + 1).sequence == 0)) return;
       const std::string wrong = what_is_wrong(entry, number, before);
       if (!wrong.empty()) {
-        problem_ = sentence("tick ", number, " (byte ", contents_.offset(number), ") ", wrong);
-        return;
+        return note(sentence("tick ", number, " (byte ", contents_.offset(number), ") ", wrong),
+                    contents_.offset(number));
       }
       before = decode(entry);
       contents_.ticks = number + 1;
@@ -149,14 +158,14 @@ class RecordingReader {
 
   std::string what_is_wrong(const TickEntry& entry, std::size_t number, const RecordedTick& before) const {
     if (entry.sequence != number + 1 || entry.check != check_of(entry)) return "is damaged";
-    if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost)) return "has a contact that is none";
-    if (entry.period < 0 || entry.period > most_periods) return "has a period that is none";
+    if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost)) return "has a contact with the device that does not exist";
+    if (entry.period < 0 || entry.period > most_periods) return "has a period outside any run";
     if (number > 0 && (entry.elapsed == 0 || entry.period <= before.period))
-      return "comes no period after the one before";
+      return "does not come after the tick before it";
     for (const std::int32_t counts : entry.counts)
-      if (counts < -most_counts || counts > most_counts) return "has counts that no encoder has";
-    if (entry.revision < before.revision) return "goes back to an older stage";
-    if (entry.revision > most_revision_) return "has a stage of which nothing is recorded";
+      if (counts < -most_counts || counts > most_counts) return "has counts outside the range of any encoder";
+    if (entry.revision < before.revision) return "goes back to an older revision of the stage";
+    if (entry.revision > most_revision_) return "has a revision of the stage that was not recorded";
     return {};
   }
 
@@ -165,37 +174,35 @@ class RecordingReader {
   std::size_t most_ticks_;
   std::vector<std::size_t> event_chunks_;
   std::uint32_t most_revision_ = 0;
-  std::string problem_;
+  std::optional<Error> problem_;
 };
 
 template <class Contents>
-std::variant<std::shared_ptr<Contents>, Refusal> contents_of(FileBytes bytes, const std::string& name,
-                                                             std::size_t most_ticks) {
+Result<std::shared_ptr<Contents>> contents_of(FileBytes bytes, const std::string& name, std::size_t most_ticks) {
   auto contents = std::make_shared<Contents>();
   contents->bytes = std::move(bytes);
-  try {
-    RecordingReader(*contents, most_ticks).read();
-  } catch (const Refusal& refusal) {
-    return Refusal{"`" + name + "`: " + refusal.reason, refusal.instructions};
-  }
-  return contents;
+  auto read = RecordingReader(*contents, most_ticks).read();
+  if (read) return contents;
+  Error error = std::move(read).error();
+  error.sentence = "`" + name + "`: " + error.sentence;
+  error.place.name = name;
+  return error;
 }
 
 }  // namespace
 
-std::variant<Recording, Refusal> Recording::open(const std::string& path, std::size_t most_ticks) {
-  auto mapped = FileBytes::map(path);
-  if (auto* refusal = std::get_if<Refusal>(&mapped)) return *refusal;
-  auto contents = contents_of<Contents>(std::get<FileBytes>(std::move(mapped)), path, most_ticks);
-  if (auto* refusal = std::get_if<Refusal>(&contents)) return *refusal;
-  return Recording(std::get<0>(std::move(contents)));
+Result<Recording> Recording::open(const std::string& path, std::size_t most_ticks) {
+  Result<FileBytes> mapped = FileBytes::map(path);
+  if (!mapped) return std::move(mapped).error();
+  auto contents = contents_of<Contents>(*std::move(mapped), path, most_ticks);
+  if (!contents) return std::move(contents).error();
+  return Recording(*std::move(contents));
 }
 
-std::variant<Recording, Refusal> Recording::read(std::vector<std::byte> bytes, const std::string& name,
-                                                 std::size_t most_ticks) {
+Result<Recording> Recording::read(std::vector<std::byte> bytes, const std::string& name, std::size_t most_ticks) {
   auto contents = contents_of<Contents>(FileBytes(std::move(bytes)), name, most_ticks);
-  if (auto* refusal = std::get_if<Refusal>(&contents)) return *refusal;
-  return Recording(std::get<0>(std::move(contents)));
+  if (!contents) return std::move(contents).error();
+  return Recording(*std::move(contents));
 }
 
 const RecordingHeader& Recording::header() const { return contents_->header; }

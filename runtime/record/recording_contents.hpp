@@ -9,7 +9,7 @@
 
 namespace wale {
 
-/// What was read of a recording.
+/// The contents of a recording, as far as they have been read.
 struct RecordingContents {
   FileBytes bytes;
   std::vector<std::size_t> tick_chunks;  ///< bytes from the file's beginning

@@ -4,7 +4,7 @@
 
 namespace wale {
 
-/// Who gets every tick of a run, on the real-time thread.
+/// Gets every tick of a run, on the real-time thread.
 class TickSink {
  public:
   virtual ~TickSink() = default;

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 #include "wale/recording.hpp"
 
 namespace wale {
@@ -40,7 +40,7 @@ void put(std::ostream& out, const WavHeader& header) {
 
 constexpr std::uint32_t wav_header_bytes = 58;
 
-/// What is heard of a tick's output.
+/// Turns a tick's output into sound.
 class Voice {
  public:
   explicit Voice(const DeviceProfile& device) : most_(device.most()), vibrates_(device.shaker.has_value()) {}
@@ -61,7 +61,7 @@ class Voice {
 
 }  // namespace
 
-std::optional<Refusal> write_wav(std::ostream& out, const Recording& recording) {
+Result<> write_wav(std::ostream& out, const Recording& recording) {
   const DeviceProfile& device = recording.header().device;
   const std::size_t ticks = recording.ticks();
   const auto begins = [&](std::int64_t period) {
@@ -73,9 +73,10 @@ std::optional<Refusal> write_wav(std::ostream& out, const Recording& recording) 
   if (frames > most_frames) {
     const auto most_ticks =
         static_cast<std::int64_t>(static_cast<double>(most_frames) * device.rate / samples_per_second);
-    return Refusal{sentence("a WAV file holds 4 GiB, and this would have ", frames * frame_bytes + wav_header_bytes,
-                            " bytes; take fewer ticks, as in --ticks ", most_ticks),
-                   {}};
+    return Error{.code = Code::unwritable_file,
+                 .sentence = sentence("a WAV file holds 4 GiB, and this sound needs ",
+                                      frames * frame_bytes + wav_header_bytes, " bytes"),
+                 .mend = sentence("take fewer ticks, as in --ticks ", most_ticks)};
   }
   WavHeader header;
   header.frames = static_cast<std::uint32_t>(frames);
@@ -92,7 +93,7 @@ std::optional<Refusal> write_wav(std::ostream& out, const Recording& recording) 
       out.write(reinterpret_cast<const char*>(samples.data()), sizeof samples);
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace wale

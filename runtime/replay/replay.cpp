@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "runtime/stage/recorded_run.hpp"
-#include "schema/refuse.hpp"
+#include "schema/sentence.hpp"
 #include "wale/recording.hpp"
 #include "wale/stage.hpp"
 
 namespace wale {
 namespace {
 
-/// A device that tells what was recorded of it.
+/// A device that answers as the recorded one did.
 class RecordedDevice final : public Device {
  public:
   explicit RecordedDevice(const DeviceProfile& profile) : profile_(profile) {}
@@ -33,30 +33,30 @@ class RecordedDevice final : public Device {
   RecordedTick tick_;
 };
 
-/// What was recorded and what came of it now.
+/// A part of a tick, as recorded and as replayed.
 struct Compared {
   std::string_view what;
   glm::dvec2 recorded, replayed;
 
-  /// Bit for bit, also where they are no numbers.
+  /// Bit for bit, not-a-number included.
   bool same(int axis) const noexcept {
     return std::bit_cast<std::uint64_t>(recorded[axis]) == std::bit_cast<std::uint64_t>(replayed[axis]);
   }
   bool same() const noexcept { return same(0) && same(1); }
-  /// The component to tell of: that which differs more.
+  /// The component that differs more.
   int worse() const noexcept {
     if (same(0) || same(1)) return same(0) ? 1 : 0;
     return std::abs(recorded.y - replayed.y) > std::abs(recorded.x - replayed.x) ? 1 : 0;
   }
 };
 
-/// Does to a stage what was recorded, and sees what comes of it.
+/// Changes a stage as recorded, and compares what its ticks give.
 class Replaying final : public RecordedRun {
  public:
   Replaying(const Recording& recording, RecordedDevice& device, Stage& stage)
       : recording_(recording), device_(device), stage_(stage), programs_(recording.programs().size()) {}
 
-  /// All that was done before `revision` was handed over. Throws a `Refusal`.
+  /// All changes before `revision` was handed over. Throws `Error`, which `replay` returns.
   void act_until(std::uint32_t revision) {
     while (revision_ < revision && acted_ < recording_.events().size()) act(recording_.events()[acted_++]);
   }
@@ -94,25 +94,30 @@ class Replaying final : public RecordedRun {
   const Replay& result() const { return replay_; }
 
  private:
+  static void require(const Result<>& done) {
+    if (!done) throw done.error();
+  }
+
   const Program& program(std::size_t number) {
     std::optional<Program>& known = programs_[number];
     if (!known) {
       auto loaded = Program::load(recording_.programs()[number].bytes);
-      if (auto* refusal = std::get_if<Refusal>(&loaded)) {
-        refusal->reason = sentence("program ", number, " of the recording cannot be run: ", refusal->reason);
-        throw Refusal(std::move(*refusal));
+      if (!loaded) {
+        Error error = std::move(loaded).error();
+        error.sentence = sentence("program ", number, " of the recording cannot be run: ", error.sentence);
+        throw error;
       }
-      known = std::get<Program>(std::move(loaded));
+      known = *std::move(loaded);
     }
     return *known;
   }
 
   void set(std::size_t patch, std::size_t parameter, float value) {
-    if (patch >= placed_.size()) refuse("a parameter of patch ", patch, " was set, and there is no such patch");
+    if (patch >= placed_.size()) damaged("a parameter of patch ", patch, " was set, and there is no such patch");
     const auto& parameters = program(placed_[patch]).description().parameters;
     if (parameter >= parameters.size())
-      refuse("parameter ", parameter, " of patch ", patch, " was set, and it has ", parameters.size());
-    if (const auto refusal = stage_.set(patch, parameters[parameter].name, value)) throw Refusal(*refusal);
+      damaged("parameter ", parameter, " of patch ", patch, " was set, and it has ", parameters.size());
+    require(stage_.set(patch, parameters[parameter].name, value));
   }
 
   void act(const RecordedEvent& event) {
@@ -125,7 +130,7 @@ class Replaying final : public RecordedRun {
         const Program& added = program(event.program);
         const std::vector<float> defaults = added.default_parameters();
         if (defaults.size() != event.parameters.size())
-          refuse("patch ", placed_.size(), " was placed with ", event.parameters.size(),
+          damaged("patch ", placed_.size(), " was placed with ", event.parameters.size(),
                  " parameters, and its program has ", defaults.size());
         stage_.add(added, event.position, event.size, event.layer);
         placed_.push_back(event.program);
@@ -134,12 +139,12 @@ class Replaying final : public RecordedRun {
         return;
       }
       case RecordedEvent::Kind::replace:
-        if (const auto refusal = stage_.replace(event.patch, program(event.program))) throw Refusal(*refusal);
+        require(stage_.replace(event.patch, program(event.program)));
         placed_[event.patch] = event.program;
         return;
       case RecordedEvent::Kind::set: set(event.patch, event.parameter, event.value); return;
       case RecordedEvent::Kind::move:
-        if (const auto refusal = stage_.move(event.patch, event.position)) throw Refusal(*refusal);
+        require(stage_.move(event.patch, event.position));
         return;
       case RecordedEvent::Kind::publish: revision_ = event.revision; return;
       case RecordedEvent::Kind::end: return;
@@ -149,7 +154,7 @@ class Replaying final : public RecordedRun {
   const Recording& recording_;
   RecordedDevice& device_;
   Stage& stage_;
-  std::vector<std::optional<Program>> programs_;  // loaded once they come
+  std::vector<std::optional<Program>> programs_;  // each is loaded at its first use
   std::vector<std::size_t> placed_;               // the program of each patch
   std::size_t acted_ = 0;                         // events
   std::uint32_t revision_ = 0;
@@ -159,18 +164,18 @@ class Replaying final : public RecordedRun {
 
 }  // namespace
 
-std::variant<Replay, Refusal> replay(const Recording& recording) {
+Result<Replay> replay(const Recording& recording) {
   if (recording.ticks() == 0) return Replay{};
   const RecordingHeader& header = recording.header();
   RecordedDevice device(header.device);
   Stage stage(device);
   Replaying replaying(recording, device, stage);
   try {
-    replaying.act_until(1);  // what lay there when the run began
+    replaying.act_until(1);  // the patches that were there when the run began
     const auto run = stage.run({.seconds = 1, .most_newton = header.most_newton, .recorded = &replaying});
-    if (const auto* refusal = std::get_if<Refusal>(&run)) return *refusal;
-  } catch (const Refusal& refusal) {
-    return refusal;
+    if (!run) return run.error();
+  } catch (const Error& error) {
+    return error;
   }
   return replaying.result();
 }

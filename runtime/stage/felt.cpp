@@ -35,7 +35,7 @@ std::vector<bool> find_stuck(std::span<const TickRecord> record, std::ptrdiff_t 
   return stuck;
 }
 
-/// The axis along which there is more force.
+/// The axis with more force: 0 x, 1 y.
 int main_axis(std::span<const TickRecord> record) {
   glm::dvec2 squares(0);
   for (const TickRecord& tick : record) squares += glm::dvec2(tick.force) * glm::dvec2(tick.force);
@@ -44,7 +44,8 @@ int main_axis(std::span<const TickRecord> record) {
 
 int sign_of(float value) { return (value > 0) - (value < 0); }
 
-/// Counts swings of the force through +-threshold with hysteresis, and those made while moving on in one direction.
+/// Counts swings of the force from beyond +threshold to beyond -threshold and back, and those of them during which the
+/// hand keeps its direction.
 void count_swings(std::span<const TickRecord> record, float threshold, Felt& felt) {
   const int axis = main_axis(record);
   int side = 0, direction = 0;  // of the last swing
@@ -78,7 +79,7 @@ void measure_movement(std::span<const TickRecord> record, Felt& felt) {
   felt.position_range = std::max(high.x - low.x, high.y - low.y);
 }
 
-/// Of a pad: the first number of each tick's output is the amplitude, the second the frequency.
+/// On a pad the first number of each tick's output is the amplitude, the second the frequency.
 FeltVibration vibration_of(std::span<const TickRecord> record) {
   FeltVibration felt;
   std::vector<float> amplitudes;
@@ -94,6 +95,34 @@ FeltVibration vibration_of(std::span<const TickRecord> record) {
   return felt;
 }
 
+Error not_measured(const PerceptRecord& percept, std::string sentence) {
+  return {.code = Code::not_measured, .sentence = std::move(sentence), .place = {.name = percept.name}};
+}
+
+/// The carrier's size on a pad, m/s^2.
+Result<float> size_from_vibration(const PerceptRecord& percept, const FeltVibration& vibration) {
+  if (percept.extractor != Extractor::acceleration)
+    return not_measured(percept, "a vibration does not carry " + percept.name);
+  if (!percept.alone)
+    return not_measured(percept,
+                        "the vibration has other sources too, so it does not give the level of " + percept.name);
+  if (vibration.ticks == 0) return not_measured(percept, "the hand was never on the patch");
+  return vibration.acceleration.p99;
+}
+
+/// The carrier's size under a rubbing hand, N.
+Result<float> size_from_rubbing(const PerceptRecord& percept, const Felt& felt, long least_crossings) {
+  if (percept.extractor != Extractor::lateral_force)
+    return not_measured(percept, "the force while rubbing does not carry " + percept.name);
+  if (!percept.alone)
+    return not_measured(percept, "other forces push besides the " + percept.carrier +
+                                     ", so the force at the handle does not give the level of " + percept.name);
+  if (felt.crossings < least_crossings)
+    return not_measured(percept, "the hand crossed the texture " + std::to_string(felt.crossings) + " times, and " +
+                                     std::to_string(least_crossings) + " are needed");
+  return felt.force_rubbing.p99;
+}
+
 }  // namespace
 
 Felt measure(const Record& record, const MeasureOptions& options) {
@@ -101,7 +130,7 @@ Felt measure(const Record& record, const MeasureOptions& options) {
                                   [&](const TickRecord& tick) { return tick.time >= options.settling; });
   const std::span<const TickRecord> ticks(first, record.ticks.end());
   const auto window = static_cast<std::ptrdiff_t>(std::round(options.stuck_seconds / record.seconds_per_tick));
-  // Half a count more, since positions are rounded to float.
+  // Half a count more, because positions are rounded to float.
   const double distance = (options.stuck_counts + 0.5) * options.position_step;
   const std::vector<bool> stuck = find_stuck(ticks, window, distance);
 
@@ -145,28 +174,10 @@ std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long leas
   std::vector<LevelBack> levels;
   const auto& percepts = bank.program().description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i) {
-    LevelBack level{i, percepts[i].name, amplitude(bank, i), Prediction{}};
-    if (felt.vibration) {
-      if (percepts[i].extractor != Extractor::acceleration)
-        level.back = Refusal{"a vibration does not read " + percepts[i].name};
-      else if (!percepts[i].alone)
-        level.back = Refusal{"other things shake besides, so the vibration does not read " + percepts[i].name};
-      else if (felt.vibration->ticks == 0)
-        level.back = Refusal{"the hand was never on the patch"};
-      else
-        level.back = predict(bank, i, felt.vibration->acceleration.p99);
-    } else if (percepts[i].extractor != Extractor::lateral_force) {
-      level.back = Refusal{"the force while rubbing does not read " + percepts[i].name};
-    } else if (!percepts[i].alone) {
-      level.back = Refusal{"other forces push besides the " + percepts[i].carrier +
-                           ", so the force at the handle does not read " + percepts[i].name};
-    } else if (felt.crossings < least_crossings) {
-      level.back = Refusal{"only " + std::to_string(felt.crossings) + " crossings of the texture, " +
-                           std::to_string(least_crossings) + " are needed"};
-    } else {
-      level.back = predict(bank, i, felt.force_rubbing.p99);
-    }
-    levels.push_back(std::move(level));
+    const Result<float> size = felt.vibration ? size_from_vibration(percepts[i], *felt.vibration)
+                                              : size_from_rubbing(percepts[i], felt, least_crossings);
+    Result<Prediction> back = size ? Result<Prediction>(predict(bank, i, *size)) : size.error();
+    levels.push_back({i, percepts[i].name, amplitude(bank, i), std::move(back)});
   }
   return levels;
 }

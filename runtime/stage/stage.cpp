@@ -22,7 +22,7 @@ namespace wale {
 namespace {
 
 constexpr long longest_run = 1L << 24;
-constexpr double endless = 0x1p53;  // ticks: longer than anything lasts, and still exact
+constexpr double endless = 0x1p53;  // ticks: the greatest number that a double counts exactly
 constexpr double progress_seconds = 0.1;
 
 /// Six digits are enough to tell a person a value.
@@ -36,7 +36,8 @@ std::string shown(const Parameter& parameter, float value) {
   return parameter.unit.empty() ? number : number + " " + parameter.unit;
 }
 
-std::optional<Refusal> lacks(const DeviceProfile& profile) {
+/// Whether the profile has all that a loop needs.
+Result<> complete(const DeviceProfile& profile) {
   struct Figure {
     const char* name;
     double value;
@@ -51,33 +52,50 @@ std::optional<Refusal> lacks(const DeviceProfile& profile) {
                                        {"acceleration", profile.most(), !push}}};
   for (const auto& [name, value, needed] : figures) {
     if (needed && (!(value > 0) || !std::isfinite(value))) {
-      return Refusal{"the device " + profile.name + " declares no positive " + name};
+      return Error{.code = Code::unusable_device,
+                   .sentence = "the device " + profile.name + " declares no positive " + name,
+                   .mend = {},
+                   .place = {.name = name, .text = digits(value)}};
     }
   }
-  return std::nullopt;
+  return {};
 }
 
-/// A program speaks either to actuators that push or to one that shakes.
-std::optional<Refusal> misfit(const PatchProgram& program, const DeviceProfile& device) {
-  if (program.vibrates() == device.shaker.has_value()) return std::nullopt;
-  return Refusal{program.material + " was built for " + program.device.name +
-                 (program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + device.name +
-                 (program.vibrates() ? " pushes" : " only vibrates") + ": build it for " + device.name};
+/// A program drives either actuators that push or one that shakes.
+Result<> fits(const PatchProgram& program, const DeviceProfile& device) {
+  if (program.vibrates() == device.shaker.has_value()) return {};
+  return Error{.code = Code::other_device,
+               .sentence = program.material + " was built for " + program.device.name +
+                           (program.vibrates() ? ", which vibrates, and " : ", which pushes, and ") + device.name +
+                           (program.vibrates() ? " pushes" : " only vibrates"),
+               .mend = "build it for " + device.name};
 }
+
+/// A value that a caller gave makes no sense.
+Error malformed(std::string name, std::string sentence) {
+  return {.code = Code::malformed_value, .sentence = std::move(sentence), .place = {.name = std::move(name)}};
+}
+
+Error wrong_moment(std::string sentence) { return {.code = Code::wrong_moment, .sentence = std::move(sentence)}; }
 
 struct RunLength {
-  long ticks = 0;  ///< that the run is to have, at least one
-  long kept = 0;   ///< that its record keeps, at least one
+  long ticks = 0;  ///< of the run, at least one
+  long kept = 0;   ///< of its record, at least one
 };
 
-std::variant<RunLength, Refusal> length_of(const RunOptions& options, double rate) {
+Result<RunLength> length_of(const RunOptions& options, double rate) {
   const auto asked = [](double seconds) { return "; asked for " + digits(seconds) + " s"; };
-  if (!(options.seconds > 0)) return Refusal{"a run lasts longer than no time at all" + asked(options.seconds)};
-  if (!(options.kept_seconds > 0)) return Refusal{"a run keeps some of its ticks" + asked(options.kept_seconds)};
+  if (!(options.seconds > 0))
+    return malformed("seconds", "the length of a run must be positive" + asked(options.seconds));
+  if (!(options.kept_seconds > 0))
+    return malformed("kept_seconds", "the length of a run's record must be positive" + asked(options.kept_seconds));
   const double kept = std::min(options.seconds, options.kept_seconds);
   if (kept * rate > static_cast<double>(longest_run)) {
-    return Refusal{"a run " + std::string(kept < options.seconds ? "keeps" : "lasts") + " at most " +
-                   digits(static_cast<double>(longest_run) / rate) + " s at " + digits(rate) + " Hz" + asked(kept)};
+    const bool endless_run = kept < options.seconds;
+    return malformed(endless_run ? "kept_seconds" : "seconds",
+                     "a run " + std::string(endless_run ? "keeps" : "lasts") + " at most " +
+                         digits(static_cast<double>(longest_run) / rate) + " s at " + digits(rate) + " Hz" +
+                         asked(kept));
   }
   return RunLength{std::max(1L, std::lround(std::min(options.seconds * rate, endless))),
                    std::max(1L, std::lround(kept * rate))};
@@ -87,7 +105,7 @@ bool is_set(const std::atomic<bool>* flag) noexcept { return flag != nullptr && 
 
 }  // namespace
 
-/// What the control side was asked for.
+/// A patch as the control side was asked for it.
 struct Placement {
   Program program;
   glm::vec2 position;
@@ -95,7 +113,7 @@ struct Placement {
   float layer;
   std::vector<float> parameters;
   std::shared_ptr<Memory> memory;
-  bool moves = false;  // found apart from those that stay, because it was moved
+  bool moves = false;  // it has been moved, so it is found apart from those that stay
 
   Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
       : program(placed),
@@ -135,16 +153,16 @@ struct Stage::Parts {
   std::condition_variable news;
   std::vector<Placement> placements;
   std::vector<std::size_t> changed;   // placements, since they were last published
-  std::vector<std::size_t> replaced;  // placements whose memories may know the ones before them
-  std::vector<std::size_t> movers;    // placements that have been moved, by their numbers
-  bool cleared = false;               // all of them are new since they were last published
-  bool rearranged = false;            // one of them may have another size since then, or is the first time elsewhere
-  bool moved = false;                 // one of the movers is elsewhere since then
+  std::vector<std::size_t> replaced;  // placements whose memories may have predecessors
+  std::vector<std::size_t> movers;    // placements that have been moved, in rising order
+  bool cleared = false;               // all placements are new since they were last published
+  bool rearranged = false;            // since then one may have got another size, or has been moved for the first time
+  bool moved = false;                 // since then one of the movers has been moved
   bool finished = false;              // the real-time thread's last tick is done
   bool running = false;
-  PlacedPatches published;                 // the thread's that publishes
-  std::uint32_t revision = 0;              // counts what the run under way has handed over
-  std::unique_ptr<RecordWriter> recorder;  // of the run under way; called with the mutex held
+  PlacedPatches published;                 // belongs to the thread that publishes
+  std::uint32_t revision = 0;              // how often the present run has handed over patches
+  std::unique_ptr<RecordWriter> recorder;  // of the present run; called with the mutex held
 
   explicit Parts(Device& stages) : device(stages) {}
 
@@ -155,11 +173,11 @@ struct Stage::Parts {
   }
 
   /// With the mutex held.
-  std::optional<Refusal> no_such(std::size_t patch) const {
-    if (placements.empty()) return Refusal{"nothing is placed on the stage"};
-    if (patch < placements.size()) return std::nullopt;
-    return Refusal{"patch " + std::to_string(patch) + " is not among the " + std::to_string(placements.size()) +
-                   " on the stage"};
+  Result<> has(std::size_t patch) const {
+    if (patch < placements.size()) return {};
+    if (placements.empty()) return malformed("patch", "nothing is placed on the stage");
+    return malformed("patch", "patch " + std::to_string(patch) + " is not among the " +
+                                  std::to_string(placements.size()) + " on the stage");
   }
 
   /// With the mutex held.
@@ -181,7 +199,7 @@ struct Stage::Parts {
     for (Placement& placement : placements) placement.moves = false;
   }
 
-  /// Builds what changed, and hands over all patches.
+  /// Builds the patches that changed, and hands over all patches.
   void publish_change(Exchange<PlacedPatches>& patches) {
     std::unique_lock lock(mutex);
     if (!has_news()) return;
@@ -200,11 +218,11 @@ struct Stage::Parts {
     std::vector<MovedPatch> moving;
     if (arrange || move)
       for (const std::size_t patch : movers) moving.push_back({patch, placements[patch].position});
-    lock.unlock();  // building may take long, and whoever turns the next knob should not wait for it
+    lock.unlock();  // building may take long, and the next `set` should not wait for it
     if (!copies.empty()) {
       PlacedPatches::Patches all = published.patches();
       all.resize(count);
-      const Placement* like = nullptr;  // whose bank is `bank`: many patches are often the same but for their places
+      const Placement* like = nullptr;  // `bank` is its bank: often many patches differ only in their places
       std::optional<Bank> bank;
       double range = 0;
       for (const auto& [patch, copy] : copies) {
@@ -226,39 +244,43 @@ struct Stage::Parts {
     patches.publish(published);
   }
 
-  /// With the mutex held: what lies on the stage is what the recording begins with.
-  std::optional<Refusal> begin_recording(const RunOptions& options);
-  /// Why it is not whole, if so.
-  std::string end_recording();
+  /// With the mutex held: the recording begins with the patches on the stage.
+  Result<> begin_recording(const RunOptions& options);
+  /// Why the recording ended before the run; nothing where it did not.
+  std::optional<Error> end_recording();
   TickSink* sink() { return recorder.get(); }
 
+  /// Takes the stage for a run, and begins its recording.
+  Result<> begin_run(const RunOptions& options);
+  void end_run();
+  /// Serves the ticks of a run, by the clock that the options ask for.
+  Result<> play(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
+                RunResult& result);
   void play_recorded(Player& player, Exchange<PlacedPatches>& patches, RecordedRun& recorded, RunResult& result);
   void play_in_virtual_time(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
                             RunResult& result);
-  std::optional<Refusal> play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
+  Result<> play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                            const RunOptions& options, RunResult& result);
   void attend(const Player& player, Exchange<PlacedPatches>& patches, const RunOptions& options);
 };
 
-std::optional<Refusal> Stage::Parts::begin_recording(const RunOptions& options) {
-  if (!options.record_to) return std::nullopt;
-  try {
-    const RecordingHeader header{.device = device.profile(),
-                                 .most_newton = options.most_newton,
-                                 .virtual_time = options.virtual_time,
-                                 .hand = options.record_to->hand};
-    recorder = std::make_unique<RecordWriter>(options.record_to->file, header, options.virtual_time);
-  } catch (const Refusal& refusal) {
-    return refusal;
-  }
+Result<> Stage::Parts::begin_recording(const RunOptions& options) {
+  if (!options.record_to) return {};
+  const RecordingHeader header{.device = device.profile(),
+                               .most_newton = options.most_newton,
+                               .virtual_time = options.virtual_time,
+                               .hand = options.record_to->hand};
+  auto begun = RecordWriter::begin(options.record_to->file, header, options.virtual_time);
+  if (!begun) return std::move(begun).error();
+  recorder = *std::move(begun);
   for (const Placement& placement : placements)
     recorder->add(placement.program, placement.position, placement.size, placement.layer, placement.parameters);
-  return std::nullopt;
+  return {};
 }
 
-std::string Stage::Parts::end_recording() {
+std::optional<Error> Stage::Parts::end_recording() {
   const std::lock_guard lock(mutex);
-  if (!recorder) return {};
+  if (!recorder) return std::nullopt;
   recorder->end();
   return recorder->ended_early();
 }
@@ -288,7 +310,7 @@ void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatches>&
       });
 }
 
-std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
+Result<> Stage::Parts::play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
                                                        const RunOptions& options, RunResult& result) {
   std::atomic<bool> abandoned = false;
   finished = false;
@@ -300,7 +322,7 @@ std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<
       result.ticks_missed = run_loop(
           clock, device.profile().rate, ticks, [&]() noexcept { return is_set(options.stop) || is_set(&abandoned); },
           [&](const Beat& beat) noexcept { player.serve(beat); });
-      device.command(Force(0));  // now, not when the other thread gets round to it
+      device.command(Force(0));  // at once, without waiting for the other thread
     }
     const std::lock_guard lock(mutex);
     finished = true;
@@ -310,7 +332,8 @@ std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<
   try {
     thread = std::thread(loop);
   } catch (const std::system_error& error) {
-    return Refusal{std::string("no thread for the loop: ") + error.what()};
+    return Error{.code = Code::short_of_resources,
+                 .sentence = std::string("the system gives no thread for the loop: ") + error.what()};
   }
   struct Joiner {
     std::thread& thread;
@@ -321,7 +344,7 @@ std::optional<Refusal> Stage::Parts::play_in_real_time(Player& player, Exchange<
     }
   } joiner{thread, abandoned};
   attend(player, patches, options);
-  return std::nullopt;
+  return {};
 }
 
 /// The control thread's part while the real-time thread ticks.
@@ -368,21 +391,22 @@ std::size_t Stage::add(const Program& program, glm::vec2 position, PatchSize siz
   return number;
 }
 
-std::optional<Refusal> Stage::replace(std::size_t patch, const Program& program) {
+Result<> Stage::replace(std::size_t patch, const Program& program) {
   const std::lock_guard lock(parts_->mutex);
-  if (auto refusal = parts_->no_such(patch)) return refusal;
+  if (auto there = parts_->has(patch); !there) return there;
   if (parts_->recorder) parts_->recorder->replace(patch, program);
   parts_->placements[patch] = Placement(parts_->placements[patch], program);
   parts_->rearranged = true;
   if (std::ranges::find(parts_->replaced, patch) == parts_->replaced.end()) parts_->replaced.push_back(patch);
   parts_->note_change(patch);
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Refusal> Stage::move(std::size_t patch, glm::vec2 position) {
+Result<> Stage::move(std::size_t patch, glm::vec2 position) {
   const std::lock_guard lock(parts_->mutex);
-  if (auto refusal = parts_->no_such(patch)) return refusal;
-  if (!std::isfinite(position.x) || !std::isfinite(position.y)) return Refusal{"a patch is moved to a place"};
+  if (auto there = parts_->has(patch); !there) return there;
+  if (!std::isfinite(position.x) || !std::isfinite(position.y))
+    return malformed("position", "the position to which a patch is moved must be finite");
   if (parts_->recorder) parts_->recorder->move(patch, position);
   Placement& placement = parts_->placements[patch];
   placement.position = position;
@@ -392,14 +416,14 @@ std::optional<Refusal> Stage::move(std::size_t patch, glm::vec2 position) {
   }
   parts_->moved = true;
   parts_->news.notify_all();
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Refusal> Stage::set(std::string_view parameter, float value) { return set(0, parameter, value); }
+Result<> Stage::set(std::string_view parameter, float value) { return set(0, parameter, value); }
 
-std::optional<Refusal> Stage::set(std::size_t patch, std::string_view parameter, float value) {
+Result<> Stage::set(std::size_t patch, std::string_view parameter, float value) {
   const std::lock_guard lock(parts_->mutex);
-  if (auto refusal = parts_->no_such(patch)) return refusal;
+  if (auto there = parts_->has(patch); !there) return there;
   Placement& placement = parts_->placements[patch];
   const Program& program = placement.program;
   const std::vector<Parameter>& known = program.description().parameters;
@@ -407,18 +431,20 @@ std::optional<Refusal> Stage::set(std::size_t patch, std::string_view parameter,
   if (!index) {
     std::string names;
     for (const Parameter& one : known) names += (names.empty() ? "" : ", ") + one.name;
-    return Refusal{program.description().material + " has no parameter " + std::string(parameter) +
-                   (names.empty() ? "; it has none at all" : "; it has " + names)};
+    return Error{.code = Code::unknown_name,
+                 .sentence = program.description().material + " has no parameter " + std::string(parameter),
+                 .mend = names.empty() ? "it has none at all" : "it has " + names,
+                 .place = {.name = std::string(parameter)}};
   }
   const Parameter& range = known[*index];
   if (!(value >= range.low && value <= range.high)) {
-    return Refusal{range.name + " = " + shown(range, value) + " is not in its range " + shown(range, range.low) +
-                   " .. " + shown(range, range.high)};
+    return malformed(range.name, range.name + " = " + shown(range, value) + " is not in its range " +
+                                     shown(range, range.low) + " .. " + shown(range, range.high));
   }
   if (parts_->recorder) parts_->recorder->set(patch, *index, value);
   placement.parameters[*index] = value;
   parts_->note_change(patch);
-  return std::nullopt;
+  return {};
 }
 
 std::optional<Bank> Stage::bank(std::size_t patch) const {
@@ -427,35 +453,50 @@ std::optional<Bank> Stage::bank(std::size_t patch) const {
   return placement->bank();
 }
 
-std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
-  const DeviceProfile& profile = parts_->device.profile();
-  if (auto lack = lacks(profile)) return *lack;
-  const auto length = length_of(options, profile.rate);
-  if (auto* refusal = std::get_if<Refusal>(&length)) return *refusal;
-  const auto [ticks, kept] = std::get<RunLength>(length);
-  if (!(options.most_newton > 0)) return Refusal{"the largest force allowed is more than nothing"};
-  {
-    const std::lock_guard lock(parts_->mutex);
-    if (parts_->placements.empty()) return Refusal{"nothing is placed on the stage"};
-    if (parts_->running) return Refusal{"another run is under way on this stage"};
-    for (const Placement& placement : parts_->placements)
-      if (auto refusal = misfit(placement.program.description(), profile)) return *refusal;
-    if (auto refusal = parts_->begin_recording(options)) return *refusal;
-    parts_->running = true;
-    parts_->revision = 0;
-    parts_->begin_anew();  // every run begins with banks of its own, and with memories of its own
-    for (std::size_t patch = 0; patch < parts_->placements.size(); ++patch) {
-      parts_->placements[patch].memory = std::make_shared<Memory>(parts_->placements[patch].program);
-      parts_->changed.push_back(patch);
-    }
+Result<> Stage::Parts::begin_run(const RunOptions& options) {
+  const std::lock_guard lock(mutex);
+  if (placements.empty()) return wrong_moment("nothing is placed on the stage");
+  if (running) return wrong_moment("another run is under way on this stage");
+  for (const Placement& placement : placements)
+    if (auto fit = fits(placement.program.description(), device.profile()); !fit) return fit;
+  if (auto begun = begin_recording(options); !begun) return begun;
+  running = true;
+  revision = 0;
+  begin_anew();  // every run begins with banks and memories of its own
+  for (std::size_t patch = 0; patch < placements.size(); ++patch) {
+    placements[patch].memory = std::make_shared<Memory>(placements[patch].program);
+    changed.push_back(patch);
   }
+  return {};
+}
+
+void Stage::Parts::end_run() {
+  const std::lock_guard lock(mutex);
+  running = false;
+  recorder.reset();
+}
+
+Result<> Stage::Parts::play(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
+                            RunResult& result) {
+  if (options.recorded != nullptr)
+    play_recorded(player, patches, *options.recorded, result);
+  else if (options.virtual_time)
+    play_in_virtual_time(player, patches, ticks, options, result);
+  else
+    return play_in_real_time(player, patches, ticks, options, result);
+  return {};
+}
+
+Result<RunResult> Stage::run(const RunOptions& options) {
+  const DeviceProfile& profile = parts_->device.profile();
+  if (auto whole = complete(profile); !whole) return std::move(whole).error();
+  const Result<RunLength> length = length_of(options, profile.rate);
+  if (!length) return length.error();
+  if (!(options.most_newton > 0)) return malformed("most_newton", "the largest force allowed must be positive");
+  if (auto begun = parts_->begin_run(options); !begun) return std::move(begun).error();
   struct Ending {
     Parts& parts;
-    ~Ending() {
-      const std::lock_guard lock(parts.mutex);
-      parts.running = false;
-      parts.recorder.reset();
-    }
+    ~Ending() { parts.end_run(); }
   } ending{*parts_};
 
   RunResult result;
@@ -463,15 +504,10 @@ std::variant<RunResult, Refusal> Stage::run(const RunOptions& options) {
   parts_->publish_change(patches);
   TickSink* const sink = options.recorded != nullptr ? options.recorded : parts_->sink();
   const bool real_time = !options.virtual_time && options.recorded == nullptr;
-  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(kept), options.most_newton, real_time,
-                sink);
-  if (options.recorded != nullptr) {
-    parts_->play_recorded(player, patches, *options.recorded, result);
-  } else if (options.virtual_time) {
-    parts_->play_in_virtual_time(player, patches, ticks, options, result);
-  } else if (auto refusal = parts_->play_in_real_time(player, patches, ticks, options, result)) {
-    return *refusal;
-  }
+  Player player(parts_->device, patches, result.record, static_cast<std::size_t>(length->kept), options.most_newton,
+                real_time, sink);
+  if (auto played = parts_->play(player, patches, length->ticks, options, result); !played)
+    return std::move(played).error();
   player.finish();
   result.ticks_run = player.served();
   result.record_problem = parts_->end_recording();

@@ -17,7 +17,7 @@ TEST(Compare, TwoMaterialsCueByCue) {
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "corduroy and ")) << run.out;
   EXPECT_TRUE(contains(run.out, "amplitude            1.9")) << run.out;  // 1.934 N, read to a few thousandths
-  EXPECT_TRUE(contains(run.out, "told apart, most plainly by their")) << run.out;
+  EXPECT_TRUE(contains(run.out, "people can tell them apart, most easily by their")) << run.out;
 }
 
 TEST(Compare, AMaterialIsHardlyToldApartFromItself) {
@@ -43,7 +43,7 @@ TEST(Compare, ManyAreAListOfThoseThatAreHardlyToldApart) {
   const Outcome run = wale({"compare", library + "sandpaper/chapter5.wale"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "30 materials")) << run.out;
-  EXPECT_TRUE(contains(run.out, "pairs are hardly told apart")) << run.out;
+  EXPECT_TRUE(contains(run.out, "pairs are hard to tell apart")) << run.out;
 }
 
 TEST(Compare, TheJsonOfManyHasAllDistancesAndTheNearestPairs) {
@@ -125,7 +125,7 @@ TEST(Levels, WhatCannotBeProposedIsExplained) {
   EXPECT_TRUE(contains(wale({"levels", "rougness"}).err, "did you mean `roughness`?"));
   const Outcome many = wale({"levels", "smoothness", "--steps", "500"});
   EXPECT_EQ(many.status, 1);
-  EXPECT_TRUE(contains(many.err, "would do")) << many.err;
+  EXPECT_TRUE(contains(many.err, "ask for")) << many.err;
   EXPECT_EQ(wale({"levels"}).status, 2);
   EXPECT_TRUE(contains(wale({"levels", "smoothness", "--steps", "3"}).out, "3 levels of smoothness"));
 }

@@ -94,7 +94,7 @@ TEST(Describe, TellsWhatAProgramRemembersAndShows) {
 
   const std::string text = wale({"describe", file}).out;
   for (const char* part : {"A block on a spring.\n", "It lags behind.\n", "p.x", "-0.06 .. 0.06", "40 x 30 cells",
-                           "4800 bytes", "spring #204060", "the hand's velocity and what it remembers"})
+                           "4800 bytes", "spring #204060", "the hand's velocity and its memory"})
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
 }
 
@@ -117,9 +117,9 @@ TEST(Describe, SaysWhyNoPerceptIsTold) {
     return wale({"describe", file, "--json"}).json().at("no_percept").get<std::string>();
   };
   EXPECT_TRUE(contains(reason("-2 N s/m * velocity"), "the hand's velocity"));
-  EXPECT_TRUE(contains(reason("spring(20 N/m)"), "a field of places"));
+  EXPECT_TRUE(contains(reason("spring(20 N/m)"), "depends on the position"));
   EXPECT_TRUE(contains(reason("spring(20 N/m) * sin(time * 6 / 1 s)"), "time"));
-  EXPECT_TRUE(contains(reason("0 N/m * hand"), "pushes nowhere"));
+  EXPECT_TRUE(contains(reason("0 N/m * hand"), "does not push"));
   EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_percept"));
 }
 

@@ -130,7 +130,7 @@ TEST(Set, ErrorsSayWhatIsWrong) {
                                                                 {"wael=2mm", "no parameter `wael`"},
                                                                 {"wale", "NAME=VALUE"},
                                                                 {"wale=", "wale"},
-                                                                {"wale=2 mm, 3 mm", "1 value"},
+                                                                {"wale=2 mm, 3 mm", "2 values"},
                                                                 {"roughness=1.2", "from 0 to 1"},
                                                                 {"wale=nan", "nan"}};
   for (const auto& [setting, reason] : errors) {

@@ -173,7 +173,7 @@ TEST(Explain, ListsAllCodes) {
 TEST(Explain, ProposesTheNearestCode) {
   const Outcome outcome = wale({"explain", "W031"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_EQ(outcome.err, "wale: no diagnostic has the code `W031`; did you mean `W0301`?\n");
+  EXPECT_EQ(outcome.err, "wale: error[W0201]: no diagnostic has the code `W031`\n  = help: did you mean `W0301`?\n");
   EXPECT_EQ(outcome.out, "");
 }
 

@@ -79,7 +79,7 @@ TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
   const std::string before = bytes_of(file);
   const Outcome again = feel({corduroy, "--record", file});
   EXPECT_EQ(again.status, 1);
-  EXPECT_TRUE(contains(again.err, "it is there already")) << again.err;
+  EXPECT_TRUE(contains(again.err, "the file exists already")) << again.err;
   EXPECT_EQ(bytes_of(file), before);
   const Outcome nowhere = feel({corduroy, "--record", folder / "none/a.wrec"});
   EXPECT_EQ(nowhere.status, 1);
@@ -108,7 +108,7 @@ TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
   EXPECT_TRUE(contains(outcome.err, "--ticks 1000")) << outcome.err;
   EXPECT_EQ(wale({"replay", damaged, "--ticks", "1000"}).status, 0);
   EXPECT_TRUE(contains(wale({"replay", folder.write("empty.wrec", "")}).err, "it is empty"));
-  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "it is no recording"));
+  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "it is not a recording"));
   EXPECT_TRUE(contains(wale({"replay", folder / "none.wrec"}).err, "No such file"));
   EXPECT_EQ(wale({"replay"}).status, 2);
 }
@@ -169,15 +169,15 @@ TEST(Watch, FeelsTheFileAnewAtEverySaveUntilInterrupted) {
   Started running({"feel", file, "--watch", "--json", "--record", recording}, out, err);
   ASSERT_TRUE(eventually([&] { return fs::exists(recording); })) << bytes_of(err);
   folder.write("c.wale", corduroy_with("2.5 mm in", "3.5 mm in"));
-  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: `corduroy` is felt anew\n"); })) << bytes_of(err);
+  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: the new version of `corduroy` is active\n"); })) << bytes_of(err);
   folder.write("c.wale", corduroy_with("2.5 mm in", "2.5 N in"));
-  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: what was felt before is felt on\n"); }));
+  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: the previous version stays active\n"); }));
   EXPECT_TRUE(contains(bytes_of(err), "error[W0")) << bytes_of(err);
   folder.write("other.wale", corduroy_with("2.5 mm in", "4.5 mm in"));
   fs::rename(folder / "other.wale", folder / "c.wale");
   const auto swaps = [&] {
     const std::string said = bytes_of(err);
-    return said.find("is felt anew") != said.rfind("is felt anew");
+    return said.find("the new version") != said.rfind("the new version");
   };
   ASSERT_TRUE(eventually(swaps)) << bytes_of(err);
   running.tell(SIGINT);

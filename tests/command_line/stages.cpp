@@ -46,7 +46,7 @@ TEST(Emit, UnknownStagesAndSenselessWordsAreMisuse) {
   EXPECT_EQ(wale({"build", corduroy, "--emit", "cpp", "--all", "-o", "out"}).status, 2);
   const Outcome neither = wale({"build", corduroy});
   EXPECT_EQ(neither.status, 2);
-  EXPECT_TRUE(contains(neither.err, "--output is required")) << neither.err;
+  EXPECT_TRUE(contains(neither.err, "expected the name of the file to write")) << neither.err;
 }
 
 TEST(Emit, StopsWhereTheMaterialIsWrong) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double d_prime_of_three_of_four = 0.9538725524;  // sqrt(2) z(0.75): tables of the normal distribution
 
-std::variant<LevelProposal, std::string> propose(const std::string& percept, std::optional<std::size_t> steps,
-                                                 double apart = 1, const std::string& device = "sandpaper") {
+Result<LevelProposal> propose(const std::string& percept, std::optional<std::size_t> steps, double apart = 1,
+                              const std::string& device = "sandpaper") {
   static const auto common = common_modules();
   return propose_levels(percept, device, steps, apart, common->declarations);
 }
@@ -25,13 +25,12 @@ std::variant<LevelProposal, std::string> propose(const std::string& percept, std
 LevelProposal proposal(const std::string& percept, std::optional<std::size_t> steps, double apart = 1,
                        const std::string& device = "sandpaper") {
   const auto proposed = propose(percept, steps, apart, device);
-  if (const auto* reason = std::get_if<std::string>(&proposed)) throw std::runtime_error(*reason);
-  return std::get<LevelProposal>(proposed);
+  if (!proposed) throw std::runtime_error(proposed.error().sentence);
+  return *proposed;
 }
 
-std::string reason(const std::variant<LevelProposal, std::string>& proposed) {
-  const auto* found = std::get_if<std::string>(&proposed);
-  return found ? *found : "";
+std::string reason(const Result<LevelProposal>& proposed) {
+  return proposed ? "" : proposed.error().sentence + "; " + proposed.error().mend;
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -102,13 +101,13 @@ TEST(Levels, ThatThereAreNoneIsExplained) {
   EXPECT_TRUE(contains(reason(propose("rougness", 3)), "did you mean `roughness`?"));
   EXPECT_TRUE(contains(reason(propose("roughness", 3, 1, "sandpapr")), "did you mean `sandpaper`?"));
   EXPECT_TRUE(contains(reason(propose("vibration", 3)), "unknown: no published threshold"));
-  EXPECT_TRUE(contains(reason(propose("sharpness", 3)), "has an order and no levels"));
-  EXPECT_TRUE(contains(reason(propose("springiness", 13)), "12 would do"));
-  EXPECT_TRUE(
-      contains(reason(propose("springiness", 4, 5)), "less than 5 just noticeable differences apart; 3 would do"));
+  EXPECT_TRUE(contains(reason(propose("sharpness", 3)), "can be ordered but has no levels"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 13)), "ask for 12 levels at most"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 4, 5)),
+                       "less than 5 just noticeable differences apart; ask for 3 levels"));
   EXPECT_TRUE(contains(reason(propose("springiness", 2, 50)), "no two levels"));
-  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "two levels"));
-  EXPECT_TRUE(contains(reason(propose("springiness", 3, 0)), "above 0"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "expected two levels or more"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 3, 0)), "must be above 0"));
 }
 
 /// The codes of what is said of a text's levels on a device, and the messages.
@@ -128,13 +127,15 @@ TEST(Levels, OfWhatOnlyShakesAreOfShaking) {
   // Nobody has published how small a difference of a pad's acceleration is noticed, so that nothing is proposed.
   for (const char* percept : {"roughness", "vibration"}) {
     const auto proposed = propose_levels(percept, "touch_pad", std::nullopt, 1, common_modules()->declarations);
-    ASSERT_TRUE(std::holds_alternative<std::string>(proposed)) << percept;
-    EXPECT_EQ(std::get<std::string>(proposed),
-              std::string("unknown: no published threshold says how little of ") + percept + " is noticed");
+    ASSERT_FALSE(proposed) << percept;
+    EXPECT_EQ(proposed.error().code, Code::no_threshold);
+    EXPECT_EQ(proposed.error().sentence,
+              std::string("unknown: no published threshold says how small a difference of ") + percept + " is noticed");
   }
   const auto spring = propose_levels("springiness", "touch_pad", std::nullopt, 1, common_modules()->declarations);
-  ASSERT_TRUE(std::holds_alternative<std::string>(spring));
-  EXPECT_EQ(std::get<std::string>(spring), "`touch_pad` only shakes, and has no realisation of springiness");
+  ASSERT_FALSE(spring);
+  EXPECT_EQ(spring.error().code, Code::percept_unrealised);
+  EXPECT_EQ(spring.error().sentence, "`touch_pad` only shakes, and has no realisation of springiness");
 }
 
 TEST(CloseLevels, AreJudgedOnTheDeviceAtHand) {

@@ -58,7 +58,7 @@ Description described(const std::string& bytes, const std::string& force = "late
                                    force + "\n} }\n");
   const auto program = compile(sources, source, "", default_device, resolver, diagnostics);
   if (!program) throw std::runtime_error(render_text(diagnostics.all().front(), sources, false));
-  return describe(Bank(*program), &common->declarations);
+  return describe(Bank(*program), common->declarations);
 }
 
 /// Ribs of one period (mm) that change along `degrees` from x, counted to the left: a row of a picture is lower on the
@@ -143,9 +143,9 @@ TEST(Photographs, ThePeriodsAndTheAnisotropyAreInTheTextAndInTheJson) {
   const Description description =
       described(picture([](double x, double y) { return 0.5 + 0.3 * ribs(x, y, 6, 0) + 0.05 * ribs(x, y, 2, 90); }));
   const std::string text = description_text(description);
-  EXPECT_NE(text.find("anisotropy 0.6, changes along 0 degrees from x"), std::string::npos) << text;
-  EXPECT_NE(text.find("80 % of it with a period of 6 mm along 0 degrees"), std::string::npos) << text;
-  EXPECT_NE(text.find("20 % of it with a period of 2 mm along 90 degrees"), std::string::npos) << text;
+  EXPECT_NE(text.find("anisotropy 0.6, changes along the direction 0 degrees from x"), std::string::npos) << text;
+  EXPECT_NE(text.find("80 % of it has a period of 6 mm along 0 degrees"), std::string::npos) << text;
+  EXPECT_NE(text.find("20 % of it has a period of 2 mm along 90 degrees"), std::string::npos) << text;
   const auto json = nlohmann::json::parse(descriptions_json({description})).at("texture");
   EXPECT_NEAR(json.at("anisotropy").get<double>(), 0.6, 0.05);
   ASSERT_EQ(json.at("waves").size(), 2u);

@@ -83,22 +83,22 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     }
   }
   const auto descriptor = parse_report_descriptor(bytes);
-  if (const auto* error = std::get_if<ReportDescriptorError>(&descriptor)) {
-    demand(!error->reason.empty() && error->offset <= bytes.size());
+  if (!descriptor) {
+    demand(!descriptor.error().sentence.empty() && descriptor.error().place.number.value_or(0) <= bytes.size());
     return 0;
   }
-  for (const Report& report : std::get<ReportDescriptor>(descriptor).reports) {
+  for (const Report& report : descriptor->reports) {
     for (const Field& field : report.fields) {
       demand(field.bit_offset + field.bits * field.count <= report.bits);
       demand(field.logical_minimum <= field.logical_maximum && field.usage_at(0).has_value());
     }
   }
-  const auto layout = find_pid_layout(std::get<ReportDescriptor>(descriptor));
-  if (const auto* refusal = std::get_if<PidRefusal>(&layout)) {
-    demand(!refusal->reason.empty());
+  const auto layout = find_pid_layout(*descriptor);
+  if (!layout) {
+    demand(!layout.error().sentence.empty());
     return 0;
   }
-  write_packets(std::get<PidLayout>(layout));
-  read_packets(std::get<PidLayout>(layout), rest);
+  write_packets(*layout);
+  read_packets(*layout, rest);
   return 0;
 }

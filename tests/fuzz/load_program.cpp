@@ -20,8 +20,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     for (std::size_t i = 0; i < 4; ++i) bytes[checksum_offset + i] = static_cast<std::byte>(crc >> 8 * i & 0xff);
   }
   const auto loaded = wale::Program::load(bytes);
-  if (const auto* refusal = std::get_if<wale::Refusal>(&loaded)) return refusal->reason.empty() ? (std::abort(), 0) : 0;
-  const auto& program = std::get<wale::Program>(loaded);
+  if (!loaded) return loaded.error().sentence.empty() ? (std::abort(), 0) : 0;
+  const auto& program = *loaded;
   long points = 0;
   for (const auto& peak : program.description().peaks) points += peak.points * static_cast<long>(peak.code.size());
   if (points > 1'000'000) return 0;  // accepted, but too slow to fuzz

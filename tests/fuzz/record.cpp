@@ -47,14 +47,15 @@ Sample make_sample() {
   Stage stage(joystick);
   PatchProgram program = example::program();
   program.device = sandpaper();
-  stage.place(std::get<Program>(Program::load(program)));
+  stage.place(*Program::load(program));
   const auto act = [&](const Progress& now) {
-    if (now.ticks_run == 90) stage.set("amplitude", 1);
-    if (now.ticks_run == 90) stage.replace(0, std::get<Program>(Program::load(program)));
+    if (now.ticks_run != 90) return;
+    demand(stage.set("amplitude", 1).has_value());
+    demand(stage.replace(0, *Program::load(program)).has_value());
   };
   const auto ran =
       stage.run({.seconds = 0.12, .virtual_time = true, .progress = act, .record_to = RecordTo{file, "x"}});
-  demand(std::holds_alternative<RunResult>(ran));
+  demand(ran.has_value());
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::filesystem::remove(file);
@@ -114,8 +115,8 @@ bool too_slow(const Recording& recording) {
   long points = 0;
   for (const RecordedProgram& bytes : recording.programs()) {
     const auto program = read_patch_program(bytes.bytes);
-    if (const auto* known = std::get_if<PatchProgram>(&program))
-      for (const auto& peak : known->peaks) points += peak.points * static_cast<long>(peak.code.size());
+    if (program)
+      for (const auto& peak : program->peaks) points += peak.points * static_cast<long>(peak.code.size());
   }
   return points > 1'000'000;
 }
@@ -142,19 +143,19 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if ((how & 1) != 0) mend_checks(bytes);
 
   auto read = Recording::read(std::move(bytes), "fuzzed");
-  if (const auto* refusal = std::get_if<Refusal>(&read)) return demand(!refusal->reason.empty()), 0;
-  const auto& recording = std::get<Recording>(read);
+  if (!read) return demand(!read.error().sentence.empty()), 0;
+  const auto& recording = *read;
   std::ostringstream csv;
   write_csv(csv, recording);
   const std::string text = csv.str();
   demand(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) == recording.ticks() + 1);
   if (recording.ticks() > 0 && recording.tick(recording.ticks() - 1).period < 10'000) {
     std::ostringstream wav;
-    if (const auto refusal = write_wav(wav, recording)) demand(!refusal->reason.empty());
+    if (const auto written = write_wav(wav, recording); !written) demand(!written.error().sentence.empty());
   }
   if (too_slow(recording)) return 0;
   const auto replayed = replay(recording);
-  if (const auto* refusal = std::get_if<Refusal>(&replayed)) return demand(!refusal->reason.empty()), 0;
-  demand(std::get<Replay>(replayed).ticks == recording.ticks());
+  if (!replayed) return demand(!replayed.error().sentence.empty()), 0;
+  demand(replayed->ticks == recording.ticks());
   return 0;
 }

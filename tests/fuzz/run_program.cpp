@@ -77,7 +77,7 @@ void change(PatchProgram& program, Choices& choices) {
   }
 }
 
-std::variant<Program, Refusal> made(Choices& choices) {
+Result<Program> made(Choices& choices) {
   const std::uint32_t kind = choices.next(1);
   PatchProgram program = example::RandomProgram(choices.next(2)).make();
   if (kind % 8 >= 6) {  // the same on a pad
@@ -182,8 +182,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (size > 512) return 0;
   Choices choices(data, size);
   const auto loaded = made(choices);
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) return refusal->reason.empty() ? (std::abort(), 0) : 0;
-  const auto& program = std::get<Program>(loaded);
+  if (!loaded) return loaded.error().sentence.empty() ? (std::abort(), 0) : 0;
+  const auto& program = *loaded;
   if (!is_quick(program.description())) return 0;
   const Proof proof = prove(program);
   const Bounds bounds(program, proof);

@@ -40,16 +40,16 @@ Bytes encode(const std::string& extension, OIIO::ImageSpec spec, const std::vect
 
 HeightImage read(const Bytes& bytes, const std::string& name, double smooth = 0) {
   auto image = read_height_image(bytes, name, smooth);
-  if (auto* problem = std::get_if<ImageProblem>(&image)) {
-    ADD_FAILURE() << problem->reason;
+  if (!image) {
+    ADD_FAILURE() << image.error().sentence;
     return {};
   }
-  return std::get<HeightImage>(image);
+  return *image;
 }
 
 std::string problem_of(const Bytes& bytes, const std::string& name, double smooth = 0) {
   auto image = read_height_image(bytes, name, smooth);
-  if (auto* problem = std::get_if<ImageProblem>(&image)) return problem->reason;
+  if (!image) return image.error().sentence;
   ADD_FAILURE() << name << " was read";
   return {};
 }
@@ -257,7 +257,8 @@ TEST(Image, SmallPicturesAreRefused) {
   for (auto [w, h] : {std::pair{1, 1}, {3, 100}, {100, 3}}) {
     const std::vector<std::uint8_t> codes(static_cast<std::size_t>(w * h), 9);
     const std::string problem = problem_of(encode("png", OIIO::ImageSpec(w, h, 1, OIIO::TypeUInt8), codes), "a.png");
-    EXPECT_EQ(problem, "is " + std::to_string(w) + " x " + std::to_string(h) + " pixels; heights need at least 4 x 4");
+    EXPECT_EQ(problem, "the picture has " + std::to_string(w) + " x " + std::to_string(h) +
+                           " pixels, and heights need at least 4 x 4");
   }
 }
 
@@ -271,12 +272,14 @@ TEST(Image, DeclaredHugePictureIsRefusedBeforeItIsRead) {
 }
 
 TEST(Image, WhatIsNoPictureSaysSo) {
-  EXPECT_EQ(problem_of({}, "a.png"), "is empty");
+  EXPECT_EQ(problem_of({}, "a.png"), "the file is empty");
   const Bytes words(300, std::byte{'w'});
-  EXPECT_EQ(problem_of(words, "a.txt"), "is in no format that OpenImageIO knows (PNG, TIFF, JPEG, EXR, ...)");
+  EXPECT_EQ(problem_of(words, "a.txt"), "the file is in no picture format that OpenImageIO knows");
   EXPECT_NE(problem_of(words, "a.png"), "");
   EXPECT_NE(problem_of(words, "a.null"), "");  // OpenImageIO's "null" makes a picture of nothing
-  EXPECT_NE(problem_of(words, "a.dpx").find("save it as PNG"), std::string::npos);
+  EXPECT_EQ(problem_of(words, "a.dpx"), "pictures in the format dpx are not read");
+  EXPECT_EQ(read_height_image(words, "a.dpx", 0).error().mend, "save it as PNG, TIFF, JPEG or EXR");
+  EXPECT_EQ(read_height_image(words, "a.dpx", 0).error().place.name, "a.dpx");
 }
 
 std::vector<std::pair<std::string, Bytes>> one_of_each() {

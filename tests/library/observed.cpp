@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/grade/grade.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "tests/library/shelf.hpp"
 #include "wale/simulated.hpp"
@@ -24,9 +25,9 @@ GuardCounts guarded(const Program& program) {
     Stage stage(joystick);
     stage.place(program);
     const auto run = stage.run({.seconds = 2, .virtual_time = true});
-    if (const auto* refusal = std::get_if<Refusal>(&run)) throw std::runtime_error(refusal->reason);
-    all.passivity += std::get<RunResult>(run).guards.passivity;
-    all.energy += std::get<RunResult>(run).guards.energy;
+    if (!run) throw std::runtime_error(in_words(run.error()));
+    all.passivity += run->guards.passivity;
+    all.energy += run->guards.energy;
   }
   return all;
 }
@@ -37,8 +38,8 @@ Program late(const Program& program, double ticks) {
   description.device.damping_known = true;
   description.device.delay_x = description.device.delay_y = ticks / description.device.rate;
   auto loaded = Program::load(std::move(description));
-  if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
-  return std::get<Program>(std::move(loaded));
+  if (!loaded) throw std::runtime_error(in_words(loaded.error()));
+  return *std::move(loaded);
 }
 
 /// Behind a delay nothing is done to what is passive on the device by itself. What only the hand's damping makes
@@ -51,7 +52,7 @@ TEST(Observed, NorIsAnythingDoneBehindADelay) {
     for (std::size_t i = begin; i < end; ++i)
       for (const double ticks : {1.0, 2.0}) {
         const Program program = late(programs[i], ticks);
-        const Grade graded = grade(Bank(program));
+        const Grade graded = grade(Bank(program), normal_hand(common_modules()->declarations));
         if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
         const bool acted = guarded(program).passivity > 0;
         if (graded.required_damping <= graded.device_damping) {
@@ -80,7 +81,7 @@ TEST(Observed, NothingIsDoneToWhatIsPassiveInTheHandNorHeldBackOfWhatIsDeclared)
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const std::string& name = programs[i].description().material;
     EXPECT_EQ(counts[i].energy, 0) << name;
-    const Grade graded = grade(Bank(programs[i]));
+    const Grade graded = grade(Bank(programs[i]), normal_hand(common_modules()->declarations));
     if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
     ++calm;
     EXPECT_EQ(counts[i].passivity, 0) << name;

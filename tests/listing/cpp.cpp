@@ -38,8 +38,8 @@ std::vector<Subject> subjects() {
   const auto add = [&](std::string what, PatchProgram program) {
     program.material = "m" + std::to_string(subjects.size());
     auto loaded = Program::load(std::move(program));
-    if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(what + ": " + refusal->reason);
-    subjects.push_back({std::move(what), std::get<Program>(loaded)});
+    if (!loaded) throw std::runtime_error(what + ": " + in_words(loaded.error()));
+    subjects.push_back({std::move(what), *loaded});
   };
   const auto add_file = [&](const std::string& path, std::size_t most) {
     const File file(path);

@@ -14,17 +14,18 @@ namespace {
 using enum Operation;
 using example::instruction;
 
-Refusal refusal_after(void (*change)(PatchProgram&)) {
+Error refusal_after(void (*change)(PatchProgram&)) {
   PatchProgram changed = example::program();
   changed.places = {};
   change(changed);
-  return verify(changed).value_or(Refusal{"accepted", {}});
+  const Result<> verified = verify(changed);
+  return verified ? Error{} : verified.error();
 }
 
-std::vector<std::string> lines_of(const Refusal& refusal) {
+std::vector<std::string> lines_of(const Error& refusal) {
   std::vector<std::string> lines;
-  for (const RefusedInstruction& each : refusal.instructions) {
-    lines.push_back(each.section + " " + std::to_string(each.number) + ": " + each.text);
+  for (const Place& each : refusal.led_to) {
+    lines.push_back(each.name + " " + std::to_string(each.number.value()) + ": " + each.text);
   }
   return lines;
 }
@@ -56,13 +57,16 @@ TEST(RefusedCode, NamesItsSection) {
 
 TEST(RefusedCode, KnowsItsPlaceInTheSource) {
   // Setup, one peak, enter, then the tick: its first instruction is of a file that is not listed.
-  const Refusal refusal = refusal_after([](auto& p) {
+  const Error refusal = refusal_after([](auto& p) {
     p.tick[1].b = 5;
     p.places = {{"bench.wale"}, {{}, {}, {}, {{1, 1, 1}, {6, 0, 7}}}};
   });
-  ASSERT_EQ(refusal.instructions.size(), 2u);
-  EXPECT_EQ(refusal.instructions[0].place, "");
-  EXPECT_EQ(refusal.instructions[1].place, "bench.wale:7");
+  EXPECT_EQ(refusal.code, Code::refused_program);
+  EXPECT_EQ(refusal.place.name, "tick");
+  EXPECT_EQ(refusal.place.number, 1u);
+  ASSERT_EQ(refusal.led_to.size(), 2u);
+  EXPECT_EQ(refusal.led_to[0].source, "");
+  EXPECT_EQ(refusal.led_to[1].source, "bench.wale:7");
   EXPECT_EQ(explained(refusal),
             "tick 1 `cosine` has 5 for operand b, which it does not use and must be zero\n"
             "  tick 0  r43 = multiply r0 r38\n"
@@ -70,9 +74,10 @@ TEST(RefusedCode, KnowsItsPlaceInTheSource) {
 }
 
 TEST(RefusedCode, IsNoneWhereAFigureIsWrong) {
-  EXPECT_TRUE(refusal_after([](auto& p) { p.device.rate = 20; }).instructions.empty());
-  EXPECT_TRUE(refusal_after([](auto& p) { p.outputs.pop_back(); }).instructions.empty());
-  EXPECT_EQ(explained({"no", {}}), "no\n");
+  EXPECT_TRUE(refusal_after([](auto& p) { p.device.rate = 20; }).led_to.empty());
+  EXPECT_TRUE(refusal_after([](auto& p) { p.outputs.pop_back(); }).led_to.empty());
+  EXPECT_EQ(explained({.sentence = "no"}), "no\n");
+  EXPECT_EQ(explained({.sentence = "no", .mend = "say yes"}), "no; say yes\n");
 }
 
 // Long code that feeds on itself: the chain is cut, and finding it does not take long.
@@ -82,11 +87,12 @@ TEST(RefusedCode, ShowsAFewInstructionsOnly) {
   for (std::size_t i = 1; i < 100000; ++i) p.tick[i] = instruction(add, 43, 43, 43);
   p.tick[100000].a = 43;
   p.tick[100000].c = 1;
-  const auto refusal = verify(p);
-  ASSERT_TRUE(refusal);
-  ASSERT_EQ(refusal->instructions.size(), shown_instructions);
-  EXPECT_EQ(refusal->instructions.back().number, 100000u);
-  EXPECT_EQ(refusal->instructions.front().number, 100000u - (shown_instructions - 1));
+  const auto verified = verify(p);
+  ASSERT_FALSE(verified);
+  const std::vector<Place>& led_to = verified.error().led_to;
+  ASSERT_EQ(led_to.size(), shown_instructions);
+  EXPECT_EQ(led_to.back().number, 100000u);
+  EXPECT_EQ(led_to.front().number, 100000u - (shown_instructions - 1));
 }
 
 // The figures of the page are those of the code.

@@ -15,14 +15,14 @@ namespace wale::example {
 /// Loads a program that is expected to load.
 inline Program loaded(PatchProgram program) {
   auto result = Program::load(std::move(program));
-  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-  return std::get<Program>(result);
+  if (!result) throw std::runtime_error(in_words(result.error()));
+  return *result;
 }
 
-/// The reason for which `verify` refuses, or nothing.
+/// What is wrong by `verify`, or nothing.
 inline std::string refusal_of(const PatchProgram& program) {
-  const auto refusal = verify(program);
-  return refusal ? refusal->reason : "";
+  const auto verified = verify(program);
+  return verified ? "" : in_words(verified.error());
 }
 
 }  // namespace wale::example

@@ -251,14 +251,14 @@ TEST(Verification, Parameters) {
 
 TEST(Verification, Patch) {
   EXPECT_EQ(refusal_after([](auto& p) { p.patch_width = 0; }),
-            "the patch's width is 0 m and must be above 0 and at most the workspace's 0.2286");
+            "the patch's width is 0 m and must be above 0 and at most the workspace's 0.2286 m");
   for (const float side : {-1.0f, 0.3f, nan, inf}) {
     PatchProgram p = program();
     p.patch_height = side;
     EXPECT_NE(refusal_of(p), "") << side;
   }
   EXPECT_EQ(refusal_after([](auto& p) { p.patch_rim = 0.04f; }),
-            "the patch's rim is 0.04 m and must leave a middle of its 0.08");
+            "the patch's rim is 0.04 m and must be less than half of its smaller side, 0.08 m");
   EXPECT_NE(refusal_after([](auto& p) { p.patch_rim = -0.001f; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.patch_rim = nan; }), "");
   EXPECT_EQ(refusal_after([](auto& p) { p.patch_rim = 0; }), "");

@@ -181,7 +181,7 @@ TEST(VerificationOfMemory, MarksAreDefined) {
   EXPECT_EQ(refusal_after([](auto& p) { p.picture.marks[1].operands[4] = 7; }),
             "frame finds its operand 4 of mark 1 in input 7, which frame does not have");
   EXPECT_EQ(refusal_after([](auto& p) { p.picture.marks[0].operands[3] = 32; }),
-            "mark 0 has 3 operands and more that are not zero");
+            "mark 0 has 3 operands, and one beyond them is not zero");
   EXPECT_EQ(refusal_after([](auto& p) { p.picture.marks[2].colour = 0x1000000; }),
             "mark 2 has a colour beyond red, green and blue");
   EXPECT_EQ(refusal_after([](auto& p) { p.picture.marks[0].kind = MarkKind{0}; }),

@@ -12,7 +12,7 @@ namespace {
 
 std::string refusal_of(PatchProgram program) {
   const auto loaded = Program::load(std::move(program));
-  return std::holds_alternative<Refusal>(loaded) ? std::get<Refusal>(loaded).reason : "";
+  return !loaded ? in_words(loaded.error()) : "";
 }
 
 template <typename Change>
@@ -83,7 +83,7 @@ TEST(VerificationOfPads, FatesAreOnesThatAreKnown) {
 
 TEST(VerificationOfPads, ATickGivesAmplitudeAndFrequency) {
   const auto loaded = Program::load(example::pad());
-  Bank bank(std::get<Program>(loaded));
+  Bank bank(*loaded);
   for (const float speed : {0.0f, 0.01f, -0.2f, 0.4f}) {
     const Force drive = tick(bank, {.velocity = {speed, 0.3f}});
     EXPECT_EQ(drive.x, 5);
@@ -92,7 +92,7 @@ TEST(VerificationOfPads, ATickGivesAmplitudeAndFrequency) {
   EXPECT_EQ(tick(bank, {.velocity = {0.9f, 0}}).y, 200) << "its ceiling";
   // Without a position there is no speed to read.
   const auto blind = Program::load(example::pad(PositionSource::none));
-  Bank without(std::get<Program>(blind));
+  Bank without(*blind);
   EXPECT_EQ(tick(without, {.velocity = {0.1f, 0}}).y, 0);
 }
 

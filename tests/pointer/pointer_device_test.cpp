@@ -100,11 +100,11 @@ class Pty {
 /// One that has the terminal, as it has from the first command on.
 std::unique_ptr<PointerDevice> opened(const Pty& pty) {
   auto result = PointerDevice::open(profile(), {pty.path, 100});
-  if (const auto* refusal = std::get_if<Refusal>(&result)) {
-    ADD_FAILURE() << refusal->reason;
+  if (!result) {
+    ADD_FAILURE() << result.error().sentence;
     return nullptr;
   }
-  auto device = std::move(std::get<std::unique_ptr<PointerDevice>>(result));
+  auto device = *std::move(result);
   EXPECT_TRUE(pty.is_as_before()) << "messages can be read until it is used";
   device->command({0, 0});
   while (pty.is_as_before()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -131,7 +131,7 @@ TEST(PointerDevice, TakesTheTerminalAndGivesItBack) {
   EXPECT_TRUE(pty.is_as_before());
   auto unused = PointerDevice::open(profile(), {pty.path});
   const std::size_t so_far = pty.screen().size();
-  unused = Refusal{};
+  unused = Error{Code::stopped, "let go"};
   EXPECT_EQ(pty.screen().size(), so_far) << "one that was never commanded changes nothing";
 }
 
@@ -199,13 +199,13 @@ TEST(PointerDevice, AClosedTerminalIsADeviceThatIsLost) {
 
 TEST(PointerDevice, IsRefusedWhereThereIsNoTerminal) {
   const auto none = PointerDevice::open(profile(), {"/nowhere/tty"});
-  EXPECT_EQ(std::get<Refusal>(none).reason, "there is no terminal: /nowhere/tty: No such file or directory");
+  EXPECT_EQ(none.error().sentence, "there is no terminal: /nowhere/tty: No such file or directory");
   const auto file = PointerDevice::open(profile(), {"/dev/null"});
-  EXPECT_EQ(std::get<Refusal>(file).reason, "/dev/null is no terminal");
+  EXPECT_EQ(file.error().sentence, "/dev/null is not a terminal");
   Pty pty;
   const auto device = opened(pty);
   const auto second = PointerDevice::open(profile(), {pty.path});
-  EXPECT_EQ(std::get<Refusal>(second).reason, "the terminal is in use already");
+  EXPECT_EQ(second.error().sentence, "the terminal is in use already");
 }
 
 TEST(PointerDevice, HoweverTheProcessEndsTheTerminalIsAsBefore) {

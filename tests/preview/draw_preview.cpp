@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "compiler/image/openimageio.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/preview.hpp"
@@ -37,7 +38,9 @@ int darkest(const Drawing& drawing, int left, int top, int right, int bottom) {
   return least;
 }
 
-Drawing draw(const Bank& bank) { return draw_preview(bank, preview_text(bank)); }
+Drawing draw(const Bank& bank) {
+  return *draw_preview(bank, preview_text(bank, common_modules()->declarations), common_modules()->declarations);
+}
 
 TEST(Preview, ReliefRepeatsWithThePeriodAndAcrossTheRibsNotAtAll) {
   const Drawing drawing = draw(sine_grating(0.004f, 1));
@@ -76,13 +79,13 @@ TEST(Preview, ForceCurveCrossesZeroTwiceAPeriod) {
 
 TEST(Preview, WordsAreOnThePage) {
   const Bank bank = sine_grating(0.004f, 1);
-  PreviewText text = preview_text(bank);
+  PreviewText text = preview_text(bank, common_modules()->declarations);
   EXPECT_EQ(text.title, "A sine grating");
   EXPECT_EQ(text.names, "grating · washboard");
   ASSERT_EQ(text.figures.size(), 1u);
   EXPECT_EQ(text.figures[0].word, "maximum force");
   EXPECT_EQ(text.figures[0].value, "1 N");
-  const Drawing drawing = draw_preview(bank, text);
+  const Drawing drawing = *draw_preview(bank, text, common_modules()->declarations);
   if (!drawing.has_text) GTEST_SKIP() << "no font is installed";
   EXPECT_LT(darkest(drawing, 64, 60, 500, 110), 200);     // title
   EXPECT_LT(darkest(drawing, 64, 860, 300, 920), 200);    // figures
@@ -90,9 +93,9 @@ TEST(Preview, WordsAreOnThePage) {
 
   // Letters outside ASCII are letters: an accent adds ink above.
   text.title = "Crepe";
-  const Drawing plain = draw_preview(bank, text);
+  const Drawing plain = *draw_preview(bank, text, common_modules()->declarations);
   text.title = "Crêpe";
-  const Drawing accented = draw_preview(bank, text);
+  const Drawing accented = *draw_preview(bank, text, common_modules()->declarations);
   EXPECT_NE(plain, accented);
   for (int y = 80; y < 1000; ++y) {
     for (int x = 0; x < 1600; x += 7)
@@ -107,16 +110,14 @@ TEST(Preview, LongAndBrokenWordsStayOnThePage) {
   text.names = "tab\there, newline\nthere, \xff\xfe not UTF-8, \xe2\x82";
   for (int i = 0; i < 40; ++i) text.figures.push_back({std::string(300, 'w'), std::string(300, '8')});
   text.evidence = std::string(5000, 'e');
-  const Drawing drawing = draw_preview(bank, text);
+  const Drawing drawing = *draw_preview(bank, text, common_modules()->declarations);
   EXPECT_GT(darkest(drawing, 1545, 0, 1600, 1000), 700);  // the right margin is empty
-  const Drawing wordless = draw_preview(bank, {});
+  const Drawing wordless = *draw_preview(bank, {}, common_modules()->declarations);
   EXPECT_EQ(wordless.width, drawing.width);
 }
 
 TEST(Preview, SameBankSameBytes) {
-  const auto png_of = [](const Bank& bank) {
-    return std::get<std::vector<std::byte>>(encode_drawing(draw(bank), "a.png"));
-  };
+  const auto png_of = [](const Bank& bank) { return *encode_drawing(draw(bank), "a.png"); };
   EXPECT_EQ(png_of(sine_grating(0.0025f, 1.934f)), png_of(sine_grating(0.0025f, 1.934f)));
   EXPECT_EQ(png_of(spring_and_oil(120, 2)), png_of(spring_and_oil(120, 2)));
 }
@@ -191,7 +192,7 @@ TEST(Axis, QuantitiesReadWell) {
 TEST(SaveDrawing, PngComesBackPixelForPixel) {
   Drawing drawing{3, 2, {1, 2, 3, 40, 50, 60, 7, 8, 9, 0, 0, 0, 255, 255, 255, 9, 8, 7}};
   const auto path = std::filesystem::path(testing::TempDir()) / "wale_preview_test.png";
-  ASSERT_FALSE(save_drawing(drawing, path.string()));
+  ASSERT_TRUE(save_drawing(drawing, path.string()));
   auto input = OIIO::ImageInput::open(path.string());
   ASSERT_TRUE(input);
   std::vector<std::uint8_t> back(drawing.rgb.size());
@@ -206,12 +207,14 @@ TEST(SaveDrawing, PngComesBackPixelForPixel) {
 TEST(SaveDrawing, ProblemsAreWords) {
   const Drawing drawing{1, 1, {1, 2, 3}};
   const auto reason = [&](const std::string& path) {
-    return save_drawing(drawing, path).value_or(DrawingProblem{"was written"}).reason;
+    const auto saved = save_drawing(drawing, path);
+    return saved ? "was written" : saved.error().sentence;
   };
-  EXPECT_EQ(reason("wall"), "cannot write wall: its name ends in no picture format; try .png");
-  EXPECT_EQ(reason("wall.wale"), "cannot write wall.wale: pictures are not written as .wale; try .png");
-  EXPECT_EQ(reason("wall.null"), "cannot write wall.null: pictures are not written as .null; try .png");
-  EXPECT_EQ(reason("/no/such/folder/wall.png"), "cannot write /no/such/folder/wall.png: No such file or directory");
+  EXPECT_EQ(reason("wall"), "the name of a picture needs an extension");
+  EXPECT_EQ(reason("wall.wale"), "pictures cannot be written as .wale");
+  EXPECT_EQ(reason("wall.null"), "pictures cannot be written as .null");
+  EXPECT_EQ(save_drawing(drawing, "wall").error().mend, "use the extension .png");
+  EXPECT_EQ(reason("/no/such/folder/wall.png"), "cannot write the picture: No such file or directory");
   EXPECT_FALSE(OIIO::has_error());
 }
 
@@ -220,9 +223,10 @@ TEST(SaveDrawing, FullDeviceIsReportedAndLeftAlone) {
   const auto link = std::filesystem::path(testing::TempDir()) / "wale_preview_full.png";
   std::filesystem::remove(link);
   std::filesystem::create_symlink("/dev/full", link);
-  const auto problem = save_drawing({1, 1, {1, 2, 3}}, link.string());
-  ASSERT_TRUE(problem);
-  EXPECT_NE(problem->reason.find("No space left"), std::string::npos) << problem->reason;
+  const auto saved = save_drawing({1, 1, {1, 2, 3}}, link.string());
+  ASSERT_FALSE(saved);
+  EXPECT_EQ(saved.error().code, Code::unwritable_file);
+  EXPECT_NE(saved.error().sentence.find("No space left"), std::string::npos) << saved.error().sentence;
   EXPECT_TRUE(std::filesystem::exists("/dev/full"));
   std::filesystem::remove(link);
 }

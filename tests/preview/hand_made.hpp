@@ -57,8 +57,8 @@ class HandMade {
   }
   Bank bank() const {
     auto loaded = Program::load(program);
-    if (auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
-    return Bank(std::get<Program>(loaded));
+    if (!loaded) throw std::runtime_error(in_words(loaded.error()));
+    return Bank(*loaded);
   }
 
   PatchProgram program;

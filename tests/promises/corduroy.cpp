@@ -78,7 +78,7 @@ TEST(Corduroy, AnotherRoughnessIsAnotherForce) {
 
 TEST(Corduroy, AnotherPeriodIsTheSameRoughness) {
   const Felt felt =
-      promises::rubbed(promises::compiled(corduroy()), [](Stage& stage) { EXPECT_FALSE(stage.set("wale", 0.005f)); });
+      promises::rubbed(promises::compiled(corduroy()), [](Stage& stage) { EXPECT_TRUE(stage.set("wale", 0.005f)); });
   EXPECT_NEAR(felt.force_rubbing.p99, force_of_level(0.6), 0.01 * force_of_level(0.6) + force_step);
 }
 
@@ -92,13 +92,13 @@ TEST(Corduroy, AnotherPeriodWhileRubbingIsTheSameRoughness) {
   RunOptions run{.seconds = 7, .virtual_time = true};
   run.progress = [&](const Progress& now) {
     if (now.time >= 2 && !std::exchange(moved, true)) {
-      EXPECT_FALSE(stage.set("wale", 0.005f));
+      EXPECT_TRUE(stage.set("wale", 0.005f));
     }
   };
   const auto result = stage.run(run);
-  ASSERT_TRUE(std::holds_alternative<RunResult>(result));
+  ASSERT_TRUE(result);
   ASSERT_TRUE(moved);
-  const Felt after = promises::measured(program, std::get<RunResult>(result).record, 2.5);
+  const Felt after = promises::measured(program, result->record, 2.5);
   EXPECT_NEAR(after.force_rubbing.p99, force_of_level(0.6), 0.01 * force_of_level(0.6) + force_step);
   // 4.5 s over ridges twice as wide as before.
   const double flanks = 9 * after.position_range / 0.005 * 2;
@@ -115,8 +115,8 @@ TEST_P(AtRest, NothingOscillates) {
   Stage stage(*joystick);
   stage.place(program);
   const auto result = stage.run({.seconds = 4, .virtual_time = true});
-  ASSERT_TRUE(std::holds_alternative<RunResult>(result));
-  const Felt felt = promises::measured(program, std::get<RunResult>(result).record, 2);
+  ASSERT_TRUE(result);
+  const Felt felt = promises::measured(program, result->record, 2);
   EXPECT_EQ(felt.alternations, 0);
   EXPECT_LT(felt.position_rms, 0.2286 / 4096) << "more than an encoder count";
 }
@@ -134,7 +134,7 @@ TEST(Corduroy, TheSameRunGivesTheSameBits) {
     stage.place(program);
     const auto result = stage.run({.seconds = 2, .virtual_time = true});
     std::ostringstream csv;
-    write_csv(csv, std::get<RunResult>(result).record);
+    write_csv(csv, result->record);
     return csv.str();
   };
   const std::string first = bits();

@@ -75,10 +75,10 @@ inline std::vector<TickRecord> explored(const Program& program, const Motion& mo
   Stage stage(stick);
   stage.place(program);
   for (const auto& [name, value] : parameters)
-    if (const auto refusal = stage.set(name, value)) throw std::runtime_error(refusal->reason);
+    if (const auto set = stage.set(name, value); !set) throw std::runtime_error(in_words(set.error()));
   const auto result = stage.run({.seconds = seconds, .virtual_time = true});
-  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-  std::vector<TickRecord> ticks = std::get<RunResult>(result).record.ticks;
+  if (!result) throw std::runtime_error(in_words(result.error()));
+  std::vector<TickRecord> ticks = result->record.ticks;
   std::erase_if(ticks, [](const TickRecord& tick) { return tick.time < 0.5; });
   return ticks;
 }

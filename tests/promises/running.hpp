@@ -53,8 +53,8 @@ inline Record record_of(const Program& program) {
   Stage stage(*stick);
   stage.place(program);
   const auto result = stage.run({.seconds = 5.5, .virtual_time = true});
-  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-  return std::get<RunResult>(result).record;
+  if (!result) throw std::runtime_error(in_words(result.error()));
+  return result->record;
 }
 
 /// Five seconds of rubbing after half a second of settling in; `prepare` may set parameters first.
@@ -64,8 +64,8 @@ inline Felt rubbed(const Program& program, const std::function<void(Stage&)>& pr
   stage.place(program);
   if (prepare) prepare(stage);
   const auto result = stage.run({.seconds = 5.5, .virtual_time = true});
-  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-  return measured(program, std::get<RunResult>(result).record, 0.5);
+  if (!result) throw std::runtime_error(in_words(result.error()));
+  return measured(program, result->record, 0.5);
 }
 
 }  // namespace wale::promises

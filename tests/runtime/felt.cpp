@@ -181,23 +181,23 @@ TEST(LevelsBack, InvertTheMapAtTheMeasuredAmplitude) {
   const std::vector<LevelBack> levels = levels_back(bank, felt);
   ASSERT_EQ(levels.size(), 1u);
   EXPECT_EQ(levels[0].name, "roughness");
-  ASSERT_TRUE(std::holds_alternative<Prediction>(levels[0].back));
-  EXPECT_NEAR(std::get<Prediction>(levels[0].back).level, 0.6, 0.001);  // DESIGN.md, "Percepts"
+  ASSERT_TRUE(levels[0].back);
+  EXPECT_NEAR(levels[0].back->level, 0.6, 0.001);  // DESIGN.md, "Percepts"
 }
 
 TEST(LevelsBack, AreRefusedWithTheReason) {
   const Bank bank(corduroy(1.934f));
   Felt felt;
   felt.crossings = 49;
-  EXPECT_EQ(std::get<Refusal>(levels_back(bank, felt)[0].back).reason,
-            "only 49 crossings of the texture, 50 are needed");
+  EXPECT_EQ(in_words(levels_back(bank, felt)[0].back.error()),
+            "the hand crossed the texture 49 times, and 50 are needed");
 
   PatchProgram program = corduroy(1.934f).description();
   program.percepts[0].alone = false;
-  const Bank mixed(std::get<Program>(Program::load(program)));
+  const Bank mixed(*Program::load(program));
   felt.crossings = 1000;
-  EXPECT_EQ(std::get<Refusal>(levels_back(mixed, felt)[0].back).reason,
-            "other forces push besides the lateral amplitude, so the force at the handle does not read roughness");
+  EXPECT_EQ(in_words(levels_back(mixed, felt)[0].back.error()),
+            "other forces push besides the lateral amplitude, so the force at the handle does not give the level of roughness");
 }
 
 TEST(LevelsBack, NoPerceptsNoLevels) {

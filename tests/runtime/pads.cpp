@@ -19,13 +19,13 @@ namespace {
 using example::pad_device;
 
 Program ribs(PositionSource source = PositionSource::touch) {
-  return std::get<Program>(Program::load(example::pad(source)));
+  return *Program::load(example::pad(source));
 }
 
 RunResult run(Stage& stage, double seconds) {
   auto result = stage.run({.seconds = seconds, .virtual_time = true, .progress = {}, .stop = nullptr});
-  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-  return std::get<RunResult>(std::move(result));
+  if (!result) throw std::runtime_error(in_words(result.error()));
+  return *std::move(result);
 }
 
 // The bench pad: 40 Hz gives 4 m/s^2 at half command and 8 at full; 120 Hz 6 at a quarter and 16 at full.
@@ -148,14 +148,14 @@ TEST(Pads, ProgramsOfTheOtherKindAreRefused) {
   Stage on_pad(pad);
   on_pad.place(push(1));
   auto result = on_pad.run({.seconds = 0.1, .virtual_time = true, .progress = {}, .stop = nullptr});
-  EXPECT_EQ(std::get<Refusal>(result).reason,
-            "by hand was built for sandpaper, which pushes, and bench pad only vibrates: build it for bench pad");
+  EXPECT_EQ(in_words(result.error()),
+            "by hand was built for sandpaper, which pushes, and bench pad only vibrates; build it for bench pad");
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Rest{});
   Stage on_joystick(joystick);
   on_joystick.place(ribs());
   result = on_joystick.run({.seconds = 0.1, .virtual_time = true, .progress = {}, .stop = nullptr});
-  EXPECT_EQ(std::get<Refusal>(result).reason,
-            "bench ribs was built for bench pad, which vibrates, and sandpaper pushes: build it for sandpaper");
+  EXPECT_EQ(in_words(result.error()),
+            "bench ribs was built for bench pad, which vibrates, and sandpaper pushes; build it for sandpaper");
 }
 
 }  // namespace

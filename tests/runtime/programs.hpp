@@ -59,8 +59,8 @@ class Assembly {
 
   Program load() const {
     auto loaded = Program::load(program);
-    if (const auto* refusal = std::get_if<Refusal>(&loaded)) throw std::runtime_error(refusal->reason);
-    return std::get<Program>(loaded);
+    if (!loaded) throw std::runtime_error(in_words(loaded.error()));
+    return *loaded;
   }
 
   PatchProgram program;

@@ -146,7 +146,8 @@ TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
     const Program program = bead(500);
     Exchange<PlacedPatches> patches;
     patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
-    RecordWriter writer(file, {.device = sandpaper(), .most_newton = 5}, false);
+    const auto begun = RecordWriter::begin(file, {.device = sandpaper(), .most_newton = 5}, false);
+    RecordWriter& writer = **begun;
     Record record;
     Player player(joystick, patches, record, 100, 5, true, &writer);
     for (long period = 0; period < beats; ++period) {
@@ -154,11 +155,11 @@ TEST(RealTime, ABeatThatIsRecordedNeitherAllocatesNorLocksNorThrows) {
       player.serve({.period = period, .elapsed = period == 0 ? 0 : 1, .skipped = 0, .lateness = 0});
       ASSERT_EQ(deeds(), before) << period;
     }
-    EXPECT_EQ(writer.ended_early(), "");
+    EXPECT_FALSE(writer.ended_early());
   }
   const auto recording = Recording::open(file);
-  ASSERT_TRUE(std::holds_alternative<Recording>(recording)) << std::get<Refusal>(recording).reason;
-  EXPECT_EQ(std::get<Recording>(recording).ticks(), static_cast<std::size_t>(beats));
+  ASSERT_TRUE(recording) << in_words(recording.error());
+  EXPECT_EQ(recording->ticks(), static_cast<std::size_t>(beats));
 }
 
 }  // namespace

@@ -29,25 +29,24 @@ inline std::vector<std::byte> bytes_of(const std::string& path) {
 
 inline Recording opened(const std::string& path) {
   auto recording = Recording::open(path);
-  if (const auto* refusal = std::get_if<Refusal>(&recording)) throw std::runtime_error(refusal->reason);
-  return std::get<Recording>(std::move(recording));
+  if (!recording) throw std::runtime_error(in_words(recording.error()));
+  return *std::move(recording);
 }
 
-inline std::string refused(const std::variant<Recording, Refusal>& recording) {
-  const auto* refusal = std::get_if<Refusal>(&recording);
-  return refusal != nullptr ? refusal->reason : "not refused";
+inline std::string refused(const Result<Recording>& recording) {
+  return recording ? "not refused" : in_words(recording.error());
 }
 
 inline RunResult run(Stage& stage, const RunOptions& options) {
   auto result = stage.run(options);
-  if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-  return std::get<RunResult>(std::move(result));
+  if (!result) throw std::runtime_error(in_words(result.error()));
+  return *std::move(result);
 }
 
 inline void expect_same(const Recording& recording) {
   const auto result = replay(recording);
-  ASSERT_TRUE(std::holds_alternative<Replay>(result)) << std::get<Refusal>(result).reason;
-  const auto& replayed = std::get<Replay>(result);
+  ASSERT_TRUE(result) << in_words(result.error());
+  const auto& replayed = *result;
   EXPECT_EQ(replayed.ticks, recording.ticks());
   EXPECT_EQ(replayed.differing, 0u);
   if (replayed.first)

@@ -1,12 +1,12 @@
 // Declared devices as bytes: what is written is read back, and damaged bytes are refused.
+#include "schema/device_table.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include "schema/device_table.hpp"
 
 namespace wale::device_table_test {
 namespace {
@@ -89,7 +89,8 @@ TEST(DeviceTable, IsReadAsItWasWritten) {
 
 TEST(DeviceTable, BeginsAsDocumented) {
   const auto bytes = write_device_table(both);
-  const std::vector<std::uint8_t> expected{0x89, 'W', 'D', 'T', 0x0d, 0x0a, 0x1a, 0x0a, 1, 0, 2, 0, 0, 0, 5, 0, 0, 0, 's'};
+  const std::vector<std::uint8_t> expected{0x89, 'W', 'D', 'T', 0x0d, 0x0a, 0x1a, 0x0a, 1,  0,
+                                           2,    0,   0,   0,   5,    0,    0,    0,    's'};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;
 }
 

@@ -12,11 +12,11 @@ using wpp::Bytes;
 
 PatchProgram read(const Bytes& bytes) {
   auto result = read_patch_program(bytes);
-  if (auto* refusal = std::get_if<Refusal>(&result)) {
-    ADD_FAILURE() << refusal->reason;
+  if (!result) {
+    ADD_FAILURE() << in_words(result.error());
     return {};
   }
-  return std::get<PatchProgram>(std::move(result));
+  return *std::move(result);
 }
 
 TEST(PatchProgram, ComesBackFromItsBytes) {

@@ -14,7 +14,7 @@ using namespace hid;
 std::vector<std::uint8_t> bytes_of(const Packet& packet) { return {packet.view().begin(), packet.view().end()}; }
 
 ReportDescriptor parsed(const PidFamily& family) {
-  return std::get<ReportDescriptor>(parse_report_descriptor(report_descriptor(family)));
+  return *parse_report_descriptor(report_descriptor(family));
 }
 
 TEST(OpenFFBoardReport, IsBytesAsItsHeaderSays) {

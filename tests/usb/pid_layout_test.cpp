@@ -12,25 +12,24 @@ namespace {
 
 using test::PidFamily;
 
-std::variant<PidLayout, PidRefusal> laid_out(const std::vector<std::uint8_t>& descriptor) {
+Result<PidLayout> laid_out(const std::vector<std::uint8_t>& descriptor) {
   const auto reports = parse_report_descriptor(descriptor);
-  if (const auto* error = std::get_if<ReportDescriptorError>(&reports)) return PidRefusal{error->reason};
-  return find_pid_layout(std::get<ReportDescriptor>(reports));
+  if (!reports) return reports.error();
+  return find_pid_layout(*reports);
 }
 
 PidLayout layout_of(const PidFamily& family) {
   auto result = laid_out(test::report_descriptor(family));
-  if (const auto* refusal = std::get_if<PidRefusal>(&result)) {
-    ADD_FAILURE() << family.name << ": " << refusal->reason;
+  if (!result) {
+    ADD_FAILURE() << family.name << ": " << result.error().sentence;
     return {};
   }
-  return std::get<PidLayout>(result);
+  return *std::move(result);
 }
 
 std::string refusal_of(const std::vector<std::uint8_t>& descriptor) {
   const auto result = laid_out(descriptor);
-  const auto* refusal = std::get_if<PidRefusal>(&result);
-  return refusal == nullptr ? "accepted" : refusal->reason;
+  return result ? "accepted" : result.error().sentence;
 }
 
 std::string bytes_of(const Packet& packet) {
@@ -117,7 +116,7 @@ TEST(PidLayout, MissingReportsAreNamed) {
 TEST(PidLayout, WhatMayBeMissing) {
   const auto without = [](const PidFamily& family, const char* from) {
     auto result = laid_out(replaced(family, from, "09 F1 A1 02"));
-    return std::get<PidLayout>(result);
+    return *result;
   };
   EXPECT_FALSE(without(test::rhino(), "09 7D A1 02").device_gain);
   EXPECT_FALSE(without(test::rhino(), "09 96 A1 02").device_control);

@@ -142,6 +142,7 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
     return;
   }
   const std::uint8_t id = report[0];
+  if (when_taken) when_taken(report);
   if (family.has_vendor_report && id == 0xa1) return answer_vendor(report);
   Effect& effect = effects[report[1]];
   const auto is_long = [&](std::size_t bytes) {
@@ -161,6 +162,7 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
     effect.plays = report[2] != 3;
     effect.loops = report[3];
     effect.started = now_;
+    tell_state(report[1]);
   } else if (id == family.free && is_long(2)) {
     if (!effect.exists) ++wrong_reports;
     effect = {};
@@ -175,12 +177,16 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
         case 0x97: is_enabled = true; break;
         case 0x98: is_enabled = false; break;
         case 0x99:
-          for (Effect& each : effects) each.plays = false;
+          for (std::size_t each = 0; each < effects.size(); ++each) {
+            if (!std::exchange(effects[each].plays, false)) continue;
+            tell_state(static_cast<std::uint8_t>(each));
+          }
           break;
         case 0x9a: reset(); break;
         default: ++wrong_reports; break;
       }
     }
+    tell_state(0);
   } else if (id != family.constant && id != family.envelope && id != family.operation && id != family.free &&
              id != family.gain && id != family.control) {
     ++wrong_reports;
@@ -239,6 +245,15 @@ void PidModel::set_effect(const std::vector<std::uint8_t>& report) {
   }
 }
 
+/// PID 1.0, section 5.8, as `report_descriptor` lays it out.
+void PidModel::tell_state(std::uint8_t block) {
+  if (!tells_state) return;
+  constexpr int enabled_bit = 2, power_bit = 16;
+  states_.push_back({static_cast<std::uint8_t>(family.input + 1),
+                     static_cast<std::uint8_t>(power_bit | (is_enabled ? enabled_bit : 0)),
+                     static_cast<std::uint8_t>(block << 1 | (effects[block].plays ? 1 : 0))});
+}
+
 void PidModel::reset() {
   effects = {};
   created_ = 0;
@@ -264,6 +279,11 @@ std::optional<std::vector<std::uint8_t>> PidModel::input() {
   const auto is_past = [&](long after) { return after >= 0 && inputs >= after; };
   if (is_past(faults.no_inputs_after)) return std::nullopt;
   if (!vendor_answer_.empty()) return std::exchange(vendor_answer_, {});
+  if (!states_.empty()) {
+    auto state = std::move(states_.front());
+    states_.pop_front();
+    return state;
+  }
   auto report = input_report();
   const auto is_one_of = [&](long every) { return every > 0 && inputs % every == every - 1; };
   if (is_one_of(faults.nonsense_every)) report.assign(report.size(), 0xee);

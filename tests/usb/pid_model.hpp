@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -87,6 +89,9 @@ class PidModel final : public UsbModel {
   bool moves = true;  ///< the stick does; where that is dear, as on an emulated processor, it may stand still
   std::array<Effect, 256> effects{};
   bool is_enabled = false;
+  bool tells_state = false;  ///< sends PID State reports when effects start or stop, and at orders
+  /// Called with each report as it is taken, by whichever endpoint.
+  std::function<void(const std::vector<std::uint8_t>&)> when_taken;
   double gain = 1;
   long outputs = 0, inputs = 0, wrong_reports = 0, polls = 0, vendor_questions = 0;
 
@@ -95,11 +100,13 @@ class PidModel final : public UsbModel {
   void answer_vendor(const std::vector<std::uint8_t>& question);
   void set_effect(const std::vector<std::uint8_t>& report);
   void reset();
+  void tell_state(std::uint8_t block);
   std::vector<std::uint8_t> input_report();
   std::vector<std::uint8_t> block_load();
 
   SimulatedJoystick stick_;
   std::vector<std::uint8_t> vendor_answer_;  // that waits to be sent
+  std::deque<std::vector<std::uint8_t>> states_;  // that wait to be sent
   long long now_ = 0;                        // ms
   mutable long long listens_at_ = -1;        // ms, when the report that waits is taken; -1: none waits
   int created_ = 0;

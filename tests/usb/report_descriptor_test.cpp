@@ -13,19 +13,19 @@ using test::Items;
 
 ReportDescriptor parsed(const std::vector<std::uint8_t>& bytes) {
   auto result = parse_report_descriptor(bytes);
-  if (const auto* error = std::get_if<ReportDescriptorError>(&result)) {
-    ADD_FAILURE() << error->reason << " at " << error->offset;
+  if (!result) {
+    ADD_FAILURE() << result.error().sentence;
     return {};
   }
-  return std::get<ReportDescriptor>(result);
+  return *std::move(result);
 }
 
 void expect_error(const std::vector<std::uint8_t>& bytes, std::size_t offset, const std::string& reason) {
   const auto result = parse_report_descriptor(bytes);
-  const auto* error = std::get_if<ReportDescriptorError>(&result);
-  ASSERT_NE(error, nullptr) << reason;
-  EXPECT_EQ(error->reason, reason);
-  EXPECT_EQ(error->offset, offset) << reason;
+  ASSERT_FALSE(result) << reason;
+  EXPECT_EQ(result.error().sentence,
+            "its report descriptor is damaged at byte " + std::to_string(offset) + ": " + reason);
+  EXPECT_EQ(result.error().place.number, offset) << reason;
 }
 
 TEST(ReportDescriptor, MouseOfTheStandard) {

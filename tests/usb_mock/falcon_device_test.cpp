@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/device/usb/list_usb_devices.hpp"
+#include "runtime/device/driver.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/usb/allocations.hpp"
@@ -58,24 +58,23 @@ class Environment {
 
 class FalconDriver : public MockedUsb {
  protected:
-  std::variant<std::unique_ptr<FalconDevice>, Refusal> open(int port, FalconOptions options) {
+  Result<std::unique_ptr<FalconDevice>> open(int port, FalconOptions options) {
     if (options.firmware == falcon_firmware_path()) options.firmware = firmware_;
     return FalconDevice::open(context(), found(port), falcon_profile(), options);
   }
 
   std::unique_ptr<FalconDevice> opened(int port, const FalconOptions& options = falcon_in_mock_time()) {
     auto result = open(port, options);
-    if (const auto* refusal = std::get_if<Refusal>(&result)) {
-      ADD_FAILURE() << refusal->reason;
+    if (!result) {
+      ADD_FAILURE() << in_words(result.error());
       return nullptr;
     }
-    return std::move(std::get<std::unique_ptr<FalconDevice>>(result));
+    return *std::move(result);
   }
 
   std::string refusal(int port, const FalconOptions& options = falcon_in_mock_time()) {
     auto result = open(port, options);
-    const auto* refusal = std::get_if<Refusal>(&result);
-    return refusal == nullptr ? "opened" : refusal->reason;
+    return result ? "opened" : in_words(result.error());
   }
 
   TemporaryFolder folder_;
@@ -159,7 +158,7 @@ TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
     each.is_homed = false;
   });
   const std::string not_homed =
-      "0403:cb48: its encoders have not found their zeros: push the handle all the way in and pull it all the way out";
+      "0403:cb48: its encoders have not found their zeros; push the handle all the way in and pull it all the way out";
   std::atomic<bool> stop{false};
   options.stop = &stop;
   options.homing_patience = 1e9;
@@ -177,7 +176,7 @@ TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
   options.firmware = "/nowhere/falcon.bin";
   const std::string reason = refusal(1, options);
   for (const char* part : {"0403:cb48: it runs no firmware", "/nowhere/falcon.bin", "libnifalcon",
-                           "WALE_FALCON_FIRMWARE=FILE", "not shipped"}) {
+                           "WALE_FALCON_FIRMWARE=FILE", "not part of Wale"}) {
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   }
   const auto running = mock_.plug(FalconModel({}, true), 2);
@@ -237,8 +236,8 @@ TEST_F(FalconDriver, AStageIsFeltOnIt) {
     stage.place(spring(50));
     return stage.run({.seconds = 0.6});
   }();
-  ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
-  const auto& ticks = std::get<RunResult>(ran).record.ticks;
+  ASSERT_TRUE(ran);
+  const auto& ticks = ran->record.ticks;
   double hardest = 0;
   for (const auto& tick : ticks) hardest = std::min<double>(hardest, tick.force.x);
   EXPECT_LT(hardest, -0.3) << "50 N/m against a hand of 100 N/m at 20 mm";
@@ -291,14 +290,17 @@ TEST_F(FalconDriver, IsListedWithWhatItNeeds) {
   const auto mock = mock_.plug(FalconModel(), 1);
   found(1);
   const Environment none("WALE_FALCON_FIRMWARE", "/nowhere/falcon.bin");
-  auto listed = list_falcons(*context());
+  const Connections connections{context()};
+  const auto listed = find_driver(drivers(), "novint-falcon")->find(connections, nullptr);
   ASSERT_EQ(listed.size(), 1u);
-  EXPECT_TRUE(list_usb_devices(*context()).empty()) << "it is none of the HID class";
+  EXPECT_TRUE(find_driver(drivers(), "hid-pid")->find(connections, nullptr).empty()) << "it is none of the HID class";
   EXPECT_EQ(listed[0].name, "Novint Falcon");
   EXPECT_EQ(listed[0].can, "three motors, used as two axes in a plane, 4096 steps of torque to each side");
-  EXPECT_EQ(listed[0].obstacle.find("there is no firmware at /nowhere/falcon.bin"), 0u) << listed[0].obstacle;
+  ASSERT_TRUE(listed[0].obstacle);
+  EXPECT_EQ(listed[0].obstacle->code, Code::unreadable_file);
+  EXPECT_EQ(listed[0].obstacle->sentence, "there is no firmware at /nowhere/falcon.bin");
   const Environment there("WALE_FALCON_FIRMWARE", firmware_.c_str());
-  EXPECT_EQ(list_falcons(*context())[0].obstacle, "");
+  EXPECT_FALSE(find_driver(drivers(), "novint-falcon")->find(connections, nullptr)[0].obstacle);
   EXPECT_TRUE(mock->with_model([](FalconModel& model) { return model.log.empty(); }));
 }
 

@@ -21,7 +21,8 @@
 #include <thread>
 #include <utility>
 
-#include "library/open_device.hpp"
+#include "runtime/device/open_device.hpp"
+#include "runtime/device/shipped_devices.hpp"
 #include "runtime/stage/scheduling.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
@@ -80,17 +81,17 @@ class Feeling : public testing::Test {
     return all;
   }
   ChosenDevice chosen(const std::string& spelling, std::size_t plugged) const {
-    auto choice = choose_device({.spelling = spelling}, library_.devices(), found(plugged));
-    if (const auto* refusal = std::get_if<Refusal>(&choice)) throw std::runtime_error(refusal->reason);
-    return std::get<ChosenDevice>(std::move(choice));
+    auto choice = choose_device({.spelling = spelling}, *shipped_devices(), found(plugged));
+    if (!choice) throw std::runtime_error(choice.error().sentence);
+    return *std::move(choice);
   }
   Program built(const ChosenDevice& device) const {
-    return std::get<Program>(library_.material(corduroy, "", device.profile));
+    return std::get<Program>(library_.material(corduroy, "", device.declared->profile.name));
   }
-  std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device, const Program& program) const {
-    auto result = open_device(connections_, device, program.description().device);
-    if (const auto* refusal = std::get_if<Refusal>(&result)) throw std::runtime_error(refusal->reason);
-    return std::get<std::unique_ptr<HotPluggedDevice>>(std::move(result));
+  std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
+    auto result = open_device(connections_, device);
+    if (!result) throw std::runtime_error(result.error().sentence);
+    return *std::move(result);
   }
 
   UsbMock mock_;
@@ -101,13 +102,13 @@ class Feeling : public testing::Test {
 TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1), other = mock_.plug(PidModel(rhino()), 2);
   const ChosenDevice device = chosen("auto", 2);
-  EXPECT_EQ(device.profile, "openffboard");
+  EXPECT_EQ(device.declared->profile.name, "openffboard");
   EXPECT_EQ(device.plugged->port, "1-1");
   EXPECT_EQ(device.said,
-            "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard\n"
-            "  also there: VPforce Rhino (ffff:2055 at port 1-2); --device 1-2");
+            "using OpenFFBoard (1209:ffb0 at port 1-1) as openffboard\n"
+            "  also plugged in: VPforce Rhino (ffff:2055 at port 1-2); --device 1-2");
   const Program program = built(device);
-  auto joystick = opened(device, program);
+  auto joystick = opened(device);
   Stage stage(*joystick);
   stage.place(program);
 
@@ -126,8 +127,8 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
     if (again && now.inside && ++felt_again == 20) stop = true;
   };
   const auto ran = stage.run(options);
-  ASSERT_TRUE(std::holds_alternative<RunResult>(ran)) << std::get<Refusal>(ran).reason;
-  const RunResult& result = std::get<RunResult>(ran);
+  ASSERT_TRUE(ran) << in_words(ran.error());
+  const RunResult& result = *ran;
   EXPECT_GT(result.ticks_run, 3000);
   EXPECT_GT(under_way, set_up_of_openffboard.size() + 100);
 
@@ -184,7 +185,7 @@ TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
   const ChosenDevice on_left = chosen("1-1", 2), on_right = chosen("1-2", 2);
   EXPECT_EQ(on_right.plugged->port, "1-2");
   const Program program = built(on_left);
-  auto first_joystick = opened(on_left, program), second_joystick = opened(on_right, program);
+  auto first_joystick = opened(on_left), second_joystick = opened(on_right);
   const int claims = right->claims;
   std::atomic<bool> stop{false};
   const auto run = [&](HotPluggedDevice& device, const std::function<void(long)>& each) {
@@ -193,7 +194,7 @@ TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
     long calls = 0;
     RunOptions options{.seconds = 120, .stop = &stop};
     options.progress = [&](const Progress&) { each(++calls); };
-    return std::get<RunResult>(stage.run(options));
+    return *stage.run(options);
   };
   RunResult of_second;
   std::thread second([&] { of_second = run(*second_joystick, [](long) {}); });
@@ -221,13 +222,12 @@ TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
   family.name = "Stick of my own";
   const auto stick = mock_.plug(PidModel(family), 3);
   const ChosenDevice device = chosen("auto", 1);
-  EXPECT_EQ(device.profile, "usb_joystick");
+  EXPECT_EQ(device.declared->profile.name, "usb_joystick");
   EXPECT_TRUE(device.is_generic);
   EXPECT_EQ(device.said,
-            "feeling on Stick of my own (1234:5678 at port 1-3), as usb_joystick: no declaration is about it, so its "
-            "figures are assumed; `wale devices --identify 1-3` prints one to begin with");
-  const Program program = built(device);
-  auto joystick = opened(device, program);
+            "using Stick of my own (1234:5678 at port 1-3) as usb_joystick\n"
+            "  no declaration is about it, so its figures are assumed; `wale devices --identify 1-3` prints one to begin with");
+  auto joystick = opened(device);
   await([&] {
     joystick->command({5, 0});
     return stick->with_model([](PidModel& model) { return model.force().x; }) > 0.2;
@@ -288,7 +288,7 @@ TEST_F(Feeling, APersonPlugsItInAndFeelsCorduroy) {
   found(1);
   const Outcome felt = run_wale("feel " + corduroy + " --seconds 2 --json");
   ASSERT_EQ(felt.status, 0) << felt.err;
-  EXPECT_TRUE(contains(felt.err, "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard")) << felt.err;
+  EXPECT_TRUE(contains(felt.err, "using OpenFFBoard (1209:ffb0 at port 1-1) as openffboard")) << felt.err;
   const auto json = nlohmann::json::parse(felt.out);
   EXPECT_EQ(json.at("device"), "OpenFFBoard (1209:ffb0 at port 1-1)");
   EXPECT_EQ(json.at("profile"), "openffboard");
@@ -329,13 +329,13 @@ TEST_F(Feeling, WhatIsNamedAndNotThereIsWaitedFor) {
   found(1);
   const std::pair<const char*, const char*> asked[] = {{"openffboard", "no openffboard is plugged in"},
                                                        {"1209:ffb0", "no device 1209:ffb0 is plugged in"},
-                                                       {"1-1", "nothing is plugged in at port 1-1"}};
+                                                       {"1-1", "no device is plugged in at port 1-1"}};
   for (const auto& [spelling, absent] : asked) {
     Running feeling("feel " + corduroy + " --seconds 60 --json --device " + spelling);
     await([&] { return contains(feeling.said(), absent) && contains(feeling.said(), ": waiting for it; Ctrl-C"); });
     const auto stick = mock_.plug(PidModel(openffboard()), 1);
     await([&] { return pushes_in(log_of(stick), 1).size() > 50; });
-    EXPECT_TRUE(contains(feeling.said(), "feeling on OpenFFBoard (1209:ffb0 at port 1-1), as openffboard"));
+    EXPECT_TRUE(contains(feeling.said(), "using OpenFFBoard (1209:ffb0 at port 1-1) as openffboard"));
     feeling.interrupt();
     const Outcome felt = feeling.outcome();
     EXPECT_EQ(felt.status, 0) << felt.err;
@@ -349,14 +349,14 @@ TEST_F(Feeling, WhatIsNamedAndNotThereIsWaitedFor) {
 TEST_F(Feeling, WaitingEnds) {
   const Outcome late = run_wale("feel " + corduroy + " --seconds 0.3 --device 1209:ffb0");
   EXPECT_EQ(late.status, 1);
-  EXPECT_TRUE(contains(late.err, "no device 1209:ffb0 is plugged in, and none was within 0.3 s")) << late.err;
+  EXPECT_TRUE(contains(late.err, "no device 1209:ffb0 is plugged in, and none came within 0.3 s")) << late.err;
 
   Running ended("feel " + corduroy + " --device usb");
   await([&] { return contains(ended.said(), ": waiting for it; Ctrl-C"); });
   ended.interrupt();
   const Outcome stopped = ended.outcome();
   EXPECT_EQ(stopped.status, 1);
-  EXPECT_TRUE(contains(stopped.err, "stopped, and nothing was felt")) << stopped.err;
+  EXPECT_TRUE(contains(stopped.err, "stopped while waiting for a device")) << stopped.err;
 
   Running refused("feel " + corduroy + " --device openffboard");
   await([&] { return contains(refused.said(), ": waiting for it; Ctrl-C"); });
@@ -380,13 +380,13 @@ TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
   const Outcome by_itself = run_wale("feel " + program + " --seconds 0.2 --json");
   EXPECT_EQ(by_itself.status, 0);
   EXPECT_EQ(nlohmann::json::parse(by_itself.out).at("device"), "simulated");
-  EXPECT_TRUE(contains(by_itself.err, "is taken for openffboard, and the program is built for sandpaper"))
+  EXPECT_TRUE(contains(by_itself.err, "is used as openffboard, and the program is built for sandpaper"))
       << by_itself.err;
   EXPECT_TRUE(log_of(stick).empty());
 }
 
 TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
-  EXPECT_TRUE(contains(run_wale("devices").out, "nothing that could be felt on"));
+  EXPECT_TRUE(contains(run_wale("devices").out, "no device that could be felt on"));
   mock_.plug(PidModel(openffboard()), 1);
   PidModel plain(arduino());
   plain.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");
@@ -432,7 +432,7 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
   folder.write("devices.wale", identified.out);
   std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
   const Outcome felt = run_wale("feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json");
-  EXPECT_TRUE(contains(felt.err, "at port 1-1), as my_openffboard")) << felt.err;
+  EXPECT_TRUE(contains(felt.err, "at port 1-1) as my_openffboard")) << felt.err;
   EXPECT_EQ(nlohmann::json::parse(felt.out).at("profile"), "my_openffboard");
 
   const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
@@ -479,7 +479,7 @@ TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   const ChosenDevice device = chosen("auto", 1);
   EXPECT_EQ(threads_with(loop_priority - 1), 0);
-  const auto joystick = opened(device, built(device));
+  const auto joystick = opened(device);
   EXPECT_EQ(threads_with(loop_priority - 1), 2) << "that of libusb's events and that which submits forces";
   mock_.unplug(stick);
   await([&] { return joystick->sample().contact == Contact::lost; });

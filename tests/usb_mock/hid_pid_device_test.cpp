@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "runtime/device/usb/list_usb_devices.hpp"
+#include "runtime/device/driver.hpp"
 #include "tests/runtime/programs.hpp"
 #include "tests/usb/allocations.hpp"
 #include "tests/usb/profiles.hpp"
@@ -32,21 +32,20 @@ constexpr char push_until_killed[] = "--push-until-killed";
 
 class UsbDriver : public MockedUsb {
  protected:
-  std::unique_ptr<HidPidDevice> opened(int port, const PidTransport::Options& options = in_mock_time()) const {
+  std::unique_ptr<HidPidDevice> opened(int port, const HidPidDevice::Options& options = in_mock_time()) const {
     auto result = HidPidDevice::open(context(), found(port), joystick_profile(), options);
-    if (const auto* refusal = std::get_if<Refusal>(&result)) {
-      ADD_FAILURE() << refusal->reason;
+    if (!result) {
+      ADD_FAILURE() << result.error().sentence;
       return nullptr;
     }
-    return std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+    return *std::move(result);
   }
 
   std::string refusal(int port, unsigned timeout = unhurried) const {
-    PidTransport::Options options = in_mock_time();
+    HidPidDevice::Options options = in_mock_time();
     options.timeout = options.set_up_timeout = timeout;
     auto result = HidPidDevice::open(context(), found(port), joystick_profile(), options);
-    const auto* refusal = std::get_if<Refusal>(&result);
-    return refusal == nullptr ? "opened" : refusal->reason;
+    return result ? "opened" : in_words(result.error());
   }
 };
 
@@ -79,13 +78,17 @@ TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
   const auto plain = mock_.plug(std::move(stick), 2), taken = mock_.plug(PidModel(rhino()), 3);
   taken->is_claimed_elsewhere = true;
   found(3);
-  const auto listed = list_usb_devices(*context());
+  const auto listed = plugged_in({context()});
   ASSERT_EQ(listed.size(), 3u);
   EXPECT_EQ(listed[0].name, "OpenFFBoard");
   EXPECT_EQ(listed[0].can, "two axes by direction, 32767 steps of force to each side");
-  EXPECT_EQ(listed[0].obstacle, "");
-  EXPECT_EQ(listed[1].obstacle, "it is not a force device: nothing in its report descriptor is of usage page 0F");
-  EXPECT_EQ(listed[2].obstacle, "another program has claimed it");
+  EXPECT_FALSE(listed[0].obstacle);
+  EXPECT_EQ(listed[0].transport, "libusb (not by hidraw: the kernel's driver has made no hidraw node of it)");
+  EXPECT_EQ(listed[0].held_by, std::vector<std::string>{});
+  ASSERT_TRUE(listed[1].obstacle && listed[2].obstacle);
+  EXPECT_EQ(listed[1].obstacle->code, Code::no_force_device);
+  EXPECT_EQ(listed[1].obstacle->sentence, "it is not a force device: nothing in its report descriptor is of usage page 0F");
+  EXPECT_EQ(listed[2].obstacle->sentence, "another program has claimed it");
   EXPECT_EQ(felt->claims, felt->releases);
   EXPECT_EQ(felt->drivers_back, 0);
   EXPECT_TRUE(felt->with_model([](PidModel& model) { return model.log.empty(); })) << "no report, only descriptors";
@@ -96,9 +99,12 @@ TEST(UsbRefusal, PermissionComesWithTheRuleToInstall) {
   info.vendor = 0x1209;
   info.product = 0xffb0;
   constexpr int access = -3;  // LIBUSB_ERROR_ACCESS
-  EXPECT_EQ(why_not_usable(access, info).reason,
-            "no permission to open it; as root, write the line\n"
+  const Error error = why_not_usable(access, info);
+  EXPECT_EQ(error.code, Code::no_permission);
+  EXPECT_EQ(in_words(error),
+            "no permission to open it; as root, write the lines\n"
             "  SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1209\", ATTR{idProduct}==\"ffb0\", TAG+=\"uaccess\"\n"
+            "  SUBSYSTEM==\"hidraw\", ATTRS{idVendor}==\"1209\", ATTRS{idProduct}==\"ffb0\", TAG+=\"uaccess\"\n"
             "to /etc/udev/rules.d/70-wale.rules, then plug it in again");
 }
 
@@ -177,7 +183,7 @@ TEST_F(UsbDriver, AWholeLife) {
 TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
   auto result = HidPidDevice::open(context(), found(1), sandpaper(), in_mock_time());
-  const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+  const auto device = *std::move(result);
   long calls = 0;
   const auto ran = [&] {
     InStepDevice in_step(mock_, *device);
@@ -189,12 +195,12 @@ TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
     };
     return stage.run(options);
   }();
-  ASSERT_TRUE(std::holds_alternative<RunResult>(ran));
+  ASSERT_TRUE(ran);
   EXPECT_GE(calls, 3);
   await([&] { return joystick->with_model([](PidModel& model) { return model.force(); }) == glm::dvec2(0); });
 
   // What went out along x is what the ticks commanded, in their order, some ticks left out.
-  const auto& ticks = std::get<RunResult>(ran).record.ticks;
+  const auto& ticks = ran->record.ticks;
   const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
   std::size_t tick = 0;
   long found_again = 0;
@@ -300,8 +306,8 @@ TEST_F(UsbDriver, IsLetGoInAnyOrder) {
   {
     auto own = UsbContext::open();
     auto result =
-        HidPidDevice::open(std::get<std::shared_ptr<UsbContext>>(own), found(1), joystick_profile(), in_mock_time());
-    device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+        HidPidDevice::open(*own, found(1), joystick_profile(), in_mock_time());
+    device = *std::move(result);
   }
   device->command({1, 1});  // outlives its context's last other owner
   device.reset();
@@ -355,7 +361,7 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
   int port = 0;
   for (const Case& fault : cases) {
     const auto joystick = mock_.plug(PidModel(openffboard(), fault.faults), ++port);
-    PidTransport::Options options = in_mock_time();
+    HidPidDevice::Options options = in_mock_time();
     options.timeout = fault.timeout;
     auto device = opened(port, options);
     ASSERT_NE(device, nullptr);
@@ -374,10 +380,10 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
 
 /// Opens the joystick at port 1 in a process of its own and pushes to the right with 3 N.
 [[noreturn]] void push_for_ever() {
-  auto context = std::get<std::shared_ptr<UsbContext>>(UsbContext::open());
+  const auto context = *UsbContext::open();
   for (const UsbDeviceInfo& info : context->devices()) {
     auto result = HidPidDevice::open(context, info, joystick_profile());
-    const auto device = std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+    const auto device = *std::move(result);
     while (true) {
       device->command({3, 0});
       std::this_thread::sleep_for(1ms);

@@ -16,23 +16,22 @@ namespace {
 
 class MisbehavingUsb : public MockedUsb {
  protected:
-  std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(int port, unsigned timeout = unhurried) {
-    PidTransport::Options options = in_mock_time();
+  Result<std::unique_ptr<HidPidDevice>> open(int port, unsigned timeout = unhurried) {
+    HidPidDevice::Options options = in_mock_time();
     options.timeout = timeout;
     return HidPidDevice::open(context(), found(port), joystick_profile(), options);
   }
   std::unique_ptr<HidPidDevice> opened(int port, unsigned timeout = unhurried) {
     auto result = open(port, timeout);
-    if (const auto* refusal = std::get_if<Refusal>(&result)) {
-      ADD_FAILURE() << refusal->reason;
+    if (!result) {
+      ADD_FAILURE() << result.error().sentence;
       return nullptr;
     }
-    return std::move(std::get<std::unique_ptr<HidPidDevice>>(result));
+    return *std::move(result);
   }
   std::string refusal(int port) {
     auto result = open(port);
-    const auto* refusal = std::get_if<Refusal>(&result);
-    return refusal == nullptr ? "opened" : refusal->reason;
+    return result ? "opened" : result.error().sentence;
   }
 };
 

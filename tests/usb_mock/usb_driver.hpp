@@ -73,8 +73,8 @@ class InStepDevice final : public Device {
 
 /// For drivers in this process: they go by the mock's time, and their transfers may take as long as they like.
 constexpr unsigned unhurried = 30'000;  // ms
-inline PidTransport::Options in_mock_time() {
-  PidTransport::Options options;
+inline HidPidDevice::Options in_mock_time() {
+  HidPidDevice::Options options;
   options.timeout = options.set_up_timeout = unhurried;
   options.now = mock_microseconds;
   return options;
@@ -91,7 +91,7 @@ class MockedUsb : public testing::Test {
  protected:
   MockedUsb() {
     auto opened = UsbContext::open();
-    context_ = std::get<std::shared_ptr<UsbContext>>(opened);
+    context_ = *opened;
   }
 
   std::shared_ptr<UsbContext> context() const { return context_; }

@@ -6,14 +6,16 @@
 
 namespace wale::openimageio {
 
-std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawing& drawing, const std::string& name) {
+Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
   const auto unknown = [&] {
     OIIO::geterror();
-    return DrawingProblem{
-        extension.empty() ? fmt::format("cannot write {}: its name ends in no picture format; try .png", name)
-                          : fmt::format("cannot write {}: pictures are not written as .{}; try .png", name, extension)};
+    return Error{Code::malformed_value,
+                 extension.empty() ? "the name of a picture needs an extension"
+                                   : fmt::format("pictures cannot be written as .{}", extension),
+                 "use the extension .png",
+                 {name}};
   };
   if (extension.empty() || extension == "null" || extension == "nul") return unknown();
   auto output = OIIO::ImageOutput::create(extension);
@@ -26,7 +28,10 @@ std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawin
   spec.attribute("oiio:ColorSpace", "sRGB");
   if (!output->set_ioproxy(&memory) || !output->open("drawing." + extension, spec) ||
       !output->write_image(OIIO::TypeUInt8, drawing.rgb.data()) || !output->close()) {
-    return DrawingProblem{fmt::format("cannot write {}: {}", name, OIIO::Strutil::strip(output->geterror()))};
+    return Error{Code::unwritable_file,
+                 fmt::format("cannot write the picture: {}", OIIO::Strutil::strip(output->geterror())),
+                 {},
+                 {name}};
   }
   const auto* first = reinterpret_cast<const std::byte*>(file.data());
   return std::vector<std::byte>(first, first + file.size());
@@ -34,7 +39,7 @@ std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawin
 
 std::vector<std::uint8_t> shrunk(std::span<const float> rgb, int width, int height, int columns, int rows) {
   const OIIO::ROI size(0, columns, 0, rows, 0, 1, 0, 3);
-  // A wrapped buffer is written to by no one here; ImageBuf has no wrapper of constants.
+  // Nothing here writes to the wrapped buffer; ImageBuf cannot wrap constants.
   const OIIO::ImageBuf fine(OIIO::ImageSpec(width, height, 3, OIIO::TypeFloat), const_cast<float*>(rgb.data()));
   const OIIO::ImageBuf page = OIIO::ImageBufAlgo::resize(fine, "box", 1.0f, size, 1);
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * 3);
@@ -46,7 +51,7 @@ std::vector<float> surroundings(std::span<const float> values, int side, double 
   using namespace OIIO::ImageBufAlgo;
   OIIO::ImageBuf source(OIIO::ImageSpec(side, side, 1, OIIO::TypeFloat));
   source.set_pixels(source.roi(), OIIO::TypeFloat, values.data());
-  // What is blurred is blurred as well from a small picture.
+  // A blur of a reduced picture is as good, and faster.
   const int small = std::clamp(static_cast<int>(12 * side / reach), 16, side);
   const auto width = static_cast<float>(reach * small / side);
   const auto few = resize(source, "triangle", 0.0f, OIIO::ROI(0, small, 0, small, 0, 1, 0, 1), 1);

@@ -2,12 +2,11 @@
 
 #include "compiler/image/image_library.hpp"
 
-/// The functions of `ImageLibrary`, made of OpenImageIO's.
+/// The functions of `ImageLibrary`, written with OpenImageIO.
 namespace wale::openimageio {
 
-std::variant<HeightImage, ImageProblem> read_height_image(std::span<const std::byte> bytes, const std::string& name,
-                                                          double smooth_pixels);
-std::variant<std::vector<std::byte>, DrawingProblem> encode_drawing(const Drawing& drawing, const std::string& name);
+Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels);
+Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std::string& name);
 std::vector<std::uint8_t> shrunk(std::span<const float> rgb, int width, int height, int columns, int rows);
 std::vector<float> surroundings(std::span<const float> values, int side, double reach);
 

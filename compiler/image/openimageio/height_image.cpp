@@ -20,7 +20,7 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 namespace algorithm = OIIO::ImageBufAlgo;
 
-// One thread: the order of additions, and so the last bit, is the same on every machine.
+// With one thread the order of additions, and so the last bit, is the same on every machine.
 constexpr int threads = 1;
 constexpr int most_channels = 64;
 constexpr long long samples_per_band = 1 << 22;
@@ -32,8 +32,8 @@ struct HeightField {
   std::vector<float> heights;
 };
 
-/// Sends what is written to standard error nowhere while it lives: libpng writes its complaints there, past
-/// OpenImageIO's errors, which hold the same words. Lines that other threads write meanwhile are lost.
+/// Discards standard error while this object lives: libpng writes its messages there, and OpenImageIO's errors repeat
+/// them. Lines that other threads write meanwhile are lost.
 class MutedStandardError {
  public:
   MutedStandardError() : lock_(mutex_) {
@@ -127,34 +127,39 @@ std::vector<float> luminance_weights(const ImageSpec& spec) {
   return weights;
 }
 
-std::optional<ImageProblem> refusal_of(const ImageSpec& spec) {
-  if (spec.deep) return ImageProblem{"is a deep image, which has no single height per pixel"};
-  if (spec.depth > 1) return ImageProblem{"is a volume; a height map has two dimensions"};
-  if (spec.width < smallest_image_side || spec.height < smallest_image_side) {
-    return ImageProblem{fmt::format("is {} x {} pixels; heights need at least {} x {}", spec.width, spec.height,
-                                    smallest_image_side, smallest_image_side),
-                        true};
-  }
-  if (static_cast<long long>(spec.width) * spec.height > most_image_pixels) {
-    return ImageProblem{fmt::format("is {} x {} pixels, more than {} million; make it smaller", spec.width, spec.height,
-                                    most_image_pixels / 1'000'000),
-                        true};
-  }
-  if (spec.nchannels < 1 || spec.nchannels > most_channels) {
-    return ImageProblem{fmt::format("has {} channels; a picture has 1 to {}", spec.nchannels, most_channels)};
-  }
-  if (static_cast<long long>(spec.tile_width) * spec.tile_height * spec.nchannels > most_image_pixels) {
-    return ImageProblem{
-        fmt::format("is made of tiles of {} x {} pixels, which is too much to hold", spec.tile_width, spec.tile_height),
-        true};
-  }
-  return std::nullopt;
+Error unreadable(std::string sentence) {
+  return {Code::unreadable_image, std::move(sentence), "save it as PNG, TIFF, JPEG or EXR"};
 }
 
-/// Reads band by band, so that a large picture of many channels never stands in memory whole.
-std::variant<HeightField, ImageProblem> read_luminance(ImageInput& input) {
+Error of_wrong_size(std::string sentence) {
+  return {Code::image_size, std::move(sentence),
+          fmt::format("give it at least {0} x {0} pixels, and at most {1} million in all", smallest_image_side,
+                      most_image_pixels / 1'000'000)};
+}
+
+/// Whether a picture can be used as heights, from what its header says.
+Result<> usable(const ImageSpec& spec) {
+  if (spec.deep) return unreadable("a deep image has no single height per pixel");
+  if (spec.depth > 1) return unreadable("the image is a volume, and a height map has two dimensions");
+  if (spec.width < smallest_image_side || spec.height < smallest_image_side)
+    return of_wrong_size(fmt::format("the picture has {} x {} pixels, and heights need at least {} x {}", spec.width,
+                                     spec.height, smallest_image_side, smallest_image_side));
+  if (static_cast<long long>(spec.width) * spec.height > most_image_pixels)
+    return of_wrong_size(fmt::format("the picture has {} x {} pixels, more than {} million", spec.width, spec.height,
+                                     most_image_pixels / 1'000'000));
+  if (spec.nchannels < 1 || spec.nchannels > most_channels)
+    return unreadable(
+        fmt::format("the picture has {} channels, and 1 to {} can be read", spec.nchannels, most_channels));
+  if (static_cast<long long>(spec.tile_width) * spec.tile_height * spec.nchannels > most_image_pixels)
+    return of_wrong_size(fmt::format("the picture has tiles of {} x {} pixels, which are too large to read",
+                                     spec.tile_width, spec.tile_height));
+  return {};
+}
+
+/// Reads band by band, so that a large picture of many channels is never in memory as a whole.
+Result<HeightField> read_luminance(ImageInput& input) {
   const ImageSpec spec = input.spec();
-  if (auto refused = refusal_of(spec)) return *refused;
+  if (auto fits = usable(spec); !fits) return fits.error();
   const std::vector<float> weights = luminance_weights(spec);
   HeightField field{spec.width, spec.height, spec.get_int_attribute("Orientation", 1), {}};
   field.heights.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
@@ -171,29 +176,31 @@ std::variant<HeightField, ImageProblem> read_luminance(ImageInput& input) {
                           ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, first, last, 0, 1, 0, spec.nchannels,
                                              OIIO::TypeFloat, band.data())
                           : input.read_scanlines(0, 0, first, last, 0, 0, spec.nchannels, OIIO::TypeFloat, band.data());
-    // A decoder that patches over a gap in the data returns true and leaves its complaint.
+    // A decoder that fills a gap in the data returns true and leaves a message.
     if (!read || input.has_error())
-      return ImageProblem{"cannot be read: " + words_of(input.geterror(), "its pixels end too soon")};
+      return unreadable("the picture cannot be read: " +
+                        words_of(input.geterror(), "the file ends before its pixels do"));
     for (float& value : band) value = value > 0 ? std::min(value, 1.0f) : 0.0f;
 
     const ImageBuf source(ImageSpec(spec.width, count, spec.nchannels, OIIO::TypeFloat), band.data());
     float* row = &field.heights[static_cast<std::size_t>(top) * static_cast<std::size_t>(spec.width)];
     ImageBuf sum(ImageSpec(spec.width, count, 1, OIIO::TypeFloat), row);
-    if (!algorithm::channel_sum(sum, source, weights, {}, threads)) {
-      return ImageProblem{"cannot be turned into heights: " + words_of(sum.geterror(), "channels")};
-    }
+    if (!algorithm::channel_sum(sum, source, weights, {}, threads))
+      return unreadable("its channels cannot be summed into heights: " +
+                        words_of(sum.geterror(), "OpenImageIO refused"));
   }
   return field;
 }
 
-std::variant<HeightField, ImageProblem> decode_as(const std::string& format, std::span<const std::byte> bytes,
-                                                  const std::string& extension) {
+Result<HeightField> decode_as(const std::string& format, std::span<const std::byte> bytes,
+                              const std::string& extension) {
   std::unique_ptr<ImageInput> input = ImageInput::create(format);
-  if (!input) return ImageProblem{"cannot be read: " + words_of(OIIO::geterror(), "no decoder for " + format)};
+  if (!input)
+    return unreadable("the picture cannot be read: " + words_of(OIIO::geterror(), "no decoder for " + format));
   input->threads(threads);
 
   ImageSpec found, wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);  // else colours come multiplied by alpha
+  wishes.attribute("oiio:UnassociatedAlpha", 1);  // otherwise colours come multiplied by alpha
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
   std::optional<TemporaryFile> file;
   std::string name = "image." + extension;
@@ -201,26 +208,24 @@ std::variant<HeightField, ImageProblem> decode_as(const std::string& format, std
     input->set_ioproxy(&memory);
   } else {
     file.emplace(bytes, extension);
-    if (!file->whole()) return ImageProblem{"cannot be read: no room for a temporary file"};
+    if (!file->whole()) return unreadable("the picture cannot be read: no room for a temporary file");
     name = file->path();
   }
-  if (!input->open(name, found, wishes)) {
-    return ImageProblem{"cannot be read: " + words_of(input->geterror(), "not a " + format + " file")};
-  }
+  if (!input->open(name, found, wishes))
+    return unreadable("the picture cannot be read: " + words_of(input->geterror(), "not a " + format + " file"));
   auto field = read_luminance(*input);
   input->close();
   return field;
 }
 
-/// The decoders that are let near a stranger's file: each survived thousands of damaged ones. Of OpenImageIO 2.4's
-/// others, dpx, heif, iff, ico and psd were brought to crash, and the rest are rare or read something else than a
-/// picture's bytes.
+/// The decoders that may read an untrusted file: each survived thousands of damaged ones. Of the others in OpenImageIO
+/// 2.4, dpx, heif, iff, ico and psd crashed on damaged files; the rest are rare, or read other things than pictures.
 constexpr std::array<std::string_view, 14> trusted_formats = {"png", "tiff", "jpeg",  "openexr",  "bmp", "gif", "webp",
                                                               "hdr", "pnm",  "targa", "jpeg2000", "sgi", "rla", "fits"};
 
 bool is_trusted(std::string_view format) { return std::ranges::find(trusted_formats, format) != trusted_formats.end(); }
 
-/// The decoder that OpenImageIO keeps for an extension, empty if there is none.
+/// The name of OpenImageIO's decoder for an extension; empty if there is none.
 std::string format_of(const std::string& extension) {
   for (const std::string& entry : OIIO::Strutil::splits(OIIO::get_string_attribute("extension_list"), ";")) {
     const auto parts = OIIO::Strutil::splits(entry, ":");
@@ -231,19 +236,19 @@ std::string format_of(const std::string& extension) {
   return {};
 }
 
-std::variant<HeightField, ImageProblem> decode(std::span<const std::byte> bytes, const std::string& name) {
+Result<HeightField> decode(std::span<const std::byte> bytes, const std::string& name) {
   std::string extension = OIIO::Strutil::lower(std::filesystem::path(name).extension().string());
   if (!extension.empty()) extension.erase(0, 1);
   const std::string expected = format_of(extension);
-  std::optional<ImageProblem> problem;
+  std::optional<Error> problem;
   if (!expected.empty() && !is_trusted(expected)) {
-    problem = ImageProblem{"is in a format that is not read as heights; save it as PNG, TIFF or EXR"};
+    problem = unreadable(fmt::format("pictures in the format {} are not read", expected));
   } else if (!expected.empty()) {
     auto field = decode_as(expected, bytes, extension);
-    if (std::holds_alternative<HeightField>(field)) return field;
-    problem = std::get<ImageProblem>(field);
+    if (field) return field;
+    problem = field.error();
   }
-  // A wrong extension is common; these formats know their own files by the first bytes and read from memory.
+  // Wrong extensions are common. These formats are recognised by their first bytes and read from memory.
   struct Signature {
     const char* format;
     std::string_view first_bytes;
@@ -261,11 +266,11 @@ std::variant<HeightField, ImageProblem> decode(std::span<const std::byte> bytes,
   for (const Signature& signature : signatures) {
     if (signature.format == expected || !text.starts_with(signature.first_bytes)) continue;
     auto field = decode_as(signature.format, bytes, signature.format);
-    // The bytes outweigh the extension: it is this decoder's complaint that helps.
-    if (std::holds_alternative<HeightField>(field)) return field;
-    problem = std::get<ImageProblem>(field);
+    // The first bytes are better evidence than the extension, so this decoder's error is the useful one.
+    if (field) return field;
+    problem = field.error();
   }
-  return problem.value_or(ImageProblem{"is in no format that OpenImageIO knows (PNG, TIFF, JPEG, EXR, ...)"});
+  return problem.value_or(unreadable("the file is in no picture format that OpenImageIO knows"));
 }
 
 HeightField field_of(const ImageBuf& buffer) {
@@ -280,7 +285,7 @@ ImageBuf buffer_of(HeightField& field) {
   return ImageBuf(spec, field.heights.data());
 }
 
-/// As its photographer held the camera.
+/// Turned as the camera was held, which the file's orientation says.
 HeightField upright(HeightField field) {
   if (field.orientation <= 1 || field.orientation > 8) return field;
   ImageBuf source = buffer_of(field);
@@ -289,8 +294,8 @@ HeightField upright(HeightField field) {
   return turned.has_error() ? field : field_of(turned);
 }
 
-/// No side longer than `largest_image_side`. The filter has no negative lobes: they would ring at a step, and a ripple
-/// that the eye forgives is felt.
+/// Resized so that no side is longer than `largest_image_side`. The filter has no negative lobes: they would ring at a
+/// step, and a ripple that the eye does not notice is felt.
 HeightField fitted(HeightField field) {
   const int longest = std::max(field.width, field.height);
   if (longest <= largest_image_side) return field;
@@ -302,8 +307,8 @@ HeightField fitted(HeightField field) {
   return field_of(algorithm::resize(source, "blackman-harris", 0.0f, size, threads));
 }
 
-/// A Gaussian row of weights with its centre at 0, standard deviation `sigma` samples, out to 4 of them.
-/// ImageBufAlgo::make_kernel("gaussian") ends at 2 standard deviations, which makes it narrower than it says.
+/// Weights of a Gaussian centred on 0, with a standard deviation of `sigma` samples, cut at 4 standard deviations.
+/// ImageBufAlgo::make_kernel("gaussian") is cut at 2, which makes it narrower than it says.
 ImageBuf gaussian_row(double sigma, bool upright_row) {
   const int reach = std::max(1, static_cast<int>(std::ceil(4 * sigma)));
   const int length = 2 * reach + 1;
@@ -333,22 +338,22 @@ HeightTable quantised(const HeightField& field) {
   return table;
 }
 
-std::variant<HeightImage, ImageProblem> heights_from(HeightField whole, double smooth_pixels) {
+Result<HeightImage> heights_from(HeightField whole, double smooth_pixels) {
   whole = upright(std::move(whole));
   const double columns = whole.width, rows = whole.height;
   HeightField field = fitted(std::move(whole));
-  if (std::min(field.width, field.height) < smallest_image_side) {
-    return ImageProblem{fmt::format("is {} x {} pixels, too long and narrow for heights", columns, rows), true};
-  }
+  if (std::min(field.width, field.height) < smallest_image_side)
+    return of_wrong_size(fmt::format("the picture has {} x {} pixels, too long and narrow for heights", columns, rows));
   HeightImage image;
   image.pixels_per_column = columns / field.width;
   image.pixels_per_row = rows / field.height;
   if (smooth_pixels > 0) {
     const double sigma_x = smooth_pixels / image.pixels_per_column, sigma_y = smooth_pixels / image.pixels_per_row;
-    if (std::max(sigma_x, sigma_y) > widest_smoothing) {
-      return ImageProblem{fmt::format("cannot be smoothed by {} pixels; {} is the most: make it smaller first",
-                                      smooth_pixels, std::floor(widest_smoothing * image.pixels_per_column))};
-    }
+    if (std::max(sigma_x, sigma_y) > widest_smoothing)
+      return Error{Code::unreadable_image,
+                   fmt::format("the picture cannot be smoothed by {} pixels; {} is the most", smooth_pixels,
+                               std::floor(widest_smoothing * image.pixels_per_column)),
+                   "smooth less, or make the picture smaller first"};
     field = smoothed(std::move(field), sigma_x, sigma_y);
   }
   image.table = quantised(field);
@@ -357,22 +362,23 @@ std::variant<HeightImage, ImageProblem> heights_from(HeightField whole, double s
 
 }  // namespace
 
-std::variant<HeightImage, ImageProblem> read_height_image(std::span<const std::byte> bytes, const std::string& name,
-                                                          double smooth_pixels) {
-  if (!(smooth_pixels >= 0)) return ImageProblem{"cannot be smoothed by a negative number of pixels"};
-  if (bytes.empty()) return ImageProblem{"is empty"};
-  const MutedStandardError muted;
-  const auto decoded = [&]() -> std::variant<HeightImage, ImageProblem> {
+Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels) {
+  const auto decoded = [&]() -> Result<HeightImage> {
+    if (!(smooth_pixels >= 0)) return unreadable("a picture cannot be smoothed by a negative number of pixels");
+    if (bytes.empty()) return unreadable("the file is empty");
+    const MutedStandardError muted;
     try {
       auto field = decode(bytes, name);
-      if (auto* problem = std::get_if<ImageProblem>(&field)) return *problem;
-      return heights_from(std::get<HeightField>(std::move(field)), smooth_pixels);
-    } catch (const std::exception& exception) {  // a decoder's own, or memory that a crafted header asked for
-      return ImageProblem{std::string("cannot be read: ") + exception.what()};
+      if (!field) return field.error();
+      return heights_from(*std::move(field), smooth_pixels);
+    } catch (const std::exception& exception) {  // a decoder's own, or too much memory for a forged header
+      return unreadable(std::string("the picture cannot be read: ") + exception.what());
     }
-  }();
-  OIIO::geterror();  // what attempts at other formats left behind
-  return decoded;
+  };
+  Result<HeightImage> image = decoded();
+  if (!image) image.error().place.name = name;
+  OIIO::geterror();  // clears the messages that attempts at other formats left
+  return image;
 }
 
 }  // namespace wale::openimageio

@@ -8,37 +8,44 @@ namespace wale {
 
 bool is_falcon(const UsbDeviceInfo& info) { return info.vendor == falcon::vendor && info.product == falcon::product; }
 
-std::variant<std::unique_ptr<FalconDevice>, Refusal> FalconDevice::open(std::shared_ptr<UsbContext> context,
-                                                                        const UsbDeviceInfo& info,
-                                                                        DeviceProfile profile,
-                                                                        const FalconOptions& options) {
-  const auto refused = [&](const std::string& reason) {
-    return Refusal{in_words(info.vendor, info.product) + ": " + reason, {}};
-  };
+namespace {
+
+/// Asks the person to home it, and waits until that is done, `stop` is true, the patience is over, or it is lost.
+void wait_for_homing(FalconTransport& transport, const FalconOptions& options) {
+  constexpr double at_once = 0.2;  // s, in which a device that was homed before reports it
+  if (transport.was_lost() || transport.wait_until_homed(at_once) || transport.was_lost()) return;
+  if (options.ask) options.ask("push the Falcon's handle all the way in, then pull it all the way out");
+  constexpr double between_looks = 0.1;  // s
+  const auto is_wanted = [&] { return options.stop == nullptr || !options.stop->load(std::memory_order_relaxed); };
+  for (double waited = 0; waited < options.homing_patience && is_wanted() && !transport.was_lost();
+       waited += between_looks) {
+    if (transport.wait_until_homed(std::min(between_looks, options.homing_patience - waited))) return;
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<FalconDevice>> FalconDevice::open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
+                                                         DeviceProfile profile, const FalconOptions& options) {
+  const std::string name = in_words(info.vendor, info.product) + ": ";
   FalconTransport::Options wanted = options.transport;
   auto firmware = read_falcon_firmware(options.firmware);
-  if (auto* bytes = std::get_if<std::vector<std::uint8_t>>(&firmware)) wanted.session.firmware = std::move(*bytes);
+  if (firmware) wanted.session.firmware = *std::move(firmware);
 
   auto opened = FalconTransport::open(std::move(context), info, std::move(wanted));
-  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
-  auto& transport = std::get<std::unique_ptr<FalconTransport>>(opened);
-  if (transport->wants_firmware()) return refused("it runs no firmware: " + std::get<Refusal>(firmware).reason);
-  constexpr double at_once = 0.2;  // s, in which one that was homed before says so
-  if (!transport->was_lost() && !transport->wait_until_homed(at_once) && !transport->was_lost()) {
-    if (options.ask) options.ask("push the Falcon's handle all the way in, then pull it all the way out");
-    constexpr double between_looks = 0.1;  // s
-    const auto is_wanted = [&] { return options.stop == nullptr || !options.stop->load(std::memory_order_relaxed); };
-    for (double waited = 0; waited < options.homing_patience && is_wanted() && !transport->was_lost();
-         waited += between_looks) {
-      if (transport->wait_until_homed(std::min(between_looks, options.homing_patience - waited))) break;
-    }
+  if (!opened) return std::move(opened.error());
+  FalconTransport& transport = **opened;
+  if (transport.wants_firmware()) {
+    Error error = firmware.error();
+    error.sentence = name + "it runs no firmware, and " + error.sentence;
+    return error;
   }
-  if (transport->was_lost()) return refused(transport->reason());
-  if (!transport->seen().is_running) {
-    return refused(
-        "its encoders have not found their zeros: push the handle all the way in and pull it all the way out");
-  }
-  return std::unique_ptr<FalconDevice>(new FalconDevice(std::move(transport), std::move(profile), options));
+  wait_for_homing(transport, options);
+  if (transport.was_lost()) return Error{Code::lost_device, name + transport.reason()};
+  if (!transport.seen().is_running)
+    return Error{Code::unusable_device, name + "its encoders have not found their zeros",
+                 "push the handle all the way in and pull it all the way out"};
+  return std::unique_ptr<FalconDevice>(new FalconDevice(*std::move(opened), std::move(profile), options));
 }
 
 FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, DeviceProfile profile,

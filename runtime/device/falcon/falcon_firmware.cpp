@@ -24,20 +24,24 @@ std::filesystem::path falcon_firmware_path() {
   return folder / "wale/falcon_firmware.bin";
 }
 
-std::variant<std::vector<std::uint8_t>, Refusal> read_falcon_firmware(const std::filesystem::path& path) {
-  const std::string mend =
-      "; it is Novint's and not shipped with Wale: take the one of the driver that came with the device, or "
-      "firmware/nvent_firmware.bin of libnifalcon (github.com/libnifalcon/libnifalcon), and put it there, or name it "
-      "by "
-      "WALE_FALCON_FIRMWARE=FILE";
+Result<std::vector<std::uint8_t>> read_falcon_firmware(const std::filesystem::path& path) {
+  const auto refused = [&](Code code, const std::string& sentence) {
+    return Error{
+        code,
+        sentence,
+        "the firmware is Novint's and not part of Wale: take the one of the driver that came with the device, "
+        "or firmware/nvent_firmware.bin of libnifalcon (github.com/libnifalcon/libnifalcon), and put it there, "
+        "or name it: WALE_FALCON_FIRMWARE=FILE",
+        {.name = path.string()}};
+  };
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path))
-    return Refusal{"there is no firmware at " + path.string() + mend, {}};
+    return refused(Code::unreadable_file, "there is no firmware at " + path.string());
   std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
   if (bytes.empty() || bytes.size() > most_firmware_bytes)
-    return Refusal{
-        "what is at " + path.string() + " is no firmware: it has " + std::to_string(bytes.size()) + " bytes" + mend,
-        {}};
+    return refused(Code::damaged_file, "the file at " + path.string() + " is not firmware: it has " +
+                                           std::to_string(bytes.size()) + " bytes, expected 1 .. " +
+                                           std::to_string(most_firmware_bytes));
   return bytes;
 }
 

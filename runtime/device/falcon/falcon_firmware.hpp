@@ -3,18 +3,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
-/// Where the Falcon's firmware is looked for: what the environment's WALE_FALCON_FIRMWARE names, otherwise
-/// `wale/falcon_firmware.bin` in the user's data ($XDG_DATA_HOME, ~/.local/share).
+/// The file that holds the Falcon's firmware: the one that WALE_FALCON_FIRMWARE names in the environment, otherwise
+/// `wale/falcon_firmware.bin` in the user's data folder ($XDG_DATA_HOME or ~/.local/share).
 std::filesystem::path falcon_firmware_path();
 
-/// A file of firmware. The refusal says where one comes from and how to name it.
-std::variant<std::vector<std::uint8_t>, Refusal> read_falcon_firmware(const std::filesystem::path& path);
+/// Reads a firmware file. The error (`unreadable_file`, `damaged_file`) says where one comes from and how to name it.
+Result<std::vector<std::uint8_t>> read_falcon_firmware(const std::filesystem::path& path);
 
 }  // namespace wale

@@ -43,7 +43,7 @@ Reach reach(const Arm& arm, const glm::dvec3& place) noexcept {
   return reach;
 }
 
-/// By which handle's movement the gap grows between the knee and the shin that hangs from the handle, per metre.
+/// How the gap between the knee and the end of the shin grows with the handle's movement, per metre.
 glm::dvec3 gap_gradient(const Arm& arm, const Reach& reach, double along, double up, double distance) noexcept {
   const double out = along / distance, aside = reach.aside / reach.shin_seen;
   return {out * arm.cosine - aside * arm.sine, out * arm.sine + aside * arm.cosine, up / distance};
@@ -80,8 +80,8 @@ std::optional<glm::dvec3> inverse(const glm::dvec3& place) noexcept {
 }
 
 std::optional<glm::dvec3> forward(const glm::dvec3& angles) noexcept {
-  // Newton's method on the gaps between knees and shins, always from the same place: the same counts give the same
-  // bits.
+  // Newton's method on the gaps between knees and shins. It always starts at the same place, so that the same counts
+  // give the same bits.
   constexpr int most_steps = 20;
   constexpr double near_enough = 1e-10, farthest = 0.3;
   glm::dvec3 place = workspace_centre;

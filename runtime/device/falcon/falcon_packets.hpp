@@ -9,8 +9,8 @@
 
 namespace wale::falcon {
 
-// What a Falcon with Novint's firmware is told and says: 16 characters each way, `<`, four nibbles for each of three
-// numbers, least significant first, a status, a filler, `>`; nibbles and status have 0x41 added to them. libnifalcon,
+// The packets to and from a Falcon with Novint's firmware: 16 characters each way, namely `<`, four nibbles for each of
+// three numbers, least significant first, a status, a filler and `>`. Nibbles and status have 0x41 added. libnifalcon,
 // include/falcon/firmware/FalconFirmwareNovintSDK.h and src/firmware/FalconFirmwareNovintSDK.cpp.
 //
 // All of it is real-time: allocates nothing, takes no lock, makes no system call, does not throw.
@@ -25,8 +25,8 @@ constexpr std::int16_t most_torque = 4096;
 enum class Light : std::uint8_t { none = 0, red = 2, green = 4, blue = 8 };
 
 struct Command {
-  Torques torques{};         ///< held within what the motors take
-  bool keeps_homing = true;  ///< the encoders find their zeros, and say that they have
+  Torques torques{};         ///< limited to what the motors take
+  bool keeps_homing = true;  ///< the encoders search their zeros, and report them
   Light light = Light::none;
 };
 Packet encode(const Command& command) noexcept;
@@ -40,10 +40,10 @@ struct Answer {
   friend bool operator==(const Answer&, const Answer&) = default;
 };
 
-/// Finds answers in what comes in, however it is cut; what belongs to none is skipped and counted.
+/// Finds answers in a stream of bytes, however it is cut. Bytes of no answer are skipped and counted.
 class AnswerReader {
  public:
-  /// The answer that `byte` ends, if it does.
+  /// The answer that `byte` completes; nothing while none is complete.
   std::optional<Answer> take(std::uint8_t byte) noexcept;
 
   long skipped() const noexcept { return skipped_; }  ///< bytes
@@ -54,7 +54,7 @@ class AnswerReader {
   long skipped_ = 0;
 };
 
-/// What the serial line brought, of a packet from the USB chip: all but its two bytes of line status.
+/// The bytes of the serial line in a packet of the USB chip: all but its two bytes of line status.
 std::span<const std::uint8_t> payload(std::span<const std::uint8_t> usb_packet) noexcept;
 
 }  // namespace wale::falcon

@@ -7,10 +7,10 @@
 
 namespace wale::falcon {
 
-/// How the handle is kept in the plane: a spring and a damper along the third axis, never stronger than `most`. It
-/// takes only the torque that the force in the plane leaves, comes in gradually, and is passive: in a sampled loop a
-/// spring of k N/m gives what a damper of k times half a period and the delay takes, which for 400 N/m at 900 Hz with a
-/// millisecond's delay is 0.6 N s/m, less than such an arm loses by itself.
+/// How the handle is kept in the plane: a spring and a damper along the third axis, never stronger than `most`. They
+/// take only the torque that the force in the plane leaves, and come in gradually. The hold is passive: in a sampled
+/// loop a spring of k N/m gives the energy that a damper of k times half a period plus the delay takes. For 400 N/m at
+/// 900 Hz with a delay of 1 ms that is 0.6 N s/m, less than such an arm loses by itself.
 struct HoldInPlane {
   double stiffness = 400;  ///< N/m; 0: the handle is free to leave the plane
   double damping = 1;      ///< N s/m
@@ -18,16 +18,16 @@ struct HoldInPlane {
   double coming_in = 0.5;  ///< s, from nothing to all of it, whenever pushing begins
 };
 
-/// A Falcon as a joystick of two axes: the upright plane across its middle, x to the right, y up (which is "away from
-/// the user", as on a screen), where all directions are alike; in and out of the device the handle is held. Real-time
-/// throughout: allocates nothing, takes no lock, makes no system call, does not throw.
+/// A Falcon as a joystick of two axes: the upright plane across its middle, x to the right, y up ("away from the user",
+/// as on a screen), where all directions are alike. The handle is held in the plane. Real-time throughout: allocates
+/// nothing, takes no lock, makes no system call, does not throw.
 class FalconPlane {
  public:
-  /// `full_newton`: the force at the workspace's middle, in the direction where it is least, that all of a motor's
-  /// torque gives; nobody publishes the motors' own figures, so the device's profile tells them.
+  /// `full_newton`: the force that a motor's whole torque gives at the workspace's middle, in the weakest direction.
+  /// The motors' own figures are not published, so this comes from the device's profile.
   explicit FalconPlane(double full_newton, const HoldInPlane& hold = {});
 
-  /// Takes what the encoders say. False: no place of the handle fits, and the one before is kept.
+  /// Takes the encoders' counts. False: no place of the handle fits them, and the previous place is kept.
   bool see(const Encoders& encoders, std::int64_t now) noexcept;
 
   /// m from the workspace's middle.
@@ -39,11 +39,11 @@ class FalconPlane {
     glm::dvec2 force{0};  ///< N, what these torques exert in the plane
     double hold = 0;      ///< N, and across it
   };
-  /// The torques for a force (N) in the plane where the handle was last seen. Beyond what the motors can do it is made
-  /// smaller in its direction; not-a-number is none.
+  /// The torques for a force (N) in the plane, where the handle was last seen. A force beyond the motors is made
+  /// smaller in its direction; not-a-number counts as none.
   Push push(glm::dvec2 force, std::int64_t now) noexcept;
 
-  /// From now on nothing is pushed, until the next `push`.
+  /// Pushes nothing until the next `push`.
   void let_go() noexcept { pushed_ = -1; }
 
  private:

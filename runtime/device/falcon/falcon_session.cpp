@@ -12,8 +12,8 @@ struct Control {
 };
 
 // Requests of the FTDI chip: 0 reset (1: purge what comes in, 2: what goes out), 1 modem lines (value's upper byte:
-// which are meant), 2 flow control, 3 baud rate (divisors), 4 data format, 9 latency (ms after which what has come is
-// told). libnifalcon, src/comm/FalconCommLibUSB.cpp: setNormalMode and setFirmwareMode.
+// which are meant), 2 flow control, 3 baud rate (divisors), 4 data format, 9 latency (ms after which received bytes are
+// passed on). libnifalcon, src/comm/FalconCommLibUSB.cpp: setNormalMode and setFirmwareMode.
 constexpr Control normal_mode[] = {{9, 1}, {3, 0x0002}, {0, 1}, {0, 2}};
 constexpr Control firmware_mode[] = {{0, 1},      {0, 2},        // purge
                                      {9, 16},                    // ms
@@ -45,7 +45,7 @@ std::optional<Transfer> FalconSession::next(std::int64_t now) noexcept {
     default: break;
   }
   if (!controls.empty()) {
-    // What is still on its way belongs to the mode before.
+    // Bytes still on their way belong to the previous mode.
     if (write_under_way_ || read_under_way_) return std::nullopt;
     Transfer transfer;
     transfer.request = controls[at_].request;
@@ -72,7 +72,7 @@ std::optional<Transfer> FalconSession::next(std::int64_t now) noexcept {
   return std::nullopt;
 }
 
-/// What the step writes.
+/// The bytes that the step writes.
 Transfer FalconSession::written(std::int64_t now) noexcept {
   Transfer transfer;
   transfer.kind = Transfer::Kind::write;
@@ -106,7 +106,7 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
   return transfer;
 }
 
-/// What the loader should answer now; while it is given the firmware that is its echo.
+/// The answer that the loader should give now; while the firmware is loaded, the echo of it.
 std::span<const std::uint8_t> FalconSession::expected() const noexcept {
   switch (step_) {
     case Step::hello: return hello_answer;
@@ -129,7 +129,7 @@ void FalconSession::finish(const Transfer& transfer, Outcome outcome, std::span<
   if (state_ == State::over) return;
   if (outcome == Outcome::gone) return lose("it was unplugged", outcome);
   if (step_ == Step::leave) {
-    // It cannot be told more than it takes.
+    // A device that takes fewer bytes than it was sent is not usable.
     if (outcome != Outcome::done && transfer.kind == Transfer::Kind::write) ++silences_, expects_ = false;
   } else if (transfer.kind == Transfer::Kind::control) {
     if (outcome == Outcome::timed_out) return lose("it does not answer in time", outcome);
@@ -165,21 +165,21 @@ void FalconSession::finish(const Transfer& transfer, Outcome outcome, std::span<
   }
   if (!expects_) return;
   const auto bytes = payload(came_in);
-  if (is_loading() && !bytes.empty()) asked_ = now;  // it is coming
+  if (is_loading() && !bytes.empty()) asked_ = now;  // the answer is coming
   const bool is_answered = is_loading() ? take_echo(bytes) : take_answers(bytes, now);
   if (state_ == State::over || !expects_) return;
   if (is_answered) return answered(now);
   if (now - asked_ > in_microseconds(options_.answer_silence)) unanswered();
 }
 
-/// What the loader says; true once it is all of what is expected.
+/// Takes the loader's bytes; true once the expected answer is complete.
 bool FalconSession::take_echo(std::span<const std::uint8_t> bytes) noexcept {
   for (const std::uint8_t byte : bytes) {
     const auto wanted = expected();
     if (matched_ < wanted.size() && byte == wanted[matched_]) {
       ++matched_;
     } else if (step_ == Step::hello) {
-      matched_ = byte == wanted[0] ? 1 : 0;  // something else may come before
+      matched_ = byte == wanted[0] ? 1 : 0;  // other bytes may come before it
     } else {
       lose("its loader does not repeat what it is given", Outcome::failed);
       return false;
@@ -189,7 +189,7 @@ bool FalconSession::take_echo(std::span<const std::uint8_t> bytes) noexcept {
   return matched_ == expected().size();
 }
 
-/// What the firmware says; true once it is an answer.
+/// Takes the firmware's bytes; true once an answer is complete.
 bool FalconSession::take_answers(std::span<const std::uint8_t> bytes, std::int64_t now) noexcept {
   bool is_answered = false;
   for (const std::uint8_t byte : bytes) {
@@ -235,7 +235,7 @@ void FalconSession::answered(std::int64_t now) noexcept {
   }
 }
 
-/// No answer has come for a while: it is asked again, but not for ever.
+/// Asks again after a while without an answer, a limited number of times.
 void FalconSession::unanswered() noexcept {
   expects_ = false;
   ++silences_;
@@ -288,7 +288,7 @@ void FalconSession::lose(std::string_view reason, Outcome outcome) noexcept {
 void FalconSession::stop() noexcept {
   if (state_ == State::over || state_ == State::leaving) return;
   torques_ = {};
-  // Only the firmware pushes: before it answers there is nothing to let go.
+  // Only running firmware pushes: before it answers there is no torque to end.
   const bool may_push = step_ == Step::probe || step_ == Step::probe_again || step_ == Step::loop;
   go_to(may_push && !wants_firmware_ ? Step::leave : Step::none);
   state_ = may_push && !wants_firmware_ ? State::leaving : State::over;

@@ -15,7 +15,7 @@ namespace wale::falcon {
 /// The chip between USB and the Falcon's serial line.
 constexpr std::uint16_t vendor = 0x0403, product = 0xcb48;
 constexpr std::uint8_t out_endpoint = 0x02, in_endpoint = 0x81;
-/// A packet of the chip's; more must not be asked for at once.
+/// The size of the chip's packets; a read must not ask for more.
 constexpr std::size_t most_usb_bytes = 64;
 
 /// A transfer that the session wants made.
@@ -36,17 +36,17 @@ struct Transfer {
 };
 
 struct FalconSessionOptions {
-  /// What is loaded where the device runs none: the user's own file. Empty: there is none.
+  /// The user's own file, loaded where the device runs no firmware. Empty: there is none.
   std::vector<std::uint8_t> firmware;
   double command_silence = 0.1;  ///< s without a command after which the motors are let go
   double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
-  int most_silences = 10;        ///< one after another; then the device is lost
+  int most_silences = 10;        ///< in a row; then the device is lost
 };
 
 /// What a session has done since it was made.
 struct FalconSessionCounts {
   long commands_sent = 0;     ///< packets with torques, homing included
-  long answers = 0;           ///< good ones
+  long answers = 0;           ///< valid ones
   long skipped_bytes = 0;     ///< that belong to no answer
   long silences = 0;          ///< times that no answer came
   long overwritten = 0;       ///< commands that a newer one replaced before it was sent
@@ -54,13 +54,13 @@ struct FalconSessionCounts {
   long firmware_chunks = 0;   ///< sent and echoed
 };
 
-/// The life of a Novint Falcon, without USB: it says which transfers come next and takes how they went. The device runs
-/// the firmware it has, or is given it; then its encoders find their zeros, for which a person moves the handle through
-/// all of its workspace; then it is told torques and tells encoder counts, strictly in turns. Torques are none before
-/// all three encoders are homed, while nobody commands, and in the last packets that it gets.
+/// The life of a Novint Falcon, without USB: it gives the next transfers and takes their results. The device runs the
+/// firmware that it has, or gets one. Then its encoders find their zeros, for which a person moves the handle through
+/// the whole workspace. Then torques and encoder counts alternate strictly. There is no torque before all three
+/// encoders are homed, while nobody commands, and in the last packets.
 ///
-/// The protocol knows no durations, so a Falcon whose process is killed outright may go on pushing until it is opened
-/// again or loses its power: the first packet that it gets here is without torque.
+/// The protocol knows no durations, so a Falcon whose process is killed may keep pushing until it is opened again or
+/// loses its power. The first packet that it gets here is therefore without torque.
 ///
 /// One thread at a time. Times are microseconds of any steady clock.
 class FalconSession {
@@ -76,9 +76,9 @@ class FalconSession {
   explicit FalconSession(FalconSessionOptions options = {});
 
   State state() const noexcept { return state_; }
-  /// Whether it ended, or is ending, without `stop`.
+  /// Whether it ended, or is ending, for another reason than `stop`.
   bool was_lost() const noexcept { return lost_; }
-  /// Why it was lost; empty otherwise. A literal.
+  /// Why it was lost, a literal; empty while it is not.
   std::string_view reason() const noexcept { return reason_; }
   /// It was lost because the device runs no firmware and none was given.
   bool wants_firmware() const noexcept { return wants_firmware_; }
@@ -87,25 +87,25 @@ class FalconSession {
   const std::optional<Answer>& answer() const noexcept { return answer_; }  ///< the newest
   std::int64_t heard() const noexcept { return heard_; }                    ///< when that came
 
-  /// The transfer to make now, if any; each is given to `finish` once it has ended. There is never more than one write
-  /// and one read under way. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  /// The transfer to make now, if any; the caller gives each to `finish` once it has ended. At most one write and one
+  /// read are under way. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   std::optional<Transfer> next(std::int64_t now) noexcept;
 
-  /// `came_in` is what a read brought, the chip's two bytes of status included. Real-time.
+  /// `came_in` has the bytes of a read, the chip's two bytes of status included. Real-time.
   void finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> came_in,
               std::int64_t now) noexcept;
 
   /// The torques from now on. Ignored unless running. Real-time.
   void command(const Torques& torques, std::int64_t now) noexcept;
 
-  /// No torque, then the session is over. Real-time.
+  /// Sends no torque, and ends the session then. Real-time.
   void stop() noexcept;
 
  private:
   enum class Step : std::uint8_t {
-    normal_mode,    // the serial line as the firmware wants it
+    normal_mode,    // sets the serial line for the firmware
     probe,          // does any firmware answer?
-    firmware_mode,  // the line as the loader wants it
+    firmware_mode,  // sets the line for the loader
     hello,
     fast_mode,
     letter,
@@ -131,7 +131,7 @@ class FalconSession {
   State state_ = State::setting_up;
   Step step_ = Step::normal_mode;
   std::size_t at_ = 0;       // of the step's control requests, or of the firmware's bytes
-  std::size_t matched_ = 0;  // bytes of what is expected
+  std::size_t matched_ = 0;  // bytes of the expected answer
   bool control_under_way_ = false, write_under_way_ = false, read_under_way_ = false, expects_ = false;
   bool lost_ = false, wants_firmware_ = false, garbage_ = false;
   int silences_ = 0, farewells_ = 0;

@@ -23,11 +23,12 @@ std::int16_t number_in(std::uint64_t lanes, int index) noexcept {
 
 }  // namespace
 
-std::variant<std::unique_ptr<FalconTransport>, Refusal> FalconTransport::open(std::shared_ptr<UsbContext> context,
-                                                                              const UsbDeviceInfo& info,
-                                                                              Options options) {
+Result<std::unique_ptr<FalconTransport>> FalconTransport::open(std::shared_ptr<UsbContext> context,
+                                                               const UsbDeviceInfo& info, Options options) {
   const auto refused = [&](int error) {
-    return Refusal{in_words(info.vendor, info.product) + ": " + why_not_usable(error, info).reason, {}};
+    Error why = why_not_usable(error, info);
+    why.sentence = in_words(info.vendor, info.product) + ": " + why.sentence;
+    return why;
   };
   libusb_device* device = context->find(info);
   if (device == nullptr) return refused(LIBUSB_ERROR_NO_DEVICE);
@@ -35,7 +36,7 @@ std::variant<std::unique_ptr<FalconTransport>, Refusal> FalconTransport::open(st
   int error = libusb_open(device, &handle);
   libusb_unref_device(device);
   if (error != 0) return refused(error);
-  libusb_set_auto_detach_kernel_driver(handle, 1);  // that of serial lines
+  libusb_set_auto_detach_kernel_driver(handle, 1);  // the one for serial lines
   error = libusb_claim_interface(handle, first_interface);
   if (error != 0) {
     libusb_close(handle);
@@ -66,7 +67,7 @@ FalconTransport::~FalconTransport() {
     std::unique_lock lock(mutex_);
     session_.stop();
     pump();
-    // Each of its last transfers ends, if only by its timeout.
+    // Each of the last transfers ends, at the latest by its timeout.
     changed_.wait(lock, [&] { return session_.state() == falcon::FalconSession::State::over; });
     closes_ = true;
     for (const Slot& slot : slots_) {
@@ -93,7 +94,7 @@ bool FalconTransport::wait_until_homed(double seconds) {
 }
 
 void FalconTransport::command(const falcon::Torques& torques) noexcept {
-  // One thread commands, so nobody else changes the number.
+  // Only one thread commands, so nobody else changes the number.
   const auto number =
       static_cast<std::uint16_t>(static_cast<std::uint16_t>(number_in(wanted_.load(std::memory_order_relaxed), 3)) + 1);
   wanted_.store(
@@ -110,7 +111,7 @@ FalconTransport::Seen FalconTransport::seen() const noexcept {
           heard};
 }
 
-/// Packs the session's answer for `seen`, and says when the device is lost.
+/// Packs the session's answer for `seen`, and notes when the device is lost.
 void FalconTransport::publish() {
   if (const auto& answer = session_.answer()) {
     const bool is_running = session_.state() == falcon::FalconSession::State::running;
@@ -123,7 +124,7 @@ void FalconTransport::publish() {
   changed_.notify_all();
 }
 
-/// Submits what the session wants. Under the lock.
+/// Submits the transfers that the session wants. Under the lock.
 void FalconTransport::pump() {
   const std::uint64_t wanted = wanted_.load(std::memory_order_acquire);
   if (const auto number = static_cast<std::uint16_t>(number_in(wanted, 3)); number != taken_) {

@@ -7,42 +7,42 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <variant>
 
 #include "runtime/device/falcon/falcon_session.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
+#include "schema/result.hpp"
 
 struct libusb_device_handle;
 struct libusb_transfer;
 
 namespace wale {
 
-/// A session with a Novint Falcon over libusb. All of it goes on on the context's event thread, as fast as the device
-/// answers; commanding and reading do not touch it.
+/// A session with a Novint Falcon over libusb. It runs on the context's event thread, as fast as the device answers.
+/// Commanding and reading never wait for that thread.
 class FalconTransport {
  public:
   struct Options {
     falcon::FalconSessionOptions session;
     unsigned timeout = 50;                    ///< ms, of each packet
     unsigned set_up_timeout = 1000;           ///< ms, of each control request
-    MicrosecondClock now = microseconds_now;  ///< by which silences are told, and the handle's speed
+    MicrosecondClock now = microseconds_now;  ///< measures silences and the handle's speed
   };
 
-  /// Claims the device and sets it up as far as homing: without firmware of its own that takes some seconds. A refusal
-  /// says why the device cannot be used, and has left it without force.
-  static std::variant<std::unique_ptr<FalconTransport>, Refusal> open(std::shared_ptr<UsbContext> context,
-                                                                      const UsbDeviceInfo& info, Options options);
-  /// Lets the motors go, waits for what is on its way, gives the interface back.
+  /// Claims the device and sets it up as far as homing: some seconds where it has no firmware yet. An error says why
+  /// the device cannot be used, and leaves it without force.
+  static Result<std::unique_ptr<FalconTransport>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
+                                                       Options options);
+  /// Ends all torque, waits for transfers under way, and gives the interface back.
   ~FalconTransport();
   FalconTransport(const FalconTransport&) = delete;
   FalconTransport& operator=(const FalconTransport&) = delete;
 
-  /// Whether the encoders have found their zeros; waits for that, at most so many seconds, while somebody moves the
-  /// handle.
+  /// Waits at most so many seconds for the encoders to find their zeros, while a person moves the handle; true once
+  /// they have.
   bool wait_until_homed(double seconds);
 
-  /// The torques from now on; newer ones replace them. Ignored before it is homed. Real-time: one atomic store.
+  /// Sets the torques; newer ones replace them. Ignored before it is homed. Real-time: one atomic store.
   void command(const falcon::Torques& torques) noexcept;
 
   struct Seen {
@@ -54,16 +54,16 @@ class FalconTransport {
   /// The newest answer. Real-time: two atomic loads.
   Seen seen() const noexcept;
 
-  /// The device is gone or has failed; nothing is felt any more. Real-time: one atomic load.
+  /// Whether the device is gone or has failed. Real-time: one atomic load.
   bool was_lost() const noexcept { return lost_.load(std::memory_order_acquire); }
 
-  /// Why it was lost; empty otherwise.
+  /// Why it was lost; empty while it is not.
   std::string reason() const;
   bool wants_firmware() const;
   falcon::FalconSessionCounts counts() const;
 
  private:
-  /// A libusb transfer of our own with its buffer, one for each kind.
+  /// A libusb transfer with its buffer, one for each kind.
   struct Slot {
     FalconTransport* owner = nullptr;
     libusb_transfer* usb = nullptr;
@@ -85,7 +85,7 @@ class FalconTransport {
   unsigned timeout_, set_up_timeout_;
   MicrosecondClock now_;
 
-  mutable std::mutex mutex_;  // of all below that is not atomic; never taken by the real-time thread
+  mutable std::mutex mutex_;  // guards all below that is not atomic; the real-time thread never takes it
   std::condition_variable changed_;
   falcon::FalconSession session_;
   std::array<Slot, 3> slots_;

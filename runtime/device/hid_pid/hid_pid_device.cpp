@@ -8,60 +8,73 @@ namespace {
 
 constexpr int hid_signs[2] = {1, -1};  // of HID's axes along ours: its y points to the user (HID 1.11 section 5.9)
 
-int scaled_counts(std::int32_t raw, const hid::Number& range, double counts, int sign) noexcept {
-  const double length = static_cast<double>(range.maximum - range.minimum);
-  const double centre = (static_cast<double>(range.maximum) + static_cast<double>(range.minimum)) / 2;
+int scaled_counts(std::int32_t raw, std::int64_t minimum, std::int64_t maximum, double counts, int sign) noexcept {
+  const double length = static_cast<double>(maximum - minimum);
+  const double centre = (static_cast<double>(maximum) + static_cast<double>(minimum)) / 2;
   return sign * static_cast<int>(std::lround((raw - centre) * counts / length));
+}
+
+/// The nearest step of force, `fraction` of `full` steps; not-a-number is none.
+std::int64_t force_steps(double fraction, std::int64_t full) noexcept {
+  if (std::isnan(fraction)) return 0;
+  return std::llround(std::clamp(fraction, -1.0, 1.0) * static_cast<double>(full));
+}
+
+/// Levels of force to each side that the profile tells apart, within what evdev can say.
+std::int64_t levels_of(const DeviceProfile& profile) noexcept {
+  constexpr double most = 32767;
+  return static_cast<std::int64_t>(std::clamp(std::round(profile.force_counts), 1.0, most));
 }
 
 }  // namespace
 
-std::variant<std::unique_ptr<HidPidDevice>, Refusal> HidPidDevice::open(std::shared_ptr<UsbContext> context,
-                                                                        const UsbDeviceInfo& info,
-                                                                        DeviceProfile profile,
-                                                                        const PidTransport::Options& options) {
-  Refusal refusal{
-      in_words(info.vendor, info.product) + ": it is not a force device: it has no interface of the HID class", {}};
-  bool is_first = true;
-  for (const UsbHidInterface& interface : info.hid) {
-    auto opened = PidTransport::open(context, info, interface, options);
-    if (auto* transport = std::get_if<std::unique_ptr<PidTransport>>(&opened)) {
-      return std::unique_ptr<HidPidDevice>(new HidPidDevice(std::move(*transport), std::move(profile)));
-    }
-    // A keyboard beside the joystick is not what stands in the way.
-    Refusal& why = std::get<Refusal>(opened);
-    if (is_first || refusal.reason.find("not a force device") != std::string::npos) refusal = std::move(why);
-    is_first = false;
-  }
-  return refusal;
+Result<std::unique_ptr<HidPidDevice>> HidPidDevice::open(const std::shared_ptr<UsbContext>& context,
+                                                         const UsbDeviceInfo& info, DeviceProfile profile,
+                                                         const Options& options) {
+  auto opened = open_pid_transport(context, info, levels_of(profile), options, options.transport);
+  if (!opened) return std::move(opened).error();
+  return std::unique_ptr<HidPidDevice>(new HidPidDevice(*std::move(opened), std::move(profile)));
 }
 
-HidPidDevice::HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile)
-    : transport_(std::move(transport)), profile_(std::move(profile)) {}
+Result<std::unique_ptr<HidPidDevice>> HidPidDevice::open(const std::shared_ptr<UsbContext>& context, int descriptor,
+                                                         DeviceProfile profile, const Options& options) {
+  auto opened = open_pid_transport(context, descriptor, levels_of(profile), options);
+  if (!opened) return std::move(opened).error();
+  return std::unique_ptr<HidPidDevice>(new HidPidDevice({*std::move(opened), {}}, std::move(profile)));
+}
+
+HidPidDevice::HidPidDevice(OpenedPidTransport opened, DeviceProfile profile)
+    : transport_(std::move(opened.transport)), why_(std::move(opened.why)), profile_(std::move(profile)) {}
 
 Reading HidPidDevice::sample() noexcept {
   const PidTransport::Seen seen = transport_->seen();
-  const hid::PidLayout::Input& input = transport_->layout().input;
+  const PidTransport::Ranges& ranges = transport_->ranges();
   Reading reading;
-  reading.counts.x = scaled_counts(seen.x, input.x, profile_.position_counts, hid_signs[0]);
-  reading.counts.y = scaled_counts(seen.y, input.y, profile_.position_counts, hid_signs[1]);
+  reading.counts.x = scaled_counts(seen.x, ranges.x_minimum, ranges.x_maximum, profile_.position_counts, hid_signs[0]);
+  reading.counts.y = scaled_counts(seen.y, ranges.y_minimum, ranges.y_maximum, profile_.position_counts, hid_signs[1]);
   reading.button = seen.button;
   reading.contact = transport_->was_lost() ? Contact::lost : Contact::good;
   return reading;
 }
 
 Force HidPidDevice::command(Force force) noexcept {
-  const auto full = static_cast<double>(transport_->layout().set_constant_force.full());
+  const std::int64_t steps = transport_->ranges().full_force;
+  const auto full = static_cast<double>(steps);
   glm::vec2 wanted(0), exerted(0);
   for (int axis = 0; axis < 2; ++axis) {
-    const double fraction = force[axis] / profile_.force_newton;
-    const auto counts = hid::magnitude_counts(transport_->layout(), fraction);  // not-a-number is none
+    const auto counts = force_steps(force[axis] / profile_.force_newton, steps);
     wanted[axis] = static_cast<float>(hid_signs[axis] * static_cast<double>(counts) / full);
     exerted[axis] = static_cast<float>(static_cast<double>(counts) / full * profile_.force_newton);
   }
   if (transport_->was_lost()) return Force(0);
   transport_->command(wanted);
   return exerted;
+}
+
+std::string HidPidDevice::manner() const {
+  const std::string manner =
+      std::string(hid::in_words(arrangement())) + ", by " + std::string(in_words(transport()));
+  return why_.empty() ? manner : manner + " (" + why_ + ")";
 }
 
 std::vector<std::pair<std::string, long>> HidPidDevice::tally() const {

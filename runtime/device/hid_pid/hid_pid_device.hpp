@@ -4,11 +4,10 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "runtime/device/hid_pid/open_pid_transport.hpp"
 #include "runtime/device/plugged_device.hpp"
-#include "runtime/device/hid_pid/pid_transport.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 
 namespace wale {
@@ -22,12 +21,21 @@ namespace wale {
 /// rate of each. A device that is lost (`was_lost`) pushes no more and stays where it was last seen.
 class HidPidDevice final : public PluggedDevice {
  public:
-  /// Takes the first interface of the device that can push. The profile's counts and force are positive. The refusal
-  /// says what is in the way: permissions and the rule that gives them, another program, that it is no force device, or
-  /// what its descriptor lacks.
-  static std::variant<std::unique_ptr<HidPidDevice>, Refusal> open(std::shared_ptr<UsbContext> context,
-                                                                   const UsbDeviceInfo& info, DeviceProfile profile,
-                                                                   const PidTransport::Options& options = {});
+  struct Options : PidTransportOptions {
+    std::optional<PidTransportKind> transport;  ///< none: the first one of `transports_by_preference` that can be used
+  };
+
+  /// Takes the first interface of the device that can push, and sets it up from zero force. The profile's counts and
+  /// force are positive. The error says what is in the way: permissions and the rule that gives them, another program,
+  /// that it is no force device, or what its descriptor lacks.
+  static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context,
+                                                    const UsbDeviceInfo& info, DeviceProfile profile,
+                                                    const Options& options = {});
+  /// Uses a hidraw, evdev or usbfs node that somebody else has opened for reading and writing, such as a portal or a
+  /// broker; which of them it is, is found out. The descriptor stays theirs. The context is for usbfs and may be null
+  /// otherwise; `options.transport` is not looked at.
+  static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context, int descriptor,
+                                                    DeviceProfile profile, const Options& options = {});
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long) noexcept override {}
@@ -38,17 +46,18 @@ class HidPidDevice final : public PluggedDevice {
   bool was_lost() const noexcept { return transport_->was_lost(); }
   std::string reason() const override { return transport_->reason(); }
   std::vector<std::pair<std::string, long>> tally() const override;
-  std::string manner() const override { return std::string(hid::in_words(arrangement())); }
+  std::string manner() const override;
+  PidTransportKind transport() const noexcept { return transport_->kind(); }
   hid::Arrangement arrangement() const { return transport_->arrangement(); }
   hid::PidSessionCounts counts() const { return transport_->counts(); }
   /// What the device's firmware tells of its motors, where it is OpenFFBoard's; nothing otherwise. Not real-time.
   std::optional<hid::Telemetry> telemetry() const { return transport_->telemetry(); }
-  const hid::PidLayout& layout() const { return transport_->layout(); }
 
  private:
-  HidPidDevice(std::unique_ptr<PidTransport> transport, DeviceProfile profile);
+  HidPidDevice(OpenedPidTransport opened, DeviceProfile profile);
 
   std::unique_ptr<PidTransport> transport_;
+  std::string why_;  // not a transport that is tried before
   DeviceProfile profile_;
 };
 

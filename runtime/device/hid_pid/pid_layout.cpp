@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
 
 #include "runtime/device/hid_pid/pid_usages.hpp"
 
@@ -233,12 +235,26 @@ PidLayout::Input find_input(const ReportDescriptor& descriptor, std::string& wro
   return input;
 }
 
+/// A report that nothing depends on: one that makes no sense is taken for none, and so is one that no number tells from
+/// the positions.
+PidLayout::State find_state(const ReportDescriptor& descriptor) {
+  std::string wrong;
+  Search search(descriptor, ReportKind::input, usages::state, "PID State", wrong);
+  PidLayout::State state;
+  state.block_index = search.number_if_any(usages::block_index, "effect block index");
+  state.effect_plays = search.order_if_any(usages::effect_playing, "effect playing");
+  state.actuators_enabled = search.order_if_any(usages::actuators_enabled, "actuators enabled");
+  static_cast<PacketShape&>(state) = search.shape();
+  if (!wrong.empty() || state.id == 0 || !(state.effect_plays || state.actuators_enabled)) return {};
+  return state;
+}
+
 }  // namespace
 
-std::variant<PidLayout, PidRefusal> find_pid_layout(const ReportDescriptor& descriptor) {
+Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor) {
   const auto is_pid = [](const Collection& collection) { return collection.usage >> 16 == usages::pid_page; };
   if (std::none_of(descriptor.collections.begin(), descriptor.collections.end(), is_pid)) {
-    return PidRefusal{"it is not a force device: nothing in its report descriptor is of usage page 0F"};
+    return Error{Code::no_force_device, "it is not a force device: nothing in its report descriptor is of usage page 0F"};
   }
 
   std::string wrong;
@@ -293,8 +309,9 @@ std::variant<PidLayout, PidRefusal> find_pid_layout(const ReportDescriptor& desc
   layout.pool.simultaneous_effects = pool.number_if_any(usages::simultaneous_effects, "simultaneous effects");
   if (layout.pool.simultaneous_effects) static_cast<PacketShape&>(layout.pool) = pool.shape();
 
+  layout.state = find_state(descriptor);
   layout.input = find_input(descriptor, wrong);
-  if (!wrong.empty()) return PidRefusal{wrong};
+  if (!wrong.empty()) return Error{Code::unlike_device, std::move(wrong), {}, {.name = "report descriptor"}};
   return layout;
 }
 

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <variant>
 
 #include "runtime/device/hid_pid/report_descriptor.hpp"
 
@@ -91,6 +89,11 @@ struct PidLayout {
     Number simultaneous_effects;
   };
 
+  struct State : PacketShape {  ///< may be missing, and so may each of its numbers
+    Number block_index;
+    Order effect_plays, actuators_enabled;
+  };
+
   Input input;
   SetEffect set_effect;
   SetConstantForce set_constant_force;
@@ -101,18 +104,15 @@ struct PidLayout {
   BlockLoad block_load;
   BlockFree block_free;
   Pool pool;
+  State state;
 
   bool has_direction() const { return bool(set_effect.direction_enable) && bool(set_effect.direction[0]); }
   bool has_axes() const { return bool(set_effect.enable_x); }
 };
 
-/// Why no force can be made by these reports: "it has no Set Constant Force report (usage 0F:73)".
-struct PidRefusal {
-  std::string reason;
-};
-
 /// Finds the reports of a force-feedback joystick by their usages. Refused for what is missing and needed, for a number
-/// whose declared range does not fit in its bits, for packets beyond `most_packet_bytes`.
-std::variant<PidLayout, PidRefusal> find_pid_layout(const ReportDescriptor& descriptor);
+/// whose declared range does not fit in its bits, for packets beyond `most_packet_bytes`: "it has no Set Constant Force
+/// report (usage 0F:73)". The code is `no_force_device` where nothing is of the PID class, else `unlike_device`.
+Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor);
 
 }  // namespace wale::hid

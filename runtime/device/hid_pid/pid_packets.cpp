@@ -165,6 +165,21 @@ std::optional<BlockLoadAnswer> decode_block_load(const PidLayout& layout,
   return BlockLoadAnswer{*status == 0 ? Status::pending : Status::failed, 0};
 }
 
+std::optional<DeviceState> decode_state(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept {
+  const PidLayout::State& report = layout.state;
+  if (!report || !is_of(report, bytes)) return std::nullopt;
+  const auto truth = [&](const Order& order) -> std::optional<bool> {
+    if (!order) return std::nullopt;
+    const auto value = get(bytes, order.number);
+    return value ? std::optional(*value == order.value) : std::nullopt;
+  };
+  DeviceState state{std::nullopt, truth(report.effect_plays), truth(report.actuators_enabled)};
+  if (const auto index = get(bytes, report.block_index); index && *index >= 0 && *index <= 255) {
+    state.block_index = static_cast<std::uint8_t>(*index);
+  }
+  return state;
+}
+
 std::optional<std::int64_t> decode_pool(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept {
   return is_of(layout.pool, bytes) ? get(bytes, layout.pool.simultaneous_effects) : std::nullopt;
 }

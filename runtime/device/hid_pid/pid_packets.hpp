@@ -66,6 +66,14 @@ struct BlockLoadAnswer {
 /// `pending` is what neither the number of success nor any other says: 0, from a device that has not come to it yet.
 std::optional<BlockLoadAnswer> decode_block_load(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 
+/// What a device tells of its state by itself. Nothing of what its report has no number for.
+struct DeviceState {
+  std::optional<std::uint8_t> block_index;  ///< of the effect that it is about
+  std::optional<bool> effect_plays;
+  std::optional<bool> actuators_enabled;
+};
+std::optional<DeviceState> decode_state(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
+
 /// How many effects can play at once, as the pool report says.
 std::optional<std::int64_t> decode_pool(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 

@@ -41,7 +41,8 @@ PidSession::PidSession(const HidInterface& interface, const PidSessionOptions& o
 std::optional<Transfer> PidSession::next(std::int64_t now) noexcept {
   if (state_ == State::running) return running_transfer(now);
   // Nothing overtakes: a step waits until all before it has ended.
-  if (state_ == State::over || step_under_way_ || in_flight_ > 0 || poll_under_way_) return std::nullopt;
+  const bool is_busy = step_under_way_ || in_flight_ > 0 || poll_under_way_ || look_under_way_;
+  if (state_ == State::over || is_busy) return std::nullopt;
   auto transfer = step_transfer();
   while (!transfer && state_ != State::over && state_ != State::running) {  // steps that this device does not know
     advance(now);
@@ -81,7 +82,9 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
     case Step::read_pool:
       if (!layout_->pool) return std::nullopt;
       return get_report(feature_report, layout_->pool, purpose);
-    case Step::reset: return control(layout_->device_control.reset);
+    case Step::reset:
+      if (!options_.resets) return std::nullopt;
+      return control(layout_->device_control.reset);
     case Step::enable: return control(layout_->device_control.enable_actuators);
     case Step::gain:
       if (!layout_->device_gain) return std::nullopt;
@@ -93,11 +96,15 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
     case Step::leave_zero: return output(encode_constant_force(*layout_, blocks_[effect_], 0), purpose);
     case Step::start: return output(encode_start(*layout_, blocks_[effect_], duration_ == endless), purpose);
     case Step::leave_stop: return output(encode_stop(*layout_, blocks_[effect_]), purpose);
-    case Step::leave_stop_all: return control(layout_->device_control.stop_all);
+    case Step::leave_stop_all:
+      if (options_.is_shared) return std::nullopt;
+      return control(layout_->device_control.stop_all);
     case Step::leave_free:
       if (!layout_->block_free) return std::nullopt;
       return output(encode_block_free(*layout_, blocks_[effect_]), purpose);
-    case Step::leave_disable: return control(layout_->device_control.disable_actuators);
+    case Step::leave_disable:
+      if (options_.is_shared) return std::nullopt;
+      return control(layout_->device_control.disable_actuators);
     case Step::run:
     case Step::none: break;
   }
@@ -125,12 +132,15 @@ void PidSession::advance(std::int64_t now) noexcept {
     case Step::set: step_ = Step::zero; break;
     case Step::zero: step_ = Step::start; break;
     case Step::start:
+      started_[effect_] = now;
       refresh_at_[effect_] = now + microseconds(duration_ / 3);
       each(Step::set, Step::run);
       if (step_ == Step::run) {
         state_ = State::running;
         commanded_ = heard_ = now;
         telemetry_at_ = now + microseconds(options_.telemetry_period);
+        look_at_ = now + microseconds(options_.rival_check_period);
+        last_load_ = blocks_[created_ - 1];
       }
       break;
     case Step::leave_zero: each(Step::leave_zero, Step::leave_stop); break;
@@ -158,6 +168,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
       }
       break;
     case Transfer::Purpose::poll: poll_under_way_ = false; break;
+    case Transfer::Purpose::look: look_under_way_ = false; break;
     default: --in_flight_; break;
   }
   if (state_ == State::over) return;
@@ -167,6 +178,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
   if (state_ != State::running) return;
   // Refusing to be asked is an answer, and some devices that send reports by themselves do.
   if (transfer.purpose == Transfer::Purpose::poll && outcome == Outcome::stalled) return;
+  if (transfer.purpose == Transfer::Purpose::look && outcome != Outcome::done) return;  // nothing depends on it
   switch (outcome) {
     case Outcome::stalled: return lose("it refuses a report that its descriptor declares", outcome);
     case Outcome::timed_out: return lose("it does not answer in time", outcome);
@@ -176,6 +188,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
   switch (transfer.purpose) {
     case Transfer::Purpose::poll: receive(answer, now); break;
     case Transfer::Purpose::refresh: ++counts_.refreshes; break;
+    case Transfer::Purpose::look: take_look(answer); break;
     default: break;
   }
 }
@@ -218,8 +231,8 @@ void PidSession::finish_load(Outcome outcome, std::span<const std::uint8_t> answ
       return;  // ask again
     case Status::failed: return lose("it cannot make an effect of constant force", Outcome::failed);
     case Status::full:
-      if (created_ == 0) return lose("it has no room for an effect: another program may hold them", Outcome::failed);
-      if (!layout_->has_direction()) return lose("it has room for one effect only and knows no directions", outcome);
+      if (created_ == 0) return lose("it has no room for an effect: another program may hold them", Outcome::failed, Code::unusable_device);
+      if (!layout_->has_direction()) return lose("it has room for one effect only and knows no directions", outcome, Code::unlike_device);
       arrangement_ = Arrangement::combined;
       step_ = Step::set;
       effect_ = 0;
@@ -238,16 +251,16 @@ void PidSession::finish_load(Outcome outcome, std::span<const std::uint8_t> answ
 
 /// The report descriptor has come.
 void PidSession::learn(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < interface_.report_descriptor_bytes) return refuse("its report descriptor is cut short");
-  const auto descriptor = parse_report_descriptor(bytes);
-  if (const auto* error = std::get_if<ReportDescriptorError>(&descriptor)) {
-    return refuse("its report descriptor is damaged at byte " + std::to_string(error->offset) + ": " + error->reason);
+  if (bytes.size() < interface_.report_descriptor_bytes) {
+    return refuse({Code::unlike_device, "its report descriptor is cut short"});
   }
-  auto found = find_pid_layout(std::get<ReportDescriptor>(descriptor));
-  if (auto* refusal = std::get_if<PidRefusal>(&found)) return refuse(std::move(refusal->reason));
-  layout_ = std::get<PidLayout>(found);
-  if (openffboard::has_reports(std::get<ReportDescriptor>(descriptor))) telemetry_.emplace();
-  for (const Report& report : std::get<ReportDescriptor>(descriptor).reports) {
+  auto descriptor = parse_report_descriptor(bytes);
+  if (!descriptor) return refuse(std::move(descriptor).error());
+  auto found = find_pid_layout(*descriptor);
+  if (!found) return refuse(std::move(found).error());
+  layout_ = std::move(*found);
+  if (openffboard::has_reports(*descriptor)) telemetry_.emplace();
+  for (const Report& report : descriptor->reports) {
     if (report.kind == ReportKind::input && report.bytes() <= most_packet_bytes) {
       input_bytes_[report.id] = static_cast<std::uint8_t>(report.bytes());
     }
@@ -262,20 +275,28 @@ void PidSession::learn(std::span<const std::uint8_t> bytes) {
   }
 }
 
-void PidSession::refuse(std::string reason) {
-  refusal_ = std::move(reason);
-  lose(refusal_, Outcome::failed);
+void PidSession::refuse(Error error) {
+  refusal_ = std::move(error.sentence);
+  lose(refusal_, Outcome::failed, error.code);
 }
 
 void PidSession::lose(std::string_view reason, Outcome outcome) noexcept {
+  lose(reason, outcome, outcome == Outcome::gone ? Code::lost_device : Code::failed_transfer);
+}
+
+void PidSession::lose(std::string_view reason, Outcome outcome, Code why) noexcept {
   if (state_ == State::over) return;
   if (!lost_ && state_ != State::leaving) {
     lost_ = true;
     reason_ = reason;
+    why_ = why;
   }
   if (outcome == Outcome::gone) {
     lost_ = true;
-    if (reason_.empty()) reason_ = reason;
+    if (reason_.empty()) {
+      reason_ = reason;
+      why_ = why;
+    }
     step_ = Step::none;
     state_ = State::over;
   } else {
@@ -320,6 +341,11 @@ void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now)
     ++counts_.other_reports;
     return;
   }
+  if (const auto state = decode_state(*layout_, report)) {
+    ++counts_.other_reports;
+    ++counts_.states;
+    return take_state(*state, now);
+  }
   const bool is_numbered = layout_->input.id != 0;
   if (is_numbered && !report.empty() && report[0] != layout_->input.id && input_bytes_[report[0]] != 0 &&
       report.size() >= input_bytes_[report[0]]) {
@@ -343,6 +369,7 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
     // An effect whose time runs out comes first: it is rare, and without it a force would not be felt at all.
     for (std::size_t i = 0; i < effects() && duration_ != endless && !silent_; ++i) {
       if (now < refresh_at_[i]) continue;
+      started_[i] = now;
       refresh_at_[i] = now + microseconds(duration_ / 3);
       ++in_flight_;
       return output(encode_start(*layout_, blocks_[i], false), Transfer::Purpose::refresh);
@@ -362,7 +389,65 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
     ++counts_.polls;
     return get_report(input_report, layout_->input, Transfer::Purpose::poll);
   }
-  return std::nullopt;
+  return look_transfer(now);
+}
+
+/// Asks for Block Load, which tells of the effect that was created last, whoever created it.
+std::optional<Transfer> PidSession::look_transfer(std::int64_t now) noexcept {
+  if (!options_.is_shared || layout_->state || options_.rival_check_period <= 0) return std::nullopt;
+  if (look_under_way_ || now < look_at_) return std::nullopt;
+  look_under_way_ = true;
+  look_at_ = now + microseconds(options_.rival_check_period);
+  ++counts_.looks;
+  return get_report(feature_report, layout_->block_load, Transfer::Purpose::look);
+}
+
+/// A block of ours that was given out again was freed before, which only a reset does: a device gives out no block that
+/// is in use. A block that is not ours is another program's, which has the same right to it as we have to ours.
+void PidSession::take_look(std::span<const std::uint8_t> answer) noexcept {
+  const auto load = decode_block_load(*layout_, answer);
+  if (!load || load->status != BlockLoadAnswer::Status::loaded) return;
+  if (load->block_index != last_load_ && is_ours(load->block_index)) return dispossess();
+  last_load_ = load->block_index;
+}
+
+bool PidSession::is_ours(std::uint8_t block) const noexcept {
+  return std::find(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(created_), block) !=
+         blocks_.begin() + static_cast<std::ptrdiff_t>(created_);
+}
+
+/// Only what was seen to be true before counts when it turns false: firmware that never sets these bits is common.
+void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept {
+  if (!options_.is_shared || state_ != State::running) return;
+  if (state.actuators_enabled) {
+    if (!*state.actuators_enabled && actuators_seen_) return dispossess();
+    actuators_seen_ = *state.actuators_enabled;
+  }
+  if (!state.effect_plays || !state.block_index) return;
+  for (std::size_t i = 0; i < created_; ++i) {
+    if (blocks_[i] != *state.block_index) continue;
+    if (*state.effect_plays) {
+      plays_seen_[i] = true;
+      continue;
+    }
+    if (!plays_seen_[i] || silent_) continue;
+    // The report of an end that came before our last start may still be on its way.
+    constexpr std::int64_t grace = 20'000;  // microseconds
+    if (now - started_[i] < grace) continue;
+    const bool has_run_out = duration_ != endless && now - started_[i] > microseconds(0.9 * duration_);
+    if (!has_run_out) return dispossess();
+    refresh_at_[i] = now;
+  }
+}
+
+/// What the session knows of the device is void, and so are its blocks: they may be another program's by now. So nothing
+/// more is sent, and what still plays of ours ends with its duration.
+void PidSession::dispossess() noexcept {
+  lost_ = true;
+  reason_ = "another program has reset it or stopped its effects";
+  why_ = Code::lost_device;
+  step_ = Step::none;
+  state_ = State::over;
 }
 
 /// Of the newest command, what the device does not know yet: the axis whose turn it is, else the other one.

@@ -12,6 +12,7 @@
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
 #include "runtime/device/outcome.hpp"
+#include "schema/result.hpp"
 
 namespace wale::hid {
 
@@ -32,6 +33,14 @@ struct PidSessionOptions {
   double input_silence = 0.1;
   /// s between questions about its axes to a device that has OpenFFBoard's report for them, one number each; 0: none.
   double telemetry_period = 0.1;
+  /// s between looks at what the device says of effects, to notice that another program has reset it, where it has no
+  /// report that tells so by itself; 0: never.
+  double rival_check_period = 0.5;
+  /// Whether other programs may use the device at the same time. Then it is not told to stop all effects nor to disable
+  /// its actuators on leaving, and what others do to our effects ends the session.
+  bool is_shared = false;
+  /// Whether setting up begins with a reset of the device, which also ends the effects of other programs.
+  bool resets = true;
   int most_in_flight = 2;   ///< output reports on their way at once, at least 1
   int most_bad_inputs = 8;  ///< one after another; then the device is lost
 };
@@ -39,7 +48,7 @@ struct PidSessionOptions {
 /// A transfer that the session wants made.
 struct Transfer {
   enum class Kind : std::uint8_t { control_in, control_out, interrupt_out };
-  enum class Purpose : std::uint8_t { step, force, refresh, poll, telemetry };
+  enum class Purpose : std::uint8_t { step, force, refresh, poll, telemetry, look };
 
   Kind kind = Kind::interrupt_out;
   Purpose purpose = Purpose::step;  ///< the session's own
@@ -72,6 +81,8 @@ struct PidSessionCounts {
   long bad_inputs = 0;                ///< too short or of no known report
   long polls = 0;                     ///< input reports asked for
   long silences = 0;                  ///< times that no command came
+  long looks = 0;                     ///< times that the device was asked about its effects
+  long states = 0;                    ///< reports of the device's state
 };
 
 /// The life of a force-feedback joystick of USB's PID class, without USB: it says which transfer comes next and takes
@@ -99,6 +110,8 @@ class PidSession {
   bool was_lost() const noexcept { return lost_; }
   /// Why it was lost; empty otherwise.
   std::string_view reason() const noexcept { return reason_; }
+  /// The code of that.
+  Code why() const noexcept { return why_; }
 
   /// Known once the descriptor has been read.
   const std::optional<PidLayout>& layout() const noexcept { return layout_; }
@@ -128,6 +141,7 @@ class PidSession {
 
   /// The transport has failed: as after a transfer with that outcome. `reason` outlives the session. Real-time.
   void lose(std::string_view reason, Outcome outcome) noexcept;
+  void lose(std::string_view reason, Outcome outcome, Code why) noexcept;
 
  private:
   enum class Step : std::uint8_t {
@@ -159,12 +173,17 @@ class PidSession {
   std::optional<Transfer> force_transfer() noexcept;
   std::optional<Transfer> telemetry_transfer(std::int64_t now) noexcept;
   bool take_telemetry(std::span<const std::uint8_t> report) noexcept;
+  std::optional<Transfer> look_transfer(std::int64_t now) noexcept;
+  void take_state(const DeviceState& state, std::int64_t now) noexcept;
+  void take_look(std::span<const std::uint8_t> answer) noexcept;
+  void dispossess() noexcept;
+  bool is_ours(std::uint8_t block) const noexcept;
   Packet turned_effect(std::size_t effect, double direction) const noexcept;
   Packet effect_packet(std::size_t effect) const noexcept;
   Transfer output(const Packet& packet, Transfer::Purpose purpose) const noexcept;
   Transfer get_report(std::uint8_t kind, const PacketShape& shape, Transfer::Purpose purpose) const noexcept;
   std::size_t effects() const noexcept { return arrangement_ == Arrangement::combined ? 1 : 2; }
-  void refuse(std::string reason);
+  void refuse(Error error);
 
   HidInterface interface_;
   PidSessionOptions options_;
@@ -172,10 +191,11 @@ class PidSession {
   Step step_ = Step::read_descriptor;
   std::size_t effect_ = 0;  // that the step is about
   std::size_t created_ = 0;
-  bool lost_ = false, step_under_way_ = false, step_is_void_ = false, out_failed_ = false, poll_under_way_ = false;
+  bool lost_ = false, step_under_way_ = false, step_is_void_ = false, out_failed_ = false, poll_under_way_ = false, look_under_way_ = false;
   int in_flight_ = 0, load_attempts_ = 0, failures_leaving_ = 0, bad_inputs_ = 0;
   std::string_view reason_;
   std::string refusal_;  // what `reason_` sees where it is not a literal
+  Code why_ = Code::failed_transfer;
 
   std::optional<PidLayout> layout_;
   std::array<std::uint8_t, 256> input_bytes_{};  // by report id; 0: no such report
@@ -192,6 +212,11 @@ class PidSession {
   std::int64_t commanded_ = 0, heard_ = 0;  // when
   bool silent_ = false;
   std::array<std::int64_t, 2> refresh_at_{};
+  std::array<std::int64_t, 2> started_{};
+  std::int64_t look_at_ = 0;     // when to look for rivals
+  std::uint8_t last_load_ = 0;   // the block that was given out last, as far as is known
+  bool actuators_seen_ = false;  // enabled, in a report of the device's state
+  std::array<bool, 2> plays_seen_{};
   std::optional<InputState> input_;
   std::optional<Telemetry> telemetry_;
   std::int64_t telemetry_at_ = 0;  // when the next question is due

@@ -2,112 +2,104 @@
 
 #include <semaphore.h>
 
-#include <array>
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
-#include <variant>
-#include <vector>
+#include <string_view>
 
 #include "runtime/device/hid_pid/pid_session.hpp"
-#include "runtime/device/usb/usb_context.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
-
-struct libusb_device_handle;
-struct libusb_transfer;
 
 namespace wale {
 
-/// A session with a force-feedback joystick over libusb. The transfers end on the context's event thread; a thread of
-/// its own submits forces as soon as they are commanded; commanding and reading touch neither.
+/// The way by which forces reach a force-feedback joystick and positions come from it.
+enum class PidTransportKind : std::uint8_t {
+  hidraw,  ///< /dev/hidrawN: the kernel's driver stays, and games see the stick
+  libusb,  ///< usbfs: exclusive; the kernel's driver is detached meanwhile
+  evdev    ///< /dev/input/eventN: effects of the kernel's own force-feedback driver
+};
+
+/// "hidraw", as `--transport` spells it, and back; anything else is none.
+std::string_view in_words(PidTransportKind kind) noexcept;
+std::optional<PidTransportKind> read_transport_kind(std::string_view text) noexcept;
+
+/// The one system call on a device's node that a socket cannot stand in for where there is no device. As ioctl(2): less
+/// than 0 is a failure, with `errno`.
+using IoctlCall = int (*)(int descriptor, unsigned long request, void* argument);
+int system_ioctl(int descriptor, unsigned long request, void* argument);
+
+struct PidTransportOptions {
+  hid::PidSessionOptions session;
+  unsigned timeout = 100;          ///< ms, of each transfer of libusb while running and leaving
+  unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
+  /// SCHED_FIFO, of the thread that sends forces: best just below that of the loop, where permitted; 0: ordinary.
+  int priority = 0;
+  MicrosecondClock now = microseconds_now;  ///< which decides when refreshes and silences are due
+  IoctlCall ioctl = system_ioctl;           ///< of hidraw and evdev
+};
+
+/// What the loop sees of a device that is set up and running: the newest command goes out on a thread of the transport,
+/// the newest position comes in on another, and nothing queues. Derived classes own those threads; this class is what
+/// the loop and they exchange.
 class PidTransport {
  public:
-  struct Options {
-    hid::PidSessionOptions session;
-    unsigned timeout = 100;          ///< ms, of each transfer while running and leaving
-    unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
-    /// SCHED_FIFO, of the thread that submits forces: best just below that of the loop, where permitted; 0: ordinary.
-    int priority = 0;
-    MicrosecondClock now = microseconds_now;  ///< by which refreshes and silences are due
-  };
-
-  /// Claims the interface, detaching the kernel's driver, which gets it back in the end, and sets the device up: a few
-  /// tens of milliseconds. A refusal says why the device cannot be used, and has left it as it was.
-  static std::variant<std::unique_ptr<PidTransport>, Refusal> open(std::shared_ptr<UsbContext> context,
-                                                                   const UsbDeviceInfo& info,
-                                                                   const UsbHidInterface& interface,
-                                                                   const Options& options);
-  /// Stops the device, waits for what is on its way, gives the interface back.
-  ~PidTransport();
+  virtual ~PidTransport();
   PidTransport(const PidTransport&) = delete;
   PidTransport& operator=(const PidTransport&) = delete;
 
-  /// The force to exert from now on, as `hid::PidSession::command` takes it; a newer one replaces it.
-  /// Real-time: allocates nothing, takes no lock, does not throw; wakes the thread that submits.
+  /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user). A
+  /// newer command replaces it. Real-time: allocates nothing, takes no lock, does not throw; posts a semaphore.
   void command(glm::vec2 force) noexcept;
 
   struct Seen {
-    std::int32_t x = 0, y = 0;  ///< as the device says them, held within 28 bits
+    std::int32_t x = 0, y = 0;  ///< in the device's own counts, held within 28 bits
     bool button = false;
   };
-  /// The newest input report. Real-time: one atomic load.
+  /// The newest position. Real-time: one atomic load.
   Seen seen() const noexcept;
 
-  /// The device is gone or has failed; nothing is felt any more. Real-time: one atomic load.
+  /// The device is gone or has failed, or another program has reset it; it exerts no more force. Real-time: one atomic
+  /// load.
   bool was_lost() const noexcept { return lost_.load(std::memory_order_acquire); }
 
-  /// Why it was lost; empty otherwise.
-  std::string reason() const;
-  const hid::PidLayout& layout() const { return *session_.layout(); }  ///< does not change
-  hid::Arrangement arrangement() const { return session_.arrangement(); }
-  hid::PidSessionCounts counts() const;
-  std::optional<hid::Telemetry> telemetry() const;
+  virtual PidTransportKind kind() const noexcept = 0;
+  /// Why it was lost; empty otherwise. Not real-time, as all that follow; any thread.
+  virtual std::string reason() const = 0;
+  virtual hid::PidSessionCounts counts() const = 0;
+  /// Nothing where the device or the transport has no such report.
+  virtual std::optional<hid::Telemetry> telemetry() const { return std::nullopt; }
+  virtual hid::Arrangement arrangement() const = 0;
+
+  /// What a position and a force are counted in. Does not change.
+  struct Ranges {
+    std::int64_t x_minimum = 0, x_maximum = 0, y_minimum = 0, y_maximum = 0;
+    std::int64_t full_force = 0;  ///< counts to each side, at least 1
+
+    friend bool operator==(const Ranges&, const Ranges&) = default;
+  };
+  virtual const Ranges& ranges() const noexcept = 0;
+
+ protected:
+  PidTransport();
+
+  /// For the thread that sends: waits for a command, until `most_microseconds` have passed or `stop_waiting`. Gives the
+  /// newest command if there was one since the last call.
+  std::optional<glm::vec2> wait_for_command(std::int64_t most_microseconds) noexcept;
+  /// Ends waiting now and from now on.
+  void stop_waiting() noexcept;
+  bool is_ending() const noexcept { return ends_.load(std::memory_order_acquire); }
+
+  /// For the thread that receives. Values beyond 28 bits are clamped. Both real-time.
+  void show(std::int64_t x, std::int64_t y, bool button) noexcept;
+  void show_lost() noexcept { lost_.store(true, std::memory_order_release); }
 
  private:
-  /// A libusb transfer of our own with its buffer; there is a fixed number of them.
-  struct Slot {
-    PidTransport* owner = nullptr;
-    libusb_transfer* usb = nullptr;
-    std::vector<std::uint8_t> buffer;
-    hid::Transfer wanted;
-    bool is_input = false, is_busy = false;
-  };
-
-  PidTransport(std::shared_ptr<UsbContext> context, libusb_device_handle* handle, const UsbHidInterface& interface,
-               const Options& options);
-  bool wait_until_running();
-  void write_forces();
-  void pump();
-  void submit(const hid::Transfer& transfer);
-  void submit_input(Slot& slot);
-  void listen();
-  void ended(Slot& slot);
-  void publish();
-  bool is_idle() const;
-
-  std::shared_ptr<UsbContext> context_;
-  libusb_device_handle* handle_;
-  UsbHidInterface interface_;
-  unsigned timeout_, set_up_timeout_;
-  MicrosecondClock now_;
-
-  mutable std::mutex mutex_;  // of all below that is not atomic; never taken by the real-time thread
-  std::condition_variable changed_;
-  hid::PidSession session_;
-  std::vector<std::unique_ptr<Slot>> slots_;
-  bool listens_ = false, closes_ = false;
-
   std::atomic<std::uint64_t> wanted_{0};  // two floats
   std::atomic<std::uint64_t> seen_{0};    // two numbers of 28 bits and the button
   std::atomic<bool> lost_{false}, ends_{false};
   sem_t commanded_;
-  std::thread writer_;
 };
 
 }  // namespace wale

@@ -16,6 +16,7 @@ constexpr std::uint16_t pid_page = 0x0f;
 constexpr Usage set_effect = usage(pid_page, 0x21), set_constant_force = usage(pid_page, 0x73);
 constexpr Usage effect_operation = usage(pid_page, 0x77), device_gain_report = usage(pid_page, 0x7d);
 constexpr Usage pool = usage(pid_page, 0x7f), block_load = usage(pid_page, 0x89), block_free = usage(pid_page, 0x90);
+constexpr Usage state = usage(pid_page, 0x92);
 constexpr Usage device_control_report = usage(pid_page, 0x95), create_new_effect = usage(pid_page, 0xab);
 
 // fields
@@ -29,6 +30,7 @@ constexpr Usage device_control = usage(pid_page, 0x96);
 constexpr Usage device_gain = usage(pid_page, 0x7e), simultaneous_effects = usage(pid_page, 0x83);
 constexpr Usage load_success = usage(pid_page, 0x8c), load_full = usage(pid_page, 0x8d);
 constexpr Usage enable_actuators = usage(pid_page, 0x97), disable_actuators = usage(pid_page, 0x98);
+constexpr Usage effect_playing = usage(pid_page, 0x94), actuators_enabled = usage(pid_page, 0xa0);
 constexpr Usage stop_all = usage(pid_page, 0x99), reset = usage(pid_page, 0x9a);
 
 }  // namespace usages

@@ -83,7 +83,7 @@ class Parser {
  public:
   explicit Parser(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  std::variant<ReportDescriptor, ReportDescriptorError> parse() {
+  Result<ReportDescriptor> parse() {
     if (bytes_.size() > most_descriptor_bytes) return error("the descriptor has more than 4096 bytes");
     while (position_ < bytes_.size()) {
       item_ = position_;
@@ -113,7 +113,12 @@ class Parser {
   }
 
  private:
-  ReportDescriptorError error(const char* reason) const { return {item_, reason}; }
+  Error error(const char* reason) const {
+    return {Code::unlike_device,
+            "its report descriptor is damaged at byte " + std::to_string(item_) + ": " + reason,
+            {},
+            {.name = "report descriptor", .number = item_}};
+  }
   void fail(const char* reason) { failed_ = reason; }
 
   void read_main(int tag, const Data& data) {
@@ -294,7 +299,7 @@ class Parser {
 
 }  // namespace
 
-std::variant<ReportDescriptor, ReportDescriptorError> parse_report_descriptor(std::span<const std::uint8_t> bytes) {
+Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes) {
   return Parser(bytes).parse();
 }
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
-#include <variant>
 #include <vector>
+
+#include "schema/result.hpp"
 
 namespace wale::hid {
 
@@ -83,12 +83,6 @@ struct ReportDescriptor {
   friend bool operator==(const ReportDescriptor&, const ReportDescriptor&) = default;
 };
 
-/// Why bytes are not a report descriptor, and where.
-struct ReportDescriptorError {
-  std::size_t offset = 0;  ///< of the item, from the first byte
-  std::string reason;
-};
-
 /// Larger descriptors are refused, as Linux does (HID_MAX_DESCRIPTOR_SIZE).
 constexpr std::size_t most_descriptor_bytes = 4096;
 /// Reports of more bits are refused.
@@ -98,7 +92,8 @@ constexpr std::size_t most_collection_depth = 64, most_pushed = 16;
 /// Reads a report descriptor. Any bytes are answered, in time proportional to their number, with memory bounded by the
 /// limits above. Of alternative usages between delimiters the first counts, which is the preferred one; designators and
 /// strings are skipped, and so are long items. A Usage Page that comes after the usages of an item is that of all of
-/// them (Linux reads it so); otherwise each short usage is of the page in force where it stands.
-std::variant<ReportDescriptor, ReportDescriptorError> parse_report_descriptor(std::span<const std::uint8_t> bytes);
+/// them (Linux reads it so); otherwise each short usage is of the page in force where it stands. An error has the offset
+/// of the item, from the first byte, as the number of its place.
+Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
 }  // namespace wale::hid

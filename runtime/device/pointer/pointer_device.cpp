@@ -18,19 +18,17 @@ std::uint64_t two(std::uint32_t first, std::uint32_t second) noexcept { return s
 std::uint32_t first_of(std::uint64_t both) noexcept { return static_cast<std::uint32_t>(both >> 32); }
 std::uint32_t second_of(std::uint64_t both) noexcept { return static_cast<std::uint32_t>(both); }
 
-/// Heights of a cell in its widths, where the terminal tells no pixels: that of most.
+/// Height of a cell over its width in most terminals, for one that does not report its pixels.
 constexpr double usual_cell_height = 2;
 
 constexpr int patience = 10;  // ms, between looks at whether the terminal is wanted yet
 
 }  // namespace
 
-std::variant<std::unique_ptr<PointerDevice>, Refusal> PointerDevice::open(DeviceProfile profile,
-                                                                          const PointerOptions& options) {
+Result<std::unique_ptr<PointerDevice>> PointerDevice::open(DeviceProfile profile, const PointerOptions& options) {
   auto terminal = pointer::Terminal::open(options.terminal);
-  if (auto* refusal = std::get_if<Refusal>(&terminal)) return std::move(*refusal);
-  return std::unique_ptr<PointerDevice>(
-      new PointerDevice(std::move(std::get<pointer::Terminal>(terminal)), std::move(profile), options));
+  if (!terminal) return std::move(terminal.error());
+  return std::unique_ptr<PointerDevice>(new PointerDevice(*std::move(terminal), std::move(profile), options));
 }
 
 PointerDevice::PointerDevice(pointer::Terminal terminal, DeviceProfile profile, const PointerOptions& options)
@@ -38,7 +36,7 @@ PointerDevice::PointerDevice(pointer::Terminal terminal, DeviceProfile profile, 
       profile_(std::move(profile)),
       pictures_per_second_(std::clamp(options.pictures_per_second, 1.0, 100.0)) {
   if (pipe(wake_) != 0) lose();
-  // Signals are for the threads that the program knows of.
+  // Both threads block all signals but faults, so that signals reach the program's own threads.
   sigset_t all, old;
   sigfillset(&all);
   for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigdelset(&all, fault);
@@ -60,10 +58,10 @@ bool PointerDevice::ends_within(int milliseconds) const {
   return poll(&waited, 1, milliseconds) > 0;
 }
 
-/// The listener's thread.
+/// Runs on the listener's thread.
 void PointerDevice::listen() {
   pointer::TerminalReader reader;
-  while (!is_taken_.load(std::memory_order_acquire)) {  // until then what is typed is somebody else's
+  while (!is_taken_.load(std::memory_order_acquire)) {  // until then the program itself may read the terminal
     if (ends_within(patience)) return;
   }
   while (!lost_.load(std::memory_order_acquire)) {
@@ -102,7 +100,7 @@ void PointerDevice::take(const pointer::TerminalReport& report) {
       cell_height = cell.y / cell.x;
       if (in_pixels_) cells /= cell;
     } else if (in_pixels_) {
-      return;  // pixels of no known size are no place
+      return;  // without the size of the picture, pixels do not give a place
     }
     const pointer::WorkspaceView view(profile_.workspace_diameter, size.columns, size.rows, cell_height);
     const glm::dvec2 counts = view.place(cells) / profile_.position_step();
@@ -113,7 +111,7 @@ void PointerDevice::take(const pointer::TerminalReport& report) {
   }
 }
 
-/// The painter's thread.
+/// Runs on the painter's thread.
 void PointerDevice::draw() {
   while (!is_wanted_.load(std::memory_order_acquire)) {
     if (ends_within(patience)) return;

@@ -6,7 +6,6 @@
 #include <string>
 #include <thread>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "runtime/device/plugged_device.hpp"
@@ -21,18 +20,16 @@ struct PointerOptions {
 };
 
 /// The terminal's mouse as a joystick: it moves the hand, and forces are drawn as an arrow, not felt. (Minsky's testbed
-/// had such a stand-in, the Dummy.) It needs no permission, no window system, and works over ssh. What `command`
-/// returns is what is drawn, held at the profile's peak force.
+/// had such a stand-in, the Dummy.) It needs no permission and no window system, and works over ssh. `command` returns
+/// the force that is drawn, at most the profile's peak force.
 ///
-/// The workspace fills the terminal, from the first `command` on: before that, messages can be read. Places are as fine
-/// as the terminal tells them: pixels where it knows them (mode 1016), otherwise letters, which are some millimetres
-/// each. Reports are read, and pictures drawn, on threads of their own; a terminal that is closed is a device that is
-/// lost.
+/// The workspace fills the terminal from the first `command` on, so that messages before it can be read. Places are as
+/// fine as the terminal reports them: pixels where it knows them (mode 1016), otherwise letters of some millimetres.
+/// Two threads read the reports and draw the pictures. A terminal that is closed is a lost device.
 class PointerDevice final : public PluggedDevice {
  public:
-  /// The profile's workspace and counts are positive. Refused where there is no terminal.
-  static std::variant<std::unique_ptr<PointerDevice>, Refusal> open(DeviceProfile profile,
-                                                                    const PointerOptions& options = {});
+  /// The profile's workspace and counts are positive. `unusable_device` where there is no terminal.
+  static Result<std::unique_ptr<PointerDevice>> open(DeviceProfile profile, const PointerOptions& options = {});
   /// Gives the terminal back as it was.
   ~PointerDevice() override;
   PointerDevice(const PointerDevice&) = delete;

@@ -11,7 +11,7 @@ namespace wale::pointer {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int dots_across = 2, dots_down = 4;  // of a cell
+constexpr int dots_across = 2, dots_down = 4;  // in a cell
 
 /// Dots of Unicode's braille patterns, two by four in each cell.
 class Dots {

@@ -5,15 +5,16 @@
 
 namespace wale::pointer {
 
-/// How the workspace lies on a terminal: in the middle, as large as fits above the last line, which is left to others.
+/// How the workspace lies on a terminal: in the middle, as large as fits above the last line, which is left to
+/// messages.
 class WorkspaceView {
  public:
-  /// `cell_height` in widths of a cell: letters are narrow.
+  /// `cell_height`: height of a cell over its width.
   WorkspaceView(double workspace_diameter, int columns, int rows, double cell_height);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }  ///< of the picture, without the last line
-  /// m from the workspace's centre, x to the right, y up, of a place in cells from the upper left corner.
+  /// The place in m from the workspace's centre, x to the right, y up, of a place in cells from the upper left corner.
   glm::dvec2 place(glm::dvec2 cells) const;
   glm::dvec2 cells(glm::dvec2 place) const;
 
@@ -24,14 +25,14 @@ class WorkspaceView {
 
 struct PointerScene {
   double workspace_diameter = 0;  ///< m
-  glm::dvec2 patch{0};            ///< m, width and height of what is felt in the middle
+  glm::dvec2 patch{0};            ///< m, width and height of the patch in the middle
   glm::dvec2 hand{0};             ///< m
   glm::dvec2 force{0};            ///< N
   double full_newton = 1;         ///< N, whose arrow is a third of the workspace
 };
 
-/// The scene as text for a terminal: every cell of the rows above the last line, at the beginning of which the cursor
-/// ends.
+/// The scene as text for a terminal: every cell of the rows above the last line. The cursor ends at the beginning of
+/// the last line.
 std::string draw(const PointerScene& scene, const WorkspaceView& view);
 
 }  // namespace wale::pointer

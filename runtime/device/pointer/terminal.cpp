@@ -18,25 +18,25 @@
 namespace wale::pointer {
 namespace {
 
-// Another screen, no cursor, any movement of the mouse told in SGR's form; is the form with pixels known, and how many
-// are there?
+// Take: another screen, no cursor, every movement of the mouse in SGR's form. Ask: is the form with pixels known, and
+// how many pixels are there?
 constexpr char take_it[] = "\033[?1049h\033[2J\033[?25l\033[?1003h\033[?1006h";
 constexpr char ask[] = "\033[?1016$p\033[14t";
 constexpr char pixels[] = "\033[?1016h";
 constexpr char give_back[] = "\033[?1016l\033[?1006l\033[?1003l\033[?25h\033[?1049l";
 
-// What a signal handler needs to know.
+// State that signal handlers read.
 std::atomic<int> taken{-1};  // the terminal's descriptor
 std::atomic<bool> in_pixels{false}, taken_again{false};
 std::atomic<bool> shows{false};       // pictures may be written
-std::atomic<bool> is_written{false};  // one is, now
+std::atomic<bool> is_written{false};  // a picture is being written
 termios before{}, meanwhile{};
 
 constexpr int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE};
 std::array<bool, std::size(ends)> is_ours{};
 bool stop_is_ours = false;
 
-/// As much as goes at once: a signal handler waits for nobody.
+/// Writes what goes at once: a signal handler must not wait.
 void put(int descriptor, const char* text, std::size_t size) noexcept {
   [[maybe_unused]] const auto written = ::write(descriptor, text, size);
 }
@@ -52,7 +52,7 @@ void show_picture(int descriptor) noexcept {
 /// May be called in a signal handler.
 void show_text(int descriptor) noexcept {
   shows.store(false);
-  // A picture that is under way would come after the text; that of this very thread never ends.
+  // A picture under way would come after the text. One of this same thread cannot end while the handler runs.
   constexpr int most_waits = 50;
   for (int i = 0; i < most_waits && is_written.load(); ++i) {
     const timespec millisecond{0, 1'000'000};
@@ -64,7 +64,7 @@ void show_text(int descriptor) noexcept {
 
 void when_ended(int signal) {
   if (const int descriptor = taken.exchange(-1); descriptor >= 0) show_text(descriptor);
-  raise(signal);  // which does by itself now what it does to programs: SA_RESETHAND
+  raise(signal);  // with its default effect: SA_RESETHAND has removed this handler
 }
 
 void when_stopped(int) {
@@ -72,7 +72,7 @@ void when_stopped(int) {
   const int descriptor = taken.load();
   if (descriptor >= 0) show_text(descriptor);
   raise(SIGSTOP);
-  // and, some time later, on:
+  // some time later the process continues:
   if (descriptor >= 0) show_picture(descriptor);
   taken_again.store(true);
   errno = error;
@@ -98,36 +98,39 @@ void gives_signal_back(int signal, void (*handler)(int)) {
   if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == handler) ::signal(signal, SIG_DFL);
 }
 
-/// The terminal's descriptor, or why it cannot be used.
-std::variant<int, Refusal> opened_terminal(const std::string& path, termios& settings) {
+Error no_terminal(std::string sentence) {
+  return {Code::unusable_device, std::move(sentence), "run it in a terminal of its own, in the foreground"};
+}
+
+Result<int> opened_terminal(const std::string& path, termios& settings) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (descriptor < 0) return Refusal{"there is no terminal: " + path + ": " + std::strerror(errno), {}};
+  if (descriptor < 0) return no_terminal("there is no terminal: " + path + ": " + std::strerror(errno));
   if (tcgetattr(descriptor, &settings) != 0) {
     close(descriptor);
-    return Refusal{path + " is no terminal", {}};
+    return no_terminal(path + " is not a terminal");
   }
   if (const pid_t foreground = tcgetpgrp(descriptor); foreground >= 0 && foreground != getpgrp()) {
     close(descriptor);
-    return Refusal{"this program is in the terminal's background", {}};
+    return no_terminal("this program is in the terminal's background");
   }
   return descriptor;
 }
 
 }  // namespace
 
-std::string why_no_terminal(const std::string& path) {
+Result<> find_terminal(const std::string& path) {
   termios settings{};
   const auto opened = opened_terminal(path, settings);
-  if (const auto* refusal = std::get_if<Refusal>(&opened)) return refusal->reason;
-  close(std::get<int>(opened));
-  return "";
+  if (!opened) return opened.error();
+  close(*opened);
+  return {};
 }
 
-std::variant<Terminal, Refusal> Terminal::open(const std::string& path) {
-  if (taken.load() >= 0) return Refusal{"the terminal is in use already", {}};
-  auto opened = opened_terminal(path, before);
-  if (auto* refusal = std::get_if<Refusal>(&opened)) return std::move(*refusal);
-  return Terminal(std::get<int>(opened));
+Result<Terminal> Terminal::open(const std::string& path) {
+  if (taken.load() >= 0) return no_terminal("the terminal is in use already");
+  const auto opened = opened_terminal(path, before);
+  if (!opened) return opened.error();
+  return Terminal(*opened);
 }
 
 void Terminal::take() const {
@@ -162,7 +165,7 @@ Terminal::~Terminal() {
     if (is_ours[i]) gives_signal_back(ends[i], when_ended);
   }
   if (stop_is_ours) gives_signal_back(SIGTSTP, when_stopped);
-  tcflush(descriptor_, TCIFLUSH);  // movements that are still being told are nothing typed
+  tcflush(descriptor_, TCIFLUSH);  // movements still on their way must not count as typed
   close(descriptor_);
 }
 
@@ -178,7 +181,7 @@ Terminal::Size Terminal::size() const {
 
 bool Terminal::write(std::string_view text) const {
   while (!text.empty()) {
-    // A terminal that takes nothing for a second is skipped: what it shows next is newer.
+    // A terminal that takes nothing for a second misses this text; the next picture is newer.
     pollfd room{descriptor_, POLLOUT, 0};
     constexpr int patience = 1000;  // ms
     const int ready = poll(&room, 1, patience);

@@ -2,27 +2,26 @@
 
 #include <string>
 #include <string_view>
-#include <variant>
 
-#include "schema/patch_program.hpp"
+#include "schema/result.hpp"
 
 namespace wale::pointer {
 
-/// A terminal that tells where the mouse is and shows a picture instead of text: it is taken when this is made and
-/// given back as it was when this ends, when the process exits, is interrupted, stopped (and taken again when it goes
-/// on) or falls over. Signals that the program itself handles stay its own; only kill -9 leaves the terminal behind
-/// (`reset` mends it). One at a time in a process.
+/// A terminal that reports where the mouse is, and shows a picture instead of text. It is given back as it was when
+/// this object ends, and when the process exits, is interrupted, is stopped (it is taken again when the process
+/// continues) or crashes. Signals that the program itself handles stay its own. Only kill -9 leaves the terminal taken;
+/// `reset` mends it. One at a time in a process.
 class Terminal {
  public:
-  /// Refused when `path` is no terminal that this process may use, or while another is taken.
-  static std::variant<Terminal, Refusal> open(const std::string& path = "/dev/tty");
+  /// `unusable_device` where `path` is no terminal that this process may use, or while another one is taken.
+  static Result<Terminal> open(const std::string& path = "/dev/tty");
   ~Terminal();
   Terminal(Terminal&& other) noexcept;
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
   Terminal& operator=(Terminal&&) = delete;
 
-  /// Shows another screen, and asks for the mouse's places. Once.
+  /// Shows another screen, and asks for the mouse's places. Call it once.
   void take() const;
 
   int descriptor() const { return descriptor_; }
@@ -33,11 +32,11 @@ class Terminal {
   };
   Size size() const;
 
-  /// Writes all of it, unless the terminal is gone (false).
+  /// Writes all of `text`; false: the terminal is gone.
   bool write(std::string_view text) const;
-  /// From now on the mouse's place is told in pixels.
+  /// Makes the terminal report the mouse's place in pixels from now on.
   void tell_pixels() const;
-  /// It is not what it was: the screen may hold something else, and sizes may have changed. Once after each time.
+  /// True once after the process continued and took the terminal again: the screen and its size may have changed.
   bool was_taken_again() const;
 
  private:
@@ -46,7 +45,7 @@ class Terminal {
   int descriptor_;
 };
 
-/// Why there is no terminal to be had at `path`; empty: there is one.
-std::string why_no_terminal(const std::string& path = "/dev/tty");
+/// Whether there is a terminal at `path` that this process may use; the error says why not.
+Result<> find_terminal(const std::string& path = "/dev/tty");
 
 }  // namespace wale::pointer

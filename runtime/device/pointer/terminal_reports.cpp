@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint8_t escape = 0x1b;
 constexpr int most_number = 1'000'000;
 
-// Of a mouse report's first number.
+// Bits of a mouse report's first number.
 constexpr int button_bits = 3, wheel_bit = 64, more_buttons_bit = 128;
 
 }  // namespace
@@ -29,13 +29,13 @@ std::optional<TerminalReport> TerminalReader::take(std::uint8_t byte) noexcept {
     case State::sequence:
     case State::ignored: break;
   }
-  if (byte >= 0x40 && byte < 0x7f) {  // ends it
+  if (byte >= 0x40 && byte < 0x7f) {  // ends the sequence
     const bool is_meant = state_ == State::sequence;
     state_ = State::ground;
     return is_meant ? report(byte) : std::nullopt;
   }
   if (byte < 0x20 || byte >= 0x7f) {
-    state_ = State::ground;  // no part of any sequence
+    state_ = State::ground;  // a byte of no sequence
   } else if (byte >= '0' && byte <= '9' && intermediate_ == 0 && count_ <= numbers_.size()) {
     if (count_ == 0) count_ = 1;
     int& number = numbers_[count_ - 1];

@@ -7,19 +7,19 @@
 
 namespace wale::pointer {
 
-// What a terminal tells on its input: where the mouse is, how large it is, which of its modes it knows. XTerm Control
+// Reports that a terminal sends: where the mouse is, how large the terminal is, which modes it knows. XTerm Control
 // Sequences (Thomas E. Dickey), "Mouse Tracking" with the extended coordinates of modes 1006 and 1016, "Window
 // manipulation" (CSI t) and "Request DEC private mode" (CSI ? Ps $ p). Everything else is skipped, keys too.
 
-/// The mouse's place, from 1, of cells or, in mode 1016, of pixels.
+/// The mouse's place in cells or, in mode 1016, in pixels, counted from 1.
 struct MouseReport {
   int x = 1, y = 1;
-  bool is_pressed = false;  ///< its left button is held
+  bool is_pressed = false;  ///< the left button is held
 
   friend bool operator==(const MouseReport&, const MouseReport&) = default;
 };
 
-/// Whether a private mode is known to the terminal.
+/// Whether the terminal knows a private mode.
 struct ModeReport {
   int mode = 0;
   bool is_known = false;
@@ -27,7 +27,7 @@ struct ModeReport {
   friend bool operator==(const ModeReport&, const ModeReport&) = default;
 };
 
-/// Pixels of the text area.
+/// The size of the text area in pixels.
 struct SizeReport {
   int width = 0, height = 0;
 
@@ -36,10 +36,10 @@ struct SizeReport {
 
 using TerminalReport = std::variant<MouseReport, ModeReport, SizeReport>;
 
-/// Finds reports in what comes in, however it is cut. Allocates nothing, does not throw.
+/// Finds reports in a stream of bytes, however it is cut. Allocates nothing, does not throw.
 class TerminalReader {
  public:
-  /// The report that `byte` ends, if it does.
+  /// The report that `byte` completes; nothing while none is complete.
   std::optional<TerminalReport> take(std::uint8_t byte) noexcept;
 
  private:
@@ -49,7 +49,7 @@ class TerminalReader {
 
   State state_ = State::ground;
   std::array<int, 4> numbers_{};
-  std::size_t count_ = 0;  // numbers begun
+  std::size_t count_ = 0;  // numbers of the sequence so far
   std::uint8_t prefix_ = 0, intermediate_ = 0;
 };
 

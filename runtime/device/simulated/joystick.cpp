@@ -1,9 +1,9 @@
-#include "wale/simulated.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
+
+#include "wale/simulated.hpp"
 
 namespace wale {
 namespace {
@@ -12,7 +12,7 @@ constexpr int steps_per_tick = 40;
 constexpr double most_under_way = 1000;  ///< commands: no device is that slow
 constexpr double pi = 3.14159265358979323846;
 
-/// sin(2 pi turns). Our own, because the bits of libm's depend on the processor.
+/// sin(2 pi turns). Not libm's, whose bits depend on the processor.
 double sine_of_turns(double turns) noexcept {
   turns -= std::floor(turns + 0.5);  // -0.5 .. 0.5
   if (turns > 0.25) turns = 0.5 - turns;
@@ -45,7 +45,7 @@ struct Where {
   TracePoint operator()(const Trace& trace) const noexcept { return at(trace, time); }
 };
 
-/// `force` on the command grid and within the actuator's range. Not-a-number commands nothing.
+/// `force` rounded to the command steps and limited to the actuator's range. Not-a-number gives no force.
 double actuated(double force, const DeviceProfile& profile) noexcept {
   if (std::isnan(force)) return 0;
   const double step = profile.force_step();
@@ -57,8 +57,8 @@ int encoded(double position, const DeviceProfile& profile) noexcept {
   return static_cast<int>(std::clamp(std::round(position / profile.position_step()), -half, half - 1));
 }
 
-/// The velocity that is left when friction can take away at most `speed`: all of a smaller one, so that a handle at
-/// rest stays at rest under any force below friction.
+/// The velocity after friction, which can take away at most `speed`. It takes all of a smaller velocity, so that a
+/// handle at rest stays at rest under any force below friction.
 double after_friction(double velocity, double speed) noexcept {
   if (std::abs(velocity) <= speed) return 0;
   return velocity > 0 ? velocity - speed : velocity + speed;
@@ -82,7 +82,7 @@ void SimulatedJoystick::Actuator::command(double wanted) noexcept {
 }
 
 double SimulatedJoystick::Actuator::step() noexcept {
-  // Commands come once a tick: the newest that has had time to arrive is so many before the newest of all.
+  // Commands come once a tick. The newest one that has arrived is so many ticks old.
   const double before = std::max(0.0, std::ceil((delay - since) / steps_per_tick));
   const std::size_t back = std::min(static_cast<std::size_t>(before), under_way.size() - 1);
   since += 1;
@@ -111,7 +111,7 @@ void SimulatedJoystick::elapse(long periods) noexcept {
   }
 }
 
-/// Semi-implicit Euler over one step. The spring and the damper of the hand act on its motion relative to the target.
+/// One step of semi-implicit Euler. The hand's spring and damper act on its motion relative to the target.
 void SimulatedJoystick::step(const TracePoint& target, double seconds) noexcept {
   const double mass = profile_.mass + hand_.mass;
   const glm::dvec2 before = velocity_;

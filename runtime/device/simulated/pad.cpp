@@ -1,8 +1,8 @@
-#include "wale/simulated_pad.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "wale/simulated_pad.hpp"
 
 namespace wale {
 namespace {
@@ -26,7 +26,7 @@ int touched(double position, const DeviceProfile& profile) noexcept {
 SimulatedPad::SimulatedPad(DeviceProfile profile, Motion motion)
     : profile_(std::move(profile)), motion_(std::move(motion)) {}
 
-/// The spin-up by implicit Euler: no step, however long, goes beyond the target.
+/// The spin-up by implicit Euler, whose steps never pass the target, however long they are.
 void SimulatedPad::elapse(long periods) noexcept {
   periods_ += periods;
   const double seconds = 1 / (profile_.rate * steps_per_period);

@@ -1,29 +1,24 @@
 #pragma once
 
-#include <optional>
-#include <string>
+#include <functional>
 #include <vector>
 
-#include "runtime/device/usb/usb_context.hpp"
-#include "schema/device_wiring.hpp"
+#include "runtime/device/driver.hpp"
+#include "runtime/device/usb/kernel_nodes.hpp"
+
+struct libusb_device_handle;
 
 namespace wale {
 
-/// A device that is plugged in and may be able to push.
-struct ListedUsbDevice {
-  UsbDeviceInfo usb;
-  std::string name;      ///< as it calls itself; empty where that cannot be read
-  std::string can;       ///< what it can do, in a line: "two axes by direction, 32767 steps of force to each side"
-  std::string obstacle;  ///< why it cannot be used; empty: nothing is known to be in the way
-};
+/// Says what a device can do, how it would be driven, or why it cannot be used (`can`, `transport`, `obstacle`).
+/// `handle` is null where this process must not open the device through libusb; `obstacle` then says why already.
+using DescribeUsbDevice =
+    std::function<void(PluggedIn& device, const KernelNodes& nodes, libusb_device_handle* handle)>;
 
-/// All devices of the HID class that are plugged in, in the order of their ports; with `only`, those with these
-/// numbers. Asks no device for anything but its descriptors, and takes none from the kernel's driver or from another
-/// program.
-std::vector<ListedUsbDevice> list_usb_devices(const UsbContext& context,
-                                              const std::optional<UsbNumbers>& only = std::nullopt);
-/// All Novint Falcons that are plugged in, in the order of their ports. Whether one has its firmware only a
-/// conversation with it would tell, so a missing file is in the way.
-std::vector<ListedUsbDevice> list_falcons(const UsbContext& context);
+/// The devices on USB that `is_meant` accepts, in the order of their ports, for `driver`. Asks no device for more than
+/// its descriptors, and takes none from the kernel's driver or from another program.
+std::vector<PluggedIn> list_usb_devices(const Connections& connections, const Driver& driver,
+                                        const std::function<bool(const UsbDeviceInfo&)>& is_meant,
+                                        const DescribeUsbDevice& describe);
 
 }  // namespace wale

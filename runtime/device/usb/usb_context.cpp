@@ -7,6 +7,8 @@
 
 #include <cstdio>
 
+#include "runtime/device/usb/kernel_nodes.hpp"
+
 namespace wale {
 namespace {
 
@@ -79,27 +81,35 @@ std::string in_words(std::uint16_t vendor, std::uint16_t product) {
   return text;
 }
 
-Refusal why_not_usable(int error, const UsbDeviceInfo& info) {
+Error why_not_usable(int error, const UsbDeviceInfo& info) {
+  const Place place{.name = "port " + info.port};
   switch (error) {
-    case LIBUSB_ERROR_ACCESS: {
-      const std::string numbers = in_words(info.vendor, info.product);
-      return {"no permission to open it; as root, write the line\n  SUBSYSTEM==\"usb\", ATTR{idVendor}==\"" +
-                  numbers.substr(0, 4) + "\", ATTR{idProduct}==\"" + numbers.substr(5) +
-                  "\", TAG+=\"uaccess\"\nto /etc/udev/rules.d/70-wale.rules, then plug it in again",
-              {}};
-    }
-    case LIBUSB_ERROR_NO_DEVICE: return {"it was unplugged", {}};
-    case LIBUSB_ERROR_BUSY: return {"another program has claimed it", {}};
-    default: return {std::string("it cannot be opened: ") + libusb_strerror(error), {}};
+    case LIBUSB_ERROR_ACCESS:
+      return {Code::no_permission, "no permission to open it", how_to_permit(info.vendor, info.product), place};
+    case LIBUSB_ERROR_NO_DEVICE: return {Code::absent_device, "it was unplugged", {}, place};
+    case LIBUSB_ERROR_BUSY: return {Code::unusable_device, "another program has claimed it", {}, place};
+    default:
+      return {Code::unusable_device, std::string("it cannot be opened: ") + libusb_strerror(error), {}, place};
   }
 }
 
-std::variant<std::shared_ptr<UsbContext>, Refusal> UsbContext::open() {
+Result<std::shared_ptr<UsbContext>> UsbContext::open() {
   libusb_context* context = nullptr;
   if (const int error = libusb_init(&context); error != 0) {
-    return Refusal{"USB cannot be used: " + std::string(libusb_strerror(error)), {}};
+    return Error{Code::unusable_device, "USB cannot be used: " + std::string(libusb_strerror(error))};
   }
   return std::shared_ptr<UsbContext>(new UsbContext(context));
+}
+
+Result<UsbDeviceInfo> UsbContext::describe(int descriptor) const {
+  libusb_device_handle* handle = nullptr;
+  if (const int error = libusb_wrap_sys_device(context_, descriptor, &handle); error != 0) {
+    return Error{Code::unusable_device, std::string("the device cannot be used: ") + libusb_strerror(error), {},
+                 {.name = "descriptor " + std::to_string(descriptor)}};
+  }
+  UsbDeviceInfo info = usb_device_info(libusb_get_device(handle));
+  libusb_close(handle);
+  return info;
 }
 
 UsbContext::UsbContext(libusb_context* context) : context_(context) {

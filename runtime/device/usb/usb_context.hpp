@@ -7,10 +7,9 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
-#include "schema/patch_program.hpp"
+#include "schema/result.hpp"
 
 struct libusb_context;
 struct libusb_device;
@@ -42,9 +41,9 @@ struct UsbDeviceInfo {
 /// "1209:ffb0"
 std::string in_words(std::uint16_t vendor, std::uint16_t product);
 
-/// Why a device cannot be used, by libusb's number of the error, with what to do about it: permissions are given by a
-/// udev rule, which stands in the text.
-Refusal why_not_usable(int error, const UsbDeviceInfo& info);
+/// Why a device cannot be used, by libusb's number of the error. Where permission lacks, the mend has the udev rule that
+/// gives it.
+Error why_not_usable(int error, const UsbDeviceInfo& info);
 
 struct UsbEvent {
   bool arrived = false;  ///< otherwise it left
@@ -56,7 +55,7 @@ struct UsbEvent {
 /// own.
 class UsbContext {
  public:
-  static std::variant<std::shared_ptr<UsbContext>, Refusal> open();
+  static Result<std::shared_ptr<UsbContext>> open();
   ~UsbContext();
   UsbContext(const UsbContext&) = delete;
   UsbContext& operator=(const UsbContext&) = delete;
@@ -70,6 +69,9 @@ class UsbContext {
 
   /// Gives the event thread this SCHED_FIFO priority, which is best just below that of the loop. False: not permitted.
   bool set_priority(int priority);
+
+  /// What a usbfs node is of that somebody else has opened.
+  Result<UsbDeviceInfo> describe(int descriptor) const;
 
   libusb_context* handle() const { return context_; }
   /// The device that `info` is of, with a reference that the caller gives back (`libusb_unref_device`); null when it is

@@ -8,21 +8,21 @@
 
 namespace wale {
 
-/// Whether a device can be relied on at this moment.
+/// Whether a device can be relied on now.
 enum class Contact {
   good,
-  stale,  ///< it is there, and has told no new position for longer than it should
-  lost    ///< it has been unplugged, or does not answer as it should; it may come back
+  stale,  ///< it is there, and has sent no new position for too long
+  lost    ///< it was unplugged or does not answer properly; it may come back
 };
 
-/// What a device tells once a tick.
+/// What a device reports once a tick.
 struct Reading {
   glm::ivec2 counts{0};  ///< encoder counts from the workspace's centre; metres are counts * position_step()
-  /// N, what the hand exerts on the handle, averaged over the period that just ended: it contains inertia and friction.
-  /// Not-a-number where the device has no way to know.
+  /// N, the force of the hand on the handle, averaged over the period that just ended; it contains inertia and friction.
+  /// Not-a-number where the device does not know it.
   Force interaction{std::numeric_limits<float>::quiet_NaN()};
   bool button = false;  ///< the device's button is pressed
-  /// Anything but `good`: the position is an old one, and no force is commanded.
+  /// Unless it is `good`, the position is an old one and no force is commanded.
   Contact contact = Contact::good;
 };
 

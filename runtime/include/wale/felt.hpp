@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "wale/program.hpp"
@@ -10,8 +9,8 @@
 
 namespace wale {
 
-/// The size of a force over some ticks, N: of its magnitude, when it has two axes. 99 % of the ticks are at most at
-/// `p99`.
+/// The size of a force over some ticks, N. With two axes it is the force's magnitude. 99 % of the ticks have `p99` or
+/// less.
 struct ForceSize {
   float p99 = 0, maximum = 0, rms = 0;
 };
@@ -20,9 +19,9 @@ struct ForceSize {
 struct MeasureOptions {
   double position_step = 0;       ///< m per encoder count
   float predicted_amplitude = 0;  ///< N; crossings swing through half of it. 0: half the force's own P99
-  double settling = 0;            ///< s at the beginning that do not count: the slew-in and the hand's own start
-  double stuck_seconds = 0.05;    ///< the hand is stuck where it moves at most
-  double stuck_counts = 2;        ///< this many encoder counts, on either axis, within that time
+  double settling = 0;            ///< s at the beginning that are left out: the slew-in and the hand's own start
+  double stuck_seconds = 0.05;    ///< the hand is stuck where, within this time, it moves at most
+  double stuck_counts = 2;        ///< this many encoder counts on each axis
   bool vibrates = false;          ///< the record is of a pad
 };
 
@@ -33,7 +32,7 @@ struct FeltVibration {
   long ticks = 0;                 ///< within the patch
 };
 
-/// What a run felt like, in figures. Of a pad there is the vibration, and the forces are 0.
+/// The figures of a run. A run on a pad has the vibration, and its forces are 0.
 struct Felt {
   long ticks = 0;                                ///< measured: after settling
   long ticks_rubbing = 0;                        ///< of them, those within the patch with the hand not stuck
@@ -41,11 +40,11 @@ struct Felt {
   ForceSize force_rubbing;                       ///< the actuator's, while rubbing
   std::optional<ForceSize> interaction;          ///< between hand and handle; nothing where the device cannot tell
   std::optional<ForceSize> interaction_rubbing;  ///< the same while rubbing
-  /// Swings of the force from beyond half the amplitude on one side to beyond it on the other, along the axis that has
-  /// more force: all of them.
+  /// All swings of the force from more than half the amplitude on one side to more than half on the other, along the
+  /// axis with more force.
   long alternations = 0;
-  /// Those made while moving on in one direction, so that a limit cycle on the spot, a spring or oil count nothing:
-  /// flanks of a texture.
+  /// Those swings during which the hand keeps its direction: the flanks of a texture. A limit cycle on the spot, a
+  /// spring and oil have none.
   long crossings = 0;
   double stuck = 0;                        ///< fraction of the measured ticks within the patch; 0 when there are none
   std::optional<FeltVibration> vibration;  ///< of a run on a pad
@@ -55,21 +54,21 @@ struct Felt {
 
 Felt measure(const Record& record, const MeasureOptions& options);
 
-/// What the measured force says about a percept of the program, or why it says nothing.
+/// The level of a percept that the measured force gives, or why it gives none.
 struct LevelBack {
   std::size_t percept = 0;        ///< index into the program's percepts
   std::string name;               ///< "roughness"
   float predicted_amplitude = 0;  ///< what the program aims at, in the carrier's unit
-  std::variant<Prediction, Refusal> back;
+  Result<Prediction> back;        ///< error: `not_measured`
 };
 
-/// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries. Refused
-/// for less than `least_crossings` crossings, for a percept that a static lateral force does not carry, and for one
-/// whose carrier does not push alone. Of a pad from the P99 of its acceleration within the patch.
+/// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries; on a pad,
+/// from the P99 of its acceleration within the patch. A level is an error where there are fewer than `least_crossings`
+/// crossings, where a static lateral force does not carry the percept, and where its carrier is not the only force.
 std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
 
-/// The lateral force that the program aims at, for `MeasureOptions`, or a pad's acceleration: of its first percept that
-/// has one, else 0.
+/// The lateral force (N) or a pad's acceleration (m/s^2) that the program aims at, for `MeasureOptions`. It belongs to
+/// the first percept that has one; without any it is 0.
 float predicted_amplitude(const Bank& bank);
 
 }  // namespace wale

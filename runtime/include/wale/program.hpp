@@ -5,7 +5,6 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "schema/patch_program.hpp"
@@ -42,10 +41,10 @@ struct DecodedProgram;
 /// A verified patch program, ready to run. Immutable; copies share it; any number of threads may use it at once.
 class Program {
  public:
-  /// Reads, verifies and decodes a `.wpp` file's bytes, or says why not.
-  static std::variant<Program, Refusal> load(std::span<const std::byte> bytes);
-  /// Verifies and decodes.
-  static std::variant<Program, Refusal> load(PatchProgram program);
+  /// Reads, verifies and decodes the bytes of a `.wpp` file. Errors: `damaged_file`, `newer_file`, `refused_program`.
+  static Result<Program> load(std::span<const std::byte> bytes);
+  /// Verifies and decodes. Error: `refused_program`, with the instructions that led to it (runtime/machine/verify.hpp).
+  static Result<Program> load(PatchProgram program);
 
   const PatchProgram& description() const;
   PatchSize default_size() const;

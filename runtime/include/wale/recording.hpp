@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "wale/device.hpp"
@@ -18,7 +17,7 @@
 
 namespace wale {
 
-/// What stepped in on a tick, as a set of bits: what `GuardCounts` counts.
+/// The guards that stepped in on a tick, as a set of bits; `GuardCounts` counts them.
 enum class GuardBit : std::uint32_t {
   not_a_number = 1 << 0,
   device_limit = 1 << 1,
@@ -33,29 +32,29 @@ enum class GuardBit : std::uint32_t {
   heat = 1 << 10,
 };
 
-/// All of one tick: what came in, what was made of it, and what went out.
+/// All of one tick: the inputs, the force that was made of them, and the outputs.
 struct RecordedTick {
   static constexpr std::uint32_t no_patch = 0xffffffff;
 
   std::int64_t period = 0;          ///< its number since the run began, from 0
   std::int64_t lateness = 0;        ///< ns after its deadline
   std::uint32_t elapsed = 0;        ///< periods since the tick before; of the first since period 0
-  std::uint32_t skipped = 0;        ///< periods that nobody served just before
+  std::uint32_t skipped = 0;        ///< periods just before that nobody served
   glm::ivec2 counts{0};             ///< encoder, from the workspace's centre
   Contact contact = Contact::good;  ///< of the device
   bool button = false;
   bool inside = false;             ///< the hand was within a patch
   std::uint32_t patch = no_patch;  ///< its number
-  std::uint32_t revision = 0;      ///< of what lies on the stage: counts what was handed over to the loop
+  std::uint32_t revision = 0;      ///< of the patches on the stage: how often they were handed over to the loop
   std::uint32_t guards = 0;        ///< `GuardBit`s
   glm::vec2 velocity{0};           ///< m/s, filtered
-  Force wanted{0};                 ///< N, the program's; of a pad m/s^2 and Hz, as all that follow
+  Force wanted{0};                 ///< N, the program's; on a pad m/s^2 and Hz, and so the next two
   Force commanded{0};              ///< after the guards
   Force force{0};                  ///< what the actuator exerts
   Force interaction{0};            ///< N, from hand to handle over the period before; not-a-number where unknown
 };
 
-/// Something done to the stage, and its place among the ticks.
+/// A change of the stage, and its place among the ticks.
 struct RecordedEvent {
   enum class Kind : std::uint8_t {
     place,    ///< a program takes the place of all patches: `program`, `position`, `size`
@@ -63,11 +62,11 @@ struct RecordedEvent {
     replace,  ///< another program in a patch's place: `patch`, `program`
     set,      ///< a parameter: `patch`, `parameter`, `value`
     move,     ///< a patch to another place: `patch`, `position`
-    publish,  ///< all that was done so far is handed over to the loop as `revision`
+    publish,  ///< all changes so far are handed over to the loop as `revision`
     end,      ///< the run is over: `ticks` in all
   };
   Kind kind = Kind::end;
-  std::uint64_t ticks = 0;  ///< that were done when it came; what it changes is felt from the tick of its revision on
+  std::uint64_t ticks = 0;  ///< done before it; its change takes effect at the first tick of its revision
   std::uint32_t patch = 0;  ///< its number
   std::size_t program = 0;  ///< among `Recording::programs`
   glm::vec2 position{0};    ///< m
@@ -88,21 +87,23 @@ struct RecordedProgram {
 /// How a run was recorded.
 struct RecordingHeader {
   DeviceProfile device;    ///< with the rate and the filters' settings
-  double most_newton = 0;  ///< the largest force that the user allowed; infinite where nothing was said
+  double most_newton = 0;  ///< the largest force that the user allowed; infinite without a limit
   bool virtual_time = false;
-  std::string hand;  ///< what moved the handle, "simulated, lateral"; empty where nobody said
+  std::string hand;  ///< what moved the handle, "simulated, lateral"; empty where it is not known
 };
 
-/// A file that `RunOptions::record_to` made, whole or up to where its process was killed. Immutable; copies share it.
+/// A file that `RunOptions::record_to` made, complete or up to the moment when its process was killed. Immutable; copies
+/// share it; any number of threads may use it at once.
 /// The format is runtime/record/RECORDING.md.
 class Recording {
  public:
-  /// Maps the file and checks all of it, or no more than its first `most_ticks`. Refused, with the place and what can
-  /// be done, when it cannot be read, is no recording, is of a newer format, or is damaged or cut short before that.
-  static std::variant<Recording, Refusal> open(const std::string& path, std::size_t most_ticks = SIZE_MAX);
-  /// The same of bytes at hand, whatever they hold. `name` is what refusals call it.
-  static std::variant<Recording, Refusal> read(std::vector<std::byte> bytes, const std::string& name,
-                                               std::size_t most_ticks = SIZE_MAX);
+  /// Maps the file and checks its first `most_ticks` ticks and all events. Errors: `unreadable_file`, `newer_file`, and
+  /// `damaged_file` for a file that is no recording, or that is damaged or cut short before that tick; the place is the
+  /// file and the byte.
+  static Result<Recording> open(const std::string& path, std::size_t most_ticks = SIZE_MAX);
+  /// The same for bytes in memory, whatever they hold. Errors call them `name`.
+  static Result<Recording> read(std::vector<std::byte> bytes, const std::string& name,
+                                std::size_t most_ticks = SIZE_MAX);
 
   const RecordingHeader& header() const;
   std::size_t ticks() const;
@@ -111,7 +112,7 @@ class Recording {
   /// In their order.
   const std::vector<RecordedEvent>& events() const;
   const std::vector<RecordedProgram>& programs() const;
-  /// The run came to its end; otherwise its process did, or the disk was full.
+  /// Whether the run came to its end. Otherwise its process was killed, or the disk was full.
   bool complete() const;
 
  private:
@@ -120,34 +121,35 @@ class Recording {
   std::shared_ptr<const Contents> contents_;
 };
 
-/// Where a replay is not what was recorded.
+/// Where a replay differs from what was recorded.
 struct ReplayDifference {
   std::size_t tick = 0;   ///< its number, from 0
-  std::string_view what;  ///< "program's force": the first of its parts, in the order in which a tick makes them
-  /// Of the component that differs more; not-a-number may be among them.
+  std::string_view what;  ///< "program's output": the first part of the tick that differs
+  /// Values of the component that differs more; either may be not-a-number.
   double recorded = 0, replayed = 0;
 };
 
 struct Replay {
   std::size_t ticks = 0;      ///< played again
-  std::size_t differing = 0;  ///< of them not bit for bit as recorded
+  std::size_t differing = 0;  ///< those of them that are not bit for bit as recorded
   std::optional<ReplayDifference> first;
   double largest_force = 0;  ///< the largest difference of the commanded force, N or m/s^2
 };
 
-/// Runs the recorded programs on the recorded counts, with all that was done to the stage at its ticks, and compares
-/// bit for bit: patch, filtered velocity, the program's force, the guards, the force commanded. The device's part is
-/// taken as recorded: its counts, its contact, and the force that the actuator made of the command. Refused when a
-/// program of the recording does not load, or the recording does to the stage what cannot be done.
-std::variant<Replay, Refusal> replay(const Recording& recording);
+/// Runs the recorded programs on the recorded counts, changes the stage at the recorded ticks, and compares bit for
+/// bit: patch, filtered velocity, the program's force, the guards, the force commanded. The device's part is
+/// taken as recorded: its counts, its contact, and the force that the actuator made of the command. Errors: those of
+/// `Program::load` for the recorded programs, and those of the stage for what the recording does to it.
+Result<Replay> replay(const Recording& recording);
 
-/// The columns of `write_csv(Record)` and after them what else a recording has: raw counts, the program's force, the
+/// The columns of `write_csv(Record)`, then those that only a recording has: raw counts, the program's force, the
 /// force commanded, patch, revision, contact, and which guards stepped in, in words.
 void write_csv(std::ostream& out, const Recording& recording);
 
 /// The force as sound: WAV, 44.1 kHz, two channels of 32-bit floats, x on the left and y on the right, each tick's
 /// force held until the next; 1 is the device's peak force. Of a pad both channels are the vibration itself: a sine of
-/// its amplitude and frequency, 1 being its greatest acceleration. Refused when it would not fit in a WAV file (4 GiB).
-std::optional<Refusal> write_wav(std::ostream& out, const Recording& recording);
+/// its amplitude and frequency, 1 being its greatest acceleration. Error: `unwritable_file` where the sound is longer than
+/// a WAV file holds (4 GiB); nothing is written then. Whether `out` took the bytes is for the caller to ask.
+Result<> write_wav(std::ostream& out, const Recording& recording);
 
 }  // namespace wale

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "wale/device.hpp"
 #include "wale/program.hpp"
@@ -18,7 +17,7 @@
 
 namespace wale {
 
-/// The latest of a run under way, for a live line.
+/// The latest state of a run, for a live display.
 struct Progress {
   double time = 0;  ///< s since the run began
   long ticks_run = 0, ticks_missed = 0;
@@ -29,8 +28,8 @@ struct Progress {
 
 /// A recording to make of a run.
 struct RecordTo {
-  std::string file;  ///< that does not exist yet, by custom NAME.wrec
-  std::string hand;  ///< what moves the handle, to say so: "simulated, lateral"
+  std::string file;  ///< must not exist yet; by custom NAME.wrec
+  std::string hand;  ///< what moves the handle, kept in the recording: "simulated, lateral"
 };
 
 class RecordedRun;
@@ -39,18 +38,17 @@ struct RunOptions {
   double seconds = 0;             ///< how long; positive, may be fractional
   double most_newton = HUGE_VAL;  ///< the largest force that the user allows; positive
   bool virtual_time = false;      ///< as fast as possible on the calling thread, the same bit for bit each time
-  /// About ten times a second, never on the real-time thread. In virtual time ten times per second of the run, between
-  /// two ticks; what it does to the stage holds from the next tick on.
+  /// Called about ten times a second, never on the real-time thread. In virtual time it is called between two ticks, ten
+  /// times per second of the run; a change that it makes to the stage holds from the next tick on.
   std::function<void(const Progress&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;
-  /// Records every tick, and all that is done to the stage meanwhile, in a file, for `Recording` and `replay`. It is
-  /// whole up to the last tick even if the process is killed.
+  /// Records every tick and every change of the stage in a file, for `Recording` and `replay`. The file is complete up to
+  /// the last tick even if the process is killed.
   std::optional<RecordTo> record_to = {};
-  /// s: of the run's end, that `RunResult::record` keeps. With less than everything a run may last as long as it likes,
-  /// an infinite time too.
+  /// s: how much of the run's end `RunResult::record` keeps. With a finite value the run may be infinitely long.
   double kept_seconds = HUGE_VAL;
-  /// Whose beats are served instead of a clock's; `replay`'s own.
+  /// Gives the beats instead of a clock; only `replay` sets it.
   RecordedRun* recorded = nullptr;
 };
 
@@ -71,7 +69,7 @@ struct TickCosts {
     program,  ///< the patch's program
     guard,    ///< all guards
     command,  ///< the device: the force
-    record,   ///< what is kept and shown
+    record,   ///< the record and the progress
     steps
   };
   Times whole;
@@ -81,36 +79,36 @@ struct TickCosts {
 /// "sample", "find", …
 std::string_view name_of(TickCosts::Step step);
 
-/// On how many ticks each guard changed the force, and what the program's own memory had to mend.
+/// On how many ticks each guard changed the force, and how often the program's memory was restored.
 struct GuardCounts {
-  long not_a_number = 0;  ///< the program's force was none, so zero
+  long not_a_number = 0;  ///< the program's force was not a number, so zero
   long device_limit = 0;  ///< beyond the device's peak force on an axis
-  long user_limit = 0;    ///< beyond what the user allows
-  long heat = 0;          ///< more than a motor bears that was hot already
-  long energy = 0;     ///< held back, because the program gave more energy than it says, or more than the device gives
+  long user_limit = 0;    ///< beyond the user's limit
+  long heat = 0;          ///< reduced, because a motor was hot already
+  long energy = 0;     ///< reduced, because the program gave more energy than it declares or than the device allows
   long passivity = 0;  ///< damped, because the sampled loop gained energy
-  long slew = 0;       ///< held back after a start, an entry, a leaving or a change of bank
-  long overrun = 0;    ///< no force, after more than 20 ms in which nobody served the loop
-  long stale = 0;      ///< no force, the position being an old one
-  long lost = 0;       ///< no force, the device being gone
-  long restored = 0;   ///< times that a state was not a number, so its initial value
+  long slew = 0;       ///< slowed after a start, an entry, a leaving or a change of bank
+  long overrun = 0;    ///< no force, because nobody had served the loop for more than 20 ms
+  long stale = 0;      ///< no force, because the position was an old one
+  long lost = 0;       ///< no force, because the device was gone
+  long restored = 0;   ///< times that a state was not a number and got its initial value again
 };
 
 struct RunResult {
   long ticks_run = 0;
-  long ticks_missed = 0;  ///< periods that nobody served; they are skipped, never caught up
+  long ticks_missed = 0;  ///< periods that nobody served; they are skipped and not made up for
   Lateness lateness;
   std::optional<TickCosts> costs;  ///< nothing in virtual time
   GuardCounts guards;
   std::string scheduling;  ///< one line: what priority, memory locking and wakefulness of processors the loop got
   Record record;
-  std::string record_problem;  ///< why there is less in the file than was run; empty where there is not
+  std::optional<Error> record_problem;  ///< why the recording ended before the run; nothing where it did not
 };
 
-/// Patches on a device's workspace, and the loop that makes the one in front under the hand felt.
+/// Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.
 ///
 /// `place`, `add`, `move`, `replace` and `set` may be called from any thread, also during a run: setup and peaks are
-/// computed on the thread that called `run`, and the result reaches the real-time thread whole.
+/// computed on the thread that called `run`, and the real-time thread gets the finished result.
 class Stage {
  public:
   /// The device outlives the stage.
@@ -119,47 +117,51 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Puts a patch with its centre at `position` (m from the workspace's centre), in place of all before, its
-  /// parameters at their defaults and its memory new. Its own size unless one is given. Parameters that are set later
-  /// leave the memory as it is; each run begins with a new one. It is patch number 0, in layer 0.
+  /// Removes all patches and puts one there, with its centre at `position` (m from the workspace's centre), its
+  /// parameters at their defaults and its memory new. It has the program's own size unless one is given. It is patch
+  /// number 0, in layer 0. Setting a parameter later leaves the memory as it is; each run begins with a new memory.
   void place(const Program& program, glm::vec2 position = glm::vec2(0.0f));
   void place(const Program& program, glm::vec2 position, PatchSize size);
 
-  /// Puts one more patch on the stage and gives its number, one more than the last one's. Where patches lie over one
-  /// another the hand feels the one with the greatest `layer`, and among equals the one that came last; it enters a
-  /// patch anew when it comes to it, also from another one. Finding it takes as long among a hundred thousand as among
-  /// ten.
+  /// Puts one more patch on the stage and gives its number, one more than the last one's. Where patches overlap, the hand
+  /// feels the one with the greatest `layer`, and among equals the one that was added last. The hand enters a patch anew
+  /// each time it comes to it, also from another patch. Finding the patch takes as long among a hundred thousand as
+  /// among ten.
   std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
 
-  /// Puts another program in the place of a patch's: same place, same layer, its own size where the patch had its own.
-  /// Parameters that are not at their defaults keep their values where they have the same name and unit (held in their
-  /// new ranges), states where they
-  /// have the same name and unit and the hand stays on the patch, and memories where all have the same names, units,
-  /// sizes and bounds.
-  /// Takes effect within one tick of being ready, and slews. Refused when there is no such patch.
-  std::optional<Refusal> replace(std::size_t patch, const Program& program);
+  /// Replaces the program of a patch. The patch keeps its place and layer; where it had its program's own size, it gets
+  /// the new program's. A parameter that is not at its default keeps its value if the new program has one of the same
+  /// name and unit (held in the new range). A state goes on if the new program has one of the same name and unit and the
+  /// hand stays on the patch. Grids go on if all have the same names, units, sizes and bounds.
+  /// Takes effect within one tick of being ready, and slews. Error: `malformed_value` without such a patch.
+  Result<> replace(std::size_t patch, const Program& program);
 
   /// Moves a patch's centre to `position` (m from the workspace's centre). Takes effect within one tick of being ready,
-  /// and slews where that changes what is felt. A patch's first move in a run takes as long to be ready as adding one
-  /// does, some 0.1 s among a hundred thousand; from then on it takes as long as there are patches that were moved,
-  /// however many stay. A hand at rest on a patch that is moved stays on it and keeps its memory; the energy that
-  /// moving gives to it counts as the program's own. Refused when there is no such patch or the position is no number.
-  std::optional<Refusal> move(std::size_t patch, glm::vec2 position);
+  /// and slews where that changes the force. A patch's first move in a run takes as long to be ready as adding one,
+  /// some 0.1 s among a hundred thousand; later moves take time in proportion to the number of patches that have ever
+  /// been moved in the run. A hand at rest on a patch that is moved stays on it, and the memory goes on; the energy that
+  /// moving gives to the hand counts as the program's own. Error: `malformed_value` without such a patch, or where the
+  /// position is not finite.
+  Result<> move(std::size_t patch, glm::vec2 position);
 
-  /// Sets a parameter of a patch, by its number or that of patch 0, in SI units. Refused when there is no patch or no
-  /// such parameter, or when the value is not a number in its range.
-  std::optional<Refusal> set(std::string_view parameter, float value);
-  std::optional<Refusal> set(std::size_t patch, std::string_view parameter, float value);
+  /// Sets a parameter of patch 0 or of another one, in SI units. Errors: `malformed_value` without such a patch, or where
+  /// the value is not a number in the parameter's range; `unknown_name` without such a parameter.
+  Result<> set(std::string_view parameter, float value);
+  Result<> set(std::size_t patch, std::string_view parameter, float value);
 
-  /// A patch at its present parameters: what `measure` and `predict` ask. Runs setup and peaks. There is no such patch:
-  /// nothing.
+  /// A bank of a patch with its present parameters, for `predict` and `levels_back`. Runs setup and peaks. Nothing
+  /// without such a patch.
   std::optional<Bank> bank(std::size_t patch = 0) const;
 
-  /// Runs for `options.seconds` and leaves the device without force, whatever ends the run. Refused when the time is
-  /// not positive or more of it is to be kept than a record holds (2^24 ticks), when the largest force is not positive,
-  /// when nothing is placed, when the device's profile lacks what a loop needs, when a program pushes and the device
-  /// only vibrates or the other way round, when it cannot be recorded, or while another run is under way.
-  std::variant<RunResult, Refusal> run(const RunOptions& options);
+  /// Runs for `options.seconds`. Whatever ends the run, the device is left without force. Errors:
+  /// - `malformed_value`: the time is not positive, the record would keep more than 2^24 ticks, or the largest force is
+  ///   not positive;
+  /// - `wrong_moment`: nothing is placed, or another run is under way on this stage;
+  /// - `unusable_device`: the device's profile lacks a figure that a loop needs;
+  /// - `other_device`: a program pushes and the device only vibrates, or the other way round;
+  /// - `unwritable_file`: the recording cannot be made;
+  /// - `short_of_resources`: the system gives no thread.
+  Result<RunResult> run(const RunOptions& options);
 
  private:
   struct Parts;

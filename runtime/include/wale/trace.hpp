@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <glm/vec2.hpp>
-#include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
+
+#include "schema/result.hpp"
 
 namespace wale {
 
@@ -21,17 +21,12 @@ struct Trace {
   bool velocities_given = false;
 };
 
-/// Why a text is not a trace.
-struct TraceError {
-  std::size_t line = 0;  ///< from 1; 0 when it concerns the text as a whole
-  std::string expected, found;
-};
-
 /// Reads CSV text: a header with the columns `t` (or `time`), `x`, `y` and optionally both `vx` and `vy`, in any order
 /// among others, which are ignored. A unit may follow the name as `t (s)`, `t [s]` or `t_s`: s, ms; m, cm, mm; m/s,
 /// cm/s, mm/s; SI without one. Lines may end in CRLF, be blank, or be a comment beginning with `#`; a byte order mark
 /// is skipped. The CSV of a run's record is a trace too.
-std::variant<Trace, TraceError> read_trace(std::string_view text);
+/// The error's place is the line, from 1.
+Result<Trace> read_trace(std::string_view text);
 
 /// Where the trace is at `time` (s): on the cubic through the two neighbouring points with their velocities, so that
 /// velocity is the derivative of position; at rest on the first point before it and on the last one after it.

@@ -1,0 +1,96 @@
+#include "calibration/command/device_declaration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wale::command {
+namespace {
+
+/// The settings of a declaration, in the order and the units that a person would choose.
+class DeclarationWriter {
+ public:
+  explicit DeclarationWriter(const DeclaredDevice& device) : device_(device) {}
+
+  void add(const std::string& key, const std::string& value) { text_ += fmt::format("  {} {}\n", key, value); }
+  /// A figure, or that it is unknown.
+  void figure(const std::string& key, const std::string& value) {
+    const auto among = [&](const std::vector<std::string>& keys) { return std::ranges::find(keys, key) != keys.end(); };
+    add(key, among(device_.unknown) ? "unknown" : (among(device_.assumed) ? "assumed " : "") + value);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  const DeclaredDevice& device_;
+  std::string text_;
+};
+
+/// The shortest digits that agree to twelve places.
+std::string number(double value) { return fmt::format("{:.12g}", value); }
+
+std::string in_quotes(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string identified_text(const Identified& found) {
+  std::string text;
+  for (std::size_t motor = 0; motor < 2; ++motor) {
+    const MotorAnswer& answer = found.motors[motor];
+    const char* name = motor == 0 ? "x" : "y";
+    if (answer.moves)
+      text += fmt::format("its {} motor moves its axis {}, from {:.2g} N on\n", name, in_words(*answer.moves),
+                          answer.newton);
+    else
+      text += fmt::format("its {} motor: {}\n", name, answer.problem);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (found.shown[i])
+      text += fmt::format("{} is its axis {}\n", i == 0 ? "to the right" : "away from you", in_words(*found.shown[i]));
+  if (!found.problem.empty()) text += "it is not known how it lies: " + found.problem + "\n";
+  return text;
+}
+
+std::string device_declaration(const DeclaredDevice& device, const std::vector<std::string>& comments) {
+  const DeviceProfile& profile = device.profile;
+  const DeviceWiring& wiring = device.wiring;
+  DeclarationWriter writer(device);
+  std::string numbers;
+  for (const UsbNumbers& each : wiring.usb) numbers += (numbers.empty() ? "" : ", ") + in_quotes(in_words(each));
+  if (!numbers.empty()) writer.add("usb", numbers);
+  if (!device.of_class.empty()) writer.add("class", device.of_class);
+  const auto axes = [](const std::array<SignedAxis, 2>& both) { return in_words(both[0]) + ", " + in_words(both[1]); };
+  writer.add("axes", axes(wiring.axes));
+  writer.add("motors", axes(wiring.motors));
+  if (wiring.gain != std::array<double, 2>{1, 1} || std::ranges::find(device.unknown, "gain") != device.unknown.end())
+    writer.figure("gain", number(wiring.gain[0]) + ", " + number(wiring.gain[1]));
+  const auto millimetres = [](double metres) { return number(1e3 * metres) + " mm"; };
+  writer.figure("workspace", "disc(" + millimetres(profile.workspace_diameter) + ")");
+  writer.figure("position", number(profile.position_counts) + " counts");
+  writer.figure("force", number(profile.force_newton) + " N, " + number(profile.force_counts) + " counts");
+  writer.figure("rate", number(profile.rate) + " Hz");
+  writer.figure("speed", number(profile.speed_limit) + " m/s");
+  writer.figure("slew", number(profile.slew) + " N/s");
+  writer.figure("sustained", profile.continuous_newton > 0
+                                 ? number(profile.continuous_newton) + " N, " + number(profile.heating_seconds) + " s"
+                                 : "unknown");
+  writer.figure("active", profile.active_watt > 0 ? number(profile.active_watt) + " W" : "unknown");
+  writer.figure("velocity_filter",
+                number(profile.velocity_window) + ", " + number(profile.velocity_noise_counts) + " counts");
+  writer.figure("patch", millimetres(profile.patch_width) + ", " + millimetres(profile.patch_height) + ", " +
+                             millimetres(profile.patch_rim));
+  writer.figure("mass", number(profile.mass) + " kg");
+  writer.figure("damping", number(profile.damping) + " N s/m");
+  writer.figure("friction", number(profile.friction) + " N");
+  writer.figure("delay", number(1e3 * profile.delay_x) + " ms, " + number(1e3 * profile.delay_y) + " ms");
+  writer.figure("bandwidth", number(profile.bandwidth_x) + " Hz, " + number(profile.bandwidth_y) + " Hz");
+  if (!device.source.empty()) writer.add("source", in_quotes(device.source));
+  std::string text = "wale 1\n\n";
+  for (const std::string& comment : comments) text += "// " + comment + "\n";
+  return text + "export device " + profile.name + " {\n" + writer.text() + "}\n";
+}
+
+}  // namespace wale::command

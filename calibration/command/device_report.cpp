@@ -1,0 +1,197 @@
+#include "calibration/command/device_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/device/match_device.hpp"
+
+namespace wale::command {
+namespace {
+
+const char* position_word(PositionSource source) {
+  switch (source) {
+    case PositionSource::none: return "none";
+    case PositionSource::pointer: return "pointer";
+    case PositionSource::touch: return "touch";
+  }
+  return "unknown";
+}
+
+nlohmann::ordered_json numbers_of(const DeviceWiring& wiring) {
+  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+  for (const UsbNumbers& each : wiring.usb) numbers.push_back(in_words(each));
+  return numbers;
+}
+
+nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
+  const DeviceProfile& profile = device.profile;
+  const Shaker& shaker = *profile.shaker;
+  nlohmann::ordered_json json = {{"name", profile.name},
+                                 {"feel", true},
+                                 {"build", true},
+                                 {"axes", 1},
+                                 {"position", position_word(shaker.position)},
+                                 {"peak_m_per_s2", shaker.peak()},
+                                 {"lowest_hz", shaker.frequency_low},
+                                 {"highest_hz", shaker.frequency_high},
+                                 {"spin_up_s", shaker.spin_up},
+                                 {"rate_hz", profile.rate}};
+  if (shaker.position == PositionSource::none) {
+    json["exploring_speed_m_per_s"] = shaker.exploring_speed;
+  } else {
+    json["workspace_m"] = profile.workspace_diameter;
+    json["position_counts"] = profile.position_counts;
+  }
+  auto& response = json["response"] = nlohmann::ordered_json::array();
+  for (const Shaker::Response& row : shaker.response)
+    for (const auto& point : row.points)
+      response.push_back({{"hz", row.frequency}, {"command", point.command}, {"m_per_s2", point.acceleration}});
+  json["assumed"] = device.assumed;
+  json["source"] = device.source;
+  return json;
+}
+
+/// What a device pushes with, or how it shakes, in two lines.
+std::string figures_text(const DeviceProfile& profile) {
+  if (!profile.shaker)
+    return fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
+                       profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
+                       profile.position_counts, profile.rate) +
+           fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
+                       profile.damping, profile.friction);
+  const Shaker& shaker = *profile.shaker;
+  std::string text = fmt::format(
+      "  {:<12} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
+      shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
+  if (shaker.position == PositionSource::none)
+    return text + fmt::format("  {:<12} no position: assumed to explore at {:.3g} m/s\n", "", shaker.exploring_speed);
+  return text + fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.4g} counts\n", "",
+                            position_word(shaker.position), 1e3 * profile.workspace_diameter, profile.position_counts);
+}
+
+std::string declared_text(const DeclaredDevice& device) {
+  std::string text = figures_text(device.profile);
+  const auto line = [&](const std::string& what) { text += fmt::format("  {:<12} {}\n", "", what); };
+  if (!device.wiring.usb.empty()) {
+    std::string numbers;
+    for (const UsbNumbers& each : device.wiring.usb) numbers += " " + in_words(each);
+    line("on USB:" + numbers);
+  }
+  if (!device.unknown.empty()) line(fmt::format("unknown: {}", fmt::join(device.unknown, ", ")));
+  if (!device.assumed.empty()) line(fmt::format("assumed, not measured: {}", fmt::join(device.assumed, ", ")));
+  if (!device.source.empty()) line(device.source);
+  return text;
+}
+
+/// Indents the lines after the first below it.
+std::string indented(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+    text.insert(at + 1, "               ");
+  return text;
+}
+
+std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice> known) {
+  const MatchedDevice match = match_device(device, known);
+  std::string text = fmt::format("  {:<12} {}{}\n", device.port, device.name.empty() ? "without a name" : device.name,
+                                 device.numbers.empty() ? "" : ", " + device.numbers);
+  const auto line = [&](const std::string& what) { text += fmt::format("  {:<12} {}\n", "", indented(what)); };
+  if (!device.can.empty()) line(device.can);
+  if (match.device != nullptr && !device.can.empty()) {
+    const std::string& name = match.device->profile.name;
+    line(match.is_generic ? fmt::format("no declaration is about it: used as {}, all of whose figures are assumed;\n"
+                                        "`wale devices --identify {}` prints a declaration to begin with",
+                                        name, device.port)
+                          : "used as " + name);
+  }
+  if (!device.transport.empty()) line("driven by " + device.transport);
+  if (!device.held_by.empty()) line(fmt::format("in use by {}", fmt::join(device.held_by, ", ")));
+  if (!device.can.empty() && device.processes_hidden > 0)
+    line(fmt::format("perhaps in use by others: the files of {} processes cannot be seen by this user",
+                     device.processes_hidden));
+  if (device.obstacle) line("cannot be used: " + in_words(*device.obstacle));
+  return text;
+}
+
+nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const DeclaredDevice> known) {
+  const MatchedDevice match = match_device(device, known);
+  return {{"name", device.name},
+          {"plugged_in", true},
+          {"feel", !device.obstacle && !device.can.empty() && match.device != nullptr},
+          {"build", false},
+          {"kind", device.driver->name},
+          {"usb", device.numbers},
+          {"port", device.port},
+          {"profile", match.device != nullptr ? match.device->profile.name : ""},
+          {"generic", match.is_generic},
+          {"can", device.can},
+          {"transport", device.transport},
+          {"held_by", device.held_by},
+          {"processes_hidden", device.processes_hidden},
+          {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};
+}
+
+nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
+  const DeviceProfile& profile = device.profile;
+  return {{"name", profile.name},
+          {"feel", true},
+          {"build", true},
+          {"axes", 2},
+          {"force_newton", profile.force_newton},
+          {"force_counts", profile.force_counts},
+          {"workspace_m", profile.workspace_diameter},
+          {"position_counts", profile.position_counts},
+          {"rate_hz", profile.rate},
+          {"mass_kg", profile.mass},
+          {"damping_newton_second_per_m", profile.damping},
+          {"friction_newton", profile.friction},
+          {"delay_s", {profile.delay_x, profile.delay_y}},
+          {"bandwidth_hz", {profile.bandwidth_x, profile.bandwidth_y}},
+          {"usb", numbers_of(device.wiring)},
+          {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},
+          {"motors_lie", {in_words(device.wiring.motors[0]), in_words(device.wiring.motors[1])}},
+          {"gain", device.wiring.gain},
+          {"unknown", device.unknown},
+          {"assumed", device.assumed},
+          {"source", device.source}};
+}
+
+constexpr const char* spellings =
+    "to feel on (wale feel --device NAME)\n"
+    "  auto         the best one plugged in, else simulated; the default\n"
+    "  simulated    a simulation of the joystick that the program was built for, in a simulated hand\n"
+    "  NAME         the real device of that name, from the list below; simulated where there is no real one\n"
+    "  simulated:NAME, always simulated\n"
+    "  usb, vendor and product (1209:ffb0), a port (1-2): the device that is plugged in there\n"
+    "  a real device that is not plugged in is waited for\n"
+    "\nto build for (wale build --device NAME)\n";
+
+constexpr const char* nothing_plugged =
+    "  no device that could be felt on\n"
+    "               a joystick that is connected and not listed may need its own power, or a cable that carries\n"
+    "               data; `lsusb` lists every device that the computer sees\n";
+
+}  // namespace
+
+std::string devices_text(std::span<const DeclaredDevice> known, const Connections& connections,
+                         std::span<const PluggedIn> plugged) {
+  std::string text = spellings;
+  for (const DeclaredDevice& device : known) text += declared_text(device);
+  text += "\nplugged in (wale feel --device PORT)\n";
+  if (!connections.usb) text += fmt::format("  {}\n", in_words(connections.usb.error()));
+  if (plugged.empty() && connections.usb) text += nothing_plugged;
+  for (const PluggedIn& device : plugged) text += plugged_text(device, known);
+  return text;
+}
+
+std::string devices_json(std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  json.push_back({{"name", "simulated"}, {"feel", true}, {"build", false}});
+  for (const DeclaredDevice& device : known)
+    json.push_back(device.profile.shaker ? shaker_json(device) : joystick_json(device));
+  for (const PluggedIn& device : plugged) json.push_back(plugged_json(device, known));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wale::command

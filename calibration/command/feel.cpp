@@ -1,0 +1,321 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "calibration/command/devices_here.hpp"
+#include "calibration/command/interrupt.hpp"
+#include "calibration/feel/asking_person.hpp"
+#include "calibration/feel/felt_device.hpp"
+#include "calibration/feel/material_watch.hpp"
+#include "compiler/command/options.hpp"
+#include "compiler/declarations/declared_devices.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/solve/level_scale.hpp"
+
+namespace wale::command {
+namespace {
+
+constexpr double usual_seconds = 5;
+/// The last part of a watched or recorded run, which may be long, is measured: so many seconds.
+constexpr double measured_seconds = 600;
+
+struct FeelOptions {
+  Choice choice;
+  std::vector<std::string> settings;
+  std::string device;               ///< empty: `auto`
+  std::string built_for;            ///< empty: whatever suits the device
+  std::optional<std::string> hand;  ///< how a simulated person moves
+  std::string transport;            ///< of a real device; empty: its driver chooses
+  std::string record;
+  std::optional<double> seconds, max_force;
+  bool virtual_time = false, json = false, watch = false;
+  std::string against;
+  bool blind = false;
+  std::optional<std::uint64_t> trials, seed;
+};
+
+void say(const std::string& what) { fmt::print(stderr, "wale: {}\n", what); }
+
+/// A material to feel, with its parameters as set.
+std::optional<BlindMaterial> material_to_feel(const std::vector<Program>& programs,
+                                              const std::vector<std::string>& settings) {
+  if (programs.empty()) return std::nullopt;
+  auto parameters = chosen_parameters(programs.front(), settings);
+  if (!parameters) return std::nullopt;
+  return BlindMaterial{programs.front(), *std::move(parameters)};
+}
+
+/// A material, and the device that it is built for and felt on.
+struct PreparedRun {
+  DeviceToFeel device;
+  Choice built;  ///< of the material, with that device
+  BlindMaterial material;
+};
+
+/// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it;
+/// nothing when what is wrong has been printed.
+std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop) {
+  Choice built = options.choice;
+  built.device.clear();  // it is not known yet
+  auto opened = open(built);
+  if (!opened) return std::nullopt;
+  const std::vector<DeclaredDevice> known =
+      opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders);
+  const bool asks = !options.device.empty();
+  auto device =
+      device_to_feel({.spelling = asks ? options.device : "auto",
+                      .built_for = opened->program ? opened->program->description().device.name : options.built_for,
+                      .only_simulated = options.virtual_time || options.hand},
+                     known, options.seconds, say, stop);
+  if (!device) return refuse(device.error()), std::nullopt;
+  const ChosenDevice& chosen = device->chosen;
+  if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
+
+  built.device = chosen.declared ? chosen.declared->profile.name : options.choice.device;
+  if (opened->module) check_levels(opened->module->declarations(), opened->source, built.device, opened->diagnostics);
+  auto material = material_to_feel(programs_of(*opened, built, false), options.settings);
+  if (!material) return std::nullopt;
+  return PreparedRun{*std::move(device), std::move(built), *std::move(material)};
+}
+
+std::optional<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run,
+                                        const std::atomic<bool>& stop) {
+  const HandDeclaration* person = declared_everywhere()->declarations.hands.find("normal");
+  FeltOptions how{.virtual_time = options.virtual_time, .transport = options.transport};
+  if (options.hand) how.hand = *options.hand;
+  auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
+  if (!device) return refuse(device.error()), std::nullopt;
+  return *std::move(device);
+}
+
+/// Whether a largest force can be kept; what is wrong has been printed where not.
+bool can_limit(const FeelOptions& options, const PatchProgram& program) {
+  if (!options.max_force || !program.vibrates()) return true;
+  refuse(Error{Code::malformed_value,
+               fmt::format("`{}` only vibrates: it has no force to limit", program.device.name),
+               "leave out --max-force",
+               {.name = "--max-force"}});
+  return false;
+}
+
+/// How the run is recorded as it happens, if it is.
+std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner& manner) {
+  if (!options.record.ends_with(".wrec")) return std::nullopt;
+  return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
+}
+
+/// Keeps the stage to what the file says until the run is over, on a thread of its own.
+class Watching {
+ public:
+  Watching(const FeelOptions& options, const Choice& built, Stage& stage, const Program& felt, bool live)
+      : watch_(built, stage, felt,
+               [live](const std::string& said) { fmt::print(stderr, "{}{}", live ? "\r\033[K" : "", said); }) {
+    if (!options.watch) return;
+    thread_ = std::thread([this] {
+      while (!over_) watch_.attend(std::chrono::milliseconds(100));
+    });
+  }
+  ~Watching() {
+    over_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+ private:
+  MaterialWatch watch_;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+RunOptions run_options(const FeelOptions& options, const RunManner& manner, const std::atomic<bool>& stop) {
+  const bool is_recording = options.record.ends_with(".wrec"), is_table = !options.record.empty() && !is_recording;
+  return {.seconds = options.seconds.value_or(options.watch ? HUGE_VAL : usual_seconds),
+          .most_newton = options.max_force.value_or(HUGE_VAL),
+          .virtual_time = options.virtual_time,
+          .stop = &stop,
+          .record_to = recording_of(options, manner),
+          .kept_seconds = !is_table && (is_recording || options.watch) ? measured_seconds : HUGE_VAL};
+}
+
+/// What a run that is over leaves: a table, the report, and the exit status.
+int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt) {
+  if (!options.record.empty() && !options.record.ends_with(".wrec")) {
+    std::ostringstream csv;
+    write_csv(csv, result.record);
+    if (const auto problem = write_file(options.record, csv.str())) return refuse(*problem);
+  }
+  if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
+    say(fmt::format("the last {:.4g} s are measured", measured_seconds));
+  const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
+  felt.device.reset();  // one that draws gives the terminal back
+  fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
+  return result.record_problem ? refuse(*result.record_problem) : done;
+}
+
+int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
+  const auto prepared_run = prepared(options, stop);
+  if (!prepared_run) return refused;
+  const auto& [device, built, material] = *prepared_run;
+  const PatchProgram& program = material.program.description();
+  if (!can_limit(options, program)) return refused;
+  auto felt = open_prepared(options, *prepared_run, stop);
+  if (!felt) return refused;
+  Stage stage(*felt->device);
+  stage.place(material.program);
+  for (std::size_t i = 0; i < material.parameters.size(); ++i)
+    if (const auto set = stage.set(program.parameters[i].name, material.parameters[i]); !set)
+      return refuse(set.error());
+
+  const bool live = isatty(fileno(stderr));
+  RunOptions run = run_options(options, felt->manner(), stop);
+  if (live)
+    run.progress = [vibrates = program.vibrates()](const Progress& now) {
+      fmt::print(stderr, "\r{}", progress_line(now, vibrates));
+    };
+  const auto result = [&] {
+    const Watching watching(options, built, stage, material.program, live);
+    return stage.run(run);
+  }();
+  if (live) fmt::print(stderr, "\r\033[K");
+  if (!result) return refuse(result.error());
+  return report_run(options, *result, *stage.bank(), *std::move(felt));
+}
+
+/// Why two materials cannot be compared blindly on this device.
+std::optional<Error> why_not_blind(const PreparedRun& run, const BlindMaterial& b) {
+  const DeviceProfile& device = run.material.program.description().device;
+  const std::string& other = b.program.description().device.name;
+  if (other != device.name)
+    return Error{Code::other_device, fmt::format("A is built for `{}` and B for `{}`", device.name, other),
+                 "build both for one device"};
+  if (device.shaker)
+    return Error{Code::other_device,
+                 fmt::format("`{}` only vibrates, and a blind comparison is one of forces", device.name),
+                 "choose a joystick"};
+  const auto& plugged = run.device.chosen.plugged;
+  if (plugged && !plugged->driver->is_felt)
+    return Error{Code::other_device, fmt::format("the {} shows forces and does not exert them", device.name),
+                 "choose a joystick, or `--device simulated`"};
+  return std::nullopt;
+}
+
+/// Which of two was A?
+int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
+  const auto run = prepared(options, stop);
+  if (!run) return refused;
+  Choice against = run->built;
+  const NamedMaterial named = named_material(options.against);
+  against.file = named.file, against.material = named.material;
+  const BlindMaterial& a = run->material;
+  const auto b = material_to_feel(load_programs(against, false), {});
+  if (!b) return refused;
+  if (const auto error = why_not_blind(*run, *b)) return refuse(*error);
+  auto felt = open_prepared(options, *run, stop);
+  if (!felt) return refused;
+
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  const auto cues = [&](const BlindMaterial& material) {
+    return cues_of(Bank(material.program, material.parameters, material.program.default_size()), common->declarations);
+  };
+  BlindOptions blind;
+  if (options.trials) blind.trials = static_cast<int>(*options.trials);
+  blind.seed = options.seed ? *options.seed : std::random_device{}();
+  blind.seconds = options.seconds.value_or(blind.seconds);
+  blind.most_newton = options.max_force.value_or(HUGE_VAL);
+  blind.virtual_time = options.virtual_time;
+  blind.stop = &stop;
+  const std::string& device = a.program.description().device.name;
+  BlindReport report{.a = a.program.description().material,
+                     .b = b->program.description().material,
+                     .device = device,
+                     .seed = blind.seed,
+                     .asked = blind.trials,
+                     .session = {},
+                     .predicted = Comparer(common->declarations, device).compare(cues(a), cues(*b))};
+  AskingPerson person(std::cin, std::cerr, report.a, report.b, blind.trials, isatty(fileno(stdin)));
+  report.session = wale::feel_blind(*felt->device, a, *b, blind, person);
+  if (report.session.trials.empty()) {
+    Error error = *report.session.ended;
+    error.sentence = "no trial was answered: " + error.sentence;
+    return refuse(error);
+  }
+  fmt::print("{}", options.json ? blind_json(report) : blind_text(report));
+  return done;
+}
+
+int feel(const FeelOptions& options) {
+  const std::string& record = options.record;
+  if (!record.empty() && record != "-" && !record.ends_with(".wrec") && !record.ends_with(".csv"))
+    return refuse(Error{Code::malformed_value,
+                        fmt::format("expected a file NAME.wrec or NAME.csv, found `{}`", record),
+                        "NAME.wrec is a recording for `wale replay`, NAME.csv a table",
+                        {.name = "--record"}});
+  const std::atomic<bool>& stop = stop_on_signals();
+  return options.blind ? feel_blind(options, stop) : feel_one(options, stop);
+}
+
+void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
+  auto* against = verb.add_option("--against", options.against, "another to tell it from: a file, or FILE:MATERIAL");
+  auto* blind = verb.add_flag("--blind", options.blind,
+                              "feels FILE (A) and the other (B) in random order and asks which of two was A")
+                    ->needs(against)
+                    ->excludes(record);
+  against->needs(blind);
+  offer_count(verb, "--trials", options.trials, {.least = 1, .most = 1000}, "how often it asks (default: 12)")
+      ->needs(blind);
+  offer_count(verb, "--seed", options.seed, {}, "of the random order (default: another each time)")->needs(blind);
+}
+
+Run declare_feel(CLI::App& verb) {
+  const auto options = std::make_shared<FeelOptions>();
+  offer_material(verb, options->choice, "--built-for");
+  offer_settings(verb, options->settings);
+  verb.add_option("--device", options->device,
+                  "auto (default): the best one plugged in, else simulated; simulated; a name from `wale devices`: the "
+                  "real one; simulated:NAME; usb; 1209:ffb0; a port, 1-2. One that is not plugged in is waited for")
+      ->type_name("NAME");
+  verb.add_option("--transport", options->transport,
+                  "how a real device is driven, where its driver knows several ways; see `wale devices`")
+      ->type_name("NAME");
+  verb.add_option("--hand", options->hand,
+                  "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
+  offer_duration(verb, "--seconds", options->seconds, {.endless = true},
+                 "how long (default: 5; with --blind 3 for each of the two), and how long a device that is not plugged "
+                 "in is waited for at most (default: until Ctrl-C)");
+  auto* virtual_time =
+      verb.add_flag("--virtual-time", options->virtual_time, "as fast as possible, the same bit for bit each time");
+  offer_force(verb, "--max-force", options->max_force, "the largest force allowed, as in \"3 N\"");
+  auto* record = verb.add_option("--record", options->record,
+                                 "records every tick: NAME.wrec as it happens, for `wale replay`; NAME.csv")
+                     ->type_name("FILE");
+  offer_blind(verb, *options, record);
+  verb.add_flag("--watch", options->watch,
+                "feels the file anew whenever it is saved; until Ctrl-C unless --seconds says so")
+      ->excludes("--blind")
+      ->excludes(virtual_time);
+  offer_json(verb, options->json, "the report as a JSON object");
+  verb.footer("for example: wale feel velvet --against denim --blind");
+  return [options, built_for = verb.get_option("--built-for")] {
+    if (built_for->count() > 0) options->built_for = options->choice.device;
+    return feel(*options);
+  };
+}
+
+}  // namespace
+
+extern const Verb feel_verb{"feel", "runs a material on a joystick and measures what comes out of its handle",
+                            declare_feel};
+
+}  // namespace wale::command

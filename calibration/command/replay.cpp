@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "compiler/command/options.hpp"
+#include "wale/recording.hpp"
+
+namespace wale::command {
+namespace {
+
+/// The overview of a recording.
+struct Summary {
+  std::vector<std::string> materials;  ///< the materials of its programs, with their hashes
+  long sets = 0, swaps = 0, moves = 0, placements = 0, missed = 0;
+  double seconds = 0;
+};
+
+std::string material_of(const RecordedProgram& program) {
+  const auto read = read_patch_program(program.bytes);
+  return fmt::format("{} {:016x}", read ? read->material : "a program that cannot be read", program.hash);
+}
+
+Summary summary_of(const Recording& recording) {
+  Summary summary;
+  for (const RecordedProgram& program : recording.programs()) summary.materials.push_back(material_of(program));
+  for (const RecordedEvent& event : recording.events()) {
+    summary.sets += event.kind == RecordedEvent::Kind::set;
+    summary.swaps += event.kind == RecordedEvent::Kind::replace;
+    summary.moves += event.kind == RecordedEvent::Kind::move;
+    summary.placements += event.kind == RecordedEvent::Kind::place || event.kind == RecordedEvent::Kind::add;
+  }
+  for (std::size_t i = 0; i < recording.ticks(); ++i) summary.missed += recording.tick(i).skipped;
+  if (recording.ticks() > 0)
+    summary.seconds =
+        static_cast<double>(recording.tick(recording.ticks() - 1).period + 1) / recording.header().device.rate;
+  return summary;
+}
+
+std::string verdict(const Replay& replay, double rate) {
+  if (!replay.first) return "the same, bit for bit";
+  const ReplayDifference& first = *replay.first;
+  return fmt::format(
+      "differs on {} of {} ticks, first on tick {} ({:.4f} s without what was skipped): the {} was {:.9g} and is "
+      "{:.9g}; "
+      "commanded at most {:.3g} apart",
+      replay.differing, replay.ticks, first.tick, static_cast<double>(first.tick) / rate, first.what, first.recorded,
+      first.replayed, replay.largest_force);
+}
+
+std::string replay_text(const std::string& file, const Recording& recording, const Replay& replay) {
+  const RecordingHeader& header = recording.header();
+  const Summary summary = summary_of(recording);
+  std::string text =
+      fmt::format("{}: {} on the {}{}{}, {:.4g} s{}\n", file, recording.complete() ? "a run" : "the beginning of a run",
+                  header.device.name, header.hand.empty() ? "" : ", ", header.hand, summary.seconds,
+                  header.virtual_time ? " of virtual time" : "");
+  text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
+                      header.device.rate);
+  for (const std::string& material : summary.materials) text += fmt::format("  program      {}\n", material);
+  text += fmt::format("  changes      {} placed, {} moved, {} swapped, {} parameters set\n", summary.placements,
+                      summary.moves, summary.swaps, summary.sets);
+  return text + fmt::format("  replay       {}\n", verdict(replay, header.device.rate));
+}
+
+std::string replay_json(const std::string& file, const Recording& recording, const Replay& replay) {
+  const RecordingHeader& header = recording.header();
+  const Summary summary = summary_of(recording);
+  nlohmann::ordered_json json;
+  json["file"] = file;
+  json["profile"] = header.device.name;
+  json["hand"] = header.hand;
+  json["virtual_time"] = header.virtual_time;
+  json["complete"] = recording.complete();
+  json["seconds"] = summary.seconds;
+  json["ticks"] = {{"run", recording.ticks()}, {"missed", summary.missed}};
+  json["programs"] = summary.materials;
+  json["changes"] = {{"placed", summary.placements},
+                     {"moved", summary.moves},
+                     {"swapped", summary.swaps},
+                     {"parameters_set", summary.sets}};
+  json["replay"] = {{"same", !replay.first}, {"differing", replay.differing}};
+  if (replay.first)
+    json["replay"]["first"] = {{"tick", replay.first->tick},
+                               {"what", replay.first->what},
+                               {"recorded", replay.first->recorded},
+                               {"replayed", replay.first->replayed}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// Writes a file by `write`, and removes it again where `write` fails.
+template <class Write>
+Result<> exported(const std::string& path, Write&& write) {
+  std::ofstream out(path, std::ios::binary);
+  if (out) {
+    if (Result<> written = write(out); !written) {
+      out.close();
+      std::remove(path.c_str());
+      return written;
+    }
+    out.flush();
+  }
+  if (!out)
+    return Error{.code = Code::unwritable_file,
+                 .sentence = fmt::format("cannot write `{}`: {}", path, std::strerror(errno)),
+                 .place = {.name = path}};
+  return {};
+}
+
+struct ReplayOptions {
+  std::string file, csv, wav;
+  std::optional<std::uint64_t> ticks;  ///< no more than so many
+  bool json = false;
+};
+
+int replay(const ReplayOptions& options) {
+  const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
+  if (!opened) return refuse(opened.error());
+  const auto& recording = *opened;
+  if (!options.csv.empty())
+    if (const auto written = exported(options.csv,
+                                      [&](std::ostream& out) {
+                                        write_csv(out, recording);
+                                        return Result<>();
+                                      });
+        !written)
+      return refuse(written.error());
+  if (!options.wav.empty())
+    if (const auto written = exported(options.wav, [&](std::ostream& out) { return write_wav(out, recording); });
+        !written)
+      return refuse(written.error());
+  const auto replayed = wale::replay(recording);
+  if (!replayed) return refuse(replayed.error());
+  const auto& result = *replayed;
+  fmt::print(
+      "{}", options.json ? replay_json(options.file, recording, result) : replay_text(options.file, recording, result));
+  return result.first ? refused : done;
+}
+
+Run declare_replay(CLI::App& verb) {
+  const auto options = std::make_shared<ReplayOptions>();
+  verb.add_option("FILE", options->file, "a recording that `wale feel --record` made (.wrec)")->required();
+  verb.add_option("--csv", options->csv, "writes every tick to a CSV file")->type_name("FILE");
+  verb.add_option("--wav", options->wav,
+                  "writes the force as sound: x left, y right, the device's peak force full scale")
+      ->type_name("FILE");
+  offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
+              "only so many ticks from the beginning; of a damaged recording, those before the damage");
+  offer_json(verb, options->json, "a JSON object");
+  verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
+  return [options] { return replay(*options); };
+}
+
+}  // namespace
+
+extern const Verb replay_verb{"replay", "runs a recording's programs again on what its device told, and compares",
+                              declare_replay};
+
+}  // namespace wale::command

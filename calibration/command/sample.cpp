@@ -1,0 +1,77 @@
+#include "compiler/measure/sample.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compiler/command/options.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/quantity.hpp"
+#include "runtime/device/simulated/load_trace.hpp"
+
+namespace wale::command {
+namespace {
+
+struct SampleOptions {
+  Choice choice;
+  std::vector<std::string> settings;
+  std::string at, trace;  ///< one of them is given
+  std::string out = "-";
+  bool json = false;
+};
+
+Result<std::vector<SampledHand>> hands_of(const SampleOptions& options) {
+  std::vector<SampledHand> hands;
+  if (options.trace.empty()) {
+    const auto hand = read_hand(declared_everywhere()->declarations, "--at", options.at);
+    if (!hand) return hand.error();
+    hands.push_back({0, *hand});
+    return hands;
+  }
+  const auto trace = load_trace(options.trace);
+  if (!trace) return trace.error();
+  for (const TracePoint& point : trace->points)
+    hands.push_back({point.time, {glm::vec2(point.position), glm::vec2(point.velocity)}});
+  return hands;
+}
+
+int sample(const SampleOptions& options) {
+  const auto programs = load_programs(options.choice, false);
+  if (programs.empty()) return refused;
+  const Program& program = programs.front();
+  const auto parameters = chosen_parameters(program, options.settings);
+  if (!parameters) return refused;
+  const auto hands = hands_of(options);
+  if (!hands) return refuse(hands.error());
+  const auto samples = wale::sample(Bank(program, *parameters, program.default_size()), *hands);
+  const bool vibrates = program.description().vibrates();
+  const std::string text = options.json ? samples_json(samples, vibrates) : samples_csv(samples, vibrates);
+  if (const auto problem = write_file(options.out, text)) return refuse(*problem);
+  return done;
+}
+
+Run declare_sample(CLI::App& verb) {
+  const auto options = std::make_shared<SampleOptions>();
+  offer_material(verb, options->choice);
+  offer_settings(verb, options->settings);
+  auto* places = verb.add_option_group("hands", "where the hand is")->require_option(1);
+  places->add_option("--at", options->at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
+  places
+      ->add_option("--trace", options->trace,
+                   "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick")
+      ->type_name("FILE");
+  offer_output(verb, options->out, "where to write (default: standard output)");
+  offer_json(verb, options->json, "a JSON array instead of CSV");
+  verb.footer("for example: wale sample corduroy --at \"10 mm, 5 mm\"");
+  return [options] { return sample(*options); };
+}
+
+}  // namespace
+
+extern const Verb sample_verb{"sample", "prints a program's force at given hands, open loop; outside the patch it is 0",
+                              declare_sample};
+
+}  // namespace wale::command

@@ -1,0 +1,109 @@
+#include "calibration/feel/felt_device.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "runtime/device/simulated/load_trace.hpp"
+#include "runtime/device/wait_for_device.hpp"
+#include "wale/simulated.hpp"
+#include "wale/simulated_pad.hpp"
+
+namespace wale {
+namespace {
+
+Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person) {
+  if (hand == "lateral") return Motion(Lateral{person.lateral_amplitude, person.lateral_frequency, {}});
+  if (hand == "circular") return Motion(Circular{person.circular_radius, person.circular_frequency, {}});
+  if (hand == "rest") return Motion(Rest{});
+  auto trace = load_trace(hand);
+  if (!trace) return std::move(trace.error());
+  return Motion(*std::move(trace));
+}
+
+Result<std::unique_ptr<Device>> simulated(const PatchProgram& program, const HandDeclaration& person,
+                                          const std::string& hand) {
+  auto motion = motion_of(hand, person);
+  if (!motion) return std::move(motion.error());
+  std::unique_ptr<Device> device;
+  if (program.vibrates())
+    device = std::make_unique<SimulatedPad>(program.device, *std::move(motion));
+  else
+    device = std::make_unique<SimulatedJoystick>(
+        program.device, HandModel{person.mass, person.damping, person.stiffness}, *std::move(motion));
+  return device;
+}
+
+/// Whether forces and places of a program for `a` mean the same on `b`.
+bool has_same_scale(const DeviceProfile& a, const DeviceProfile& b) {
+  return a.rate == b.rate && a.workspace_diameter == b.workspace_diameter && a.position_counts == b.position_counts &&
+         a.force_newton == b.force_newton && a.force_counts == b.force_counts && a.shaker == b.shaker;
+}
+
+/// Why a program does not suit the device that was chosen by its declaration; nothing where it does.
+std::optional<Error> why_unsuited(const PatchProgram& program, const DeviceProfile& declared, bool is_real) {
+  const std::string& built_for = program.device.name;
+  if (built_for != declared.name)
+    return Error{Code::other_device,
+                 fmt::format("`{}` is built for `{}`, not for `{}`", program.material, built_for, declared.name),
+                 fmt::format("feel it on `{}`, or build it for `{}`", built_for, declared.name)};
+  if (is_real && !has_same_scale(program.device, declared))
+    return Error{Code::other_device,
+                 fmt::format("`{}` is built for a `{}` with other figures than its declaration has", program.material,
+                             declared.name),
+                 "build it again, so that its forces suit the device"};
+  return std::nullopt;
+}
+
+}  // namespace
+
+RunManner FeltDevice::manner() const {
+  RunManner manner{name, hand, virtual_time, std::nullopt};
+  if (plugged != nullptr) manner.plugged = plugged->report();
+  return manner;
+}
+
+Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<const DeclaredDevice> known,
+                                    std::optional<double> seconds, const Say& say, const std::atomic<bool>& stop) {
+  DeviceToFeel device;
+  std::vector<PluggedIn> plugged;
+  if (!request.only_simulated && !request.spelling.starts_with("simulated")) {
+    device.connections = Connections::open();
+    plugged = plugged_in(*device.connections, request.spelling);
+  }
+  auto choice = choose_device(request, known, plugged);
+  if (!choice && choice.error().code == Code::absent_device) {
+    const Error& absent = choice.error();
+    if (!device.connections->usb) {
+      Error error = device.connections->usb.error();
+      error.sentence = absent.sentence + ", and " + error.sentence;
+      return error;
+    }
+    say(fmt::format("{}: waiting for it; Ctrl-C ends that\n  = help: {}; `wale devices` lists what is plugged in",
+                    absent.sentence, absent.mend));
+    choice = wait_for_device(*device.connections, request, known, seconds, stop);
+  }
+  if (!choice) return std::move(choice.error());
+  device.chosen = *std::move(choice);
+  return device;
+}
+
+Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
+                                const FeltOptions& options, const Say& say, const std::atomic<bool>& stop) {
+  const ChosenDevice& chosen = device.chosen;
+  if (chosen.declared)
+    if (auto error = why_unsuited(program, chosen.declared->profile, chosen.plugged.has_value()))
+      return *std::move(error);
+  if (!chosen.plugged) {
+    auto opened = simulated(program, person, options.hand);
+    if (!opened) return std::move(opened.error());
+    return FeltDevice{*std::move(opened), nullptr, "simulated", options.hand, options.virtual_time};
+  }
+  auto opened = open_device(*device.connections, chosen,
+                            {.priority = loop_priority - 1, .ask = say, .stop = &stop, .transport = options.transport});
+  if (!opened) return std::move(opened.error());
+  const HotPluggedDevice* plugged = opened->get();
+  return FeltDevice{*std::move(opened), plugged, in_words(*chosen.plugged), "yours", false};
+}
+
+}  // namespace wale

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "compiler/build_all.hpp"
+#include "compiler/build_stage.hpp"
+#include "compiler/command/options.hpp"
+
+namespace wale::command {
+namespace {
+
+struct BuildOptions {
+  Choice choice;
+  std::string out;    ///< a file, or with `all` a folder
+  std::string stage;  ///< to show instead of building; empty: build
+  bool all = false;
+};
+
+int build_one(const BuildOptions& options) {
+  const auto programs = load_programs(options.choice, false);
+  if (programs.empty()) return refused;
+  const auto bytes = write_patch_program(programs.front().description());
+  if (const auto problem = write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
+    return refuse(*problem);
+  return done;
+}
+
+int show_stage(const BuildOptions& options) {
+  const auto known = std::ranges::find(stage_names, options.stage, &StageName::name);
+  if (known == stage_names.end()) {
+    std::vector<std::string_view> names;
+    for (const StageName& each : stage_names) names.push_back(each.name);
+    refuse(Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("no stage is called `{}`", options.stage),
+                 .mend = fmt::format("the stages are {}", fmt::join(names, ", ")),
+                 .place = {.name = "--emit", .text = options.stage}});
+    return misused;
+  }
+  auto opened = open(options.choice);
+  if (!opened) return refused;
+  std::string refusal;
+  const auto text = build_stage(*opened, options.choice.request(), options.choice.material, known->stage,
+                                opened->diagnostics, refusal);
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
+  if (!refusal.empty()) return refuse(refusal);
+  if (!text) return refused;
+  if (const auto problem = write_file(options.out.empty() ? "-" : options.out, *text)) return refuse(*problem);
+  return done;
+}
+
+/// Builds every material to a program of its own, and says of each what became of it.
+int build_collection(const BuildOptions& options) {
+  const auto opened = open(options.choice);
+  if (!opened) return refused;
+  if (opened->program)
+    return refuse(fmt::format("--all builds the materials of a Wale file, and `{}` is a patch program already",
+                              options.choice.file));
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
+  const BuiltCollection collection = build_all(*opened, options.choice.request(), options.out);
+  if (!collection.refusal.empty()) return refuse(collection.refusal);
+  for (const auto& built : collection.materials) {
+    print_diagnostics(stderr, built.diagnostics, opened->sources);
+    if (!built.problem.empty()) refuse(built.problem);
+    if (built.path.empty())
+      refuse(fmt::format("`{}` is not built", built.material));
+    else
+      fmt::print("{}  {} bytes\n", built.path, built.bytes);
+  }
+  const std::size_t all = collection.materials.size(), built = collection.built();
+  fmt::print("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");
+  return built == all ? done : refused;
+}
+
+int build(const BuildOptions& options) {
+  if (!options.stage.empty()) return show_stage(options);
+  if (options.out.empty()) {
+    refuse(Error{.code = Code::malformed_value,
+                 .sentence = "expected the name of the file to write",
+                 .mend = "for example, `wale build corduroy -o corduroy.wpp`",
+                 .place = {.name = "-o"}});
+    return misused;
+  }
+  return options.all ? build_collection(options) : build_one(options);
+}
+
+Run declare_build(CLI::App& verb) {
+  const auto options = std::make_shared<BuildOptions>();
+  offer_material(verb, options->choice);
+  offer_output(verb, options->out,
+               "the patch program to write (.wpp); with --all, a folder for them; with --emit, the text (default: "
+               "standard output)");
+  verb.add_flag("--all", options->all, "builds every material of the file, each to NAME.wpp in the folder")
+      ->excludes("--material");
+  verb.add_option("--emit", options->stage,
+                  "writes what a stage makes of the material instead: tree (as parsed), checked, ir (its values), "
+                  "listing (its instructions), cpp (C++)")
+      ->type_name("STAGE")
+      ->excludes("--all");
+  verb.footer("for example: wale build corduroy -o corduroy.wpp;  wale build my.wale --all -o programs");
+  return [options] { return build(*options); };
+}
+
+}  // namespace
+
+extern const Verb build_verb{"build", "compiles a material to a patch program, or shows what a stage makes of it",
+                             declare_build};
+
+}  // namespace wale::command

@@ -1,0 +1,64 @@
+#include "compiler/compare/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "compiler/command/options.hpp"
+#include "compiler/command/recalled.hpp"
+#include "compiler/compare/compare_files.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale::command {
+namespace {
+
+struct CompareOptions {
+  Choice choice;  ///< without a file
+  std::vector<std::string> names;
+  bool with_table = false, json = false;
+};
+
+int compare(const CompareOptions& options) {
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  std::vector<ComparedFile> files = read_cues(options.names, options.choice.request(), common->declarations);
+  bool all_read = true;
+  for (const ComparedFile& file : files) {
+    const OpenedFile& opened = file.opened;
+    print_diagnostics(stderr, opened.diagnostics, opened.sources);
+    if (!opened.refusal.empty()) refuse(opened.refusal);
+    all_read = all_read && opened.refusal.empty() && !opened.diagnostics.has_errors();
+    // Among many files are some that only lend functions to others.
+    if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
+  }
+  if (!all_read) return refused;
+  if (const auto fit = comparable(files); !fit) return refuse(fit.error());
+  std::vector<Cues> materials;
+  for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
+  const ComparisonMatrix matrix(std::move(materials), common->declarations);
+  print_recalled(matrix.recalled());
+  fmt::print("{}", options.json ? comparison_json(matrix) : comparison_text(matrix, options.with_table));
+  return done;
+}
+
+Run declare_compare(CLI::App& verb) {
+  const auto options = std::make_shared<CompareOptions>();
+  verb.add_option("FILE", options->names,
+                  "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")
+      ->required();
+  offer_device(verb, options->choice.device);
+  offer_library(verb, options->choice.folders);
+  verb.add_flag("--matrix", options->with_table,
+                "prints how far each is from every other, also of more materials than fit a screen");
+  offer_json(verb, options->json,
+             "an object with every material's cues, all distances, and the nearest pairs cue by cue");
+  verb.footer("for example: wale compare velvet denim;  wale compare my.wale:old my.wale:new");
+  return [options] { return compare(*options); };
+}
+
+}  // namespace
+
+extern const Verb compare_verb{"compare", "tells how people would tell materials apart, and how plainly",
+                               declare_compare};
+
+}  // namespace wale::command

@@ -1,0 +1,126 @@
+#include "compiler/describe/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <set>
+
+#include "compiler/command/options.hpp"
+#include "compiler/describe/describe_module.hpp"
+#include "compiler/describe/fates.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale::command {
+namespace {
+
+struct DescribeOptions {
+  Choice choice;  ///< the device may be `all`
+  std::vector<std::string> settings;
+  bool exports = false, json = false;
+};
+
+/// What one device makes of a material. Settings that its program has a parameter for are added to `used`: a percept
+/// that is lost on a device has none there. Nothing where a setting is wrong, which has been said.
+std::optional<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& request, const std::string& material,
+                                    const std::vector<std::string>& settings, const Declarations& declarations,
+                                    std::set<std::string>& used) {
+  DeviceFates fates{.material = material, .device = request.device, .fates = {}, .refusal = {}};
+  Diagnostics diagnostics;
+  const auto program = compile_opened(opened, request, material, diagnostics);
+  if (!program) {
+    for (const Diagnostic& each : diagnostics.all())
+      if (fates.refusal.empty() && severity_of(each.code) == Severity::error) fates.refusal = each.message;
+    return fates;
+  }
+  std::vector<std::string> known;
+  std::ranges::copy_if(settings, std::back_inserter(known), [&](const std::string& setting) {
+    return program->parameter(setting.substr(0, setting.find('='))).has_value();
+  });
+  used.insert(known.begin(), known.end());
+  const auto parameters = chosen_parameters(*program, known);
+  if (!parameters) return std::nullopt;
+  fates.fates = fates_at(Bank(*program, *parameters, program->default_size()), declarations);
+  return fates;
+}
+
+/// What every device makes of a file's materials.
+int describe_fates(const DescribeOptions& options) {
+  const Choice& choice = options.choice;
+  const auto opened = open(choice);
+  if (!opened) return refused;
+  if (opened->program) return refuse(fmt::format("`{}` is built for one device already", choice.file));
+  const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  std::vector<DeviceFates> all;
+  std::set<std::string> used;
+  for (const std::string& material : names)
+    for (const std::string& device : common->declarations.devices.spellings()) {
+      FileRequest request = choice.request();
+      request.device = device;
+      auto fates = fates_on(*opened, request, material, options.settings, common->declarations, used);
+      if (!fates) return refused;
+      all.push_back(*std::move(fates));
+    }
+  if (all.empty()) return refuse(fmt::format("`{}` has no material to describe", choice.file));
+  for (const std::string& setting : options.settings)
+    if (!used.contains(setting))
+      return refuse(fmt::format("`--set {}` is a parameter of no material on any device", setting));
+  fmt::print("{}", options.json ? fates_json(all) : fates_text(all));
+  return done;
+}
+
+/// What a file offers to those that import it; nothing where that is nothing and nobody asked.
+std::optional<int> describe_exports(const OpenedFile& opened, const DescribeOptions& options) {
+  const bool is_asked = options.exports || (opened.module && opened.module->materials.empty());
+  if (!opened.module || !options.choice.material.empty() || !is_asked) return std::nullopt;
+  const ModuleDescription module = describe_module(*opened.module, opened.sources);
+  if (!options.exports && module.empty()) return std::nullopt;
+  print_diagnostics(stderr, opened.diagnostics, opened.sources);
+  fmt::print("{}", options.json ? module_json(module) : module_text(module));
+  return done;
+}
+
+int describe(const DescribeOptions& options) {
+  if (options.choice.device == "all") return describe_fates(options);
+  auto opened = open(options.choice);
+  if (!opened) return refused;
+  if (const auto status = describe_exports(*opened, options)) return *status;
+  const auto programs = programs_of(*opened, options.choice, true);
+  if (programs.empty()) return refused;
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  std::vector<Description> descriptions;
+  for (const auto& program : programs) {
+    const auto parameters = chosen_parameters(program, options.settings);
+    if (!parameters) return refused;
+    descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
+  }
+  if (options.json) {
+    fmt::print("{}", descriptions_json(descriptions));
+    return done;
+  }
+  for (std::size_t i = 0; i < descriptions.size(); ++i)
+    fmt::print("{}{}", i == 0 ? "" : "\n", description_text(descriptions[i]));
+  return done;
+}
+
+Run declare_describe(CLI::App& verb) {
+  const auto options = std::make_shared<DescribeOptions>();
+  offer_material(verb, options->choice);
+  offer_settings(verb, options->settings);
+  verb.add_flag("--exports", options->exports,
+                "what the file offers to those that import it (default where it has no material)")
+      ->excludes("--material");
+  offer_json(verb, options->json, "an object for one material, an array for several");
+  verb.footer("for example: wale describe corduroy --set wale=4mm;  wale describe my.wale --device all");
+  return [options] { return describe(*options); };
+}
+
+}  // namespace
+
+extern const Verb describe_verb{
+    "describe", "tells what materials will feel like, on what evidence, and how hard they push", declare_describe};
+
+}  // namespace wale::command

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "compiler/command/options.hpp"
+#include "compiler/command/recalled.hpp"
+#include "compiler/compare/propose_levels.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale::command {
+namespace {
+
+struct LevelsOptions {
+  std::string percept, device = default_device;
+  std::optional<std::uint64_t> steps;  ///< as many as can be told apart, unless given
+  std::optional<double> apart;         ///< in just noticeable differences; 1 unless given
+  bool json = false;
+};
+
+int levels(const LevelsOptions& options) {
+  const std::shared_ptr<const CommonModules> common = declared_everywhere();
+  const auto proposed =
+      propose_levels(options.percept, options.device, options.steps, options.apart.value_or(1), common->declarations);
+  if (!proposed) return refuse(proposed.error());
+  std::set<const Threshold*> recalled;
+  for (const ProposedLevel& each : proposed->levels)
+    if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
+  print_recalled(recalled);
+  fmt::print("{}", options.json ? proposal_json(*proposed) : proposal_text(*proposed));
+  return done;
+}
+
+Run declare_levels(CLI::App& verb) {
+  const auto options = std::make_shared<LevelsOptions>();
+  verb.add_option("PERCEPT", options->percept, "a percept or its antonym, as in roughness or smoothness")->required();
+  offer_device(verb, options->device);
+  offer_count(verb, "--steps", options->steps, {.least = 2, .most = 1000, .example = 5},
+              "how many levels (default: as many as can be told apart)");
+  offer_number(verb, "--jnd", options->apart, {.least = 0, .most = 1000, .above_least = true, .example = 1.5},
+               "the least distance between two levels, in just noticeable differences (default: 1)");
+  offer_json(verb, options->json, "a JSON object");
+  verb.footer("for example: wale levels roughness --device falcon --steps 5");
+  return [options] { return levels(*options); };
+}
+
+}  // namespace
+
+extern const Verb levels_verb{"levels", "proposes levels of a percept that people can tell apart on a device",
+                              declare_levels};
+
+}  // namespace wale::command

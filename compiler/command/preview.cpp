@@ -1,0 +1,49 @@
+#include "compiler/preview/preview.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "compiler/command/options.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale::command {
+namespace {
+
+struct PreviewOptions {
+  Choice choice;
+  std::vector<std::string> settings;
+  std::string out;
+};
+
+int preview(const PreviewOptions& options) {
+  const auto programs = load_programs(options.choice, false);
+  if (programs.empty()) return refused;
+  const auto parameters = chosen_parameters(programs.front(), options.settings);
+  if (!parameters) return refused;
+  const auto common = common_modules();
+  const Bank bank(programs.front(), *parameters, programs.front().default_size());
+  const auto drawing = draw_preview(bank, preview_text(bank, common->declarations), common->declarations);
+  if (!drawing) return refuse(drawing.error());
+  if (!drawing->has_text)
+    fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  if (const auto saved = save_drawing(*drawing, options.out); !saved) return refuse(saved.error());
+  return done;
+}
+
+Run declare_preview(CLI::App& verb) {
+  const auto options = std::make_shared<PreviewOptions>();
+  offer_material(verb, options->choice);
+  offer_settings(verb, options->settings);
+  offer_output(verb, options->out, "the picture to write (.png)")->required();
+  verb.footer("for example: wale preview corduroy -o corduroy.png");
+  return [options] { return preview(*options); };
+}
+
+}  // namespace
+
+extern const Verb preview_verb{"preview", "draws a material: its relief, its forces and what it feels like",
+                               declare_preview};
+
+}  // namespace wale::command

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "compiler/command/options.hpp"
+#include "compiler/modules/find_materials.hpp"
+#include "compiler/modules/library_folders.hpp"
+#include "schema/spelling.hpp"
+
+namespace wale::command {
+namespace {
+
+struct FindOptions {
+  std::vector<std::string> texts;  ///< a material has all of them; none: all materials
+  std::string kind;                ///< empty: of any kind
+  std::vector<std::string> folders;
+  bool json = false;
+};
+
+/// What of the question is to blame, with what may have been meant.
+std::string why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts,
+                                 const std::string& kind) {
+  if (index.materials().empty()) return "there is no material here";
+  if (!kind.empty() && find_materials(index, {}, kind).empty()) {
+    const auto kinds = kinds_in(index);
+    if (const auto near = nearest_spelling(kind, kinds))
+      return fmt::format("no material is of kind `{}`; did you mean `{}`?", kind, *near);
+    return fmt::format("no material is of kind `{}`; there are: {}", kind, fmt::join(kinds, ", "));
+  }
+  for (const std::string& text : texts) {
+    if (!find_materials(index, {text}, kind).empty()) continue;
+    const std::string among = kind.empty() ? "" : fmt::format(" of kind `{}`", kind);
+    const auto near = nearest_spelling(text, findable_words(index));
+    return fmt::format("none of {} materials{} has \"{}\"{}", find_materials(index, {}, kind).size(), among, text,
+                       near ? fmt::format("; did you mean \"{}\"?", *near) : "; `wale find` alone lists them all");
+  }
+  return "no material has all of these; each alone is found";
+}
+
+/// How it was found, where that does not stand in the line already.
+std::string found_in(const FoundMaterial& found) {
+  if (found.by == FoundBy::called || found.by == FoundBy::feels)
+    return fmt::format("{} \"{}\"", in_words(found.by), found.text);
+  return found.by == FoundBy::documentation ? "in its documentation" : "";
+}
+
+std::string found_text(const std::vector<FoundMaterial>& found) {
+  std::size_t name = 0, title = 0, kind = 0, file = 0;
+  for (const FoundMaterial& each : found) {
+    name = std::max(name, each.material->name.size());
+    title = std::max(title, each.material->title.size());
+    kind = std::max(kind, each.material->kind.size());
+    file = std::max(file, each.material->file.size());
+  }
+  std::string text;
+  for (const FoundMaterial& each : found) {
+    std::string line = fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {}", each.material->name, name, each.material->title,
+                                   title, each.material->kind, kind, each.material->file, file, found_in(each));
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string found_json(const std::vector<FoundMaterial>& found) {
+  auto all = nlohmann::ordered_json::array();
+  for (const FoundMaterial& each : found)
+    all.push_back({{"name", each.material->name},
+                   {"title", each.material->title},
+                   {"called", each.material->called},
+                   {"kind", each.material->kind},
+                   {"feels", each.material->feels},
+                   {"documentation", each.material->documentation},
+                   {"module", each.material->module},
+                   {"file", each.material->file},
+                   {"found_by", in_words(each.by)},
+                   {"found_in", each.text}});
+  return all.dump(2) + "\n";
+}
+
+int find(const FindOptions& options) {
+  const auto resolver = file_resolver(library_folders(options.folders, std::getenv("WALE_LIBRARY")));
+  // What a file in the present folder could import. The file itself need not be there.
+  const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
+  const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
+  if (options.json) fmt::print("{}", found_json(found));
+  if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
+  if (!options.json) fmt::print("{}", found_text(found));
+  return done;
+}
+
+Run declare_find(CLI::App& verb) {
+  const auto options = std::make_shared<FindOptions>();
+  verb.add_option("TEXT", options->texts,
+                  "the beginning of a word in a material's name, title, kind, other names, what it feels like, or its "
+                  "documentation; with several, all must be there (default: lists every material)");
+  verb.add_option("--kind", options->kind, "only materials of this kind, as in fabric or fabric.woven")
+      ->type_name("KIND");
+  offer_library(verb, options->folders);
+  offer_json(verb, options->json, "an array with all that is known of each");
+  verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
+  return [options] { return find(*options); };
+}
+
+}  // namespace
+
+extern const Verb find_verb{"find", "lists the materials of the library, or those with these words", declare_find};
+
+}  // namespace wale::command

@@ -1,0 +1,230 @@
+#include "runtime/device/choose_device.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "runtime/device/match_device.hpp"
+#include "schema/spelling.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::string_view simulated = "simulated", simulated_as = "simulated:";
+
+bool is_usable(const PluggedIn& plugged) { return !plugged.can.empty() && !plugged.obstacle; }
+
+/// Whether it is a force device, also one that cannot be used now: it can push, or its declaration says that it can.
+bool is_force_device(const PluggedIn& plugged, const MatchedDevice& match) {
+  return !plugged.can.empty() || (match.device != nullptr && !match.is_generic);
+}
+
+bool is_port(const std::string& text) {
+  const auto dash = text.find('-');
+  return dash != std::string::npos && dash > 0 && dash + 1 < text.size() &&
+         text.find_first_not_of("0123456789.-") == std::string::npos;
+}
+
+struct Candidate {
+  const PluggedIn* plugged;
+  MatchedDevice match;
+};
+
+class Chooser {
+ public:
+  Chooser(const DeviceRequest& request, std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged,
+          Drivers drivers)
+      : request_(request), known_(known), drivers_(drivers) {
+    for (const PluggedIn& each : plugged) all_.push_back({&each, match_device(each, known)});
+    std::stable_sort(all_.begin(), all_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.match.is_generic < b.match.is_generic;  // declared figures are better than assumed ones
+    });
+  }
+
+  Result<ChosenDevice> choose() const {
+    const std::string& asked = request_.spelling;
+    if (asked == simulated) return ChosenDevice{};
+    if (asked.starts_with(simulated_as)) {
+      const std::string name = asked.substr(simulated_as.size());
+      if (const DeclaredDevice* device = declared(name)) return simulate(*device);
+      return unknown(name, simulated_as);
+    }
+    if (request_.only_simulated) return only_simulated();
+    if (asked == "auto") return best_or_simulated();
+    return named(asked);
+  }
+
+ private:
+  const DeclaredDevice* declared(const std::string& name) const {
+    const auto found =
+        std::ranges::find_if(known_, [&](const DeclaredDevice& each) { return each.profile.name == name; });
+    return found != known_.end() ? &*found : nullptr;
+  }
+
+  bool fits(const Candidate& each) const {
+    return request_.built_for.empty() || each.match.device->profile.name == request_.built_for;
+  }
+
+  Error error(Code code, std::string sentence, std::string mend) const {
+    return {code, std::move(sentence), std::move(mend), {.name = "--device", .text = request_.spelling}};
+  }
+
+  Error built_for_another(const std::string& profile) const {
+    return error(Code::other_device, "the program is built for `" + request_.built_for + "`, not for `" + profile + "`",
+                 "feel it on `" + request_.built_for + "`, or build it for `" + profile + "`");
+  }
+
+  Result<ChosenDevice> simulate(const DeclaredDevice& device) const {
+    if (!request_.built_for.empty() && device.profile.name != request_.built_for)
+      return built_for_another(device.profile.name);
+    return ChosenDevice{.declared = device};
+  }
+
+  /// Where virtual time or a simulated hand leaves no real device to choose.
+  Result<ChosenDevice> only_simulated() const {
+    const std::string& asked = request_.spelling;
+    if (asked == "auto") return ChosenDevice{};
+    if (const DeclaredDevice* device = declared(asked)) return simulate(*device);
+    if (asked != "usb" && find_driver(drivers_, asked) == nullptr && !read_usb_numbers(asked) && !is_port(asked))
+      return unknown(asked, "");
+    return error(Code::malformed_value, "a real device runs in real time, in a real hand",
+                 "leave out --virtual-time and --hand, or choose a simulated device");
+  }
+
+  /// A device that is asked for by its numbers, port, declaration or driver.
+  Result<ChosenDevice> named(const std::string& asked) const {
+    if (asked == "usb")
+      return real(
+          [](const Candidate& each) {
+            return !each.plugged->numbers.empty() && is_force_device(*each.plugged, each.match);
+          },
+          "no force-feedback device is plugged in on USB");
+    if (const auto numbers = read_usb_numbers(asked))
+      return real([&](const Candidate& each) { return each.plugged->numbers == in_words(*numbers); },
+                  "no device " + asked + " is plugged in");
+    if (is_port(asked))
+      return real([&](const Candidate& each) { return each.plugged->port == asked; },
+                  "no device is plugged in at port " + asked);
+    if (const DeclaredDevice* device = declared(asked)) return declared_and_real(*device);
+    if (find_driver(drivers_, asked) != nullptr)
+      return real(
+          [&](const Candidate& each) {
+            return each.plugged->driver->name == asked && is_force_device(*each.plugged, each.match);
+          },
+          "no device of the driver " + asked + " is plugged in");
+    return unknown(asked, "");
+  }
+
+  Result<ChosenDevice> declared_and_real(const DeclaredDevice& device) const {
+    const std::string& name = device.profile.name;
+    const auto is_it = [&](const Candidate& each) {
+      return each.match.device != nullptr && each.match.device->profile.name == name &&
+             is_force_device(*each.plugged, each.match);
+    };
+    if (std::ranges::none_of(all_, is_it)) {
+      if (device.wiring.usb.empty() && !device.wiring.is_generic) return simulate(device);
+      if (!request_.built_for.empty() && name != request_.built_for) return built_for_another(name);
+    }
+    return real(is_it, "no " + name + " is plugged in", std::string(simulated_as) + name);
+  }
+
+  Error unknown(const std::string& name, std::string_view prefix) const {
+    std::vector<std::string> names;
+    for (const DeclaredDevice& each : known_) names.push_back(std::string(prefix) + each.profile.name);
+    if (prefix.empty()) {
+      for (const char* word : {"auto", "simulated", "usb"}) names.emplace_back(word);
+      for (const Driver* driver : drivers_) names.emplace_back(driver->name);
+    }
+    const std::string wanted = std::string(prefix) + name;
+    std::string mend;
+    if (const auto near = nearest_spelling(wanted, names)) {
+      mend = "did you mean `" + *near + "`?";
+    } else {
+      std::ranges::sort(names);
+      names.erase(std::unique(names.begin(), names.end()), names.end());
+      for (const std::string& each : names) mend += (mend.empty() ? "there are: " : ", ") + each;
+      if (prefix.empty()) mend += ", vendor and product as in 1209:ffb0, and ports as in 1-2";
+    }
+    return error(Code::unknown_device, "there is no device `" + wanted + "`", mend);
+  }
+
+  Result<ChosenDevice> taken(const Candidate& candidate) const {
+    ChosenDevice chosen{.declared = *candidate.match.device,
+                        .plugged = *candidate.plugged,
+                        .is_generic = candidate.match.is_generic,
+                        .said = "using " + in_words(*candidate.plugged) + " as " + candidate.match.device->profile.name,
+                        .is_worth_saying = true};
+    if (chosen.is_generic)
+      chosen.said += "\n  no declaration is about it, so its figures are assumed; `wale devices --identify " +
+                     candidate.plugged->port + "` prints one to begin with";
+    for (const Candidate& other : all_)
+      if (other.plugged != candidate.plugged && is_usable(*other.plugged) && other.match.device != nullptr)
+        chosen.said += "\n  also plugged in: " + in_words(*other.plugged) + "; --device " + other.plugged->port;
+    return chosen;
+  }
+
+  Error unusable(const PluggedIn& plugged) const {
+    if (!plugged.obstacle)
+      return error(Code::unusable_device, in_words(plugged) + " cannot be used: nothing says what it can do", "");
+    return error(plugged.obstacle->code, in_words(plugged) + " cannot be used: " + plugged.obstacle->sentence,
+                 plugged.obstacle->mend);
+  }
+
+  /// A device that is plugged in and that `is_meant` accepts; never a simulated one.
+  template <class IsMeant>
+  Result<ChosenDevice> real(IsMeant is_meant, const std::string& none, const std::string& instead = "simulated") const {
+    std::optional<Error> why;
+    for (const Candidate& each : all_) {
+      if (!is_meant(each)) continue;
+      const std::string name = in_words(*each.plugged);
+      if (!is_usable(*each.plugged)) {
+        if (!why) why = unusable(*each.plugged);
+      } else if (each.match.device == nullptr) {
+        why = error(Code::unknown_device, "no declaration is about " + name,
+                    "declare it, as `wale devices --identify` prints it");
+      } else if (!fits(each)) {
+        const std::string& profile = each.match.device->profile.name;
+        why = error(
+            Code::other_device,
+            "the program is built for `" + request_.built_for + "`, and " + name + " is used as `" + profile + "`",
+            "build it for that (`wale build FILE --device " + profile +
+                " -o OUT.wpp`), or simulate its own (`--device simulated`)");
+      } else {
+        return taken(each);
+      }
+    }
+    if (why) return *std::move(why);
+    return error(Code::absent_device, none, "plug it in, or use `--device " + instead + "`");
+  }
+
+  Result<ChosenDevice> best_or_simulated() const {
+    ChosenDevice chosen;
+    for (const Candidate& each : all_) {
+      if (!each.plugged->driver->is_chosen_by_auto || !is_force_device(*each.plugged, each.match)) continue;
+      if (is_usable(*each.plugged) && each.match.device != nullptr && fits(each)) return taken(each);
+      chosen.is_worth_saying = true;
+      if (!is_usable(*each.plugged))
+        chosen.said += in_words(unusable(*each.plugged)) + "\n";
+      else if (each.match.device != nullptr)
+        chosen.said += in_words(*each.plugged) + " is used as " + each.match.device->profile.name +
+                       ", and the program is built for " + request_.built_for + "\n";
+    }
+    chosen.said += chosen.is_worth_saying ? "using a simulated device instead"
+                                          : "no force-feedback device is plugged in; using a simulated one";
+    return chosen;
+  }
+
+  const DeviceRequest& request_;
+  std::span<const DeclaredDevice> known_;
+  Drivers drivers_;
+  std::vector<Candidate> all_;
+};
+
+}  // namespace
+
+Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,
+                                   std::span<const PluggedIn> plugged, Drivers drivers) {
+  return Chooser(request, known, plugged, drivers).choose();
+}
+
+}  // namespace wale

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/device/plugged_device.hpp"
+#include "runtime/device/usb/usb_context.hpp"
+#include "schema/device_profile.hpp"
+#include "schema/result.hpp"
+
+namespace wale {
+
+/// What devices are plugged into, opened once and shared by all drivers.
+struct Connections {
+  Result<std::shared_ptr<UsbContext>> usb;  ///< the error says why USB cannot be used
+
+  static Connections open();
+};
+
+struct Driver;
+
+/// A device that is plugged in, as the driver that found it describes it.
+struct PluggedIn {
+  const Driver* driver = nullptr;         ///< never null in what a driver has found
+  std::string numbers = {};               ///< "1209:ffb0"; empty where it is not on USB
+  std::string port = {};                  ///< "1-2.3": where; the same when it is plugged in there again
+  std::string name = {};                  ///< as it calls itself; may be empty
+  std::string can = {};                   ///< what it can do, in a line; empty where that is not known
+  std::optional<Error> obstacle = {};     ///< why it cannot be used; nothing where no reason is known
+  std::string profile = {};               ///< the declared device that it is, where its driver knows; else empty
+  std::string transport = {};             ///< how it would be driven, and why; empty where there is one way only
+  /// Other programs that have it open: "steam (4711) by /dev/input/event5".
+  std::vector<std::string> held_by = {};
+  long processes_hidden = 0;  ///< processes whose open files this user may not see
+  UsbDeviceInfo usb = {};                 ///< of a device on USB
+};
+
+/// "OpenFFBoard (1209:ffb0 at port 1-2)"
+std::string in_words(const PluggedIn& plugged);
+
+struct DeviceOptions {
+  int priority = 0;  ///< SCHED_FIFO, of the threads that serve the device, where permitted; 0: ordinary
+  /// Told what the person has to do before the device can be used. From any thread; empty: nobody is asked.
+  std::function<void(const std::string&)> ask = {};
+  /// True: stop waiting for the person. Outlives the device; null: never.
+  const std::atomic<bool>* stop = nullptr;
+  /// The way to drive it, of those that its driver has: "hidraw"; empty: the driver chooses.
+  std::string transport = {};
+  /// An open file of the device that a portal or a broker handed over; -1: none. The caller owns it until opening
+  /// succeeds, then the device does. It is used once: a device that was lost and comes back is opened by its driver.
+  int descriptor = -1;
+};
+
+/// One driver: how it finds its devices, and how it opens one. Choosing, listing, identifying and opening go through
+/// the table of drivers (drivers.def): a new driver is a folder with a driver.cpp, and one row of that table.
+struct Driver {
+  std::string_view name;   ///< also a spelling for `--device`: the best device of this driver
+  bool is_chosen_by_auto;  ///< whether `auto` may take its devices; others have to be named
+  bool is_felt;            ///< false where forces are only shown
+  /// All of its devices that are plugged in, also those that cannot be used; with `like`, only those with its numbers.
+  /// Takes a few milliseconds for each, and does no more to a device than read its descriptors.
+  std::vector<PluggedIn> (*find)(const Connections& connections, const PluggedIn* like);
+  /// Opens what `find` found, and sets it up without force: may take a second. An error leaves the device as it was.
+  OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+                       const DeviceOptions& options);
+};
+
+using Drivers = std::span<const Driver* const>;
+
+/// All drivers, in the order in which `auto` prefers their devices.
+Drivers drivers();
+/// The one of that name, or null.
+const Driver* find_driver(Drivers drivers, std::string_view name);
+
+/// The devices of all drivers that are plugged in, in the order in which `auto` looks at them. A driver that `auto`
+/// does not choose, as the pointer, which is always there, is only looked at when it is `asked` for by its name.
+std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked = {},
+                                  Drivers drivers = wale::drivers());
+
+}  // namespace wale

@@ -1,0 +1,44 @@
+#include "runtime/device/driver.hpp"
+
+#include <string>
+#include <utility>
+
+#include "runtime/device/falcon/falcon_device.hpp"
+#include "runtime/device/falcon/falcon_firmware.hpp"
+#include "runtime/device/usb/list_usb_devices.hpp"
+
+namespace wale {
+
+extern const Driver falcon_driver;
+
+namespace {
+
+/// Only a conversation with it would tell whether it has its firmware, so a missing file is an obstacle.
+void describe_falcon(PluggedIn& listed, const KernelNodes&, libusb_device_handle*) {
+  listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
+               " steps of torque to each side";
+  const auto firmware = read_falcon_firmware(falcon_firmware_path());
+  if (!firmware && !listed.obstacle) listed.obstacle = firmware.error();
+}
+
+std::vector<PluggedIn> find_falcon(const Connections& connections, const PluggedIn*) {
+  return list_usb_devices(connections, falcon_driver, is_falcon, describe_falcon);
+}
+
+OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+                         const DeviceOptions& options) {
+  if (!connections.usb) return connections.usb.error();
+  FalconOptions wanted;
+  wanted.ask = options.ask;
+  wanted.stop = options.stop;
+  auto opened = FalconDevice::open(*connections.usb, plugged.usb, profile, wanted);
+  if (!opened) return std::move(opened.error());
+  return *std::move(opened);
+}
+
+}  // namespace
+
+const Driver falcon_driver{
+    .name = "novint-falcon", .is_chosen_by_auto = true, .is_felt = true, .find = find_falcon, .open = open_falcon};
+
+}  // namespace wale

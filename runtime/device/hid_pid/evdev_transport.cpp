@@ -1,0 +1,348 @@
+#include "runtime/device/hid_pid/evdev_transport.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/eventfd.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/device/usb/system_error.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::int64_t full_level = 32767;  // linux/input.h: ff_constant_effect
+// Of a turn in 65536 steps. The driver hands them to the device as the PID class means them: a force of level m is
+// m sin along x and -m cos along y, which points to the user.
+constexpr std::uint16_t toward_x = 0x4000, toward_y = 0x8000;
+constexpr double steps_per_radian = 65536 / (2 * 3.14159265358979323846);
+constexpr std::uint16_t endless = 0;  // ff_replay: no length
+constexpr std::int64_t most_length = 32767;  // ms
+
+template <std::size_t Bits>
+using BitSet = std::array<std::uint8_t, Bits / 8 + 1>;
+template <std::size_t Bytes>
+bool has(const std::array<std::uint8_t, Bytes>& bits, unsigned bit) {
+  return (bits[bit / 8] >> bit % 8 & 1) != 0;
+}
+
+std::int64_t microseconds(double seconds) { return static_cast<std::int64_t>(seconds * 1e6); }
+
+void sleep_microseconds(std::int64_t duration) {
+  const timespec time{duration / 1'000'000, duration % 1'000'000 * 1000};
+  clock_nanosleep(CLOCK_MONOTONIC, 0, &time, nullptr);
+}
+
+}  // namespace
+
+EvdevNode::EvdevNode(OwnedDescriptor descriptor, IoctlCall ioctl)
+    : descriptor_(std::move(descriptor)), ioctl_(ioctl) {}
+
+Result<EvdevNode> EvdevNode::open(const std::string& path, IoctlCall ioctl) {
+  EvdevNode node(OwnedDescriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK)), ioctl);
+  if (!node.descriptor_) return why_not_opened(errno, path);
+  if (Result<> learned = node.learn(path); !learned) return std::move(learned).error();
+  return node;
+}
+
+Result<EvdevNode> EvdevNode::of(int descriptor, IoctlCall ioctl) {
+  EvdevNode node(OwnedDescriptor::copy_of(descriptor), ioctl);
+  const std::string name = "descriptor " + std::to_string(descriptor);
+  if (!node.descriptor_) return why_not_opened(errno, name);
+  if (Result<> learned = node.learn(name); !learned) return std::move(learned).error();
+  return node;
+}
+
+Result<> EvdevNode::learn(const std::string& name) {
+  BitSet<FF_MAX> forces{};
+  if (call(EVIOCGBIT(EV_FF, forces.size()), forces.data()) < 0) return why_not_opened(errno, name);
+  if (!has(forces, FF_CONSTANT)) {
+    return Error{Code::unlike_device, "the kernel's driver makes no constant force of it",
+                 "Linux 6.12.24 and later know more sticks", {.name = name}};
+  }
+  has_gain_ = has(forces, FF_GAIN);
+  has_autocenter_ = has(forces, FF_AUTOCENTER);
+  if (call(EVIOCGEFFECTS, &most_effects_) < 0) return why_not_opened(errno, name);
+  BitSet<ABS_MAX> positions{};
+  if (call(EVIOCGBIT(EV_ABS, positions.size()), positions.data()) < 0) return why_not_opened(errno, name);
+  if (!has(positions, ABS_X) || !has(positions, ABS_Y)) {
+    return Error{Code::unlike_device, "it tells no position", {}, {.name = name}};
+  }
+  return {};
+}
+
+Result<std::unique_ptr<PidTransport>> EvdevTransport::open(EvdevNode node, std::int64_t force_steps,
+                                                           const PidTransportOptions& options) {
+  std::unique_ptr<EvdevTransport> transport(new EvdevTransport(std::move(node), force_steps, options));
+  if (Result<> ready = transport->set_up(); !ready) return std::move(ready).error();
+  transport->start_threads(options.priority);
+  return transport;
+}
+
+EvdevTransport::EvdevTransport(EvdevNode node, std::int64_t force_steps, const PidTransportOptions& options)
+    : node_(std::move(node)),
+      now_(options.now),
+      refresh_period_(options.session.effect_duration > 0 ? microseconds(options.session.effect_duration / 3) : 0),
+      silence_(microseconds(options.session.command_silence)),
+      ends_reading_(eventfd(0, EFD_CLOEXEC)) {
+  ranges_.full_force = std::clamp<std::int64_t>(force_steps, 1, full_level);
+  const std::int64_t length = std::llround(options.session.effect_duration * 1000);  // ms
+  for (ff_effect& effect : effects_) {
+    effect.type = FF_CONSTANT;
+    effect.id = -1;
+    effect.replay.length = length > 0 ? static_cast<std::uint16_t>(std::min(length, most_length)) : endless;
+  }
+  effects_[0].direction = toward_x;
+  effects_[1].direction = toward_y;
+}
+
+Result<> EvdevTransport::set_up() {
+  if (Result<> known = set_up_positions(); !known) return known;
+  // The driver's own spring would be felt beside every material.
+  if (node_.has_autocenter()) tell(FF_AUTOCENTER, 0);
+  if (node_.most_effects() < 2) arrangement_ = hid::Arrangement::combined;
+  for (std::size_t i = 0; i < effects(); ++i) {
+    Result<> uploaded = upload(i);
+    if (!uploaded && i == 0) return uploaded;
+    if (!uploaded) arrangement_ = hid::Arrangement::combined;
+  }
+  if (node_.has_gain()) tell(FF_GAIN, 0xffff);
+  const std::int64_t now = now_();
+  for (std::size_t i = 0; i < effects(); ++i) {
+    if (!tell(static_cast<std::uint16_t>(effects_[i].id), 1)) return why_not_opened(errno, "its event node");
+    refresh_at_[i] = now + refresh_period_;
+  }
+  commanded_ = now;
+  return {};
+}
+
+/// The driver says that a joystick's positions are good to 1/256 of their range, and the input layer passes no smaller
+/// change on; that is no resolution for a hand.
+Result<> EvdevTransport::set_up_positions() {
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    const auto axis = static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y);
+    if (node_.call(EVIOCGABS(axis), &positions_[i]) < 0) return why_not_opened(errno, "its event node");
+    if (positions_[i].minimum >= positions_[i].maximum) return Error{Code::unlike_device, "it tells no position"};
+    input_absinfo finest = positions_[i];
+    finest.fuzz = 0;
+    node_.call(EVIOCSABS(axis), &finest);  // without it, it is only coarser
+  }
+  ranges_.x_minimum = positions_[0].minimum;
+  ranges_.x_maximum = positions_[0].maximum;
+  ranges_.y_minimum = positions_[1].minimum;
+  ranges_.y_maximum = positions_[1].maximum;
+  read_state();
+  return {};
+}
+
+Result<> EvdevTransport::upload(std::size_t effect) {
+  if (node_.call(EVIOCSFF, &effects_[effect]) >= 0) return {};
+  if (errno == ENOSPC) {
+    return Error{Code::unusable_device, "it has no room for an effect: another program may hold them",
+                 "close the programs that use it"};
+  }
+  return why_not_opened(errno, "its event node");
+}
+
+/// Plays an effect, or sets a property such as the gain.
+bool EvdevTransport::tell(std::uint16_t code, std::int32_t value) {
+  input_event event{};
+  event.type = EV_FF;
+  event.code = code;
+  event.value = value;
+  return write(node_.descriptor(), &event, sizeof event) == static_cast<ssize_t>(sizeof event);
+}
+
+void EvdevTransport::start_threads(int priority) {
+  reader_ = std::thread([this] { read_positions(); });
+  writer_ = std::thread([this] { write_forces(); });
+  if (priority <= 0) return;
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  pthread_setschedparam(writer_.native_handle(), SCHED_FIFO, &parameters);
+}
+
+EvdevTransport::~EvdevTransport() {
+  stop_waiting();
+  if (writer_.joinable()) writer_.join();
+  const std::uint64_t one = 1;
+  if (write(ends_reading_.get(), &one, sizeof one) > 0 && reader_.joinable()) reader_.join();
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    if (effects_[i].id < 0) continue;
+    effects_[i].u.constant.level = 0;
+    node_.call(EVIOCSFF, &effects_[i]);
+    tell(static_cast<std::uint16_t>(effects_[i].id), 0);
+    // By value, as the kernel takes it.
+    node_.call(EVIOCRMFF, reinterpret_cast<void*>(static_cast<std::intptr_t>(effects_[i].id)));
+  }
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    if (positions_[i].maximum > positions_[i].minimum) {
+      node_.call(EVIOCSABS(static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y)), &positions_[i]);
+    }
+  }
+}
+
+/// The writer's thread.
+void EvdevTransport::write_forces() {
+  constexpr std::int64_t patience = 20'000;  // microseconds; refreshes and silences are due then
+  while (true) {
+    // While something waits for its turn, only a newer command is taken, and nothing is waited for.
+    const auto wanted = wait_for_command(pending_ ? 0 : patience);
+    if (is_ending()) return;
+    const std::int64_t now = now_();
+    if (wanted) {
+      if (pending_) {
+        const std::lock_guard lock(mutex_);
+        ++counts_.overwritten;
+      }
+      const auto finite = [](float value) { return std::isnan(value) ? 0 : std::clamp<double>(value, -1, 1); };
+      wanted_ = {finite(wanted->x), finite(wanted->y)};
+      commanded_ = now;
+      silent_ = false;
+      pending_ = true;
+    } else if (now - commanded_ > silence_ && !silent_) {
+      silent_ = true;
+      wanted_ = glm::dvec2(0);
+      pending_ = true;
+      const std::lock_guard lock(mutex_);
+      ++counts_.silences;
+    }
+    if (was_lost()) return;
+    if (write_next(now)) sleep_microseconds(pace);
+  }
+}
+
+std::int64_t EvdevTransport::level_of(double magnitude) const noexcept {
+  const auto steps = static_cast<double>(ranges_.full_force);
+  return std::llround(std::round(magnitude * steps) / steps * static_cast<double>(full_level));
+}
+
+/// Makes the update that is due next; false: there is none.
+bool EvdevTransport::write_next(std::int64_t now) {
+  if (refresh(now)) return true;
+  if (!pending_) return false;
+  if (arrangement_ == hid::Arrangement::combined) return turn_and_push();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t effect = (turn_ + i) % 2;
+    const auto level = static_cast<std::int16_t>(level_of(effect == 0 ? wanted_.x : wanted_.y));
+    if (level == effects_[effect].u.constant.level) continue;
+    effects_[effect].u.constant.level = level;
+    turn_ = 1 - effect;
+    if (!upload(effect)) {
+      lose("the kernel's driver takes no force any more");
+      return false;
+    }
+    const std::lock_guard lock(mutex_);
+    ++counts_.forces_sent[effect];
+    return true;
+  }
+  pending_ = false;
+  return false;
+}
+
+/// Plays an effect again before its time is over.
+bool EvdevTransport::refresh(std::int64_t now) {
+  if (refresh_period_ <= 0 || silent_) return false;
+  for (std::size_t i = 0; i < effects(); ++i) {
+    if (now < refresh_at_[i]) continue;
+    refresh_at_[i] = now + refresh_period_;
+    if (!tell(static_cast<std::uint16_t>(effects_[i].id), 1)) {
+      lose("the kernel's driver takes no force any more");
+      return false;
+    }
+    const std::lock_guard lock(mutex_);
+    ++counts_.refreshes;
+    return true;
+  }
+  return false;
+}
+
+/// One effect for both axes.
+bool EvdevTransport::turn_and_push() {
+  pending_ = false;
+  const double size = std::min(1.0, std::sqrt(wanted_.x * wanted_.x + wanted_.y * wanted_.y));
+  const auto level = static_cast<std::int16_t>(level_of(size));
+  const double turn = std::atan2(wanted_.x, -wanted_.y) * steps_per_radian;
+  const auto direction = level == 0 ? effects_[0].direction
+                                    : static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(turn)) & 0xffff);
+  if (level == effects_[0].u.constant.level && direction == effects_[0].direction) return false;
+  const bool is_turned = direction != effects_[0].direction;
+  effects_[0].u.constant.level = level;
+  effects_[0].direction = direction;
+  if (!upload(0)) {
+    lose("the kernel's driver takes no force any more");
+    return false;
+  }
+  const std::lock_guard lock(mutex_);
+  ++counts_.forces_sent[0];
+  if (is_turned) ++counts_.directions_sent;
+  return true;
+}
+
+void EvdevTransport::lose(const char* reason) {
+  const std::lock_guard lock(mutex_);
+  if (reason_.empty()) reason_ = reason;
+  show_lost();
+}
+
+/// The reader's thread.
+void EvdevTransport::read_positions() {
+  std::array<input_event, 64> events{};
+  while (true) {
+    pollfd waits[2] = {{node_.descriptor(), POLLIN, 0}, {ends_reading_.get(), POLLIN, 0}};
+    if (poll(waits, 2, -1) < 0 && errno != EINTR) return lose("its position cannot be read");
+    if (waits[1].revents != 0) return;
+    if (waits[0].revents == 0) continue;
+    const ssize_t got = read(node_.descriptor(), events.data(), sizeof events);
+    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return lose("it was unplugged");
+    for (std::size_t i = 0; got > 0 && i < static_cast<std::size_t>(got) / sizeof(input_event); ++i) take(events[i]);
+  }
+}
+
+void EvdevTransport::take(const input_event& event) {
+  if (event.type == EV_SYN && event.code == SYN_DROPPED) {
+    is_dropping_ = true;  // until the next report: what came is incomplete
+    return;
+  }
+  if (event.type == EV_SYN && event.code == SYN_REPORT) {
+    if (is_dropping_) read_state();
+    is_dropping_ = false;
+    show(place_[0], place_[1], button_);
+    const std::lock_guard lock(mutex_);
+    ++counts_.inputs;
+    return;
+  }
+  if (is_dropping_) return;
+  if (event.type == EV_ABS && event.code == ABS_X) place_[0] = event.value;
+  if (event.type == EV_ABS && event.code == ABS_Y) place_[1] = event.value;
+  if (event.type == EV_KEY && event.code == BTN_JOYSTICK) button_ = event.value != 0;
+}
+
+/// Positions are told when they change, so that the first ones are asked for.
+void EvdevTransport::read_state() {
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    input_absinfo now{};
+    if (node_.call(EVIOCGABS(static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y)), &now) < 0) return;
+    place_[i] = std::clamp(now.value, now.minimum, now.maximum);
+  }
+  show(place_[0], place_[1], button_);
+}
+
+std::string EvdevTransport::reason() const {
+  const std::lock_guard lock(mutex_);
+  return reason_;
+}
+
+hid::PidSessionCounts EvdevTransport::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+}  // namespace wale

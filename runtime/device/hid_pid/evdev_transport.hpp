@@ -1,0 +1,117 @@
+#pragma once
+
+#include <linux/input.h>
+
+#include <array>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "runtime/device/hid_pid/pid_transport.hpp"
+#include "runtime/device/usb/owned_descriptor.hpp"
+#include "schema/result.hpp"
+
+namespace wale {
+
+/// A node of the kernel's input layer, /dev/input/eventN, whose driver makes constant forces of its own. It needs no
+/// udev rule, because joysticks are the seated user's anyway.
+class EvdevNode {
+ public:
+  /// Fails with `unlike_device` where the driver makes no constant force, or tells no X and Y.
+  static Result<EvdevNode> open(const std::string& path, IoctlCall ioctl = system_ioctl);
+  /// Of a descriptor that somebody else opened for reading and writing; it stays theirs, but effects belong to the open
+  /// file, so that they end only when it is closed too.
+  static Result<EvdevNode> of(int descriptor, IoctlCall ioctl = system_ioctl);
+
+  int descriptor() const noexcept { return descriptor_.get(); }
+  int call(unsigned long request, void* argument) const { return ioctl_(descriptor_.get(), request, argument); }
+  int most_effects() const noexcept { return most_effects_; }
+  bool has_gain() const noexcept { return has_gain_; }
+  bool has_autocenter() const noexcept { return has_autocenter_; }
+
+ private:
+  EvdevNode(OwnedDescriptor descriptor, IoctlCall ioctl);
+  Result<> learn(const std::string& name);
+
+  OwnedDescriptor descriptor_;
+  IoctlCall ioctl_;
+  int most_effects_ = 0;
+  bool has_gain_ = false, has_autocenter_ = false;
+};
+
+/// A joystick through effects of the kernel's driver, which writes the reports of the PID class itself.
+///
+/// Two effects, one turned to each axis, where the driver has room for two: a change of level is then one report, Set
+/// Constant Force. With one effect a change of direction takes two, Set Effect as well, and between them the old
+/// magnitude acts along the new direction; that is kept for drivers with room for one.
+///
+/// An update returns before its report has gone, and the driver queues up to 256 of them, old forces before new ones.
+/// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it told
+/// when another program resets the device through hidraw. When the node is closed, also by a kill, the kernel erases the
+/// effects.
+class EvdevTransport final : public PidTransport {
+ public:
+  /// Microseconds from one update to the next. A full-speed interrupt endpoint takes a report each millisecond.
+  static constexpr std::int64_t pace = 2000;
+
+  /// Sets two effects up with no force, and plays them. `force_steps`: levels to each side that are told apart, 1 ..
+  /// 32767.
+  static Result<std::unique_ptr<PidTransport>> open(EvdevNode node, std::int64_t force_steps,
+                                                    const PidTransportOptions& options);
+  /// Stops and erases the effects.
+  ~EvdevTransport() override;
+
+  PidTransportKind kind() const noexcept override { return PidTransportKind::evdev; }
+  std::string reason() const override;
+  hid::PidSessionCounts counts() const override;
+  hid::Arrangement arrangement() const override { return arrangement_; }
+  const Ranges& ranges() const noexcept override { return ranges_; }
+
+ private:
+  EvdevTransport(EvdevNode node, std::int64_t force_steps, const PidTransportOptions& options);
+  Result<> set_up();
+  Result<> set_up_positions();
+  Result<> upload(std::size_t effect);
+  bool tell(std::uint16_t code, std::int32_t value);
+  void start_threads(int priority);
+
+  void write_forces();
+  bool write_next(std::int64_t now);
+  bool refresh(std::int64_t now);
+  bool turn_and_push();
+  std::int64_t level_of(double magnitude) const noexcept;
+  void read_positions();
+  void take(const input_event& event);
+  void read_state();
+  void lose(const char* reason);
+
+  std::size_t effects() const noexcept { return arrangement_ == hid::Arrangement::combined ? 1 : 2; }
+
+  EvdevNode node_;
+  const MicrosecondClock now_;
+  const std::int64_t refresh_period_, silence_;
+  Ranges ranges_;
+  hid::Arrangement arrangement_ = hid::Arrangement::by_direction;
+  OwnedDescriptor ends_reading_;  // an eventfd
+  std::array<input_absinfo, 2> positions_{};  // as they were before
+
+  // The writer's.
+  std::array<ff_effect, 2> effects_{};
+  std::array<std::int64_t, 2> refresh_at_{};
+  glm::dvec2 wanted_{0};
+  std::int64_t commanded_ = 0;
+  std::size_t turn_ = 0;
+  bool pending_ = false, silent_ = false;
+
+  // The reader's.
+  std::array<std::int32_t, 2> place_{};
+  bool button_ = false, is_dropping_ = false;
+
+  mutable std::mutex mutex_;  // of what follows
+  hid::PidSessionCounts counts_;
+  std::string reason_;
+
+  std::thread writer_, reader_;
+};
+
+}  // namespace wale

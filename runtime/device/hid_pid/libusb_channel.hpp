@@ -1,0 +1,89 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "runtime/device/hid_pid/pid_transport.hpp"
+#include "runtime/device/hid_pid/report_channel.hpp"
+#include "runtime/device/usb/owned_descriptor.hpp"
+#include "runtime/device/usb/usb_context.hpp"
+#include "schema/result.hpp"
+
+struct libusb_device_handle;
+struct libusb_transfer;
+
+namespace wale {
+
+/// An interface of a device that is claimed for us alone, through libusb. The kernel's driver is detached when it is
+/// claimed and attached again when it is given back, however that comes about; only a process that is killed leaves the
+/// stick without one until it is plugged in again, or used through libusb again. Transfers end on the context's event
+/// thread.
+class LibusbInterface {
+ public:
+  static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
+                                       const UsbHidInterface& interface);
+  /// Of a usbfs node that somebody else has opened; it stays theirs.
+  static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, int descriptor,
+                                       const UsbDeviceInfo& info, const UsbHidInterface& interface);
+  LibusbInterface(LibusbInterface&&) noexcept;
+  LibusbInterface& operator=(LibusbInterface&&) = delete;
+  ~LibusbInterface();
+
+  libusb_device_handle* handle() const noexcept { return handle_; }
+  const UsbHidInterface& description() const noexcept { return interface_; }
+
+ private:
+  LibusbInterface(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor, libusb_device_handle* handle,
+                  const UsbHidInterface& interface);
+  static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor,
+                                       libusb_device_handle* handle, const UsbDeviceInfo& info,
+                                       const UsbHidInterface& interface);
+
+  std::shared_ptr<UsbContext> context_;
+  OwnedDescriptor descriptor_;  // beneath the handle, where libusb did not open it
+  libusb_device_handle* handle_;
+  UsbHidInterface interface_;
+};
+
+class LibusbChannel final : public ReportChannel {
+ public:
+  LibusbChannel(LibusbInterface interface, const PidTransportOptions& options, Listener& listener);
+  ~LibusbChannel() override;
+
+  Outcome submit(const hid::Transfer& transfer, bool is_setting_up) noexcept override;
+  Outcome listen() noexcept override;
+  void close() override;
+  int most_under_way() const noexcept override { return most_outputs_; }
+  hid::HidInterface interface() const noexcept override;
+
+ private:
+  /// A libusb transfer of our own with its buffer; there is a fixed number of them.
+  struct Slot {
+    LibusbChannel* owner = nullptr;
+    libusb_transfer* usb = nullptr;
+    std::vector<std::uint8_t> buffer;
+    hid::Transfer wanted;
+    bool is_input = false, is_busy = false;
+  };
+
+  void add_slot(bool is_input, std::size_t bytes);
+  Outcome submit_input(Slot& slot);
+  void input_ended(Slot& slot);
+  void transfer_ended(Slot& slot);
+  void release(Slot& slot);
+  bool is_idle() const;
+
+  LibusbInterface interface_;
+  Listener& listener_;
+  const unsigned timeout_, set_up_timeout_;
+  const int most_outputs_;
+
+  std::mutex mutex_;  // of which slots are busy
+  std::condition_variable released_;
+  std::vector<std::unique_ptr<Slot>> slots_;
+  bool closes_ = false;
+};
+
+}  // namespace wale

@@ -1,0 +1,153 @@
+#include "runtime/device/hid_pid/report_transport.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace wale {
+namespace {
+
+hid::PidSessionOptions within(hid::PidSessionOptions options, const ReportChannel& channel) {
+  options.most_in_flight = std::clamp(options.most_in_flight, 1, std::max(1, channel.most_under_way()));
+  return options;
+}
+
+PidTransport::Ranges ranges_of(const hid::PidLayout& layout) {
+  return {layout.input.x.minimum, layout.input.x.maximum, layout.input.y.minimum, layout.input.y.maximum,
+          layout.set_constant_force.full()};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PidTransport>> ReportTransport::open(PidTransportKind kind, const Channel& channel,
+                                                            const PidTransportOptions& options) {
+  std::unique_ptr<ReportTransport> transport(new ReportTransport(kind, channel, options));
+  if (Result<> running = transport->wait_until_running(); !running) return std::move(running).error();
+  return transport;
+}
+
+ReportTransport::ReportTransport(PidTransportKind kind, const Channel& channel, const PidTransportOptions& options)
+    : kind_(kind),
+      now_(options.now),
+      channel_(channel(*this)),
+      session_(channel_->interface(), within(options.session, *channel_)) {
+  writer_ = std::thread([this] { write_forces(); });
+  if (options.priority > 0) {
+    sched_param parameters{};
+    parameters.sched_priority = options.priority;
+    pthread_setschedparam(writer_.native_handle(), SCHED_FIFO, &parameters);
+  }
+  const std::lock_guard lock(mutex_);
+  pump();
+}
+
+ReportTransport::~ReportTransport() {
+  stop_waiting();
+  writer_.join();
+  {
+    std::unique_lock lock(mutex_);
+    session_.stop();
+    pump();
+    // Each of its last transfers ends, if only by its timeout.
+    changed_.wait(lock, [&] { return session_.state() == hid::PidSession::State::over; });
+    closes_ = true;
+  }
+  channel_->close();
+}
+
+/// Until the device runs and has told where it is, or is lost.
+Result<> ReportTransport::wait_until_running() {
+  using State = hid::PidSession::State;
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return session_.state() == State::running || session_.state() == State::over; });
+  // One that only tells changes is asked after a while (`input_silence`).
+  changed_.wait_for(lock, std::chrono::seconds(1),
+                    [&] { return session_.state() != State::running || session_.input().has_value(); });
+  if (session_.state() != State::running) return Error{session_.why(), std::string(session_.reason())};
+  if (!session_.input()) return Error{Code::unlike_device, "it tells no position"};
+  ranges_ = ranges_of(*session_.layout());
+  return {};
+}
+
+/// Packs the session's input for the loop, and says when the device is lost. Under the lock.
+void ReportTransport::publish() {
+  if (const auto& input = session_.input()) show(input->x, input->y, input->button);
+  if (session_.was_lost()) show_lost();
+  changed_.notify_all();
+}
+
+/// The writer's thread.
+void ReportTransport::write_forces() {
+  constexpr std::int64_t patience = 20'000;  // microseconds; refreshes and silences are due then
+  while (true) {
+    const auto wanted = wait_for_command(patience);
+    if (is_ending()) return;
+    const std::lock_guard lock(mutex_);
+    if (wanted) session_.command(*wanted, now_());
+    pump();
+  }
+}
+
+/// Submits what the session wants. Under the lock.
+void ReportTransport::pump() {
+  using State = hid::PidSession::State;
+  while (const auto transfer = session_.next(now_())) {
+    const Outcome outcome = channel_->submit(*transfer, session_.state() == State::setting_up);
+    if (outcome != Outcome::done) session_.finish(*transfer, outcome, {}, now_());
+  }
+  if (!listens_ && session_.state() == State::running) {
+    listens_ = true;
+    if (const Outcome outcome = channel_->listen(); outcome != Outcome::done) {
+      session_.lose(outcome == Outcome::gone ? "it was unplugged" : "its position cannot be read", outcome);
+    }
+  }
+  publish();
+}
+
+void ReportTransport::ended(const hid::Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer) {
+  const std::lock_guard lock(mutex_);
+  session_.finish(transfer, outcome, answer, now_());
+  if (closes_) {
+    publish();
+  } else {
+    pump();
+  }
+}
+
+void ReportTransport::received(std::span<const std::uint8_t> report) {
+  const std::lock_guard lock(mutex_);
+  if (closes_ || session_.state() == hid::PidSession::State::over) return;
+  session_.receive(report, now_());
+  pump();
+}
+
+void ReportTransport::silenced(std::string_view reason, Outcome outcome) {
+  const std::lock_guard lock(mutex_);
+  if (closes_) return;
+  session_.lose(reason, outcome);
+  pump();
+}
+
+std::string ReportTransport::reason() const {
+  const std::lock_guard lock(mutex_);
+  return std::string(session_.reason());
+}
+
+hid::PidSessionCounts ReportTransport::counts() const {
+  const std::lock_guard lock(mutex_);
+  return session_.counts();
+}
+
+std::optional<hid::Telemetry> ReportTransport::telemetry() const {
+  const std::lock_guard lock(mutex_);
+  return session_.telemetry();
+}
+
+hid::Arrangement ReportTransport::arrangement() const {
+  const std::lock_guard lock(mutex_);
+  return session_.arrangement();
+}
+
+}  // namespace wale

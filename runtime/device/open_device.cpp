@@ -1,0 +1,50 @@
+#include "runtime/device/open_device.hpp"
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wale {
+namespace {
+
+/// The devices like `plugged`. On USB none is opened to find out, since another program may use it.
+std::vector<PluggedIn> alike(const Connections& connections, const PluggedIn& plugged) {
+  const auto numbers = read_usb_numbers(plugged.numbers);
+  if (!numbers || !connections.usb) return plugged.driver->find(connections, &plugged);
+  std::vector<PluggedIn> all;
+  for (const UsbDeviceInfo& info : (*connections.usb)->devices()) {
+    if (*numbers != UsbNumbers{info.vendor, info.product}) continue;
+    all.push_back(plugged);
+    all.back().port = info.port;
+    all.back().usb = info;
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<HotPluggedDevice>> open_device(const Connections& connections, const ChosenDevice& chosen,
+                                                      DeviceOptions options) {
+  const PluggedIn& plugged = *chosen.plugged;
+  const DeviceProfile& profile = chosen.declared->profile;
+  if (connections.usb) (*connections.usb)->set_priority(options.priority);  // not permitted: as punctual as may be
+  std::set<std::string> others;                                             // ports where another like it was
+  for (const PluggedIn& each : alike(connections, plugged))
+    if (each.port != plugged.port) others.insert(each.port);
+  OpenedDevice opened = plugged.driver->open(connections, plugged, profile, options);
+  if (!opened) return std::move(opened.error());
+
+  options.descriptor = -1;  // it was used up
+  const auto reopen = [connections, plugged, profile, options, others]() -> OpenedDevice {
+    const std::vector<PluggedIn> found = alike(connections, plugged);
+    const PluggedIn* again = nullptr;
+    for (const PluggedIn& each : found)
+      if (each.port == plugged.port || (again == nullptr && !others.contains(each.port))) again = &each;
+    if (again == nullptr) return Error{Code::absent_device, "it is not plugged in"};
+    return plugged.driver->open(connections, *again, profile, options);
+  };
+  return std::make_unique<HotPluggedDevice>(*std::move(opened), chosen.declared->wiring, reopen);
+}
+
+}  // namespace wale

@@ -1,0 +1,63 @@
+#include "schema/spelling.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace wale {
+
+namespace {
+
+char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }
+
+bool same(char a, char b) { return lower(a) == lower(b); }
+
+}  // namespace
+
+std::size_t letters_changed(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same(a[i - 1], b[j - 1])});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1]))
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest_compared = 64;
+  // Of thousands of names one is always near, and looking through them for each of a thousand errors takes minutes.
+  constexpr std::size_t most_compared = 2000;
+  if (word.size() > longest_compared || candidates.size() > most_compared) return std::nullopt;
+  std::optional<NearSpelling> nearest;
+  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1, as_near = 0;
+  for (const auto& candidate : candidates) {
+    if (candidate.size() > longest_compared || candidate == word) continue;
+    const std::size_t changed = letters_changed(word, candidate);
+    // With one or two letters every other name is near: only their order and their capitals can be a slip.
+    const bool short_word = std::max(word.size(), candidate.size()) <= 2;
+    const bool turned = word.size() == 2 && candidate.size() == 2 && word[0] == candidate[1] && word[1] == candidate[0];
+    if (short_word && changed != 0 && !turned) continue;
+    if (changed < fewest) {
+      fewest = changed, as_near = 0;
+      nearest = NearSpelling{candidate, false};
+    }
+    // A name may be declared in two places; that does not make it two.
+    if (nearest && changed == fewest && candidate != nearest->text) ++as_near;
+  }
+  if (nearest) nearest->certain = fewest <= 1 && as_near == 0;
+  return nearest;
+}
+
+std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates) {
+  auto near = near_spelling(word, candidates);
+  if (!near) return std::nullopt;
+  return std::move(near->text);
+}
+
+}  // namespace wale

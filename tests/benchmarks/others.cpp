@@ -1,0 +1,200 @@
+// What is not the tick itself, a line each: what, ns (or ms) a piece.
+//
+//   bench_others [guards]   all, or the guards alone
+
+#include <time.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "runtime/machine/spline.hpp"
+#include "runtime/stage/front_most.hpp"
+#include "runtime/stage/guards.hpp"
+#include "runtime/stage/player.hpp"
+#include "tests/benchmarks/measure.hpp"
+#include "tests/machine/random_program.hpp"
+#include "tests/runtime/figures.hpp"
+#include "wale/program.hpp"
+
+namespace wale::benchmarks {
+namespace {
+
+/// Time that this thread has worked, ns: what others do on the machine beside it is not counted.
+double worked() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+}
+
+/// The median over repetitions of `work`, divided by `count`, in ns.
+template <class Work>
+double timed(std::size_t repetitions, double count, Work&& work) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < repetitions + 1; ++i) {
+    const double start = worked();
+    work();
+    if (i > 0) all.push_back((worked() - start) / count);
+  }
+  return median(all);
+}
+
+void front_most(std::size_t count) {
+  std::mt19937 random(1995);
+  std::uniform_real_distribution<float> place(-0.1f, 0.1f);
+  const float side = 0.4f / std::sqrt(static_cast<float>(count));  // each point under four on average
+  std::uniform_real_distribution<float> size(0.5f * side, 1.5f * side);
+  std::vector<PatchOutline> patches(count);
+  for (PatchOutline& each : patches) {
+    each = {{place(random), place(random)}, size(random), size(random), static_cast<float>(random() % 100)};
+  }
+  double built = 0;
+  {
+    const double start = worked();
+    const FrontMost once(patches);
+    built = (worked() - start) * 1e-6;
+  }
+  const FrontMost all(patches);
+  std::vector<glm::dvec2> moving, anywhere;
+  for (int i = 0; i < 4096; ++i) {
+    const double t = static_cast<double>(i) / 900;
+    moving.emplace_back(0.09 * std::sin(2.3 * t), 0.09 * std::sin(1.7 * t + 1));
+    anywhere.emplace_back(place(random), place(random));
+  }
+  // The next point waits for what was found at the last one.
+  volatile double sink = 0;
+  const auto walk = [&](const std::vector<glm::dvec2>& points) {
+    double moved = 0;
+    for (const glm::dvec2& point : points) moved = 1e-12 * all.at(point + moved);
+    sink = moved;
+  };
+  const double slow = timed(41, 4096, [&] { walk(moving); }), fast = timed(41, 4096, [&] { walk(anywhere); });
+  std::printf("front_most_%zu_moving %.1f\nfront_most_%zu_random %.1f\nfront_most_%zu_built_ms %.1f\n", count, slow,
+              count, fast, count, built);
+}
+
+/// One of a hundred thousand patches moves, others with it or not: what the control side does about it, us.
+void move(std::size_t count, std::size_t moving) {
+  std::mt19937 random(1995);
+  std::uniform_real_distribution<float> place(-0.1f, 0.1f);
+  const PatchSize size{.width = 0.001f, .height = 0.001f};
+  const Program program = *Program::load(example::program());
+  const auto memory = std::make_shared<Memory>(program);
+  const Bank bank(program, program.default_parameters(), size);
+  PlacedPatches::Patches patches(count);
+  for (auto& each : patches)
+    each = std::make_shared<PlacedPatch>(PlacedPatch{bank, {place(random), place(random)}, memory});
+  std::vector<MovedPatch> moved(moving);
+  for (std::size_t i = 0; i < moving; ++i) moved[i] = {i, {place(random), place(random)}};
+  PlacedPatches all;
+  all.take(std::move(patches));
+  const double arranged = timed(3, 1e6, [&] { all.arrange(moved); });
+  Exchange<PlacedPatches> exchange;
+  const double once = timed(201, 1e3, [&] {
+    moved[0].position.x = -moved[0].position.x;
+    all.move(moved);
+    exchange.publish(all);
+  });
+  volatile float sink = 0;
+  const double found = timed(41, 4096, [&] {
+    double last = 0;
+    for (int i = 0; i < 4096; ++i) {
+      const double t = static_cast<double>(i) / 900;
+      last = 1e-12 * all.at({0.09 * std::sin(2.3 * t) + last, 0.09 * std::sin(1.7 * t + 1)}).position.x;
+    }
+    sink = static_cast<float>(last);
+  });
+  std::printf("move_%zu_of_%zu_us %.1f\nmove_%zu_of_%zu_first_ms %.1f\nmove_%zu_of_%zu_found %.1f\n", moving, count,
+              once, moving, count, arranged, moving, count, found);
+}
+
+void guards(const char* what, const DeviceProfile& device) {
+  Guards guard(device);
+  guard.allow(0.1, 0.5);
+  std::mt19937 random(1995);
+  std::uniform_real_distribution<float> force(-4, 4);
+  std::vector<Force> forces(1024);
+  for (Force& each : forces) each = {force(random), force(random)};
+  volatile float sink = 0;
+  std::printf("%s %.1f\n", what, timed(101, 1024, [&] {
+                Force last(0);
+                double x = 0;
+                for (const Force& each : forces) {
+                  last = guard(each + last * 1e-9f, {x = 1e-4 - x, 0}, 1);
+                  guard.commanded(last);
+                }
+                sink = last.x;
+              }));
+}
+
+void loading() {
+  // Programs of about a hundred instructions in all, states, grids, tables, marks and percepts among them.
+  std::vector<std::vector<std::byte>> files;
+  double instructions = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    const PatchProgram program = example::RandomProgram(seed).make();
+    instructions += static_cast<double>(program.setup.size() + program.enter.size() + program.tick.size());
+    instructions += static_cast<double>(program.picture.code.size() + program.picture.frame.size());
+    for (const Peak& peak : program.peaks) instructions += static_cast<double>(peak.code.size());
+    files.push_back(write_patch_program(program));
+  }
+  std::vector<Program> programs;
+  const double all = timed(11, 1e6, [&] {
+    programs.clear();
+    for (const auto& file : files) {
+      auto loaded = Program::load(file);
+      if (loaded) programs.push_back(*std::move(loaded));
+    }
+  });
+  std::printf("load_1000_ms %.1f\nload_instructions %.0f\n", all, instructions / 1000);
+}
+
+/// One look-up into a sampled map of `side` samples a side, the next place waiting for what was found at the last.
+void look_up(std::uint32_t side) {
+  HeightTable table{side, side, SharedHeights::Codes(std::size_t{side} * side)};
+  std::mt19937 random(1995);
+  std::uint16_t* code = &table.heights[0];
+  for (std::size_t i = 0; i < table.heights.size(); ++i)
+    code[i] = static_cast<std::uint16_t>(32767 + 20000 * std::sin(1e-2 * static_cast<double>(i % side)));
+  double made = worked();
+  const Spline spline(table);
+  made = (worked() - made) * 1e-6;
+  std::uniform_real_distribution<float> place(0, static_cast<float>(side - 1));
+  std::vector<glm::vec2> anywhere(4096), moving(4096);
+  for (glm::vec2& point : anywhere) point = {place(random), place(random)};
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    moving[i] = glm::vec2(0.37f, 0.21f) * static_cast<float>(i) * static_cast<float>(side) / 4096.0f;
+  volatile float sink = 0;
+  const auto walk = [&](const std::vector<glm::vec2>& points) {
+    float last = 0;
+    for (const glm::vec2& point : points) last = sample_of(spline, point.x + last * 1e-30f, point.y).along_a;
+    sink = last;
+  };
+  const double slow = timed(21, 4096, [&] { walk(moving); }), fast = timed(21, 4096, [&] { walk(anywhere); });
+  std::printf("map_%u_moving %.1f\nmap_%u_random %.1f\nmap_%u_prefilter_ms %.1f\n", side, slow, side, fast, side, made);
+}
+
+}  // namespace
+}  // namespace wale::benchmarks
+
+int main(int count, char**) {
+  using namespace wale::benchmarks;
+  wale::DeviceProfile device = wale::sandpaper();
+  guards("guards", device);
+  device.delay_x = device.delay_y = 0.0015;
+  device.damping_known = true;
+  device.continuous_newton = 5;
+  device.heating_seconds = 20;
+  guards("guards_late", device);
+  if (count > 1) return 0;
+  front_most(10);
+  front_most(1000);
+  front_most(100'000);
+  move(10, 1);
+  move(100'000, 1);
+  move(100'000, 100);
+  loading();
+  look_up(1024);
+  look_up(4096);
+}

@@ -1,0 +1,140 @@
+// A driver is a folder and a row of a table: made_up/ is found, listed, chosen, opened, felt, lost and found again by
+// what serves every driver.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "calibration/command/device_report.hpp"
+#include "runtime/device/open_device.hpp"
+#include "runtime/device/shipped_devices.hpp"
+#include "tests/device/made_up/made_up.hpp"
+#include "tests/runtime/programs.hpp"
+#include "wale/stage.hpp"
+
+namespace wale::adding_driver_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The table of drivers with a row more.
+std::vector<const Driver*> table() {
+  std::vector<const Driver*> all(drivers().begin(), drivers().end());
+  all.push_back(&made_up_driver);
+  return all;
+}
+
+/// The declared devices with one more.
+std::vector<DeclaredDevice> known() {
+  std::vector<DeclaredDevice> all = *shipped_devices();
+  DeclaredDevice device;
+  device.profile = sandpaper();
+  device.profile.name = "handle_on_rails";
+  device.wiring.motors = {{{0, -1}, {1, 1}}};  // its x motor pushes to the left
+  all.push_back(device);
+  return all;
+}
+
+const Connections nowhere{Error{Code::unusable_device, "no USB here"}};
+
+class AddingADriver : public testing::Test {
+ protected:
+  AddingADriver() {
+    made_up::Rails& rails = made_up::rails();
+    rails.is_plugged_in = true;
+    rails.x = 200, rails.y = 0;
+    rails.forces.clear();
+    rails.descriptors.clear();
+  }
+  ~AddingADriver() override { made_up::rails().is_plugged_in = false; }
+
+  Result<ChosenDevice> chosen(const std::string& spelling) const {
+    return choose_device({.spelling = spelling}, known_, plugged_in(nowhere, {}, drivers_), drivers_);
+  }
+
+  const std::vector<const Driver*> drivers_ = table();
+  const std::vector<DeclaredDevice> known_ = known();
+};
+
+TEST_F(AddingADriver, IsFoundAndListed) {
+  const auto plugged = plugged_in(nowhere, {}, drivers_);
+  ASSERT_EQ(plugged.size(), 1u);
+  EXPECT_EQ(in_words(plugged[0]), "Handle on rails (rails)");
+  const std::string listed = command::devices_text(known_, nowhere, plugged);
+  EXPECT_NE(listed.find("Handle on rails"), std::string::npos);
+  EXPECT_NE(listed.find("used as handle_on_rails"), std::string::npos) << listed;
+  made_up::rails().is_plugged_in = false;
+  EXPECT_TRUE(plugged_in(nowhere, {}, drivers_).empty());
+}
+
+TEST_F(AddingADriver, IsChosenByEachOfItsSpellings) {
+  for (const char* spelling : {"auto", "made-up", "handle_on_rails"}) {
+    const auto choice = chosen(spelling);
+    ASSERT_TRUE(choice) << spelling << ": " << choice.error().sentence;
+    ASSERT_TRUE(choice->plugged) << spelling;
+    EXPECT_EQ(choice->plugged->port, "rails") << spelling;
+    EXPECT_EQ(choice->declared->profile.name, "handle_on_rails") << spelling;
+  }
+  const auto near = chosen("made-upp");
+  ASSERT_FALSE(near);
+  EXPECT_EQ(near.error().code, Code::unknown_device);
+  EXPECT_EQ(near.error().mend, "did you mean `made-up`?");
+}
+
+TEST_F(AddingADriver, IsFeltAsItsDeclarationSays) {
+  const auto choice = chosen("auto");
+  ASSERT_TRUE(choice);
+  auto opened = open_device(nowhere, *choice);
+  ASSERT_TRUE(opened) << opened.error().sentence;
+  EXPECT_EQ((*opened)->profile(), choice->declared->profile);
+  Stage stage(**opened);
+  stage.place(spring(300));
+  const auto ran = stage.run({.seconds = 0.3});
+  ASSERT_TRUE(ran) << ran.error().sentence;
+  const auto& ticks = ran->record.ticks;
+  ASSERT_FALSE(ticks.empty());
+  EXPECT_LT(ticks.back().force.x, -1) << "the spring pushes back to the middle";
+  float most = 0;
+  for (const Force& force : made_up::rails().forces) {
+    EXPECT_GE(force.x, 0) << "along a motor that lies the other way round";
+    most = std::max(most, force.x);
+  }
+  EXPECT_NEAR(most, -ticks.back().force.x, 1e-3);
+  EXPECT_EQ(made_up::rails().open, 1);
+  opened->reset();
+  EXPECT_EQ(made_up::rails().open, 0);
+}
+
+TEST_F(AddingADriver, IsOpenedAgainWithoutTheDescriptorThatWasUsedUp) {
+  const auto choice = chosen("made-up");
+  ASSERT_TRUE(choice);
+  auto opened = open_device(nowhere, *choice, {.descriptor = 17});
+  ASSERT_TRUE(opened);
+  HotPluggedDevice& device = **opened;
+  EXPECT_EQ(device.sample().contact, Contact::good);
+  made_up::rails().is_plugged_in = false;
+  EXPECT_EQ(device.sample().contact, Contact::lost);
+  made_up::rails().is_plugged_in = true;
+  while (device.sample().contact != Contact::good) {
+    device.elapse(1);
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_EQ(made_up::rails().descriptors, (std::vector<int>{17, -1}));
+  EXPECT_EQ(device.report().reason, "it came off its rails");
+  EXPECT_EQ(device.report().returns, 1);
+}
+
+TEST_F(AddingADriver, TheTableOfDriversHasEachOnce) {
+  std::vector<std::string> names;
+  for (const Driver* driver : drivers()) names.emplace_back(driver->name);
+  EXPECT_EQ(names, (std::vector<std::string>{"hid-pid", "novint-falcon", "pointer"})) << "in the order of `auto`";
+  EXPECT_EQ(find_driver(drivers(), "made-up"), nullptr);
+  EXPECT_EQ(find_driver(drivers_, "made-up"), &made_up_driver);
+}
+
+}  // namespace
+}  // namespace wale::adding_driver_test

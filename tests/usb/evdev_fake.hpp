@@ -1,0 +1,56 @@
+#pragma once
+
+#include <linux/input.h>
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/usb/node_fake.hpp"
+
+namespace wale::test {
+
+/// An event node of a joystick with force feedback, as linux/input.h and Documentation/input/ff.rst describe it.
+class EvdevFake final : public NodeFake {
+ public:
+  struct Features {
+    bool makes_constant_force = true, tells_position = true;
+    int most_effects = 16;
+    int room = 16;  ///< of them, while other programs hold the rest
+  };
+  explicit EvdevFake() : EvdevFake(Features{}) {}
+  explicit EvdevFake(const Features& features);
+  ~EvdevFake() override { stop(); }
+
+  struct Effect {
+    ff_effect said{};
+    bool plays = false;
+    std::int64_t started = 0;  ///< microseconds
+  };
+
+  /// Of full force along HID's axes (y to the user).
+  glm::dvec2 force();
+  void move_to(std::int32_t x, std::int32_t y);
+  /// Moves it, and says no more than that events were dropped.
+  void move_unheard(std::int32_t x, std::int32_t y);
+  std::map<int, Effect> effects();
+  /// "upload 0 level 0 toward 16384", "play 0", "gain 65535", "autocenter 0", "erase 0"
+  std::vector<std::string> log();
+  std::int32_t fuzz();
+
+ private:
+  int answer(unsigned long request, void* argument) override;
+  int answer_bits(unsigned type, std::uint8_t* bits, std::size_t size) const;
+  int upload(ff_effect& effect);
+  void frame() override;
+  void tell(const std::vector<input_event>& events) const;
+
+  const Features features_;
+  std::map<int, Effect> effects_;
+  std::vector<std::string> log_;
+  std::array<input_absinfo, 2> axes_{};
+};
+
+}  // namespace wale::test

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "tests/usb/node_fake.hpp"
+#include "tests/usb/pid_model.hpp"
+
+namespace wale::test {
+
+/// A hidraw node with a model of a joystick behind it. One output report and one input report go by in each frame.
+class HidrawFake final : public NodeFake {
+ public:
+  explicit HidrawFake(PidModel model) : model_(std::move(model)) { start(); }
+  ~HidrawFake() override { stop(); }
+
+  /// Calls `look` with the model while nobody else uses it.
+  template <class Look>
+  auto with_model(Look look) {
+    const std::lock_guard lock(mutex_);
+    return look(model_);
+  }
+
+ private:
+  int answer(unsigned long request, void* argument) override;
+  void frame() override;
+  int report(std::uint8_t request_type, std::uint8_t request, std::uint8_t kind, std::uint8_t* bytes, std::size_t size);
+
+  PidModel model_;
+};
+
+}  // namespace wale::test
