@@ -22,8 +22,9 @@ namespace {
 constexpr double least_declared_watt = 0.01;  // below, rounding up would say nothing
 
 /// A program that gives energy says how much.
-void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, Diagnostics& diagnostics) {
-  const Energy energy = energy_of(bank);
+void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, const GradingHand& hand,
+                               Diagnostics& diagnostics) {
+  const Energy energy = energy_of(bank, hand);
   if (!energy.active() || (material.active_watt > 0 && energy.watt() <= material.active_watt)) return;
   const double watt = std::max(energy.watt(), least_declared_watt);
   const std::string mend = fmt::format("active {:.2g} W", std::ceil(watt * 100) / 100);
@@ -108,7 +109,7 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
                         .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
     return std::nullopt;
   }
-  warn_of_undeclared_energy(bank, solved, diagnostics);
+  warn_of_undeclared_energy(bank, solved, normal_hand(module.declarations()), diagnostics);
   warn_of_a_device_that_gives_less(solved, diagnostics);
   return *std::move(loaded);
 }

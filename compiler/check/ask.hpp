@@ -8,7 +8,7 @@
 namespace wale {
 
 /// Adds what a line of a material's perceptual block asks for; it replaces what was taken over for the same percept.
-/// What makes no sense is reported and not added.
+/// A percept that makes no sense is reported and not added.
 void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, const Surroundings& surroundings,
          std::vector<AskedPercept>& percepts);
 

@@ -82,7 +82,7 @@ class Assembler {
     return base != nullptr;
   }
 
-  /// What a material is made from before `again` says it once more.
+  /// Points at the first origin of a material that `again` gives a second one.
   static Advice first_origin(const MaterialDecl& node, const Setting& again) {
     Advice advice = "keep either `like` or the `=` behind the name; for a mixture write `= 0.5 a + 0.5 b`";
     for (const auto& setting : node.representative)

@@ -28,8 +28,7 @@ struct AssembledStatement {
   std::optional<Mixture> value;  ///< instead of a parameter's own default
 };
 
-/// What a material consists of once it is known what it is made from: its own statements and those it takes over, or
-/// the materials that it blends.
+/// All parts of a material: its own statements and those it takes over, or the materials that it blends.
 struct AssembledMaterial {
   struct Component {
     double weight = 1;  ///< the default of the parameter that it is
@@ -46,8 +45,8 @@ struct AssembledMaterial {
   bool derived = false;  ///< something is taken over
 };
 
-/// Works out what a material is made from: `like`, `= other(parameter: value)`, `= 0.7 a + 0.3 b`, `= between(a, b,
-/// t)`. Nothing when that makes no sense, which has been reported.
+/// Assembles a material from its own statements and from others: `like`, `= other(parameter: value)`, `= 0.7 a + 0.3
+/// b`, `= between(a, b, t)`. Null where that makes no sense, which is reported.
 std::shared_ptr<const AssembledMaterial> assemble(const Declared<MaterialDecl>& material,
                                                   const Surroundings& surroundings);
 

@@ -58,7 +58,7 @@ TermId Blender::share_of(TermId weight, const std::vector<TermId>& weights) {
 
 void Blender::superpose(const AssembledMaterial::Component& component, TermId weight, TermId share,
                         Superposition& sum) {
-  const std::size_t first_carrier = checker_.carriers().size();
+  const std::size_t first_carrier = checker_.record().carriers.size();
   StatementChecker statements(material_, checker_, surroundings_, component.name);
   const std::size_t errors_before = surroundings_.diagnostics.error_count();
   const auto force = compose(*component.material, statements);
@@ -82,8 +82,8 @@ void Blender::superpose(const AssembledMaterial::Component& component, TermId we
     const auto is_carrier = [&](const Carrier& carrier) {
       return carrier.force_x == leaf.x && carrier.force_y == leaf.y;
     };
-    const bool carried = std::any_of(checker_.carriers().begin() + static_cast<std::ptrdiff_t>(first_carrier),
-                                     checker_.carriers().end(), is_carrier);
+    const bool carried = std::any_of(checker_.record().carriers.begin() + static_cast<std::ptrdiff_t>(first_carrier),
+                                     checker_.record().carriers.end(), is_carrier);
     const bool is_sum = x.kind == TermKind::operation && x.operation == Operation::add &&
                         y.kind == TermKind::operation && y.operation == Operation::add;
     if (carried || !is_sum) {
@@ -115,7 +115,7 @@ void Blender::add_levels(const AssembledMaterial::Component& component, TermId s
 
 void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
                        Superposition& sum) {
-  auto& carriers = checker_.carriers();
+  auto& carriers = checker_.record().carriers;
   const auto found =
       std::find_if(carriers.begin() + static_cast<std::ptrdiff_t>(first_carrier), carriers.end(),
                    [&](const Carrier& carrier) { return carrier.force_x == leaf.x && carrier.force_y == leaf.y; });
@@ -159,7 +159,7 @@ void Blender::add_textures(Superposition& sum) {
   const auto* function = surroundings_.declarations.functions.find(function_name);
   const auto height = blended_height(textures);
   if (!function || !height) return;
-  std::vector<ExpressionChecker::Actual> actuals(function->node->parameters.size());
+  std::vector<Actual> actuals(function->node->parameters.size());
   for (std::size_t i = 0; i < actuals.size(); ++i)
     if (function->node->parameters[i].name.text == "height")
       actuals[i] = {.value = *height, .span = span_, .given = true};

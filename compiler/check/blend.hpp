@@ -23,7 +23,7 @@ class Blender {
   /// weight becomes a parameter of the material.
   std::optional<Value> compose(const AssembledMaterial& assembled, StatementChecker& own);
 
-  /// Of what has been composed last.
+  /// The levels of the last composition.
   const Levels& levels() const { return levels_; }
 
  private:

@@ -2,6 +2,7 @@
 
 #include "compiler/check/check_material.hpp"
 #include "compiler/check/check_names.hpp"
+#include "compiler/modules/library_index.hpp"
 
 namespace wale {
 
@@ -18,6 +19,16 @@ void check_constants(const SyntaxTree& tree, const Surroundings& surroundings) {
       const auto* declared = surroundings.declarations.constants.find(constant->name.text);
       if (declared && declared->node == constant) checker.named(constant->name, scope);
     }
+}
+
+/// Looks names up among the exports of the library. The library is listed once, when the first name is unknown.
+FindExporter exporters_for(Resolver& resolver, const std::string& file) {
+  return [&resolver, file,
+          index = std::shared_ptr<const LibraryIndex>()](std::string_view name) mutable -> std::optional<Exporter> {
+    if (!index) index = library_index(resolver, file);
+    const ExportedName* found = index->exported(name);
+    return found ? std::optional(Exporter{found->module, found->what}) : std::nullopt;
+  };
 }
 
 }  // namespace
@@ -37,8 +48,8 @@ CheckedModule check(ModuleSet modules, const SourceSet& sources, Resolver& resol
     if (tree->source == all.source) own = tree.get();
   if (!own) return checked;
 
-  const Surroundings surroundings{sources, checked.declarations(), diagnostics, &resolver,
-                                  all.common->written_out.get()};
+  const FindExporter find_exporter = exporters_for(resolver, sources[all.source].name);
+  const Surroundings surroundings{sources, checked.declarations(), diagnostics, &resolver, &find_exporter};
   const bool whole = !diagnostics.has_errors();
   check_constants(*own, surroundings);
   check_functions(*own, surroundings);

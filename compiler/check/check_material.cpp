@@ -39,10 +39,10 @@ class MaterialChecker {
     if (!node_.physical_span && node_.derived_from)
       material_.layers.physical = sources.text(tree_.span(*node_.derived_from));
     material_.layers.documentation = node_.documentation;
-    material_.carriers = std::move(checker_.carriers());
-    material_.open_spans = checker_.open_spans();
-    material_.states = std::move(checker_.states());
-    material_.periods = checker_.periods();
+    material_.carriers = std::move(checker_.record().carriers);
+    material_.open_spans = checker_.record().open_spans;
+    material_.states = std::move(checker_.record().states);
+    material_.periods = checker_.record().periods;
     return std::move(material_);
   }
 
@@ -59,7 +59,7 @@ class MaterialChecker {
       material_.force = {force->x, force->y};
       material_.force_span = own.layers().empty() ? node_.name.span : own.layers().front().span;
     }
-    // What stands in an expression that could not be read or checked may be the use that is missed.
+    // An expression that could not be read or checked may hold the use that seems to be missing.
     if (whole_ && surroundings_.diagnostics.error_count() == errors_before_) own.warn_of_unused_names(node_.span);
     if (!material_.relief) find_relief(own);
     if (force) warn_of_scaled_textures();
@@ -69,7 +69,7 @@ class MaterialChecker {
   /// from tick to tick may scale a texture; that is a matter of the moment.
   void warn_of_scaled_textures() {
     const Terms& terms = material_.terms;
-    for (const auto& carrier : checker_.carriers()) {
+    for (const auto& carrier : checker_.record().carriers) {
       if (!carrier.open) continue;
       for (TermId id = carrier.force_x + 1; id < terms.size(); ++id) {
         const Term& term = terms[id];
@@ -90,7 +90,7 @@ class MaterialChecker {
   /// text.
   void find_relief(const StatementChecker& own) {
     const Dimension length = surroundings_.declarations.dimension("length");
-    for (const auto& carrier : checker_.carriers()) {
+    for (const auto& carrier : checker_.record().carriers) {
       if (!carrier.relief) continue;
       material_.relief_is_length = carrier.relief_dimension == length;
       material_.relief = material_.relief ? material_.terms.apply(Operation::add, *material_.relief, *carrier.relief)

@@ -1,10 +1,11 @@
-// What a material remembers: states and memories, and how they change.
+// States and memories, and how they change.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "compiler/check/check_statements.hpp"
+#include "compiler/expression/fields.hpp"
 
 namespace wale {
 
@@ -17,7 +18,7 @@ constexpr double most_float = 3.4e38;
 
 std::optional<Dimension> StatementChecker::declared_dimension(const std::optional<Word>& dimension) {
   const auto* known = dimension ? declarations().dimensions.find(dimension->text) : nullptr;
-  if (dimension && !known && !checker_.private_name(*dimension))
+  if (dimension && !known && !checker_.report_private(*dimension))
     report(
         Code::unknown_name, dimension->span, fmt::format("nothing declares a dimension `{}`", dimension->text),
         did_you_mean(dimension->span, dimension->text, declarations().dimensions.spellings(),
@@ -89,22 +90,22 @@ void StatementChecker::operator()(const StateStatement& node) {
   Value value = initial;
   value.span = node.name.span;
   const std::string name = free_name(std::string(node.name.text), [&](const std::string& taken) {
-    return std::ranges::any_of(checker_.states(),
+    return std::ranges::any_of(checker_.record().states,
                                [&](const auto& other) { return other.name == taken || other.name == taken + ".x"; });
   });
   const auto add = [&](TermId first, const char* part) {
-    const auto index = static_cast<std::uint32_t>(checker_.states().size());
+    const auto index = static_cast<std::uint32_t>(checker_.record().states.size());
     const TermId now = material_.terms.add({.kind = TermKind::state, .index = index, .span = node.name.span});
-    checker_.states().push_back({.name = name + part,
-                                 .low = range->low,
-                                 .high = range->high,
-                                 .initial = first,
-                                 .next = now,
-                                 .si_unit = declarations().names().unit(initial.dimension),
-                                 .span = node.name.span});
+    checker_.record().states.push_back({.name = name + part,
+                                        .low = range->low,
+                                        .high = range->high,
+                                        .initial = first,
+                                        .next = now,
+                                        .si_unit = declarations().names().unit(initial.dimension),
+                                        .span = node.name.span});
     return now;
   };
-  KnownState known{.first = static_cast<std::uint32_t>(checker_.states().size()), .updated = {}, .next = {}};
+  KnownState known{.first = static_cast<std::uint32_t>(checker_.record().states.size()), .updated = {}, .next = {}};
   const bool vector = initial.type == Value::Type::vector;
   value.x = add(initial.x, vector ? ".x" : "");
   if (vector) value.y = add(initial.y, ".y");
@@ -153,7 +154,7 @@ void StatementChecker::operator()(const MemoryStatement& node) {
       .kind = Field::Kind::memory, .from = declarations().dimension("length"), .to = initial.dimension, .index = index};
   declare(node.name, {.type = Value::Type::field,
                       .dimension = initial.dimension,
-                      .field = checker_.keep(field),
+                      .field = checker_.record().keep(field),
                       .span = node.name.span});
   memories_.emplace(node.name.text, KnownMemory{index, {}});
 }
@@ -214,7 +215,7 @@ void StatementChecker::update_state(const UpdateStatement& node) {
   Value updated = now;
   const bool vector = now.type == Value::Type::vector;
   for (std::uint32_t part = 0; part < (vector ? 2u : 1u); ++part) {
-    CheckedState& checked = checker_.states()[state.first + part];
+    CheckedState& checked = checker_.record().states[state.first + part];
     TermId next = part == 0 ? value.x : value.y;
     if (node.derivative)
       next =
@@ -242,7 +243,7 @@ void StatementChecker::update_memory(const UpdateStatement& node, KnownMemory& k
                    .y = terms.input(Input::y, span),
                    .dimension = declarations().dimension("length"),
                    .span = span};
-  const auto [u, v] = checker_.memory_place(index, hand, span);
+  const auto [u, v] = memory_place(material_.terms, index, hand, span);
   // Here its name is the one cell that is written, not what lies between cells: nothing blurs by being read.
   auto& binding = scope_.at(node.name.text);
   const Value whole = binding.value;

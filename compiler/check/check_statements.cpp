@@ -100,11 +100,11 @@ std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
            "use numbers and parameters; for a limit that moves write `hold(force, ceiling)`");
     return std::nullopt;
   }
-  // What a parameter's whole range comes to is known of the parameter itself only.
+  // The range of a value is known only where the value is a parameter itself.
   const auto known = constant_value(terms, limit.x, &material_.parameters);
   const bool moves = terms[limit.x].kind == TermKind::parameter;
   if ((known && !(*known > 0)) || (moves && material_.parameters[terms[limit.x].index].low < 0)) {
-    report(Code::value_out_of_range, limit.span, "a force's limit is more than nothing",
+    report(Code::value_out_of_range, limit.span, "a force's limit must be greater than zero",
            known && *known < 0 && !moves ? "it holds the force's size, whatever its direction: leave out the `-`"
                                          : "write, for example, `limit 3 N`");
     return std::nullopt;
@@ -142,12 +142,12 @@ void StatementChecker::operator()(const ActiveStatement& node) {
   if (!power) return;
   if (!(*power > 0 && *power <= most_active_watt))
     return report(Code::value_out_of_range, tree().span(node.power),
-                  fmt::format("the power of what is active is more than nothing and at most {} W", most_active_watt),
+                  fmt::format("the active power must be greater than zero and at most {} W", most_active_watt),
                   "write, for example, `active 0.3 W`");
   if (std::exchange(active_seen_, true))
     return report(Code::declared_twice, span, "a material says once how active it is",
                   Advice("keep one of them").see(material_.active_span, "the first one"));
-  // What the components of a blend give adds up.
+  // The powers of a blend's components add up.
   material_.active_watt = prefix_.empty() ? *power : std::min(double{most_active_watt}, material_.active_watt + *power);
   material_.active_span = span;
 }

@@ -138,7 +138,7 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
     if (unread_words.contains(name)) return true;
     const auto [first, last] = failed.equal_range(name);
     return std::any_of(first, last, [&](const auto& declared) {
-      // What is used above its declaration is unknown whether the declaration is right or not.
+      // A name that is used above its declaration is unknown, whether the declaration is right or not.
       return declared.second.source != each.span.source || declared.second.end < each.span.begin;
     });
   };

@@ -42,7 +42,7 @@ std::optional<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest&
   used.insert(known.begin(), known.end());
   const auto parameters = chosen_parameters(*program, known);
   if (!parameters) return std::nullopt;
-  fates.fates = fates_at(Bank(*program, *parameters, program->default_size()), &declarations);
+  fates.fates = fates_at(Bank(*program, *parameters, program->default_size()), declarations);
   return fates;
 }
 
@@ -95,7 +95,7 @@ int describe(const DescribeOptions& options) {
   for (const auto& program : programs) {
     const auto parameters = chosen_parameters(program, options.settings);
     if (!parameters) return refused;
-    descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), &common->declarations));
+    descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
   }
   if (options.json) {
     fmt::print("{}", descriptions_json(descriptions));

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
 namespace {
@@ -21,8 +22,9 @@ int preview(const PreviewOptions& options) {
   if (programs.empty()) return refused;
   const auto parameters = chosen_parameters(programs.front(), options.settings);
   if (!parameters) return refused;
+  const auto common = common_modules();
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
-  const auto drawing = draw_preview(bank, preview_text(bank));
+  const auto drawing = draw_preview(bank, preview_text(bank, common->declarations), common->declarations);
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");

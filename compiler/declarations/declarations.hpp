@@ -37,7 +37,7 @@ class Names {
   struct Entry {
     T what;
     Span declared;          ///< the name where it was declared
-    bool exported = false;  ///< whoever imports the file may use it
+    bool exported = false;  ///< files that import this one may use it
     bool imported = false;  ///< it came with an import
   };
 
@@ -45,7 +45,7 @@ class Names {
   Names(const Names&) = delete;
   Names& operator=(const Names&) = delete;
 
-  /// What is found when nothing here has the name.
+  /// Names that are looked up where this has none.
   void stand_on(const Names& common) { common_ = &common; }
 
   const Entry* entry(const NameKey& name) const {
@@ -65,7 +65,7 @@ class Names {
     if (is_new) index_.add(added->first, &added->second);
   }
 
-  /// What the file itself has or imports, by name.
+  /// Names that the file itself declares or imports.
   const std::map<std::string, Entry>& own() const { return own_; }
 
   /// Everything, what every file knows first.
@@ -129,7 +129,8 @@ struct HandDeclaration {
   Span span;
 };
 
-/// What a compilation calls dimensions and units: what every file does, until a file declares some of its own.
+/// The names of dimensions and units in one compilation: those that every file knows, until a file declares some of its
+/// own.
 class SharedNames {
  public:
   SharedNames() = default;
@@ -169,7 +170,7 @@ struct Declarations {
   /// Materials of the library that this file names without declaring or importing them, by the byte where the name
   /// begins. Null where nothing was found, which has been reported.
   std::map<std::uint32_t, const Declared<MaterialDecl>*> library_materials;
-  /// What imported files keep to themselves, and where: to tell it from what is unknown.
+  /// Names that imported files declare without `export`, and where, to tell them from unknown ones.
   std::map<std::string, Span, std::less<>> private_names;
   std::vector<Map> own_maps;
   std::vector<Threshold> own_thresholds;
@@ -218,14 +219,11 @@ struct Module {
       : tree(std::move(syntax)), declarations(common, std::move(names)) {}
 };
 
-class WrittenOutFunctions;
-
-/// What every file knows: the embedded files, one list of names for all of them.
+/// The embedded files that every file knows, with one list of names for all of them.
 struct CommonModules {
   std::vector<std::unique_ptr<SyntaxTree>> trees;
   Declarations declarations;
-  Diagnostics problems;  ///< what is wrong with the files themselves: with a build of this compiler
-  std::shared_ptr<WrittenOutFunctions> written_out;  ///< of their functions; none where a file stands in for one
+  Diagnostics problems;  ///< errors in the files themselves, which are errors of this build
 };
 
 /// A parsed file, what every file knows, and all that it imports, everything declared.

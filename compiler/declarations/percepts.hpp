@@ -75,7 +75,7 @@ struct Map {
   bool of_carrier = true;  ///< it is the carrier's argument; otherwise something that is only told, as a groove's width
   Terms terms;             ///< of the law, in `magnitude` and `carrier` (number 0: `from`, 1 …: `couples` in order)
   TermId left = 0, right = 0;
-  std::vector<std::array<double, 2>> table;  ///< instead of a law: size in SI and magnitude, both more than nothing,
+  std::vector<std::array<double, 2>> table;  ///< instead of a law: size in SI and magnitude, both greater than zero,
                                              ///< the sizes rising; straight lines in logarithms between them
   std::vector<Coupling> couples;
   Branch branch = Branch::only;

@@ -106,11 +106,11 @@ std::string why_no_texture(const PatchProgram& program, const Measured& force) {
 }
 
 /// The measured force.
-Measured measured(const Bank& bank) {
+Measured measured(const Bank& bank, const Declarations& declarations) {
   Measured force = measure(bank);
   // A program with memory may push harder once it has been rubbed.
   if (remembers(bank.program().description()))
-    for (const Force felt : rehearse(bank).forces)
+    for (const Force felt : rehearse(bank, declarations.hands.find("showing")).forces)
       force.max_newton = std::max(force.max_newton, std::hypot(felt.x, felt.y));
   return force;
 }
@@ -124,17 +124,17 @@ void describe_bounds(Description& description, const Program& program) {
 }
 
 /// The force, the stability of the loop, and the percepts and the texture that the force shows.
-void describe_force(Description& description, const Bank& bank, const Declarations* declarations) {
+void describe_force(Description& description, const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
   Extraction found;
   // The tasks are independent; the longest come first.
   const std::array<std::function<void()>, 4> tasks = {
       [&] {
-        if (declarations) found = extract(bank, *declarations);
+        if (texture == Texture::extracted) found = extract(bank, declarations);
       },
-      [&] { description.grade = grade(bank); },
+      [&] { description.grade = grade(bank, normal_hand(declarations)); },
       [&] { describe_bounds(description, bank.program()); },
-      [&] { description.force = measured(bank); },
+      [&] { description.force = measured(bank, declarations); },
   };
   std::atomic<std::size_t> next = 0;
   const auto work = [&](std::size_t, std::size_t) {
@@ -146,12 +146,12 @@ void describe_force(Description& description, const Bank& bank, const Declaratio
   else
     work(0, 1);
   description.no_percept = why_no_texture(program, description.force);
-  if (declarations) describe_extracted(description, bank, found, *declarations);
+  if (texture == Texture::extracted) describe_extracted(description, bank, found, declarations);
 }
 
 /// The shaking of a pad.
-void describe_shaking(Description& description, const Bank& bank) {
-  description.shaking = measure_shaking(bank);
+void describe_shaking(Description& description, const Bank& bank, const Declarations& declarations) {
+  description.shaking = measure_shaking(bank, declarations.hands.find("normal"));
   if (description.percepts.empty()) description.no_percept = "it does not shake the device";
 }
 
@@ -190,7 +190,7 @@ std::string mark_word(MarkKind kind) {
   return "unknown";
 }
 
-Description describe(const Bank& bank, const Declarations* declarations) {
+Description describe(const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
   Description description{
       .material = program.material, .device = program.device, .layers = program.layers, .patch = bank.size()};
@@ -200,9 +200,9 @@ Description describe(const Bank& bank, const Declarations* declarations) {
     if (std::isfinite(percept.level)) description.percepts.push_back(percept);
   }
   if (program.vibrates())
-    describe_shaking(description, bank);
+    describe_shaking(description, bank, declarations);
   else
-    describe_force(description, bank, declarations);
+    describe_force(description, bank, declarations, texture);
   description.fates = fates_at(bank, declarations);
   description.parameters = program.parameters;
   description.states = program.states;

@@ -82,9 +82,12 @@ struct Description {
   std::size_t bytes = 0;  ///< of the `.wpp` file
 };
 
-/// Describes a program at a bank's parameters. Runs it to measure its force. With `declarations` it also reads percepts
-/// and a texture from the force that the author did not ask for.
-Description describe(const Bank& bank, const Declarations* declarations = nullptr);
+/// Whether percepts and a texture that the author did not ask for are read from the force, which takes longer.
+enum class Texture { extracted, left_out };
+
+/// Describes a program at a bank's parameters. Runs it to measure its force, with the declared hands `normal` and
+/// `showing`.
+Description describe(const Bank& bank, const Declarations& declarations, Texture texture = Texture::extracted);
 
 /// The description as text for people.
 std::string description_text(const Description& description);

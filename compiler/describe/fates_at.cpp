@@ -176,37 +176,36 @@ std::optional<std::size_t> solved_percept(const PatchProgram& program, const Fat
 }
 
 /// The largest output of the device, in N or m/s^2; for a pad that shakes at one frequency, the largest there.
-double most_given(const Bank& bank) {
+double most_given(const Bank& bank, const Declarations& declarations) {
   const DeviceProfile& device = bank.program().description().device;
   if (!device.shaker) return device.most();
   constexpr float steady = 1e-3f;
-  const MeasuredShaking shaking = measure_shaking(bank);
+  const MeasuredShaking shaking = measure_shaking(bank, declarations.hands.find("normal"));
   if (!(shaking.highest > 0) || shaking.highest - shaking.lowest > steady * shaking.highest) return device.most();
   return std::min(device.most(), device.shaker->acceleration(1, shaking.highest));
 }
 
 /// The largest size of a percept's carrier that an output of `given` allows, in the percept's unit.
-double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations* declarations,
+double most_of(const PatchProgram& program, const PerceptRecord& percept, const Declarations& declarations,
                double given) {
   if (percept.unit == (program.vibrates() ? "m/s^2" : "N")) return given;
-  const Percept* declared = declarations ? declarations->percepts.find(percept.name) : nullptr;
+  const Percept* declared = declarations.percepts.find(percept.name);
   return declared && declared->exerts > 0 ? given / declared->exerts : HUGE_VAL;
 }
 
 /// The map that solved a percept, by its name, or by its source where it has none or is not declared here: the program
 /// keeps the source only.
-std::string map_of(const PerceptRecord& percept, const Declarations* declarations) {
-  if (declarations)
-    for (const Map* map : declarations->maps())
-      if (map->percept == percept.name && map->source == percept.source && !map->name.empty()) return map->name;
+std::string map_of(const PerceptRecord& percept, const Declarations& declarations) {
+  for (const Map* map : declarations.maps())
+    if (map->percept == percept.name && map->source == percept.source && !map->name.empty()) return map->name;
   return percept.source;
 }
 
 }  // namespace
 
-std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations* declarations) {
+std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
-  const double given = most_given(bank);
+  const double given = most_given(bank, declarations);
   std::vector<DescribedFate> all;
   for (const FateRecord& record : program.fates) {
     const auto index = solved_percept(program, record);

@@ -27,9 +27,8 @@ struct DescribedFate {
 
 /// What the device makes of each percept and of the physics at a bank's parameters. The program's record holds it for
 /// the defaults. For a solved percept, its setup code gives its size at other parameters, and its map the level.
-/// Whether the device limits a carrier that is not a force follows from the declaration of its percept, which a program
-/// does not hold: without declarations it is not checked.
-std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations* declarations);
+/// Whether the device limits a carrier that is not a force follows from the declaration of its percept.
+std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations);
 
 /// "saturated above roughness 0.82; lost below wale 1 mm": the changes in a line; empty without any.
 std::string changes_text(const DescribedFate& fate);

@@ -4,12 +4,265 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace wale {
+
+bool BuiltinCall::number(std::size_t i) const {
+  if (value(i).type == Value::Type::number) return true;
+  reading.calls.report(Code::wrong_type, actuals[i].span,
+                       fmt::format("expected a number, found {}", type_words(value(i).type)), "",
+                       value(i).type == Value::Type::vector ? "take its `length(…)`, or work with `x` and `y`"
+                                                            : "give a number, with its unit if it has one");
+  return false;
+}
+bool BuiltinCall::plain(std::size_t i) const {
+  if (!number(i)) return false;
+  if (value(i).dimension.plain()) return true;
+  const auto& dimension = value(i).dimension;
+  reading.calls.report(Code::wrong_dimension, actuals[i].span,
+                       fmt::format("expected a plain number, found {}", reading.dimension_names().words(dimension)),
+                       reading.dimension_names().unit(dimension),
+                       fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
+                                   customary_unit(*reading.names, dimension)));
+  return false;
+}
+
+Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
+  const auto sides = reading.dimension_names().side_by_side(value(a).dimension, value(b).dimension);
+  reading.calls.say(
+      {.code = Code::mismatched_dimensions,
+       .span = actuals[b].span,
+       .message = fmt::format("{} expected, found {}", reading.dimension_names().words(value(a).dimension),
+                              reading.dimension_names().words(value(b).dimension)),
+       .label = reading.dimension_names().unit_beside(value(a).dimension, value(b).dimension),
+       .expected = sides[0],
+       .found = sides[1],
+       .help = "the arguments must have one dimension"});
+  return failed();
+}
+
+bool BuiltinCall::is_vector(std::size_t i) const {
+  if (value(i).type == Value::Type::vector) return true;
+  reading.calls.report(Code::wrong_type, actuals[i].span,
+                       fmt::format("expected a vector, found {}", type_words(value(i).type)), "",
+                       "give both parts, as in `vector(a, b)`");
+  return false;
+}
+
+std::optional<double> BuiltinCall::constant_argument(std::size_t i, const Dimension& dimension,
+                                                     const char* example) const {
+  if (!number(i)) return std::nullopt;
+  if (value(i).dimension != dimension) {
+    const auto sides = reading.dimension_names().side_by_side(dimension, value(i).dimension);
+    reading.calls.say({.code = Code::wrong_dimension,
+                       .span = actuals[i].span,
+                       .message = fmt::format("{} expected, found {}", reading.dimension_names().words(dimension),
+                                              reading.dimension_names().words(value(i).dimension)),
+                       .label = reading.dimension_names().unit_beside(dimension, value(i).dimension),
+                       .expected = sides[0],
+                       .found = sides[1],
+                       .help = fmt::format("write something like `{}`", example)});
+    return std::nullopt;
+  }
+  const auto known = constant_value(terms(), value(i).x);
+  if (!known)
+    reading.calls.report(Code::not_constant, actuals[i].span, "expected a value known at compile time", "it may change",
+                         "use numbers, units and constants; no parameters and no places");
+  return known;
+}
+
+bool BuiltinCall::text(std::size_t i, const char* example) const {
+  if (value(i).type == Value::Type::text) return true;
+  reading.calls.report(Code::wrong_type, actuals[i].span,
+                       fmt::format("expected a text, found {}", type_words(value(i).type)), "",
+                       fmt::format("write it in quotes, as in `{}`", example));
+  return false;
+}
 
 namespace {
 
 constexpr double log2_e = 1.4426950408889634, log10_2 = 0.30102999566398120, ln_2 = 0.69314718055994531;
+
+TermId scaled(const BuiltinCall& call, TermId x, double factor) {
+  return call.terms().apply(Operation::multiply, x, call.terms().literal(factor, call.span), call.span);
+}
+
+Value of_plain(const BuiltinCall& call, Operation operation, double before = 1, double after = 1) {
+  if (!call.plain(0)) return call.failed();
+  TermId x = before == 1 ? call.value(0).x : scaled(call, call.value(0).x, before);
+  x = call.terms().apply(operation, x, call.span);
+  return call.scalar(after == 1 ? x : scaled(call, x, after));
+}
+
+Value absolute(const BuiltinCall& call) {
+  if (!call.number(0)) return call.failed();
+  return call.scalar(call.terms().apply(Operation::absolute, call.value(0).x, call.span), call.value(0).dimension);
+}
+
+Value square_root(const BuiltinCall& call) {
+  if (!call.number(0)) return call.failed();
+  const auto root = power(call.value(0).dimension, 1, 2);
+  if (!root)
+    return call.reading.calls.report(
+        Code::wrong_dimension, call.actuals[0].span,
+        fmt::format("the root of {} has no dimension", call.reading.dimension_names().words(call.value(0).dimension)),
+        "", "divide it by a quantity of its own dimension first");
+  return call.scalar(call.terms().apply(Operation::square_root, call.value(0).x, call.span), *root);
+}
+
+Value extreme(const BuiltinCall& call, Operation operation) {
+  if (!call.number(0) || !call.number(1)) return call.failed();
+  if (call.value(0).dimension != call.value(1).dimension) return call.mismatched(0, 1);
+  return call.scalar(call.terms().apply(operation, call.value(0).x, call.value(1).x, call.span),
+                     call.value(0).dimension);
+}
+
+Value vector(const BuiltinCall& call) {
+  if (!call.number(0) || !call.number(1)) return call.failed();
+  if (call.value(0).dimension != call.value(1).dimension) return call.mismatched(0, 1);
+  return {.type = Value::Type::vector,
+          .x = call.value(0).x,
+          .y = call.value(1).x,
+          .dimension = call.value(0).dimension,
+          .span = call.span};
+}
+
+TermId dot_product(const BuiltinCall& call, const Value& a, const Value& b) {
+  return call.terms().apply(Operation::add, call.terms().apply(Operation::multiply, a.x, b.x, call.span),
+                            call.terms().apply(Operation::multiply, a.y, b.y, call.span), call.span);
+}
+
+Value dot(const BuiltinCall& call) {
+  if (!call.is_vector(0) || !call.is_vector(1)) return call.failed();
+  return call.scalar(dot_product(call, call.value(0), call.value(1)),
+                     call.value(0).dimension * call.value(1).dimension);
+}
+
+Value length(const BuiltinCall& call) {
+  if (!call.is_vector(0)) return call.failed();
+  return call.scalar(
+      call.terms().apply(Operation::square_root, dot_product(call, call.value(0), call.value(0)), call.span),
+      call.value(0).dimension);
+}
+
+/// A vector's direction. The squares of a vector shorter than about 1e-19 flush to zero: its length would come out too
+/// small and its direction too long, so it has none.
+Value normalise(const BuiltinCall& call) {
+  if (!call.is_vector(0)) return call.failed();
+  constexpr double shortest = 1e-15;  // in units of SI, whatever the dimension
+  const auto apply = [&](Operation operation, TermId a, TermId b) {
+    return call.terms().apply(operation, a, b, call.span);
+  };
+  const TermId size =
+      call.terms().apply(Operation::square_root, dot_product(call, call.value(0), call.value(0)), call.span);
+  const TermId has_direction = apply(Operation::less, call.terms().literal(shortest, call.span), size);
+  const auto share = [&](TermId part) {
+    return call.terms().apply(Operation::select, has_direction, apply(Operation::divide, part, size),
+                              call.terms().literal(0, call.span), call.span);
+  };
+  return {.type = Value::Type::vector, .x = share(call.value(0).x), .y = share(call.value(0).y), .span = call.span};
+}
+
+/// A number held between two constants; a constant outside them is an error.
+Value within(const BuiltinCall& call) {
+  if (!call.number(0) || !call.number(1) || !call.number(2)) return call.failed();
+  for (const std::size_t bound : {1, 2})
+    if (call.value(bound).dimension != call.value(0).dimension) return call.mismatched(bound, 0);
+  const auto known = constant_value(call.terms(), call.value(0).x);
+  const auto low = constant_value(call.terms(), call.value(1).x), high = constant_value(call.terms(), call.value(2).x);
+  if (known && low && high && !(*known >= *low && *known <= *high)) {
+    const std::string unit = call.reading.dimension_names().unit(call.value(0).dimension);
+    const std::string suffix = unit.empty() ? "" : " " + unit;
+    return call.reading.calls.report(
+        Code::value_out_of_range, call.terms()[call.value(0).x].span,
+        fmt::format("{:.4g}{} is out of range", *known, suffix), "",
+        fmt::format("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
+  }
+  return call.scalar(
+      call.terms().apply(Operation::maximum,
+                         call.terms().apply(Operation::minimum, call.value(0).x, call.value(2).x, call.span),
+                         call.value(1).x, call.span),
+      call.value(0).dimension);
+}
+
+Value gradient(const BuiltinCall& call) {
+  if (!call.number(0)) return call.failed();
+  const auto along = [&](std::uint32_t axis) {
+    return call.terms().add({.kind = TermKind::gradient, .a = call.value(0).x, .index = axis, .span = call.span});
+  };
+  const auto length_dimension = call.reading.names->dimension("length");
+  return {.type = Value::Type::vector,
+          .x = along(0),
+          .y = along(1),
+          .dimension = call.value(0).dimension / length_dimension,
+          .span = call.span};
+}
+
+Value peak(const BuiltinCall& call) {
+  if (!call.number(0)) return call.failed();
+  if (const auto dependence = call.terms().dependence(call.value(0).x); dependence.changing())
+    return call.reading.calls.report(
+        Code::wrong_rate, call.actuals[0].span,
+        fmt::format("`peak` takes a height that depends on the place only, and this changes with {}",
+                    what_changes(dependence)),
+        "", "let the height depend on `x` and `y` only; what changes may multiply the force");
+  return call.scalar(call.terms().add({.kind = TermKind::peak, .a = call.value(0).x, .span = call.span}),
+                     call.value(0).dimension);
+}
+
+Value hold(const BuiltinCall& call) {
+  if (!call.number(1)) return call.failed();
+  if (call.value(0).dimension != call.value(1).dimension) return call.mismatched(1, 0);
+  if (call.value(0).type != Value::Type::number && !call.is_vector(0)) return call.failed();
+  return held(call.terms(), call.value(0), call.value(1).x, call.span);
+}
+
+Value arctangent(const BuiltinCall& call) {
+  if (!call.number(0) || !call.number(1)) return call.failed();
+  if (call.value(0).dimension != call.value(1).dimension) return call.mismatched(0, 1);
+  return call.scalar(call.terms().apply(Operation::arctangent, call.value(0).x, call.value(1).x, call.span));
+}
+
+/// A fixed random number for a point of the lattice of whole numbers; coordinates that are not given are 0.
+Value lattice(const BuiltinCall& call) {
+  TermId place[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (call.actuals[i].given && !call.plain(i)) return call.failed();
+    place[i] = call.actuals[i].given ? call.value(i).x : call.terms().literal(0, call.span);
+  }
+  return call.scalar(call.terms().apply(Operation::hash, place[0], place[1], place[2], call.span));
+}
+
+/// An accumulator of its own that runs from 0 to 1 `frequency` times a second.
+Value phase(const BuiltinCall& call) {
+  if (!call.number(0)) return call.failed();
+  const auto frequency = call.reading.names->dimension("frequency");
+  if (call.value(0).dimension != frequency)
+    return call.reading.calls.report(
+        Code::wrong_dimension, call.actuals[0].span,
+        fmt::format("expected a frequency, found {}",
+                    with_article(call.reading.dimension_names().words(call.value(0).dimension))),
+        call.reading.dimension_names().unit(call.value(0).dimension), "write something like `phase(2 Hz)`");
+  const auto [known, added] = call.reading.record.phases.try_emplace(call.value(0).x, 0);
+  if (added) {
+    const auto index = static_cast<std::uint32_t>(call.reading.record.states.size());
+    const TermId now = call.terms().add({.kind = TermKind::state, .index = index, .span = call.span});
+    const TermId step = call.terms().apply(Operation::multiply, call.value(0).x,
+                                           call.terms().input(Input::seconds_per_tick), call.span);
+    const TermId sum = call.terms().apply(Operation::add, now, step, call.span);
+    const TermId next =
+        call.terms().apply(Operation::subtract, sum, call.terms().apply(Operation::floor, sum, call.span), call.span);
+    call.reading.record.states.push_back({.name = fmt::format("phase {}", index),
+                                          .low = 0,
+                                          .high = 1,
+                                          .initial = call.terms().literal(0, call.span),
+                                          .next = next,
+                                          .span = call.span});
+    known->second = now;
+  }
+  return call.scalar(known->second);
+}
 
 }  // namespace
 
@@ -30,286 +283,48 @@ Value held(Terms& terms, const Value& value, TermId ceiling, Span span) {
 }
 
 const std::vector<Builtin>& builtins() {
-  using Call = const BuiltinFunctions&;
-  static const std::vector<Builtin> table{
-      {"abs", {"value"}, 1, [](Call of) { return of.absolute(); }},
-      {"floor", {"value"}, 1, [](Call of) { return of.of_plain(Operation::floor); }},
-      {"sqrt", {"value"}, 1, [](Call of) { return of.square_root(); }},
-      {"sin", {"angle"}, 1, [](Call of) { return of.of_plain(Operation::sine); }},
-      {"cos", {"angle"}, 1, [](Call of) { return of.of_plain(Operation::cosine); }},
-      {"atan2", {"y", "x"}, 2, [](Call of) { return of.arctangent(); }},
-      {"exp", {"value"}, 1, [](Call of) { return of.of_plain(Operation::exp2, log2_e); }},
-      {"log", {"value"}, 1, [](Call of) { return of.of_plain(Operation::log2, 1, ln_2); }},
-      {"log2", {"value"}, 1, [](Call of) { return of.of_plain(Operation::log2); }},
-      {"log10", {"value"}, 1, [](Call of) { return of.of_plain(Operation::log2, 1, log10_2); }},
-      {"normal", {"value"}, 1, [](Call of) { return of.of_plain(Operation::normal); }},
-      {"lattice", {"a", "b", "c"}, 1, [](Call of) { return of.lattice(); }},
-      {"min", {"a", "b"}, 2, [](Call of) { return of.extreme(Operation::minimum); }},
-      {"max", {"a", "b"}, 2, [](Call of) { return of.extreme(Operation::maximum); }},
-      {"vector", {"x", "y"}, 2, [](Call of) { return of.vector(); }},
-      {"length", {"vector"}, 1, [](Call of) { return of.length(); }},
-      {"dot", {"a", "b"}, 2, [](Call of) { return of.dot(); }},
-      {"normalise", {"vector"}, 1, [](Call of) { return of.normalise(); }},
-      {"within", {"value", "low", "high"}, 3, [](Call of) { return of.within(); }},
-      {"grad", {"height"}, 1, [](Call of) { return of.gradient(); }, true},
-      {"peak", {"value"}, 1, [](Call of) { return of.peak(); }, true},
-      {"hold", {"value", "ceiling"}, 2, [](Call of) { return of.hold(); }},
-      {"phase", {"frequency"}, 1, [](Call of) { return of.phase(); }, true},
-      {"image", {"file", "scale", "height", "smooth"}, 3, [](Call of) { return of.image(); }, true},
-      {"relief", {"file", "scale", "height", "smooth"}, 3, [](Call of) { return of.relief(); }},
-      {"table", {"file", "place", "value"}, 1, [](Call of) { return of.table(); }},
+  using Call = const BuiltinCall&;
+  static const std::vector<Builtin> all{
+      {"abs", {"value"}, 1, absolute},
+      {"floor", {"value"}, 1, [](Call call) { return of_plain(call, Operation::floor); }},
+      {"sqrt", {"value"}, 1, square_root},
+      {"sin", {"angle"}, 1, [](Call call) { return of_plain(call, Operation::sine); }},
+      {"cos", {"angle"}, 1, [](Call call) { return of_plain(call, Operation::cosine); }},
+      {"atan2", {"y", "x"}, 2, arctangent},
+      {"exp", {"value"}, 1, [](Call call) { return of_plain(call, Operation::exp2, log2_e); }},
+      {"log", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2, 1, ln_2); }},
+      {"log2", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2); }},
+      {"log10", {"value"}, 1, [](Call call) { return of_plain(call, Operation::log2, 1, log10_2); }},
+      {"normal", {"value"}, 1, [](Call call) { return of_plain(call, Operation::normal); }},
+      {"lattice", {"a", "b", "c"}, 1, lattice},
+      {"min", {"a", "b"}, 2, [](Call call) { return extreme(call, Operation::minimum); }},
+      {"max", {"a", "b"}, 2, [](Call call) { return extreme(call, Operation::maximum); }},
+      {"vector", {"x", "y"}, 2, vector},
+      {"length", {"vector"}, 1, length},
+      {"dot", {"a", "b"}, 2, dot},
+      {"normalise", {"vector"}, 1, normalise},
+      {"within", {"value", "low", "high"}, 3, within},
+      {"grad", {"height"}, 1, gradient, true},
+      {"peak", {"value"}, 1, peak, true},
+      {"hold", {"value", "ceiling"}, 2, hold},
+      {"phase", {"frequency"}, 1, phase, true},
+      {"image", {"file", "scale", "height", "smooth"}, 3, image, true},
+      {"relief", {"file", "scale", "height", "smooth"}, 3, relief},
+      {"table", {"file", "place", "value"}, 1, table},
   };
-  return table;
+  return all;
 }
 
-const Builtin* builtin_named(const NameKey& name) {
-  static const auto index = [] {
-    NameIndex<const Builtin*> by_name;
-    for (const Builtin& each : builtins()) by_name.add(each.name, &each);
-    return by_name;
+const Builtin* builtin_named(std::string_view name) {
+  static const auto by_name = [] {
+    std::unordered_map<std::string_view, const Builtin*> all;
+    for (const Builtin& each : builtins()) all.emplace(each.name, &each);
+    return all;
   }();
-  const auto* found = index.find(name);
-  return found ? *found : nullptr;
+  const auto found = by_name.find(name);
+  return found == by_name.end() ? nullptr : found->second;
 }
 
-bool is_builtin_function(const NameKey& name) { return name.name == "curve" || builtin_named(name) != nullptr; }
-
-bool BuiltinFunctions::number(std::size_t i) const {
-  if (value(i).type == Value::Type::number) return true;
-  checker.report(Code::wrong_type, actuals[i].span,
-                 fmt::format("a number is due here, not {}", type_words(value(i).type)), "",
-                 value(i).type == Value::Type::vector ? "take its `length(…)`, or work with `x` and `y`"
-                                                      : "give a number, with its unit if it has one");
-  return false;
-}
-bool BuiltinFunctions::plain(std::size_t i) const {
-  if (!number(i)) return false;
-  if (value(i).dimension.plain()) return true;
-  const auto& dimension = value(i).dimension;
-  checker.report(Code::wrong_dimension, actuals[i].span,
-                 fmt::format("a plain number is due here, not {}", checker.names().words(dimension)),
-                 checker.names().unit(dimension),
-                 fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
-                             customary_unit(checker.declarations(), dimension)));
-  return false;
-}
-
-Value BuiltinFunctions::of_plain(Operation operation, double before, double after) const {
-  if (!plain(0)) return failed();
-  TermId x = before == 1 ? value(0).x : scaled(value(0).x, before);
-  x = terms().apply(operation, x, span);
-  return scalar(after == 1 ? x : scaled(x, after));
-}
-
-Value BuiltinFunctions::absolute() const {
-  if (!number(0)) return failed();
-  return scalar(terms().apply(Operation::absolute, value(0).x, span), value(0).dimension);
-}
-
-Value BuiltinFunctions::square_root() const {
-  if (!number(0)) return failed();
-  const auto root = power(value(0).dimension, 1, 2);
-  if (!root)
-    return checker.report(Code::wrong_dimension, actuals[0].span,
-                          fmt::format("the root of {} has no dimension", checker.names().words(value(0).dimension)), "",
-                          "divide it by a quantity of its own dimension first");
-  return scalar(terms().apply(Operation::square_root, value(0).x, span), *root);
-}
-
-Value BuiltinFunctions::extreme(Operation operation) const {
-  if (!number(0) || !number(1)) return failed();
-  if (value(0).dimension != value(1).dimension) return mismatched(0, 1);
-  return scalar(terms().apply(operation, value(0).x, value(1).x, span), value(0).dimension);
-}
-
-Value BuiltinFunctions::mismatched(std::size_t a, std::size_t b) const {
-  const auto sides = checker.names().side_by_side(value(a).dimension, value(b).dimension);
-  checker.surroundings_.diagnostics.report(
-      {.code = Code::mismatched_dimensions,
-       .span = checker.blame(actuals[b].span),
-       .message = fmt::format("{} expected, found {}{}", checker.names().words(value(a).dimension),
-                              checker.names().words(value(b).dimension), checker.inside(actuals[b].span)),
-       .label = checker.names().unit_beside(value(a).dimension, value(b).dimension),
-       .expected = sides[0],
-       .found = sides[1],
-       .help = "the arguments must have one dimension"});
-  return failed();
-}
-
-Value BuiltinFunctions::vector() const {
-  if (!number(0) || !number(1)) return failed();
-  if (value(0).dimension != value(1).dimension) return mismatched(0, 1);
-  return {.type = Value::Type::vector, .x = value(0).x, .y = value(1).x, .dimension = value(0).dimension, .span = span};
-}
-
-bool BuiltinFunctions::is_vector(std::size_t i) const {
-  if (value(i).type == Value::Type::vector) return true;
-  checker.report(Code::wrong_type, actuals[i].span,
-                 fmt::format("a vector is due here, not {}", type_words(value(i).type)), "",
-                 "give both parts, as in `vector(a, b)`");
-  return false;
-}
-
-TermId BuiltinFunctions::dot_product(const Value& a, const Value& b) const {
-  return terms().apply(Operation::add, terms().apply(Operation::multiply, a.x, b.x, span),
-                       terms().apply(Operation::multiply, a.y, b.y, span), span);
-}
-
-Value BuiltinFunctions::dot() const {
-  if (!is_vector(0) || !is_vector(1)) return failed();
-  return scalar(dot_product(value(0), value(1)), value(0).dimension * value(1).dimension);
-}
-
-Value BuiltinFunctions::length() const {
-  if (!is_vector(0)) return failed();
-  return scalar(terms().apply(Operation::square_root, dot_product(value(0), value(0)), span), value(0).dimension);
-}
-
-/// A vector's direction. Squares of what is shorter than about 1e-19 flush to zero, so that its length would be too
-/// small and its direction too long; that is no direction at all.
-Value BuiltinFunctions::normalise() const {
-  if (!is_vector(0)) return failed();
-  constexpr double shortest = 1e-15;  // in units of SI, whatever the dimension
-  const auto apply = [&](Operation operation, TermId a, TermId b) { return terms().apply(operation, a, b, span); };
-  const TermId size = terms().apply(Operation::square_root, dot_product(value(0), value(0)), span);
-  const TermId has_direction = apply(Operation::less, terms().literal(shortest, span), size);
-  const auto share = [&](TermId part) {
-    return terms().apply(Operation::select, has_direction, apply(Operation::divide, part, size),
-                         terms().literal(0, span), span);
-  };
-  return {.type = Value::Type::vector, .x = share(value(0).x), .y = share(value(0).y), .span = span};
-}
-
-/// A number held between two constants; a constant outside them is an error.
-Value BuiltinFunctions::within() const {
-  if (!number(0) || !number(1) || !number(2)) return failed();
-  for (const std::size_t bound : {1, 2})
-    if (value(bound).dimension != value(0).dimension) return mismatched(bound, 0);
-  using Question = WrittenOut::Question;
-  for (const std::size_t bound : {1, 2}) checker.ask_of(value(bound).x);
-  const auto known = constant_value(terms(), value(0).x);
-  const auto low = constant_value(terms(), value(1).x), high = constant_value(terms(), value(2).x);
-  if (low && high) checker.ask({Question::About::range, value(0).x, *low, *high});
-  if (known && low && high && !(*known >= *low && *known <= *high)) {
-    const std::string unit = checker.names().unit(value(0).dimension);
-    const std::string suffix = unit.empty() ? "" : " " + unit;
-    return checker.report(Code::value_out_of_range, terms()[value(0).x].span,
-                          fmt::format("{:.4g}{} is out of range", *known, suffix), "",
-                          fmt::format("give a value from {:.4g}{} to {:.4g}{}", *low, suffix, *high, suffix));
-  }
-  return scalar(terms().apply(Operation::maximum, terms().apply(Operation::minimum, value(0).x, value(2).x, span),
-                              value(1).x, span),
-                value(0).dimension);
-}
-
-Value BuiltinFunctions::gradient() const {
-  if (!number(0)) return failed();
-  const auto along = [&](std::uint32_t axis) {
-    return terms().add({.kind = TermKind::gradient, .a = value(0).x, .index = axis, .span = span});
-  };
-  const auto length_dimension = checker.declarations().dimension("length");
-  return {.type = Value::Type::vector,
-          .x = along(0),
-          .y = along(1),
-          .dimension = value(0).dimension / length_dimension,
-          .span = span};
-}
-
-Value BuiltinFunctions::peak() const {
-  if (!number(0)) return failed();
-  checker.ask({WrittenOut::Question::About::change, value(0).x});
-  if (const auto dependence = terms().dependence(value(0).x); dependence.changing())
-    return checker.report(
-        Code::wrong_rate, actuals[0].span,
-        fmt::format("a peak is taken over places, and this changes with {}", what_changes(dependence)), "",
-        "let the height depend on `x` and `y` only; what changes may multiply the force");
-  return scalar(terms().add({.kind = TermKind::peak, .a = value(0).x, .span = span}), value(0).dimension);
-}
-
-Value BuiltinFunctions::hold() const {
-  if (!number(1)) return failed();
-  if (value(0).dimension != value(1).dimension) return mismatched(1, 0);
-  if (value(0).type != Value::Type::number && !is_vector(0)) return failed();
-  return held(terms(), value(0), value(1).x, span);
-}
-
-std::optional<double> BuiltinFunctions::constant_argument(std::size_t i, const Dimension& dimension,
-                                                          const char* example) const {
-  if (!number(i)) return std::nullopt;
-  if (value(i).dimension != dimension) {
-    const auto sides = checker.names().side_by_side(dimension, value(i).dimension);
-    checker.surroundings_.diagnostics.report(
-        {.code = Code::wrong_dimension,
-         .span = checker.blame(actuals[i].span),
-         .message = fmt::format("{} expected, found {}", checker.names().words(dimension),
-                                checker.names().words(value(i).dimension)),
-         .label = checker.names().unit_beside(dimension, value(i).dimension),
-         .expected = sides[0],
-         .found = sides[1],
-         .help = fmt::format("write something like `{}`", example)});
-    return std::nullopt;
-  }
-  checker.ask_of(value(i).x);
-  const auto known = constant_value(terms(), value(i).x);
-  if (!known)
-    checker.report(Code::not_constant, actuals[i].span, "a value known at compile time is due here", "it may change",
-                   "use numbers, units and constants; no parameters and no places");
-  return known;
-}
-
-Value BuiltinFunctions::arctangent() const {
-  if (!number(0) || !number(1)) return failed();
-  if (value(0).dimension != value(1).dimension) return mismatched(0, 1);
-  return scalar(terms().apply(Operation::arctangent, value(0).x, value(1).x, span));
-}
-
-/// A fixed random number for a point of the lattice of whole numbers; what is not given is 0.
-Value BuiltinFunctions::lattice() const {
-  TermId place[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (actuals[i].given && !plain(i)) return failed();
-    place[i] = actuals[i].given ? value(i).x : terms().literal(0, span);
-  }
-  return scalar(terms().apply(Operation::hash, place[0], place[1], place[2], span));
-}
-
-/// An accumulator of its own that runs from 0 to 1 `frequency` times a second.
-Value BuiltinFunctions::phase() const {
-  if (!number(0)) return failed();
-  const auto frequency = checker.declarations().dimension("frequency");
-  if (value(0).dimension != frequency)
-    return checker.report(
-        Code::wrong_dimension, actuals[0].span,
-        fmt::format("a frequency is due here, not {}", with_article(checker.names().words(value(0).dimension))),
-        checker.names().unit(value(0).dimension), "write something like `phase(2 Hz)`");
-  const auto [known, added] = checker.phases_.try_emplace(value(0).x, 0);
-  if (added) {
-    const auto index = static_cast<std::uint32_t>(checker.states_.size());
-    const TermId now = terms().add({.kind = TermKind::state, .index = index, .span = span});
-    const TermId step = terms().apply(Operation::multiply, value(0).x, terms().input(Input::seconds_per_tick), span);
-    const TermId sum = terms().apply(Operation::add, now, step, span);
-    const TermId next = terms().apply(Operation::subtract, sum, terms().apply(Operation::floor, sum, span), span);
-    checker.states_.push_back({.name = fmt::format("phase {}", index),
-                               .low = 0,
-                               .high = 1,
-                               .initial = terms().literal(0, span),
-                               .next = next,
-                               .span = span});
-    known->second = now;
-  }
-  return scalar(known->second);
-}
-
-/// A relief asked where the hand is.
-Value BuiltinFunctions::image() const {
-  const Value field = relief();
-  if (field.failed()) return field;
-  const Value hand{.type = Value::Type::vector,
-                   .x = terms().input(Input::x, span),
-                   .y = terms().input(Input::y, span),
-                   .dimension = checker.declarations().dimension("length"),
-                   .span = span};
-  return checker.at(*field.field, hand, span);
-}
+bool is_builtin_function(std::string_view name) { return name == "curve" || builtin_named(name) != nullptr; }
 
 }  // namespace wale

@@ -1,4 +1,4 @@
-// What a name means.
+#include "compiler/expression/check_name.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "compiler/expression/builtin_functions.hpp"
+#include "compiler/expression/fields.hpp"
 
 namespace wale {
 
 namespace {
 
-/// A name that the machine itself fills in.
+/// A name that stands for an input of the machine.
 struct InputName {
   std::string_view name;
   Input x;
@@ -37,142 +38,162 @@ constexpr InputName input_names[] = {
     {"patch_rim", Input::patch_rim, {}, "length"},
 };
 
-const InputName* input_named(const NameKey& name) {
-  static const auto index = [] {
-    NameIndex<const InputName*> by_name;
-    for (const InputName& each : input_names) by_name.add(each.name, &each);
-    return by_name;
-  }();
-  const auto* found = index.find(name);
-  return found ? *found : nullptr;
+const InputName* input_named(std::string_view name) {
+  const auto* found = std::ranges::find(input_names, name, &InputName::name);
+  return found == std::end(input_names) ? nullptr : found;
 }
 
-}  // namespace
-
-bool names_hand_or_patch(const NameKey& name) { return input_named(name) != nullptr; }
-
-bool ExpressionChecker::has_meaning(std::string_view name, const Scope& scope) const {
-  const std::string_view whole = name.substr(0, name.find('.'));
-  return scope.find(whole) || declarations_->constants.contains(whole) || names_hand_or_patch(whole);
-}
-
-std::optional<Value> ExpressionChecker::input(const Word& word, const Scope& scope) {
+/// The value of `hand`, `x`, `velocity` and their like, where the scope has a hand.
+std::optional<Value> input(Reading& reading, const Word& word, const Scope& scope) {
   const InputName* found = scope.hand ? input_named(word.text) : nullptr;
   if (!found) return std::nullopt;
-  if (word.text.starts_with("raw_") && callees_.empty())
-    surroundings_.diagnostics.report(
+  if (word.text.starts_with("raw_") && reading.calls.empty())
+    reading.surroundings.diagnostics.report(
         {.code = Code::raw_signal,
-         .span = blame(word.span),
+         .span = word.span,
          .message =
              fmt::format("`{}` is the difference of neighbouring positions: it jumps by whole counts", word.text),
-         .help = fmt::format("use `{}`, which the device's filter has smoothed, unless the noise is what you want",
+         .help = fmt::format("use `{}`, which the device's filter has smoothed, unless you want the noise",
                              word.text.substr(4))});
   Value value{.type = found->condition ? Value::Type::boolean : Value::Type::number,
-              .x = terms_.input(found->x, word.span),
-              .dimension = found->condition ? Dimension{} : declarations_->dimension(found->dimension),
+              .x = reading.terms.input(found->x, word.span),
+              .dimension = found->condition ? Dimension{} : reading.names->dimension(found->dimension),
               .span = word.span};
   if (found->y) {
     value.type = Value::Type::vector;
-    value.y = terms_.input(*found->y, word.span);
+    value.y = reading.terms.input(*found->y, word.span);
   }
   return value;
 }
 
-/// What a `let` outside the materials is worth.
-std::optional<Value> ExpressionChecker::constant_named(const Word& word) {
-  const auto* found = declarations_->constants.find(word.text);
+/// The value of a `let` outside the materials, read once.
+std::optional<Value> constant_named(Reading& reading, const Word& word) {
+  const auto* found = reading.names->constants.find(word.text);
   if (!found) return std::nullopt;
-  const Callee definition{word.text, true};
-  if (std::ranges::find(callees_, definition) != callees_.end())
-    return report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
-                  "a `let` may use only what does not need it");
-  const auto known = constants_.find(found->node);
-  if (known == constants_.end()) {
-    if (callees_.size() >= deepest_call)
-      return report(Code::nested_too_deep, word.span,
-                    fmt::format("more than {} definitions lead to one another here", deepest_call), "",
-                    "write some of them out");
-    callees_.push_back(definition);
-    enter_call(word.span);
-    const auto* outside_names = std::exchange(declarations_, found->home);
+  CallStack& calls = reading.calls;
+  if (calls.contains(word.text, true))
+    return calls.report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
+                        "a `let` may use only what does not need it");
+  const auto known = reading.known.constants.find(found->node);
+  if (known == reading.known.constants.end()) {
+    if (calls.depth() >= deepest_call)
+      return calls.report(Code::nested_too_deep, word.span,
+                          fmt::format("more than {} definitions are nested here", deepest_call), "",
+                          "write some of them out");
+    calls.enter(word.text, true, word.span);
+    const auto* outside_names = std::exchange(reading.names, found->home);
     Scope outside;
-    const Value value = check(*found->tree, found->node->value, outside);
-    declarations_ = outside_names;
-    leave_call();
-    callees_.pop_back();
-    constants_[found->node] = value;
+    const Value value = check_expression(reading, *found->tree, found->node->value, outside);
+    reading.names = outside_names;
+    calls.leave();
+    reading.known.constants[found->node] = value;
   }
-  Value value = constants_.at(found->node);
+  Value value = reading.known.constants.at(found->node);
   value.span = word.span;
   return value;
 }
 
 /// `hand.x`, `p.y`: one part of a vector.
-std::optional<Value> ExpressionChecker::part_of_vector(const Word& word, Scope& scope) {
+std::optional<Value> part_of_vector(Reading& reading, const Word& word, Scope& scope) {
   const auto dot = word.text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
   const std::string_view whole = word.text.substr(0, dot), part = word.text.substr(dot + 1);
-  if (!has_meaning(whole, scope)) return std::nullopt;
-  Value value = name({whole, word.span}, scope);
+  if (!has_value(reading, whole, scope)) return std::nullopt;
+  const Value value = value_of_name(reading, {whole, word.span}, scope);
   if (value.failed()) return value;
-  if (value.type != Value::Type::vector || (part != "x" && part != "y"))
-    return report(Code::wrong_type, word.span,
-                  value.type == Value::Type::vector
-                      ? fmt::format("a vector has no part `{}`", part)
-                      : fmt::format("`{}` is {} and has no parts", whole, type_words(value.type)),
-                  "", value.type == Value::Type::vector ? "its parts are `.x` and `.y`" : "use it as it is");
-  value.type = Value::Type::number;
-  if (part == "y") value.x = value.y;
-  value.y = 0;
-  return value;
+  const bool vector = value.type == Value::Type::vector;
+  if (!vector || (part != "x" && part != "y"))
+    return reading.calls.report(Code::wrong_type, word.span,
+                                vector ? fmt::format("a vector has no part `{}`", part)
+                                       : fmt::format("`{}` is {} and has no parts", whole, type_words(value.type)),
+                                "", vector ? "its parts are `.x` and `.y`" : "use it as it is");
+  return value.part(part.front());
 }
 
-std::optional<Value> ExpressionChecker::private_name(const Word& word) {
-  const auto found = declarations_->private_names.find(word.text);
-  if (found == declarations_->private_names.end()) return std::nullopt;
-  return report(Code::private_name, word.span,
-                fmt::format("`{}` belongs to {} alone", word.text, surroundings_.sources[found->second.source].name),
-                "",
-                Advice(fmt::format("write `export` before its declaration there (line {}), if others may use it",
-                                   surroundings_.sources.place(found->second).line))
-                    .see(found->second, "declared here, without `export`"));
+}  // namespace
+
+bool names_hand_or_patch(std::string_view name) { return input_named(name) != nullptr; }
+
+bool has_value(const Reading& reading, std::string_view name, const Scope& scope) {
+  const std::string_view whole = name.substr(0, name.find('.'));
+  return scope.find(whole) || reading.names->constants.contains(whole) || names_hand_or_patch(whole);
 }
 
-/// The value of a name that the scope declares.
-Value ExpressionChecker::bound(Scope::Binding& binding, Span span, Scope& scope) {
+std::optional<Value> private_name(Reading& reading, const Word& word) {
+  const auto found = reading.names->private_names.find(word.text);
+  if (found == reading.names->private_names.end()) return std::nullopt;
+  const SourceSet& sources = reading.surroundings.sources;
+  return reading.calls.report(
+      Code::private_name, word.span,
+      fmt::format("`{}` is private to {}", word.text, sources[found->second.source].name), "",
+      Advice(fmt::format("write `export` before its declaration there (line {}), if others may use it",
+                         sources.place(found->second).line))
+          .see(found->second, "declared here, without `export`"));
+}
+
+Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sought sought, Advice otherwise) {
+  // A function's body is read at each of its calls; a misspelt word in it is looked up once.
+  const Span place = reading.calls.blame(word.span);
+  if (!reading.known.misspelt.emplace(place.source, place.begin).second) return otherwise;
+  const Surroundings& surroundings = reading.surroundings;
+  if (surroundings.diagnostics.is_full()) return otherwise;  // it would not be shown
+  std::vector<std::string> candidates;
+  if (sought == Sought::function) {
+    candidates = reading.names->functions.spellings();
+    candidates.emplace_back("curve");
+    for (const auto& builtin : builtins()) candidates.emplace_back(builtin.name);
+  } else {
+    if (scope) candidates = scope->spellings();
+    if (scope && scope->hand)
+      candidates.insert(candidates.end(), {"hand", "velocity", "acceleration", "time", "button"});
+    const auto constants = reading.names->constants.spellings();
+    candidates.insert(candidates.end(), constants.begin(), constants.end());
+  }
+  const bool in_file = reading.names == &surroundings.declarations;
+  const auto exporter = in_file && surroundings.find_exporter ? (*surroundings.find_exporter)(word.text) : std::nullopt;
+  if (exporter)
+    return Advice(fmt::format("`{}` is a {} of `{}`; write `import {}`", word.text, exporter->what, exporter->module,
+                              exporter->module))
+        .fact("import", exporter->module);
+  return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
+}
+
+Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& scope) {
   binding.used = true;
   Value value = binding.value;
-  // A memory's name alone is what it holds under the hand.
+  // A memory's name alone is its value under the hand.
   if (value.type == Value::Type::field && value.field->kind == Field::Kind::memory)
-    value = at(*value.field, *input({"hand", span}, scope), span);
+    value = value_at(reading.terms, *value.field, *input(reading, {"hand", span}, scope), span);
   value.span = span;
   return value;
 }
 
-Value ExpressionChecker::name(const Word& word, Scope& scope) {
+Value value_of_name(Reading& reading, const Word& word, Scope& scope) {
   auto* binding = scope.find(word.text);
-  return binding ? bound(*binding, word.span, scope) : free_name(word, scope);
+  return binding ? bound_value(reading, *binding, word.span, scope) : free_value(reading, word, scope);
 }
 
-/// The value of a name that the scope does not declare.
-Value ExpressionChecker::free_name(const Word& word, Scope& scope) {
-  if (const auto filled_in = input(word, scope)) return *filled_in;
+Value free_value(Reading& reading, const Word& word, Scope& scope) {
+  if (const auto filled_in = input(reading, word, scope)) return *filled_in;
   if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
-  if (const auto constant = constant_named(word)) return *constant;
-  if (const auto part = part_of_vector(word, scope)) return *part;
-  if (unit(word.text))
-    return report(Code::unknown_name, word.span, fmt::format("`{}` is a unit, and a unit follows a number", word.text),
-                  "", fmt::format("write `1 {}`", word.text));
-  if (declarations_->functions.contains(word.text) || is_builtin_function(word.text))
-    return report(Code::unknown_name, word.span, fmt::format("`{}` is a function and needs its arguments", word.text),
-                  "", fmt::format("write `{}(…)`", word.text));
+  if (const auto constant = constant_named(reading, word)) return *constant;
+  if (const auto part = part_of_vector(reading, word, scope)) return *part;
+  const auto report = [&](Code code, std::string message, Advice advice) {
+    return reading.calls.report(code, word.span, std::move(message), "", std::move(advice));
+  };
+  if (reading.names->units.contains(word.text))
+    return report(Code::unknown_name, fmt::format("`{}` is a unit, and a unit follows a number", word.text),
+                  fmt::format("write `1 {}`", word.text));
+  if (reading.names->functions.contains(word.text) || is_builtin_function(word.text))
+    return report(Code::unknown_name, fmt::format("`{}` is a function and needs its arguments", word.text),
+                  fmt::format("write `{}(…)`", word.text));
   if (names_hand_or_patch(word.text))
-    return report(Code::not_constant, word.span,
-                  fmt::format("`{}` changes as the hand moves, and a constant is due here", word.text), "",
+    return report(Code::not_constant, fmt::format("expected a constant; `{}` changes as the hand moves", word.text),
                   "use numbers, units and other constants");
-  if (const auto hidden = private_name(word)) return *hidden;
-  return report(Code::unknown_name, word.span, fmt::format("nothing here is called `{}`", word.text), "",
-                spelling_mend(word, &scope, false, fmt::format("declare it above, as in `let {} = …`", word.text)));
+  if (const auto hidden = private_name(reading, word)) return *hidden;
+  return report(Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),
+                spelling_mend(reading, word, &scope, Sought::value,
+                              fmt::format("declare it above, as in `let {} = …`", word.text)));
 }
 
 }  // namespace wale

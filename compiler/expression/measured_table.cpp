@@ -8,6 +8,7 @@
 
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/parse/parse.hpp"
+#include "schema/csv.hpp"
 
 namespace wale {
 
@@ -15,56 +16,20 @@ namespace {
 
 constexpr std::size_t most_rows = 1'000'000;
 constexpr double most_samples = 8192;
-/// Spacings that differ by less than this share are the rounding of whoever wrote the file.
+/// Spacings that differ by less than this share count as equal: files hold rounded numbers.
 constexpr double equal_spacing = 1e-4;
-
-struct Column {
-  std::string name;
-  std::string unit;  ///< as written; empty for plain numbers
-};
 
 struct Point {
   double place, value;
 };
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string_view> cells(std::string_view line) {
-  std::vector<std::string_view> all;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', at), line.size());
-    all.push_back(trimmed(line.substr(at, comma - at)));
-    at = comma + 1;
-  }
-  return all;
-}
-
-Column column_of(std::string_view heading) {
-  const auto open = heading.find('(');
-  if (open == std::string_view::npos || !heading.ends_with(')')) return {std::string(heading), ""};
-  return {std::string(trimmed(heading.substr(0, open))),
-          std::string(trimmed(heading.substr(open + 1, heading.size() - open - 2)))};
-}
-
-std::optional<double> number(std::string_view text) {
-  const std::string copy(text);
-  char* end = nullptr;
-  const double value = std::strtod(copy.c_str(), &end);
-  if (copy.empty() || end != copy.c_str() + copy.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-/// What one of a unit is, or nothing.
-std::optional<Unit> unit_of(const std::string& text, const Declarations& declarations) {
+/// One of a unit in SI, or nothing where it is no unit.
+std::optional<Unit> unit_of(std::string_view text, const Declarations& declarations) {
   if (text.empty()) return Unit{};
   SourceSet sources;
   Diagnostics diagnostics;
   SyntaxTree tree;
-  const SourceId source = sources.add("unit", "1 " + text);
+  const SourceId source = sources.add("unit", fmt::format("1 {}", text));
   const auto expressions = parse_expressions(sources, source, tree, diagnostics);
   if (expressions.size() != 1) return std::nullopt;
   Terms terms;
@@ -114,103 +79,97 @@ MeasuredTable sampled(const std::vector<Point>& points) {
   return measured;
 }
 
-/// Reads line by line; what is wrong is thrown to `read_measured_table` and goes no further.
-class TableReader {
- public:
-  TableReader(std::string_view text, const std::string& from, const std::string& to, const Declarations& declarations)
-      : text_(text), from_(from), to_(to), declarations_(declarations) {}
-
-  MeasuredTable read() {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
-    while (next_line())
-      if (columns_.empty())
-        read_heading();
-      else
-        read_point();
-    line_ = 0;
-    if (columns_.empty()) fail("is empty", "give it a line of headings, such as `x (mm), force (N)`, and two points");
-    if (points_.size() < 2) fail("has fewer than two points", "a relation needs two or more");
-    MeasuredTable measured = sampled(points_);
-    measured.from = place_unit_.dimension;
-    measured.to = value_unit_.dimension;
-    return measured;
-  }
-
- private:
-  bool next_line() {
-    while (at_ < text_.size()) {
-      const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-      current_ = trimmed(text_.substr(at_, end - at_));
-      at_ = end + 1;
-      ++line_;
-      if (!current_.empty() && current_[0] != '#') return true;
-    }
-    return false;
-  }
-
-  void read_heading() {
-    for (const auto& cell : cells(current_)) columns_.push_back(column_of(cell));
-    if (columns_.size() < 2) fail("a relation has two columns", "separate them by commas, as in `x (mm), force (N)`");
-    if (number(columns_[0].name)) fail("the first line names the columns", "write, for example, `x (mm), force (N)`");
-    place_column_ = find(from_, 0);
-    value_column_ = find(to_, 1);
-    place_unit_ = unit(columns_[place_column_]);
-    value_unit_ = unit(columns_[value_column_]);
-  }
-
-  std::size_t find(const std::string& name, std::size_t otherwise) const {
-    if (name.empty()) return otherwise;
-    const auto found = std::ranges::find(columns_, name, &Column::name);
-    if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
-    std::vector<std::string> known;
-    for (const auto& column : columns_) known.push_back(column.name);
-    fail(fmt::format("no column is called `{}`", name), fmt::format("there are: {}", fmt::join(known, ", ")));
-  }
-
-  Unit unit(const Column& column) const {
-    const auto known = unit_of(column.unit, declarations_);
-    if (!known) fail(fmt::format("nothing declares the unit `{}`", column.unit), "write, for example, `x (mm)`");
-    return *known;
-  }
-
-  void read_point() {
-    const auto values = cells(current_);
-    if (values.size() != columns_.size())
-      fail(fmt::format("{} values for {} columns", values.size(), columns_.size()), "give one for each column");
-    const auto place = number(values[place_column_]), value = number(values[value_column_]);
-    if (!place || !value)
-      fail(fmt::format("`{}` is no number", values[place ? value_column_ : place_column_].substr(0, 40)),
-           "numbers are written with a point, such as 0.25");
-    const Point point{*place * place_unit_.factor, *value * value_unit_.factor};
-    if (!points_.empty() && !(point.place > points_.back().place))
-      fail("the places do not rise from line to line", "sort the lines, and keep one value for each place");
-    if (points_.size() == most_rows) fail(fmt::format("more than {} points", most_rows), "keep every tenth, say");
-    points_.push_back(point);
-  }
-
-  [[noreturn]] void fail(std::string reason, std::string mend) const {
-    throw TableProblem{line_, std::move(reason), std::move(mend)};
-  }
-
-  std::string_view text_, current_;
-  const std::string &from_, &to_;
-  const Declarations& declarations_;
-  std::size_t at_ = 0, line_ = 0;
-  std::vector<Column> columns_;
-  std::size_t place_column_ = 0, value_column_ = 1;
-  Unit place_unit_, value_unit_;
-  std::vector<Point> points_;
+/// A column that is read: its number, from 0, its name and its unit.
+struct Column {
+  std::size_t number = 0;
+  std::string_view name;
+  Unit unit;
 };
+
+Result<Column> find_column(const CsvRow& headings, const std::string& name, std::size_t otherwise,
+                           const Declarations& declarations) {
+  Column column{.number = otherwise};
+  if (!name.empty()) {
+    std::vector<std::string_view> known;
+    for (const std::string_view cell : headings.cells) known.push_back(heading_of(cell).name);
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end())
+      return unlike_csv(headings.line, fmt::format("a column `{}`", name), fmt::format("{}", fmt::join(known, ", ")),
+                        "name one of the columns that there are");
+    column.number = static_cast<std::size_t>(found - known.begin());
+  }
+  const CsvHeading heading = heading_of(headings.cells[column.number]);
+  const auto unit = unit_of(heading.unit, declarations);
+  if (!unit)
+    return unlike_csv(headings.line, fmt::format("a declared unit for `{}`", heading.name),
+                      fmt::format("`{}`", heading.unit), "write, for example, `x (mm)`");
+  column.name = heading.name;
+  column.unit = *unit;
+  return column;
+}
+
+struct Columns {
+  Column place, value;
+  std::size_t count = 0;  ///< of all columns of the table
+};
+
+Result<Columns> find_columns(const CsvRow& headings, const std::string& from, const std::string& to,
+                             const Declarations& declarations) {
+  if (headings.cells.size() < 2)
+    return unlike_csv(headings.line, "two columns or more", "one",
+                      "separate them by commas, as in `x (mm), force (N)`");
+  if (number_in(headings, 0, ""))
+    return unlike_csv(headings.line, "the names of the columns", fmt::format("`{}`", headings.cells[0]),
+                      "begin with a line such as `x (mm), force (N)`");
+  auto place = find_column(headings, from, 0, declarations);
+  if (!place) return place.error();
+  auto value = find_column(headings, to, 1, declarations);
+  if (!value) return value.error();
+  return Columns{*place, *value, headings.cells.size()};
+}
+
+Result<Point> read_point(const CsvRow& row, const Columns& columns) {
+  if (row.cells.size() != columns.count)
+    return unlike_csv(row.line, fmt::format("{} values", columns.count), fmt::format("{}", row.cells.size()),
+                      "give one for each column; write numbers with a point, as in 0.25");
+  const auto place = number_in(row, columns.place.number, columns.place.name);
+  if (!place) return place.error();
+  const auto value = number_in(row, columns.value.number, columns.value.name);
+  if (!value) return value.error();
+  return Point{*place * columns.place.unit.factor, *value * columns.value.unit.factor};
+}
 
 }  // namespace
 
-std::variant<MeasuredTable, TableProblem> read_measured_table(std::string_view text, const std::string& from,
-                                                              const std::string& to, const Declarations& declarations) {
-  try {
-    return TableReader(text, from, to, declarations).read();
-  } catch (const TableProblem& problem) {
-    return problem;
+Result<MeasuredTable> read_measured_table(std::string_view text, const std::string& from, const std::string& to,
+                                          const Declarations& declarations) {
+  CsvReader reader(text);
+  const auto headings = read_headings(reader, "a line of headings, such as `x (mm), force (N)`");
+  if (!headings) return headings.error();
+  const auto columns = find_columns(*headings, from, to, declarations);
+  if (!columns) return columns.error();
+  std::vector<Point> points;
+  while (true) {
+    const auto row = reader.next();
+    if (!row) return row.error();
+    if (!*row) break;
+    const auto point = read_point(**row, *columns);
+    if (!point) return point.error();
+    const std::size_t line = (*row)->line;
+    if (!points.empty() && !(point->place > points.back().place))
+      return unlike_csv(line, "places that rise from line to line",
+                        fmt::format("`{}`", (*row)->cells[columns->place.number]),
+                        "sort the lines, and keep one value for each place");
+    if (points.size() == most_rows)
+      return unlike_csv(line, fmt::format("at most {} points", most_rows), "more", "keep every tenth, for example");
+    points.push_back(*point);
   }
+  if (points.size() < 2)
+    return unlike_csv(0, "two points or more", fmt::format("{}", points.size()), "add a line for each point");
+  MeasuredTable measured = sampled(points);
+  measured.from = columns->place.unit.dimension;
+  measured.to = columns->value.unit.dimension;
+  return measured;
 }
 
 }  // namespace wale

@@ -2,9 +2,9 @@
 
 #include <string>
 #include <string_view>
-#include <variant>
 
 #include "compiler/declarations/declarations.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
@@ -16,17 +16,11 @@ struct MeasuredTable {
   HeightTable table;         ///< two equal rows
 };
 
-/// Why a table cannot be read: the line (0 for the file as a whole), and what to do.
-struct TableProblem {
-  std::size_t line = 0;
-  std::string reason, mend;
-};
-
 /// Reads comma-separated values whose first line names the columns and their units, `x (mm), force (N)`; a column
 /// without a unit holds plain numbers. `from` and `to` name the columns, empty for the first and the second. The places
-/// rise from line to line; where they are not equally spaced, the table is resampled by straight lines. Lines that are
-/// empty or begin with `#` are passed over.
-std::variant<MeasuredTable, TableProblem> read_measured_table(std::string_view text, const std::string& from,
-                                                              const std::string& to, const Declarations& declarations);
+/// rise from line to line; where they are not equally spaced, the table is resampled by straight lines. Errors: W0504,
+/// with the line in `place.number` where one is at fault.
+Result<MeasuredTable> read_measured_table(std::string_view text, const std::string& from, const std::string& to,
+                                          const Declarations& declarations);
 
 }  // namespace wale

@@ -32,8 +32,8 @@ struct Field {
   double column = 0, row = 0;    ///< m from sample to sample
 };
 
-/// What an expression is worth: its type, its dimension and the terms that compute it. Small and copied freely: texts
-/// stand in the syntax tree, fields with the `ExpressionChecker` that made them.
+/// The value of an expression: its type, its dimension and the terms that compute it. Small and copied freely: texts
+/// stand in the syntax tree, fields in the `CallRecord` of the checker that made them.
 struct Value {
   enum class Type {
     number,   ///< `x`
@@ -52,7 +52,18 @@ struct Value {
   Span span;
 
   bool failed() const { return type == Type::failed; }
+  /// Of a vector: 'x' or 'y', as a number.
+  Value part(char which) const {
+    Value number = *this;
+    number.type = Type::number;
+    if (which == 'y') number.x = y;
+    number.y = 0;
+    return number;
+  }
 };
+
+/// The value of what has been reported already.
+inline Value failed_value(Span span) { return {.type = Value::Type::failed, .span = span}; }
 
 inline std::string type_words(Value::Type type) {
   switch (type) {

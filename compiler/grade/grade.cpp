@@ -12,7 +12,6 @@
 #include "compiler/grade/slopes.hpp"
 #include "compiler/grade/steep_places.hpp"
 #include "compiler/measure/hands.hpp"
-#include "compiler/modules/load_modules.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -367,9 +366,11 @@ class Grader {
   double largest_force_ = 0;
 };
 
-GradingHand normal_hand() {
+}  // namespace
+
+GradingHand normal_hand(const Declarations& declarations) {
   GradingHand hand{.name = "normal"};
-  if (const HandDeclaration* declared = common_modules()->declarations.hands.find(hand.name))
+  if (const HandDeclaration* declared = declarations.hands.find(hand.name))
     hand = {.damping = declared->damping,
             .radius = declared->circular_radius,
             .frequency = declared->circular_frequency,
@@ -379,8 +380,6 @@ GradingHand normal_hand() {
             .fewest_levels = declared->fewest_levels};
   return hand;
 }
-
-}  // namespace
 
 std::string_view standing_word(Standing standing) {
   switch (standing) {
@@ -406,11 +405,9 @@ Grade grade(const Bank& bank, const GradingHand& hand) {
   return Grader(bank, hand).grade();
 }
 
-Grade grade(const Bank& bank) { return grade(bank, normal_hand()); }
-
-Energy energy_of(const Bank& bank) {
+Energy energy_of(const Bank& bank, const GradingHand& hand) {
   if (bank.program().description().vibrates()) return {};
-  return Grader(bank, normal_hand()).energy();
+  return Grader(bank, hand).energy();
 }
 
 }  // namespace wale

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "compiler/declarations/declarations.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -16,7 +17,7 @@ enum class Standing {
   stable_in_the_hand,  ///< the device's and the hand's together do
   unstable,            ///< not even both do
   active,        ///< the program itself gives energy: a moving source, a force along the motion, a field that turns
-  ungraded,      ///< nobody knows the device's damping, and the program is not active
+  ungraded,      ///< the device's damping is not known, and the program is not active
   not_analysed,  ///< larger than what can be derived
 };
 
@@ -50,11 +51,11 @@ struct Energy {
   std::vector<std::string> reasons;  ///< why it gives energy, in words; none where it does not
 
   bool active() const { return !reasons.empty(); }
-  /// What it gives at most, by these figures.
+  /// The most that it gives, by these figures.
   double watt() const;
 };
 
-/// What a program's force does to the stability of the loop, from the program alone. SI units.
+/// The effect of a program's force on the stability of the loop, from the program alone. SI units.
 struct Grade {
   Standing standing = Standing::not_analysed;
 
@@ -89,11 +90,13 @@ struct Grade {
 };
 
 /// The part of a grade that says whether a program must say `active`: quicker.
-Energy energy_of(const Bank& bank);
+Energy energy_of(const Bank& bank, const GradingHand& hand);
 
-/// Grades a program at a bank's parameters (one that only vibrates a pad closes no loop and is not analysed), in the
-/// hand called `normal` (calibration/hands/hands.wale), or in another. Deterministic; some milliseconds.
-Grade grade(const Bank& bank);
+/// Grades a program at a bank's parameters (one that only vibrates a pad closes no loop and is not analysed), in a
+/// hand. Deterministic; some milliseconds.
 Grade grade(const Bank& bank, const GradingHand& hand);
+
+/// The hand called `normal` (calibration/hands/hands.wale); where none is declared, one without damping.
+GradingHand normal_hand(const Declarations& declarations);
 
 }  // namespace wale

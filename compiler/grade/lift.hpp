@@ -15,7 +15,7 @@ struct LiftedTick {
   std::vector<NodeId> next;       ///< what each state becomes, before it is held in its range
 };
 
-/// Reads the tick of a verified program, whoever compiled it, with the bank's parameters and patch.
+/// Reads the tick of a verified program with the bank's parameters and patch.
 LiftedTick lift(const Bank& bank);
 
 }  // namespace wale

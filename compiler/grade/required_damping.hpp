@@ -12,7 +12,7 @@ namespace wale {
 /// Derivatives of a force along x and y (rows) by a two-axis quantity of the hand (columns).
 using Slopes = std::array<std::array<double, 2>, 2>;
 
-/// What a force, or what is remembered, does when the hand is a little elsewhere or moves a little otherwise.
+/// The change of a force, or of a state, when the hand's place or motion changes a little.
 struct HandSlopes {
   Slopes place{};             ///< N/m
   Slopes velocity{};          ///< filtered; N s/m

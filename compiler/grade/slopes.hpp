@@ -13,7 +13,7 @@ namespace wale {
 /// A program with more states than this is not derived: its response would take too long.
 inline constexpr std::size_t most_graded_states = 32;
 
-/// What a program's force and states depend on, and how steeply, for many hands at once.
+/// The slopes of a program's force and states by all that they depend on, for many hands at once.
 class ProgramSlopes {
  public:
   /// `changing`: for each state, whether it was ever seen to change.

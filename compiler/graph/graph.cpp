@@ -30,7 +30,7 @@ struct Identity {
   }
 };
 
-/// What `Graph::apply` asks of an operation.
+/// The properties of an operation that `Graph::apply` uses.
 struct Working {
   std::uint8_t operands = 0;
   Rate rate = Rate::constant;  ///< how often it is worked out at least: a table is not there while the compiler folds

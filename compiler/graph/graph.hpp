@@ -132,7 +132,7 @@ class Derivatives {
   Graph& graph_;
   By by_;
   std::optional<float> difference_;
-  std::vector<NodeId> known_;   ///< by node; `none` where nobody has asked
+  std::vector<NodeId> known_;   ///< by node; `none` where not derived yet
   std::vector<NodeId> needed_;  ///< by the one that is asked for, the last first
 };
 

@@ -78,7 +78,7 @@ constexpr auto own_dependence = [] {
     if (count > 2) all |= dependence(term.c);
     term.dependence = all;
     term.operands = static_cast<std::uint8_t>(count);
-    // What the operation does not take is 0, which is some term too.
+    // Operands that the operation does not take are 0, which is some term too.
     if (all.known())
       term.value = result_in_double(term.operation, terms_[term.a].value, terms_[term.b].value, terms_[term.c].value);
     return;
@@ -149,28 +149,10 @@ TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span
   return add({.kind = TermKind::operation, .operation = operation, .a = a, .b = b, .c = c, .span = span});
 }
 
-TermId Terms::add(std::span<const Term> body, std::span<const TermId> parts) {
-  const auto first = static_cast<TermId>(terms_.size());
-  const auto operand = [&](TermId number) {
-    return number < parts.size() ? parts[number] : static_cast<TermId>(first + (number - parts.size()));
-  };
-  terms_.insert(terms_.end(), body.begin(), body.end());
-  const Span place = place_.value_or(Span{});
-  for (auto term = terms_.begin() + first; term != terms_.end(); ++term) {
-    term->span = place;
-    if (term->operands == 0) continue;  // nothing else is left to be found
-    term->a = operand(term->a);
-    if (term->operands > 1) term->b = operand(term->b);
-    if (term->operands > 2) term->c = operand(term->c);
-    find_dependence(*term);
-  }
-  return first;
-}
-
 TermId Terms::append(const Terms& others) {
   const auto first = static_cast<TermId>(terms_.size());
   terms_.insert(terms_.end(), others.terms_.begin(), others.terms_.end());
-  // What a term does not take is 0, and may be any other number as well.
+  // Operands that a term does not take are 0, and may be any other number as well.
   for (auto term = terms_.begin() + first; term != terms_.end(); ++term)
     term->a += first, term->b += first, term->c += first;
   return first;

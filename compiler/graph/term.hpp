@@ -32,7 +32,7 @@ enum class TermKind : std::uint8_t {
   peak,       ///< 99th percentile of `a` over the patch less its rim
 };
 
-/// What a term's value changes with, a bit each.
+/// The quantities that a term's value changes with, a bit each.
 class Dependence {
  public:
   enum Cause : std::uint8_t {
@@ -97,9 +97,6 @@ class Terms {
 
   Dependence dependence(TermId id) const { return terms_[id].dependence; }
 
-  /// Adds a body of terms that are told from elsewhere: an operand is the number of one of `parts`, or else, from
-  /// `parts.size()` on, of one of the body that stands before it. Gives the number of the first.
-  TermId add(std::span<const Term> body, std::span<const TermId> parts);
   /// Adds all of the others as they are; gives by how much their numbers have grown.
   TermId append(const Terms& others);
   /// What was open, or a number of cells, is what `solution` is, which stands before it. What depends on it is still

@@ -22,8 +22,7 @@ Result<> save_drawing(const Drawing& drawing, const std::string& path) {
   if (!bytes) return bytes.error();
 
   const auto unwritable = [&](int error) {
-    return Error{
-        Code::unwritable_file, fmt::format("cannot write the picture: {}", std::strerror(error)), {}, {path}};
+    return Error{Code::unwritable_file, fmt::format("cannot write the picture: {}", std::strerror(error)), {}, {path}};
   };
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) return unwritable(errno);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compiler/measure/hands.hpp"
-#include "compiler/modules/load_modules.hpp"
 
 namespace wale {
 
@@ -61,10 +60,9 @@ Measured measure(const Bank& bank) {
   return measured;
 }
 
-MeasuredShaking measure_shaking(const Bank& bank) {
+MeasuredShaking measure_shaking(const Bank& bank, const HandDeclaration* person) {
   constexpr std::size_t moments = 4096;
   const PatchSize size = bank.size();
-  const HandDeclaration* person = common_modules()->declarations.hands.find("normal");
   const double frequency = person ? person->lateral_frequency : 1;
   const double reach = std::min(person ? person->lateral_amplitude : 0.04, 0.5 * size.width - size.rim);
   std::vector<Hand> stroke(moments);

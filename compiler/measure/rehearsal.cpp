@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "compiler/measure/strokes.hpp"
-#include "compiler/modules/load_modules.hpp"
 
 namespace wale {
 namespace {
@@ -17,7 +16,7 @@ constexpr double most_rate = 20000;  // Hz; a device that claims more is rehears
 constexpr long most_samples = 2400;
 constexpr double two_pi = 6.283185307179586;
 
-/// To and fro, as the hand called `showing` does (calibration/hands/hands.wale).
+/// To and fro, as a declared hand does (`showing` of calibration/hands/hands.wale).
 struct Stroke {
   double reach = 0, frequency = 0;  ///< m to either side of the centre; Hz
   double seconds = 0;               ///< how long it goes on
@@ -29,9 +28,9 @@ struct Stroke {
   }
 };
 
-Stroke stroke_over(PatchSize size, double seconds) {
+Stroke stroke_over(PatchSize size, double seconds, const HandDeclaration* hand) {
   Stroke stroke{.reach = room_to_stroke(size), .seconds = seconds};
-  if (const HandDeclaration* hand = common_modules()->declarations.hands.find("showing")) {
+  if (hand) {
     stroke.reach = std::min(stroke.reach, hand->lateral_amplitude);
     stroke.frequency = hand->lateral_frequency;
   }
@@ -50,7 +49,7 @@ double longest_trajectory(const std::vector<ShownMark>& marks) {
 
 bool remembers(const PatchProgram& program) { return !program.states.empty() || !program.grids.empty(); }
 
-Rehearsal rehearse(Bank bank) {
+Rehearsal rehearse(Bank bank, const HandDeclaration* hand) {
   const PatchProgram& program = bank.program().description();
   Rehearsal result(bank.program());
   result.memory.enter(bank, {});
@@ -60,7 +59,7 @@ Rehearsal rehearse(Bank bank) {
 
   const double rate = program.device.rate > 0 ? std::min(program.device.rate, most_rate) : 1000;
   result.seconds = std::clamp(longest_trajectory(result.marks), least_seconds, most_seconds);
-  const Stroke stroke = stroke_over(bank.size(), result.seconds);
+  const Stroke stroke = stroke_over(bank.size(), result.seconds, hand);
   const long ticks = std::lround(result.seconds * rate), every = std::max(1L, ticks / most_samples);
   std::vector<std::vector<ShownMark>> shown;
   for (long i = 0; i <= ticks; ++i) {

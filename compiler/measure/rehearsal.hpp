@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "compiler/declarations/declarations.hpp"
 #include "wale/memory.hpp"
 #include "wale/picture.hpp"
 
@@ -11,7 +12,7 @@ namespace wale {
 /// Whether a program remembers anything from tick to tick, so that entering it says little of it.
 bool remembers(const PatchProgram& program);
 
-/// What became of a program under a hand that came in at the patch's centre and rubbed to and fro.
+/// The state of a program after a hand came in at the patch's centre and rubbed to and fro.
 struct Rehearsal {
   explicit Rehearsal(const Program& program) : memory(program) {}
 
@@ -29,6 +30,6 @@ struct Rehearsal {
 /// Lets a simulated time pass, for a program that remembers or shows marks: one second, or as long as its longest
 /// trajectory, five at most. The hand goes up and down a gently bent stroke, through the program's own ticks, guarded
 /// by nothing. The same bank gives the same rehearsal.
-Rehearsal rehearse(Bank bank);
+Rehearsal rehearse(Bank bank, const HandDeclaration* hand);
 
 }  // namespace wale

@@ -72,7 +72,7 @@ class Declarer {
   void operator()(const Constant& node) {
     if (names_hand_or_patch(node.name.text))
       return report(Code::declared_twice, node.name.span,
-                    fmt::format("`{}` already means the hand's or the patch's own", node.name.text),
+                    fmt::format("`{}` is already a name of the hand or the patch", node.name.text),
                     "give it another name");
     if (!twice(declarations_.constants, node.name, "constant"))
       enter(declarations_.constants, node, Declared<Constant>{&tree_, &node, &declarations_});
@@ -80,8 +80,8 @@ class Declarer {
 
   void operator()(const FunctionDecl& node) {
     if (is_builtin_function(node.name.text))
-      return report(Code::declared_twice, node.name.span,
-                    fmt::format("`{}` is a function of the compiler's own", node.name.text), "give yours another name");
+      return report(Code::declared_twice, node.name.span, fmt::format("`{}` is a builtin function", node.name.text),
+                    "give yours another name");
     if (twice(declarations_.functions, node.name, "function")) return;
     for (std::size_t i = 0; i < node.parameters.size(); ++i)
       for (std::size_t before = 0; before < i; ++before)
@@ -240,7 +240,7 @@ void import_kind(const Names<T>& from, const Import& import, Names<T>& into, con
   }
 }
 
-/// What has no name that could clash; it is not handed on from file to file.
+/// Maps, thresholds, rules and levels have no names that could clash; they are not handed on from file to file.
 template <typename T>
 void import_unnamed(const std::vector<T>& from, std::vector<T>& into) {
   for (const auto& each : from)

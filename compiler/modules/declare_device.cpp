@@ -91,7 +91,7 @@ Shaker read_vibration(RecordReader& reader) {
     if (!found) return;
     figure = reader.quantity(*found, 0, dimension).value_or(0);
     if (figure < 0)
-      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` is not less than nothing", key),
+      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` must not be negative", key),
                     "leave out the `-`");
   };
   optional("command", "number", vibration.command_steps);
@@ -99,7 +99,7 @@ Shaker read_vibration(RecordReader& reader) {
   return vibration;
 }
 
-/// What moves and how it resists, beneath what it pushes with. What is left out, or said to be, is unknown.
+/// The moving mass, its damping and its friction. Figures that are left out, or said to be unknown, are unknown.
 void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::string>& unknown) {
   const auto known = [&](const char* key) {
     const auto* found = reader.setting(key);
@@ -120,7 +120,7 @@ void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::
     x = reader.quantity(*found, 0, dimension).value_or(0);
     y = found->items.size() > 1 ? reader.quantity(*found, 1, dimension).value_or(0) : x;
     if (x < 0 || y < 0)
-      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` is not less than nothing", key),
+      reader.report(Code::value_out_of_range, found->span, fmt::format("`{}` must not be negative", key),
                     fmt::format("leave out the `-`, or write `{} unknown`", key));
   };
   per_axis("delay", "time", profile.delay_x, profile.delay_y);
@@ -155,18 +155,19 @@ void read_motors(RecordReader& reader, DeviceProfile& profile) {
         !(lawful && profile.heating_seconds >= DeviceProfile::least_heating_seconds))
       reader.report(
           Code::value_out_of_range, continuous->span,
-          fmt::format("what an axis bears for long is more than nothing and at most its largest force, {:.6g} "
+          fmt::format("the sustained force of an axis must be greater than zero and at most its largest force, {:.6g} "
                       "N; it takes at least {:.6g} ms to grow hot",
                       profile.force_newton, 1e3 * DeviceProfile::least_heating_seconds),
-          "write, for example, `sustained 5 N, 20 s`, or `sustained unknown` where nobody knows it");
+          "write, for example, `sustained 5 N, 20 s`, or `sustained unknown` if it is not known");
   }
   if (const auto* active = known("active")) {
     const auto power = reader.quantity(*active, 0, "power");
     profile.active_watt = power.value_or(0);
     if (power && !(*power > 0 && *power <= most_active_watt))
-      reader.report(Code::value_out_of_range, active->span,
-                    fmt::format("what a program may give is more than nothing and at most {} W", most_active_watt),
-                    "write, for example, `active 2 W`, or `active unknown` where nobody knows it");
+      reader.report(
+          Code::value_out_of_range, active->span,
+          fmt::format("the active power of a program must be greater than zero and at most {} W", most_active_watt),
+          "write, for example, `active 2 W`, or `active unknown` if it is not known");
   }
 }
 

@@ -265,7 +265,8 @@ class MapReader {
       if (!size || !magnitude) return;
       if (!(*size > 0 && *magnitude > 0) || (!map_.table.empty() && !(*size > map_.table.back()[0])))
         return reader_.report(Code::value_out_of_range, item.span,
-                              "the points of a table rise, and all are more than nothing", "put them into their order");
+                              "the points of a table must rise, and all must be greater than zero",
+                              "put them into their order");
       map_.table.push_back({*size, *magnitude});
     }
     if (map_.table.size() < 2)

@@ -85,7 +85,7 @@ double RecordReader::positive(const std::string& key, std::size_t index, const s
   if (!found) return 0;
   const auto known = quantity(*found, index, dimension);
   if (known && !(*known > 0)) {
-    report(Code::value_out_of_range, found->items[index].span, fmt::format("`{}` must be more than nothing", key),
+    report(Code::value_out_of_range, found->items[index].span, fmt::format("`{}` must be greater than zero", key),
            fmt::format("write, for example, `{} {}`", key, example));
     return 0;
   }
@@ -110,7 +110,8 @@ std::optional<RecordReader::Quantity> RecordReader::constant(ExprId expr) {
   const Value value = checker.check(tree, expr, scope);
   if (value.failed()) return std::nullopt;
   if (value.type != Value::Type::number) {
-    report(Code::wrong_type, value.span, "a number is due here", "write one with its unit, as in `0.7 mm`");
+    report(Code::wrong_type, value.span, fmt::format("expected a number, found {}", type_words(value.type)),
+           "write one with its unit, as in `0.7 mm`");
     return std::nullopt;
   }
   const auto known = checker.constant(value);

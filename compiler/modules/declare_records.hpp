@@ -9,7 +9,8 @@
 
 namespace wale {
 
-/// Reads the settings of one record: each is asked for by its key, once; what nobody asked for is reported at the end.
+/// Reads the settings of one record: each is read by its key, once; settings that were not read are reported at the
+/// end.
 class RecordReader {
  public:
   RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources,
@@ -21,7 +22,7 @@ class RecordReader {
 
   /// Item `index` of a setting as a quantity of the named dimension ("number" for a plain one), in SI.
   std::optional<double> quantity(const Setting& setting, std::size_t index, const std::string& dimension);
-  /// The same, of a setting that must be there and be more than nothing.
+  /// The same, of a setting that must be there and be greater than zero.
   double positive(const std::string& key, std::size_t index, const std::string& dimension, const std::string& example);
   std::string text(const std::string& key);  ///< empty when not written
   /// An expression's value in SI, of the dimension.
@@ -53,11 +54,11 @@ class RecordReader {
 
 /// "lateral amplitude" of `lateral amplitude 194 pu`.
 std::string words_of(const SettingItem& item);
-/// Whether a setting says of its figure only that nobody knows it: `damping unknown`.
+/// Whether a setting says that its figure is not known: `damping unknown`.
 bool is_unknown(const Setting& setting);
 /// Whether an item holds a word, before its value or behind it.
 bool has_word(const SettingItem& item, std::string_view word);
-/// What to do about a name that is declared already, there.
+/// The mend for a name that is declared already, at `declared`.
 Advice another_name(Span declared);
 
 /// `realise roughness = lateral(…), by minsky1995.figure19`: each entered by its percept.

@@ -28,7 +28,7 @@ struct FoundMaterial {
 std::vector<FoundMaterial> find_materials(const LibraryIndex& index, const std::vector<std::string>& texts,
                                           std::string_view kind);
 
-/// What there is, for whoever found nothing: every word of every material, and every kind with those that it is in.
+/// For somebody who found nothing: every word of every material, and every kind with the kinds that hold it.
 std::vector<std::string> findable_words(const LibraryIndex& index);
 std::vector<std::string> kinds_in(const LibraryIndex& index);
 

@@ -21,14 +21,14 @@ struct IndexedMaterial {
   bool shipped = false;       ///< part of the binary, and no file of the person's own
 };
 
-/// What a file of a library exports besides its materials.
+/// A name that a file of a library exports, other than a material.
 struct ExportedName {
   std::string name;
   std::string module;     ///< the file that declares it, as an import names it
   std::string_view what;  ///< "function", "constant", "unit" or "dimension"
 };
 
-/// What the materials of a library are called, file by file in the order of their modules.
+/// The materials of a library by all their names, file by file in the order of their modules.
 class LibraryIndex {
  public:
   /// Enters the materials and the exports of a file. Errors in the file do not matter here.

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "compiler/diagnostics/advice.hpp"
-#include "compiler/expression/written_out.hpp"
 #include "compiler/modules/declare.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/meant_material.hpp"
@@ -48,7 +47,6 @@ std::shared_ptr<const CommonModules> load_common(std::optional<SyntaxTree> repla
     common->trees.push_back(std::make_unique<SyntaxTree>(std::move(tree)));
     declare(*common->trees.back(), sources, common->declarations, diagnostics);
   }
-  if (replaced.empty()) common->written_out = std::make_shared<WrittenOutFunctions>(common->declarations);
   return common;
 }
 
@@ -75,7 +73,7 @@ class ModuleLoader {
     add_project_devices_of(sources_[tree.source].name);
     const std::shared_ptr<const Module> file = add(std::move(tree));
     modules_.modules.pop_back();
-    // What is brought may bring more.
+    // Files that this adds may add more.
     for (std::size_t i = 0; i < added_.size(); ++i) find_materials(*std::shared_ptr(added_[i]));
     modules_.modules.push_back(file);
   }
@@ -110,7 +108,7 @@ class ModuleLoader {
     }
   }
 
-  /// What the file declares or imports by the same names goes before them.
+  /// Declarations and imports of the file by the same names go before them.
   void add_project_devices(Declarations& declarations) const {
     for (const auto& [name, entry] : devices_->declarations.devices.own()) {
       if (!entry.exported || entry.imported || declarations.devices.own().contains(name)) continue;
@@ -173,7 +171,7 @@ class ModuleLoader {
     return true;
   }
 
-  /// Each import is followed within the one before it, whoever supplies the files.
+  /// Imports are followed recursively, so their depth is bounded.
   bool too_deep(const Word& module) {
     if (path_.size() < deepest_import) return false;
     diagnostics_.report(Advice("let this file import what it needs itself, or put some of the files into one")

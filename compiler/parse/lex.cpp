@@ -86,7 +86,7 @@ constexpr std::uint32_t packed(std::string_view word) {
   return number;
 }
 
-/// What a word is: a name, or one of the words that cannot be names, all of which are short.
+/// A name, or one of the words that cannot be names, all of which are short.
 TokenKind kind_of_word(std::string_view word) {
   if (word.size() > sizeof(std::uint32_t)) return TokenKind::name;
   switch (packed(word)) {
@@ -182,7 +182,7 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
   return at;
 }
 
-// What nearly all of a text is, in one piece: names, numbers, symbols of one character, and the space between them.
+// Nearly all of a text: names, numbers, symbols of one character, and the space between them.
 
 [[gnu::always_inline]] inline void Lexer::name() {
   const std::size_t begin = at_;

@@ -1,4 +1,4 @@
-// What is no token: said, and read as what was evidently meant.
+// Bytes that are no token are reported, and read as the token that was evidently meant.
 
 #include <fmt/format.h>
 
@@ -191,7 +191,7 @@ void Lexer::unknown(const Character& character) {
   add(TokenKind::unreadable, begin);
 }
 
-/// What nobody sees is removed; a `#` at the beginning of a line begins a comment in many languages.
+/// An invisible character is removed; a `#` at the beginning of a line begins a comment in many languages.
 std::vector<Fix> Lexer::unknown_fixes(std::size_t begin, bool visible) const {
   if (!visible) return {replace(span(begin, at_), "")};
   if (text_[begin] == '#' && starts_line_) return {replace(span(begin, at_), "//")};

@@ -31,7 +31,7 @@ bool is_record(std::string_view word) { return holds(record_words, word); }
 /// Hands over what lexer and parser found, in the order of the text.
 void report_in_order(const Diagnostics& found, Diagnostics& diagnostics) {
   std::vector<Diagnostic> all = found.all();
-  // What is wrong in a newer language is not ours to say.
+  // Errors in a newer language cannot be told from its new features.
   const auto newer =
       std::find_if(all.begin(), all.end(), [](const auto& each) { return each.code == Code::newer_version; });
   if (newer != all.end()) all = {Diagnostic(*newer)};
@@ -171,9 +171,9 @@ void Parser::declaration() {
     if (is_word(at_, "material") || is_word(at_, "import")) {
       const bool material = is_word(at_, "material");
       complain_at(Code::unexpected_token, exporting,
-                  material ? "a material needs no `export`: it is there for whoever imports its file"
+                  material ? "a material needs no `export`: every file that imports this one may use it"
                            : "an import is not handed on",
-                  "", "`export`", material ? "leave `export` out" : "let whoever needs it import it too");
+                  "", "`export`", material ? "leave `export` out" : "let the files that need it import it too");
     }
   }
   std::string_view keyword = here().kind == TokenKind::name ? spelling(here()) : "";

@@ -157,7 +157,7 @@ ExprId Parser::operand() {
   no_operand(next_statement);
 }
 
-/// What stands where a value was due.
+/// Reports the token that stands where a value was expected.
 void Parser::no_operand(bool next_statement) {
   const std::string message = "expected a value" + after_previous();
   if (next_statement) {

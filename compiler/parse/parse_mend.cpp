@@ -151,7 +151,7 @@ std::vector<Fix> Parser::state_version(bool is_wale, bool has_number, bool is_de
     return {insert_before({tree_.source, begin, begin}, fmt::format("wale 1{}", line_end(text)),
                           "write `wale 1` in the first line", is_declaration)};
   }
-  // `wale 0` was meant as something; what, nobody knows.
+  // There is no telling what `wale 0` was meant as.
   const bool known = !has_number || input_.numbers[token(at_ + 1).value] == 1;
   const Span span = {tree_.source, here().begin, has_number ? token(at_ + 1).end : here().end};
   return {replace(span, "wale 1", {}, known)};

@@ -157,7 +157,7 @@ class Parser {
     advance();
     return true;
   }
-  /// Says that a token is missing here; whoever asks goes on as if it had been there.
+  /// Reports that a token is missing here; the caller goes on as if it had been there.
   [[gnu::cold]] void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }

@@ -9,7 +9,6 @@
 #include "compiler/extract/band_spectrum.hpp"
 #include "compiler/extract/fourier.hpp"
 #include "compiler/measure/strokes.hpp"
-#include "compiler/modules/load_modules.hpp"
 
 namespace wale {
 namespace {
@@ -21,11 +20,11 @@ constexpr double turn = 6.283185307179586;
 
 }  // namespace
 
-FeltStroke felt_along(Bank bank, const Exhibit& exhibit) {
+FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand) {
   const DeviceProfile& device = bank.program().description().device;
   FeltStroke felt{.rate = device.rate > 0 ? device.rate : 1000, .forces = {}};
   double reach = room_to_stroke(bank.size()), frequency = 1;
-  if (const HandDeclaration* hand = common_modules()->declarations.hands.find("showing")) {
+  if (hand) {
     reach = std::min(reach, hand->lateral_amplitude);
     frequency = hand->lateral_frequency;
   }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/declarations/declarations.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "wale/program.hpp"
 
@@ -17,7 +18,7 @@ struct FeltStroke {
 /// Moves the hand called `showing` (calibration/hands/hands.wale) to and fro along the section for two seconds and runs
 /// the program's ticks, without guards. The path does not depend on the force. A force that is not a number counts as
 /// 0.
-FeltStroke felt_along(Bank bank, const Exhibit& exhibit);
+FeltStroke felt_along(Bank bank, const Exhibit& exhibit, const HandDeclaration* hand);
 
 /// The amplitude of a signal over frequency and time.
 struct FeltSpectrum {

@@ -224,9 +224,9 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
 }
 
 /// The spectrum of the force under a stroking hand; nothing for a pad, and for a force that does not change on the way.
-std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit) {
+std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit, const HandDeclaration* hand) {
   if (bank.program().description().vibrates()) return std::nullopt;
-  const FeltStroke felt = felt_along(bank, exhibit);
+  const FeltStroke felt = felt_along(bank, exhibit, hand);
   FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
   const auto& amplitudes = spectrum.amplitudes;
   if (amplitudes.empty() || !(*std::max_element(amplitudes.begin(), amplitudes.end()) > least_force))
@@ -279,12 +279,13 @@ void draw_plots(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const 
 
 }  // namespace
 
-Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text) {
+Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations) {
   const auto images = image_library();
   if (!images) return images.error();
-  const Rehearsal rehearsal = rehearse(bank);
+  const HandDeclaration* hand = declarations.hands.find("showing");
+  const Rehearsal rehearsal = rehearse(bank, hand);
   const Exhibit exhibit = exhibit_of(bank, &rehearsal.memory);
-  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit);
+  const std::optional<FeltSpectrum> spectrum = felt_spectrum(bank, exhibit, hand);
   Canvas canvas(page_width, spectrum ? page_height_with_spectrum : page_height, style::paper);
   write_words(canvas, bank, text);
   draw_picture(canvas, bank, exhibit, rehearsal, **images);

@@ -24,7 +24,7 @@ struct PreviewText {
 
 /// The words that the program itself gives: title and names of its representative layer, the level of each percept, the
 /// maximum force and the parameters at the bank's values, and the evidence of its maps.
-PreviewText preview_text(const Bank& bank);
+PreviewText preview_text(const Bank& bank, const Declarations& declarations);
 
 /// A picture of a material, 1600 x 1330 pixels: shaded relief with a scale bar; height and force along a line through
 /// the centre; the words; and the spectrum and the spectrogram of the force on a hand that strokes to and fro along
@@ -37,6 +37,6 @@ PreviewText preview_text(const Bank& bank);
 /// that time. Forces are the commanded ones, in N or mN. The same bank and text give the same pixels.
 ///
 /// Error: `Code::missing_library`.
-Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text);
+Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const Declarations& declarations);
 
 }  // namespace wale

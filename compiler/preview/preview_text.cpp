@@ -41,7 +41,7 @@ std::string evidence_of(const DescribedPercept& percept) {
 
 }  // namespace
 
-PreviewText preview_text(const Bank& bank) {
+PreviewText preview_text(const Bank& bank, const Declarations& declarations) {
   const PatchProgram& program = bank.program().description();
   PreviewText text;
   text.title = joined(said(program.layers, "title"), " ");
@@ -51,7 +51,7 @@ PreviewText preview_text(const Bank& bank) {
   }
   text.names = joined(said(program.layers, "called"), " · ");
 
-  const Description description = describe(bank);
+  const Description description = describe(bank, declarations, Texture::left_out);
   std::vector<std::string> evidence;
   for (const DescribedPercept& percept : description.percepts) {
     text.figures.push_back({percept.name, fmt::format("{:.2f}", percept.level)});

@@ -24,7 +24,6 @@ class Solver {
          Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
       : material_(material),
         declarations_(module.declarations()),
-        written_out_(module.modules.common->written_out.get()),
         sources_(sources),
         resolver_(resolver),
         diagnostics_(diagnostics),
@@ -112,8 +111,8 @@ class Solver {
     }
     terms_ = material_.terms;
     open_terms_ = &terms_;
-    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_, written_out_}, terms_, tables_);
-    checker.states() = states_;
+    ExpressionChecker checker({sources_, declarations_, diagnostics_, &resolver_}, terms_, tables_);
+    checker.record().states = states_;
     const std::size_t errors_before = diagnostics_.error_count();
     std::vector<Span> spans;
     const bool vibrates = device_->profile.shaker.has_value();
@@ -129,7 +128,7 @@ class Solver {
         continue;
       }
       realise(asked, rule->second, checker);
-      spans.resize(checker.open_spans().size(), asked.span);
+      spans.resize(checker.record().open_spans.size(), asked.span);
     }
     if (!force_ && vibrates && diagnostics_.error_count() == errors_before) {
       // The rest of the material, its picture and what it says, is there all the same.
@@ -141,9 +140,9 @@ class Solver {
       return false;
     }
     if (!material_.percepts.empty()) force_span_ = material_.percepts.front().span;
-    if (!vibrates) carriers_ = checker.carriers();
+    if (!vibrates) carriers_ = checker.record().carriers;
     open_spans_ = spans;
-    states_ = checker.states();
+    states_ = checker.record().states;
     for (const auto& carrier : carriers_)
       if (carrier.relief) {
         relief_ = carrier.relief;
@@ -373,7 +372,6 @@ class Solver {
 
   const CheckedMaterial& material_;
   const Declarations& declarations_;
-  WrittenOutFunctions* const written_out_;  ///< what is known of functions from other materials, if anything is
   const SourceSet& sources_;
   Resolver& resolver_;
   Diagnostics& diagnostics_;

@@ -19,7 +19,7 @@ struct SolvedPercept {
   TermId magnitude = 0, level = 0;  ///< of a carrier of the size in the `probe` input
 };
 
-/// What becomes of the cell of a memory that is nearest to (u, v), in cells from the centre of its first one.
+/// The new value of the cell of a memory that is nearest to (u, v), in cells from the centre of its first one.
 struct SolvedWrite {
   std::uint16_t memory = 0;
   TermId u = 0, v = 0, value = 0;

@@ -38,7 +38,7 @@ class PerceptSolver {
   /// author fixed there.
   std::map<std::uint32_t, TermId> sizes(SolvedMaterial& solved, TermCopier& copy);
 
-  /// What becomes of a percept that was asked for and planned without an error.
+  /// The outcome for a percept that was asked for and planned without an error.
   FateRecord fate(const AskedPercept& asked) const;
 
   /// Adds a record for every percept that a carrier tells of, asked for or not; the asked ones first, in their order.

@@ -22,7 +22,7 @@ const Percept* percept_of(const Carrier& carrier, const Declarations& declaratio
   return found;
 }
 
-/// What the author's own size of a force feels like, on the device of the percept's reference stimulus.
+/// How the author's own size of a force feels on the device of the percept's reference stimulus.
 std::optional<double> level_of(const CheckedMaterial& material, const Carrier& carrier, const Percept& percept,
                                const Declarations& declarations) {
   const DeviceDeclaration* reference = declarations.devices.find(percept.reference_device);

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// Replaces what a file holds, whole or not at all: whoever reads it meanwhile, or after a crash, finds the old text or
+/// Replaces the content of a file, whole or not at all: a reader meanwhile, or after a crash, finds the old text or
 /// the new one. Its permissions stay; a link stays a link, and what it leads to is replaced.
 ///
 /// The result says why it could not be: the file is missing, not a regular one, not writable, or its folder is not.

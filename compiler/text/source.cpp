@@ -50,8 +50,7 @@ LineColumn SourceSet::place(Span span) const {
   const std::size_t line = line_index(span);
   const std::size_t end = std::min<std::size_t>(span.begin, text.size());
   LineColumn place{static_cast<unsigned>(line + 1), 1};
-  // What stands before the first byte that is no UTF-8 is counted by the bytes that begin a character; nobody points
-  // beyond.
+  // Columns count the bytes that begin a character. No span points behind a byte that is not UTF-8.
   for (std::size_t at = entry(span.source).line_starts[line]; at < end; ++at)
     place.column += (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80;
   return place;

@@ -35,7 +35,7 @@ const FateChange* change(const DescribedFate& fate, const std::string& parameter
 TEST(FatesAt, FollowTheParameters) {
   Declared declared("material m { perceptual { roughness 0.6; springiness 0.6; viscosity 0.9 } }\n");
   const Program program = declared.program();
-  const auto usual = fates_at(Bank(program), &declared.declarations());
+  const auto usual = fates_at(Bank(program), declared.declarations());
   for (const DescribedFate& each : usual) {
     EXPECT_EQ(each.record.fate, Fate::approximated) << each.record.name;
     EXPECT_EQ(each.record.reason.find("gives no more"), std::string::npos);
@@ -53,7 +53,7 @@ TEST(FatesAt, FollowTheParameters) {
   EXPECT_EQ(viscosity.changes.size(), 2u);
   EXPECT_TRUE(fate(usual, "roughness").changes.empty());
 
-  const auto springy = fates_at(bank_at(program, {{"springiness", 0.9}, {"roughness", 0.4}}), &declared.declarations());
+  const auto springy = fates_at(bank_at(program, {{"springiness", 0.9}, {"roughness", 0.4}}), declared.declarations());
   const FateRecord& less = fate(springy, "viscosity").record;
   EXPECT_EQ(less.fate, Fate::saturated);
   EXPECT_NE(less.reason.find("`sandpaper` gives no more to all together; rendered as viscous()"), std::string::npos)
@@ -75,7 +75,7 @@ TEST(FatesAt, AreThoseOfTheProgramAtItsDefaults) {
   for (const char* material : {"m", "shared"})
     for (const char* device : {"sandpaper", "falcon", "touch_pad", "gamepad"}) {
       const Program program = declared.program(material, device);
-      const auto found = fates_at(Bank(program), &declared.declarations());
+      const auto found = fates_at(Bank(program), declared.declarations());
       const auto& recorded = program.description().fates;
       ASSERT_EQ(found.size(), recorded.size());
       for (std::size_t i = 0; i < found.size(); ++i) {
@@ -90,7 +90,7 @@ TEST(FatesAt, TellAParameterOfTheAuthorsInItsUnit) {
   Declared declared(
       "material m { perceptual { roughness 1 }\n  physical {\n    param b = 1 N s/m in 0 N s/m .. 60 N s/m\n"
       "    force ribs = lateral(grating(x, period: 2 mm))\n    force oil = viscous(b)\n  }\n}\n");
-  const auto found = fates_at(Bank(declared.program()), &declared.declarations());
+  const auto found = fates_at(Bank(declared.program()), declared.declarations());
   const FateChange* thicker = change(fate(found, "roughness"), "b", true);
   ASSERT_TRUE(thicker);
   EXPECT_NEAR(thicker->value, (10 - roughness_newton(1)) / 0.25, 0.1);

@@ -16,7 +16,7 @@ constexpr double program_unit = 10.0 / 512;  // N: Minsky 1995, 10 N over 512 un
 Description described(const std::string& statements) {
   static const auto common = common_modules();
   const Program program = standard::material("material m { physical {\n" + statements + "\n} }", "m");
-  return describe(Bank(program), &common->declarations);
+  return describe(Bank(program), common->declarations);
 }
 
 /// A grating of this lateral force in program units and this period in mm, written as a force.

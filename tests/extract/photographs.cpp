@@ -58,7 +58,7 @@ Description described(const std::string& bytes, const std::string& force = "late
                                    force + "\n} }\n");
   const auto program = compile(sources, source, "", default_device, resolver, diagnostics);
   if (!program) throw std::runtime_error(render_text(diagnostics.all().front(), sources, false));
-  return describe(Bank(*program), &common->declarations);
+  return describe(Bank(*program), common->declarations);
 }
 
 /// Ribs of one period (mm) that change along `degrees` from x, counted to the left: a row of a picture is lower on the

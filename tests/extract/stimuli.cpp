@@ -16,7 +16,7 @@ constexpr double program_unit = 10.0 / 512;  // N: Minsky 1995, table 2
 
 Description described(const Program& program) {
   static const auto common = common_modules();
-  return describe(Bank(program), &common->declarations);
+  return describe(Bank(program), common->declarations);
 }
 
 /// Minsky 1995, section 6.3.8: "rolling hills (A3P100, A3P50, sometimes A3P25, and A1P7) and moguls (A19P100 and

@@ -69,7 +69,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       EXPECT_EQ(told.contains("place"), is_wider) << material.name;
       if (!description.vibrates()) continue;
       EXPECT_TRUE(read_patch_program(write_patch_program(description)));
-      const Description described = describe(Bank(*program));
+      const Description described = describe(Bank(*program), common_modules()->declarations, Texture::left_out);
       EXPECT_TRUE(described.shaking);
       EXPECT_FALSE(description_text(described).empty());
       EXPECT_FALSE(descriptions_json({described}).empty());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/grade/grade.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "runtime/machine/parallel.hpp"
 #include "tests/library/shelf.hpp"
 #include "wale/simulated.hpp"
@@ -51,7 +52,7 @@ TEST(Observed, NorIsAnythingDoneBehindADelay) {
     for (std::size_t i = begin; i < end; ++i)
       for (const double ticks : {1.0, 2.0}) {
         const Program program = late(programs[i], ticks);
-        const Grade graded = grade(Bank(program));
+        const Grade graded = grade(Bank(program), normal_hand(common_modules()->declarations));
         if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
         const bool acted = guarded(program).passivity > 0;
         if (graded.required_damping <= graded.device_damping) {
@@ -80,7 +81,7 @@ TEST(Observed, NothingIsDoneToWhatIsPassiveInTheHandNorHeldBackOfWhatIsDeclared)
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const std::string& name = programs[i].description().material;
     EXPECT_EQ(counts[i].energy, 0) << name;
-    const Grade graded = grade(Bank(programs[i]));
+    const Grade graded = grade(Bank(programs[i]), normal_hand(common_modules()->declarations));
     if (graded.energy.active() || graded.required_damping > graded.device_damping + graded.hand_damping) continue;
     ++calm;
     EXPECT_EQ(counts[i].passivity, 0) << name;

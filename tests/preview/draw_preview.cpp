@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "compiler/image/openimageio.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/preview.hpp"
@@ -37,7 +38,9 @@ int darkest(const Drawing& drawing, int left, int top, int right, int bottom) {
   return least;
 }
 
-Drawing draw(const Bank& bank) { return *draw_preview(bank, preview_text(bank)); }
+Drawing draw(const Bank& bank) {
+  return *draw_preview(bank, preview_text(bank, common_modules()->declarations), common_modules()->declarations);
+}
 
 TEST(Preview, ReliefRepeatsWithThePeriodAndAcrossTheRibsNotAtAll) {
   const Drawing drawing = draw(sine_grating(0.004f, 1));
@@ -76,13 +79,13 @@ TEST(Preview, ForceCurveCrossesZeroTwiceAPeriod) {
 
 TEST(Preview, WordsAreOnThePage) {
   const Bank bank = sine_grating(0.004f, 1);
-  PreviewText text = preview_text(bank);
+  PreviewText text = preview_text(bank, common_modules()->declarations);
   EXPECT_EQ(text.title, "A sine grating");
   EXPECT_EQ(text.names, "grating · washboard");
   ASSERT_EQ(text.figures.size(), 1u);
   EXPECT_EQ(text.figures[0].word, "maximum force");
   EXPECT_EQ(text.figures[0].value, "1 N");
-  const Drawing drawing = *draw_preview(bank, text);
+  const Drawing drawing = *draw_preview(bank, text, common_modules()->declarations);
   if (!drawing.has_text) GTEST_SKIP() << "no font is installed";
   EXPECT_LT(darkest(drawing, 64, 60, 500, 110), 200);     // title
   EXPECT_LT(darkest(drawing, 64, 860, 300, 920), 200);    // figures
@@ -90,9 +93,9 @@ TEST(Preview, WordsAreOnThePage) {
 
   // Letters outside ASCII are letters: an accent adds ink above.
   text.title = "Crepe";
-  const Drawing plain = *draw_preview(bank, text);
+  const Drawing plain = *draw_preview(bank, text, common_modules()->declarations);
   text.title = "Crêpe";
-  const Drawing accented = *draw_preview(bank, text);
+  const Drawing accented = *draw_preview(bank, text, common_modules()->declarations);
   EXPECT_NE(plain, accented);
   for (int y = 80; y < 1000; ++y) {
     for (int x = 0; x < 1600; x += 7)
@@ -107,9 +110,9 @@ TEST(Preview, LongAndBrokenWordsStayOnThePage) {
   text.names = "tab\there, newline\nthere, \xff\xfe not UTF-8, \xe2\x82";
   for (int i = 0; i < 40; ++i) text.figures.push_back({std::string(300, 'w'), std::string(300, '8')});
   text.evidence = std::string(5000, 'e');
-  const Drawing drawing = *draw_preview(bank, text);
+  const Drawing drawing = *draw_preview(bank, text, common_modules()->declarations);
   EXPECT_GT(darkest(drawing, 1545, 0, 1600, 1000), 700);  // the right margin is empty
-  const Drawing wordless = *draw_preview(bank, {});
+  const Drawing wordless = *draw_preview(bank, {}, common_modules()->declarations);
   EXPECT_EQ(wordless.width, drawing.width);
 }
 

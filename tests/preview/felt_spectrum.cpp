@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/modules/load_modules.hpp"
 #include "tests/preview/hand_made.hpp"
 
 namespace wale::felt_spectrum_test {
@@ -66,7 +67,7 @@ TEST(FeltSpectrum, OfTooLittleThereIsNone) {
 TEST(FeltSpectrum, AGratingIsFeltAtSpeedOverPeriod) {
   const float period = 0.004f;
   const Bank bank = sine_grating(period, 1);
-  const FeltStroke felt = felt_along(bank, exhibit_of(bank));
+  const FeltStroke felt = felt_along(bank, exhibit_of(bank), common_modules()->declarations.hands.find("showing"));
   EXPECT_EQ(felt.rate, 900);
   EXPECT_EQ(felt.forces.size(), 1800u);
   const FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);

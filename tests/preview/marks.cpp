@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "compiler/measure/rehearsal.hpp"
+#include "compiler/modules/load_modules.hpp"
 #include "compiler/preview/exhibit.hpp"
 #include "compiler/preview/preview.hpp"
 #include "tests/preview/hand_made.hpp"
@@ -41,12 +42,15 @@ int count_red(const Drawing& drawing) {
   return count;
 }
 
-Drawing draw(const Bank& bank) { return *draw_preview(bank, {}); }
+/// The hand that rubs a program before it is shown.
+const HandDeclaration* showing_hand() { return common_modules()->declarations.hands.find("showing"); }
+
+Drawing draw(const Bank& bank) { return *draw_preview(bank, {}, common_modules()->declarations); }
 
 /// The marks alone, where the page has them, on white; a page takes longer.
 Drawing marks_of(const Bank& bank) {
   Canvas canvas(picture_left + picture_side + 60, picture_top + picture_side + 60, {1, 1, 1});
-  const Rehearsal rehearsal = rehearse(bank);
+  const Rehearsal rehearsal = rehearse(bank, showing_hand());
   const PageBox box = {picture_left, picture_top, picture_left + picture_side, picture_top + picture_side};
   draw_marks(canvas, box, {.side = side}, rehearsal);
   return canvas.finish(**image_library());
@@ -161,7 +165,7 @@ TEST(Marks, MoveWithTheState) {
 TEST(Marks, ATrajectoryIsThePathOfItsLastSeconds) {
   // From 0 to 18 mm in a second; the last half of it began at 9 mm.
   const Bank bank = moving(20e-6f, MarkKind::trajectory, {0, -0.02f, 0.5f}, 0);
-  const Rehearsal rehearsal = rehearse(bank);
+  const Rehearsal rehearsal = rehearse(bank, showing_hand());
   ASSERT_EQ(rehearsal.paths.size(), 1u);
   EXPECT_NEAR(rehearsal.paths[0].front().x, 0.009, 1e-4);
   EXPECT_NEAR(rehearsal.paths[0].back().x, 0.018, 1e-4);
@@ -171,16 +175,16 @@ TEST(Marks, ATrajectoryIsThePathOfItsLastSeconds) {
 }
 
 TEST(Rehearsal, LastsAsLongAsTheLongestTrajectoryUpToFiveSeconds) {
-  const auto seconds = [](float shown) { return rehearse(still(MarkKind::trajectory, {0, 0, shown})).seconds; };
+  const auto seconds = [](float shown) { return rehearse(still(MarkKind::trajectory, {0, 0, shown}), showing_hand()).seconds; };
   EXPECT_EQ(seconds(0.1f), 1);
   EXPECT_EQ(seconds(3), 3);
   EXPECT_EQ(seconds(1e30f), 5);
   EXPECT_EQ(seconds(std::nanf("")), 1);
-  EXPECT_EQ(rehearse(sine_grating(0.004f, 1)).seconds, 0);
+  EXPECT_EQ(rehearse(sine_grating(0.004f, 1), showing_hand()).seconds, 0);
 }
 
 TEST(Rehearsal, TheHandRubsToAndFroOnThePatch) {
-  const Rehearsal rehearsal = rehearse(moving(0, MarkKind::point, {0, 0, 0.001f}, 0));
+  const Rehearsal rehearsal = rehearse(moving(0, MarkKind::point, {0, 0, 0.001f}, 0), showing_hand());
   EXPECT_EQ(rehearsal.places.front(), glm::vec2(0));
   float least = 1, most = -1;
   double longest_step = 0;

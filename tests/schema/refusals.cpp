@@ -65,9 +65,10 @@ TEST(Refusals, DamageByATransferAsText) {
 }
 
 TEST(Refusals, NewerMajorVersionSaysWhatToDo) {
-  EXPECT_EQ(refusal_with(8, 2, 2),
-            "this patch program has format version 2.0, and this Wale reads up to 1; update Wale, or build the material "
-            "again with this one");
+  EXPECT_EQ(
+      refusal_with(8, 2, 2),
+      "this patch program has format version 2.0, and this Wale reads up to 1; update Wale, or build the material "
+      "again with this one");
   EXPECT_EQ(refusal_with(8, 0, 2), "this patch program claims format version 0, which never existed");
 }
 
@@ -136,8 +137,10 @@ TEST(Refusals, SectionKindsAndFlags) {
   EXPECT_EQ(refusal_of_sections([](auto& s) { std::swap(s[2], s[3]); }), "section CONS stands after PARM");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.erase(s.begin() + 8); }), "section TICK is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.clear(); }), "section NAME is missing");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }), "section TICK is marked as skippable and must not be");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s[17].flags = 1; }), "section LAYR is marked as required and must not be");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }),
+            "section TICK is marked as skippable and must not be");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s[17].flags = 1; }),
+            "section LAYR is marked as required and must not be");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 3; }),
             "section TICK has flags that this Wale does not know");
 }

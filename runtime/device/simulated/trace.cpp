@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "schema/csv.hpp"
+
 namespace wale {
 namespace {
 
@@ -35,40 +37,7 @@ struct Column {
 
 using Columns = std::array<std::optional<Column>, quantities>;
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-/// Takes the text up to `separator` from the front of `rest`.
-std::string_view take(std::string_view& rest, char separator) {
-  const auto end = rest.find(separator);
-  const std::string_view part = rest.substr(0, end);
-  rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
-  return part;
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (true) {
-    const bool last = line.find(',') == std::string_view::npos;
-    std::string_view cell = trimmed(take(line, ','));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = trimmed(cell.substr(1, cell.size() - 2));
-    cells.push_back(cell);
-    if (last) return cells;
-  }
-}
-
-/// `line` counts from 1; 0: the text as a whole.
-Error unlike(std::size_t line, const std::string& expected, const std::string& found) {
-  Error error{Code::unreadable_table, "expected " + expected + ", found " + found};
-  if (line > 0) error.place.number = line;
-  return error;
-}
-
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 /// The unit's size in SI, 1 for no unit, or nothing for a unit that the quantity does not have.
 std::optional<double> size_of(std::string_view unit_name, Quantity quantity) {
@@ -94,69 +63,61 @@ struct Heading {
 /// The quantity and unit of a column named "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx"; nothing for a column to ignore,
 /// such as "x_target".
 std::optional<Heading> read_heading(std::string_view text) {
-  const auto end = text.find_first_of("([_");
-  const auto quantity = quantity_called(trimmed(text.substr(0, end)));
-  if (!quantity) return std::nullopt;
-  if (end == std::string_view::npos) return Heading{*quantity, {}};
-  std::string_view unit = text.substr(end + 1);
-  if (text[end] == '_') {
-    if (!size_of(unit, *quantity)) return std::nullopt;
-  } else if (unit.ends_with(text[end] == '(' ? ')' : ']')) {
-    unit.remove_suffix(1);
+  const auto underscore = text.find('_');
+  if (underscore != std::string_view::npos) {
+    const auto quantity = quantity_called(text.substr(0, underscore));
+    const std::string_view unit = text.substr(underscore + 1);
+    return quantity && size_of(unit, *quantity) ? std::optional(Heading{*quantity, unit}) : std::nullopt;
   }
-  return Heading{*quantity, trimmed(unit)};
+  const auto [name, unit] = heading_of(text);
+  const auto quantity = quantity_called(name);
+  return quantity ? std::optional(Heading{*quantity, unit}) : std::nullopt;
 }
 
-Result<Columns> read_header(std::string_view line, std::size_t line_number) {
+std::string joined(const std::vector<std::string_view>& cells) {
+  std::string all;
+  for (const std::string_view cell : cells) all.append(all.empty() ? "" : ",").append(cell);
+  return all;
+}
+
+Result<Columns> find_columns(const CsvRow& headings) {
   Columns columns;
-  const std::vector<std::string_view> headings = cells_of(line);
-  for (std::size_t number = 0; number < headings.size(); ++number) {
-    const auto heading = read_heading(headings[number]);
+  for (std::size_t number = 0; number < headings.cells.size(); ++number) {
+    const auto heading = read_heading(headings.cells[number]);
     if (!heading) continue;
     const auto [quantity, unit] = *heading;
-    const std::string name = quoted(names[quantity]);
+    const std::string name = in_quotes(names[quantity]);
     if (columns[quantity]) {
       const std::string first = std::to_string(columns[quantity]->number + 1), second = std::to_string(number + 1);
-      return unlike(line_number, "one column " + name, "two, columns " + first + " and " + second);
+      return unlike_csv(headings.line, "one column " + name, "two, columns " + first + " and " + second);
     }
     const std::optional<double> in_si = size_of(unit, quantity);
     if (!in_si) {
       std::string known;
       for (const Unit& one : units_of(quantity)) known += (known.empty() ? "" : ", ") + std::string(one.name);
-      return unlike(line_number, "column " + name + " in one of " + known, quoted(unit));
+      return unlike_csv(headings.line, "column " + name + " in one of " + known, in_quotes(unit));
     }
     columns[quantity] = Column{number, *in_si};
   }
   for (const Quantity quantity : {time, x, y}) {
     if (!columns[quantity]) {
-      return unlike(line_number, "a header with the columns t, x, y; missing " + quoted(names[quantity]),
-                    quoted(trimmed(line)));
+      return unlike_csv(headings.line, "a header with the columns t, x, y; missing " + in_quotes(names[quantity]),
+                        in_quotes(joined(headings.cells)));
     }
   }
   if (columns[vx].has_value() != columns[vy].has_value()) {
-    return unlike(line_number, "both vx and vy, or neither", columns[vx] ? "vx alone" : "vy alone");
+    return unlike_csv(headings.line, "both vx and vy, or neither", columns[vx] ? "vx alone" : "vy alone");
   }
   return columns;
 }
 
-Result<TracePoint> read_point(std::string_view line, std::size_t line_number, const Columns& columns) {
-  const std::vector<std::string_view> cells = cells_of(line);
+Result<TracePoint> read_point(const CsvRow& row, const Columns& columns) {
   std::array<double, quantities> values{};
   for (std::size_t i = 0; i < quantities; ++i) {
     if (!columns[i]) continue;
-    const auto [number, in_si] = *columns[i];
-    const std::string expected = "a finite number for " + quoted(names[i]) + " in column " + std::to_string(number + 1);
-    if (number >= cells.size()) {
-      const std::string count = std::to_string(cells.size());
-      return unlike(line_number, expected, "only " + count + (cells.size() == 1 ? " column" : " columns"));
-    }
-    std::string_view cell = cells[number];
-    if (cell.starts_with('+')) cell.remove_prefix(1);
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), values[i]);
-    if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(values[i])) {
-      return unlike(line_number, expected, cells[number].empty() ? "nothing" : quoted(cells[number]));
-    }
-    values[i] *= in_si;
+    const auto value = number_in(row, columns[i]->number, names[i]);
+    if (!value) return value.error();
+    values[i] = *value * columns[i]->in_si;
   }
   return TracePoint{values[time], {values[x], values[y]}, {values[vx], values[vy]}};
 }
@@ -186,32 +147,26 @@ std::string shortest(double value) {
 }  // namespace
 
 Result<Trace> read_trace(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-
+  CsvReader reader(text);
+  const auto headings = read_headings(reader, "a header with the columns t, x, y");
+  if (!headings) return headings.error();
+  const auto columns = find_columns(*headings);
+  if (!columns) return columns.error();
   Trace trace;
-  std::optional<Columns> columns;
-  for (std::size_t line_number = 1; !text.empty(); ++line_number) {
-    const std::string_view line = trimmed(take(text, '\n'));
-    if (line.empty() || line.starts_with('#')) continue;
-    if (!columns) {
-      auto header = read_header(line, line_number);
-      if (!header) return std::move(header.error());
-      columns = *header;
-      trace.velocities_given = (*columns)[vx].has_value();
-      continue;
+  trace.velocities_given = (*columns)[vx].has_value();
+  while (true) {
+    const auto row = reader.next();
+    if (!row) return row.error();
+    if (!*row) break;
+    const auto point = read_point(**row, *columns);
+    if (!point) return point.error();
+    if (!trace.points.empty() && point->time <= trace.points.back().time) {
+      return unlike_csv((*row)->line, "a time after " + shortest(trace.points.back().time) + " s",
+                        shortest(point->time) + " s");
     }
-    auto read = read_point(line, line_number, *columns);
-    if (!read) return std::move(read.error());
-    const TracePoint& point = *read;
-    if (!trace.points.empty() && point.time <= trace.points.back().time) {
-      return unlike(line_number, "a time after " + shortest(trace.points.back().time) + " s",
-                    shortest(point.time) + " s");
-    }
-    trace.points.push_back(point);
+    trace.points.push_back(*point);
   }
-  if (!columns) return unlike(0, "a header with the columns t, x, y", "nothing");
-  if (trace.points.empty()) return unlike(0, "at least one line of numbers after the header", "none");
+  if (trace.points.empty()) return unlike_csv(0, "at least one line of numbers after the header", "none");
   if (!trace.velocities_given) derive_velocities(trace.points);
   return trace;
 }

@@ -59,7 +59,7 @@ void Extract(benchmark::State& state, Program (*make)()) {
 /// And what follows from them.
 void DescribeExtracted(benchmark::State& state, Program (*make)()) {
   const Bank bank(make());
-  const Description plain = describe(bank);
+  const Description plain = describe(bank, declarations(), Texture::left_out);
   for (auto _ : state) {
     Description description = plain;
     describe_extracted(description, bank, extract(bank, declarations()), declarations());
@@ -86,7 +86,7 @@ void Describe(benchmark::State& state, Program (*make)()) {
   const Bank bank(make());
   double planes = seconds_of_a_plane(bank);
   const std::clock_t begin = std::clock();
-  for (auto _ : state) benchmark::DoNotOptimize(describe(bank, &declarations()));
+  for (auto _ : state) benchmark::DoNotOptimize(describe(bank, declarations()));
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   planes += seconds_of_a_plane(bank);
   state.counters["planes"] = seconds / static_cast<double>(state.iterations()) / (0.5 * planes);
@@ -112,7 +112,7 @@ void DescribeLibrary(benchmark::State& state) {
     for (std::size_t i = 0; i < programs.size(); ++i) {
       const Bank bank(programs[i]);
       const auto begin = std::chrono::steady_clock::now();
-      benchmark::DoNotOptimize(describe(bank, &declarations()));
+      benchmark::DoNotOptimize(describe(bank, declarations()));
       const std::chrono::duration<double, std::milli> now = std::chrono::steady_clock::now() - begin;
       took[i] = std::min(took[i], now.count());
     }

@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "compiler/expression/builtin_functions.hpp"
+#include "compiler/expression/fields.hpp"
+#include "compiler/expression/measured_table.hpp"
+#include "compiler/image/image.hpp"
+#include "compiler/text/embedded_files.hpp"
+
+namespace wale {
+
+namespace {
+
+/// A file that a module of the binary brings with it: `slate.png` beside library/stone/slate.wale.
+const EmbeddedFile* embedded_asset(std::string_view module, std::string_view written) {
+  const std::string_view folder = module.substr(0, module.rfind('/') + 1);
+  for (const EmbeddedFile& asset : embedded_assets())
+    if (asset.name.starts_with(folder) && asset.name.substr(folder.size()) == written) return &asset;
+  return nullptr;
+}
+
+/// The file that the first argument names, from the folder of the Wale file; none where it cannot be read, which is
+/// reported.
+std::optional<ResolvedFile> file_argument(const BuiltinCall& call) {
+  const Surroundings& surroundings = call.reading.surroundings;
+  if (!surroundings.resolver) {
+    call.reading.calls.report(Code::not_constant, call.span, "no file can be read here", "",
+                              "use files in a material's physical block or in a `let` that it uses");
+    return std::nullopt;
+  }
+  const std::string& from = surroundings.sources[call.span.source].name;
+  if (call.span.source >= first_embedded_source)
+    if (const auto* asset = embedded_asset(from, call.value(0).text))
+      return ResolvedFile{std::string(asset->name), std::string(asset->text)};
+  auto resolved = surroundings.resolver->file(std::string(call.value(0).text), from);
+  if (resolved) return *std::move(resolved);
+  call.reading.calls.report(Code::unreadable_file, call.actuals[0].span,
+                            fmt::format("`{}` cannot be read: {}", call.value(0).text, resolved.error().sentence), "",
+                            "give the path from the folder of this file");
+  return std::nullopt;
+}
+
+/// The place of a table among those of the material; equal ones share it.
+std::uint32_t add_table(std::vector<HeightTable>& tables, HeightTable table) {
+  const auto existing = std::ranges::find(tables, table);
+  const auto index = static_cast<std::uint32_t>(existing - tables.begin());
+  if (existing == tables.end()) tables.push_back(std::move(table));
+  return index;
+}
+
+}  // namespace
+
+/// A sampled height map, centred on the patch, mirrored at its edges; its top row lies at the largest y.
+Value relief(const BuiltinCall& call) {
+  const auto& declarations = *call.reading.names;
+  if (!call.text(0, "relief(\"slate.tif\", …)")) return call.failed();
+  const auto scale = call.constant_argument(1, declarations.dimension("scale"), "0.1 mm/px");
+  const auto height = call.constant_argument(2, declarations.dimension("length"), "0.8 mm");
+  const auto smooth = call.actuals[3].given ? call.constant_argument(3, declarations.dimension("length"), "0.2 mm")
+                                            : std::optional<double>(0.0);
+  if (!scale || !height || !smooth) return call.failed();
+  if (!(*scale > 0))
+    return call.reading.calls.report(Code::value_out_of_range, call.actuals[1].span,
+                                     "the scale must be greater than zero", "", "write something like `0.1 mm/px`");
+  if (!(*smooth >= 0))
+    return call.reading.calls.report(Code::value_out_of_range, call.actuals[3].span, "smoothing cannot be negative", "",
+                                     "write something like `0.2 mm`");
+  const auto file = file_argument(call);
+  if (!file) return call.failed();
+  auto read = read_height_image(std::as_bytes(std::span(file->bytes)), file->name, *smooth / *scale);
+  if (!read)
+    return call.reading.calls.report(read.error().code, call.actuals[0].span,
+                                     fmt::format("`{}`: {}", call.value(0).text, read.error().sentence), "",
+                                     read.error().mend);
+  HeightImage& picture = *read;
+  Field field{.kind = Field::Kind::relief,
+              .from = declarations.dimension("length"),
+              .to = declarations.dimension("length"),
+              .span = *height,
+              .columns = static_cast<double>(picture.table.width),
+              .rows = static_cast<double>(picture.table.height),
+              .column = *scale * picture.pixels_per_column,
+              .row = *scale * picture.pixels_per_row};
+  field.index = add_table(call.reading.tables, std::move(picture.table));
+  return {
+      .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
+}
+
+/// A measured relation from a file of comma-separated values.
+Value table(const BuiltinCall& call) {
+  if (!call.text(0, "table(\"detent.csv\")")) return call.failed();
+  for (const std::size_t column : {1, 2})
+    if (call.actuals[column].given && !call.text(column, "table(\"detent.csv\", place: \"x\", value: \"force\")"))
+      return call.failed();
+  const auto file = file_argument(call);
+  if (!file) return call.failed();
+  const auto measured = read_measured_table(file->bytes, std::string(call.value(1).text),
+                                            std::string(call.value(2).text), *call.reading.names);
+  if (!measured) {
+    const Error& error = measured.error();
+    const std::string line = error.place.number ? fmt::format(", line {}", *error.place.number) : "";
+    return call.reading.calls.report(Code::unreadable_table, call.actuals[0].span,
+                                     fmt::format("`{}`{}: {}", call.value(0).text, line, error.sentence), "",
+                                     error.mend);
+  }
+  Field field{.kind = Field::Kind::table,
+              .from = measured->from,
+              .to = measured->to,
+              .samples = measured->table.width,
+              .first = measured->first,
+              .step = measured->step,
+              .low = measured->low,
+              .span = measured->high - measured->low};
+  field.index = add_table(call.reading.tables, measured->table);
+  return {
+      .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
+}
+
+/// The value of a relief under the hand.
+Value image(const BuiltinCall& call) {
+  const Value field = relief(call);
+  if (field.failed()) return field;
+  const Value hand{.type = Value::Type::vector,
+                   .x = call.terms().input(Input::x, call.span),
+                   .y = call.terms().input(Input::y, call.span),
+                   .dimension = call.reading.names->dimension("length"),
+                   .span = call.span};
+  return value_at(call.terms(), *field.field, hand, call.span);
+}
+
+}  // namespace wale

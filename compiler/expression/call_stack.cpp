@@ -1,0 +1,54 @@
+#include "compiler/expression/call_stack.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wale {
+
+bool CallStack::contains(std::string_view name, bool constant) const {
+  return std::ranges::any_of(open_, [&](const Open& each) { return each.name == name && each.constant == constant; });
+}
+
+void CallStack::enter(std::string_view name, bool constant, Span site) {
+  if (open_.empty()) outside_ = terms_.attributed();
+  open_.push_back({name, constant, site});
+  // All that this stack reads may be attributed to some place already.
+  if (!outside_) terms_.attribute(open_.front().site);
+}
+
+void CallStack::leave() {
+  open_.pop_back();
+  if (open_.empty()) terms_.attribute(outside_);
+}
+
+/// " (inside `grating`)", where the place does not say so.
+std::string CallStack::inside(Span span) const {
+  if (open_.empty() || at_home(span)) return {};
+  return fmt::format(" (inside `{}{}`)", open_.back().constant ? "let " : "", open_.back().name);
+}
+
+/// "called on line 12", for a place inside a function of the same file.
+std::string CallStack::called_from(Span span) const {
+  if (!at_home(span) || open_.front().constant) return {};
+  return fmt::format("called on line {}", sources_.place(open_.front().site).line);
+}
+
+Value CallStack::report(Code code, Span span, std::string message, std::string label, Advice advice) {
+  Diagnostic diagnostic = std::move(advice).about(code, span, std::move(message));
+  diagnostic.label = std::move(label);
+  say(std::move(diagnostic));
+  return failed_value(span);
+}
+
+void CallStack::say(Diagnostic diagnostic) {
+  const Span span = diagnostic.span;
+  diagnostic.span = blame(span);
+  diagnostic.message += inside(span);
+  if (diagnostic.label.empty()) diagnostic.label = called_from(span);
+  if (diagnostic.span != span) diagnostic.fixes.clear();  // they are of the other file
+  diagnostics_.report(std::move(diagnostic));
+}
+
+}  // namespace wale

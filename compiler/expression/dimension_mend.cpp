@@ -1,0 +1,155 @@
+#include "compiler/expression/dimension_mend.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "compiler/declarations/unit_names.hpp"
+#include "compiler/expression/check_expression.hpp"
+#include "compiler/text/characters.hpp"
+
+namespace wale {
+
+namespace {
+
+/// One name in a product, and whether it divides.
+struct ProductName {
+  std::string name;
+  Span span;
+  bool divides;
+};
+
+/// The names in a chain of products and quotients; other factors are passed over.
+void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vector<ProductName>& names) {
+  const Expr& node = tree.expr(expr);
+  if (const auto* use = std::get_if<NameUse>(&node))
+    names.push_back({std::string(use->name), tree.span(expr), divides});
+  if (const auto* unary = std::get_if<Unary>(&node)) collect_names(tree, unary->operand, divides, names);
+  if (const auto* binary = std::get_if<Binary>(&node)) {
+    if (binary->op == BinaryOperator::multiply || binary->op == BinaryOperator::divide) {
+      collect_names(tree, binary->left, divides, names);
+      collect_names(tree, binary->right, divides != (binary->op == BinaryOperator::divide), names);
+    }
+  }
+}
+
+/// Whether it is one base dimension and nothing else.
+bool base(const Dimension& dimension) {
+  int sum = 0;
+  for (const int exponent : dimension.twelfths) {
+    if (exponent < 0) return false;
+    sum += exponent;
+  }
+  return sum == Dimension::unit_exponent;
+}
+
+/// The expression behind its signs.
+ExprId bare(const SyntaxTree& tree, ExprId expr) {
+  while (const auto* unary = std::get_if<Unary>(&tree.expr(expr))) expr = unary->operand;
+  return expr;
+}
+
+/// "one length too many", "one mass too few"; empty when no name fits the ratio.
+std::string surplus(const DimensionNames& names, const Dimension& ratio) {
+  // "One time too few" says more than "one frequency too many".
+  if (const auto name = names.name(Dimension{} / ratio); name && base(Dimension{} / ratio))
+    return fmt::format("one {} too few", *name);
+  if (const auto name = names.name(ratio)) return fmt::format("one {} too many", *name);
+  if (const auto name = names.name(Dimension{} / ratio)) return fmt::format("one {} too few", *name);
+  return {};
+}
+
+/// The factor that makes the dimension wrong by `ratio`, or another one to multiply or divide by.
+Advice factor_mend(const Reading& reading, const std::vector<ProductName>& factors, const Scope& scope,
+                   const Dimension& expected, const Dimension& ratio) {
+  const DimensionNames& names = reading.dimension_names();
+  const SourceSet& sources = reading.surroundings.sources;
+  const Declarations& own = reading.surroundings.declarations;
+  const std::string count = surplus(names, ratio);
+  // Of three factors or more, one that is exactly the surplus is the likeliest slip; next comes a name that would fit
+  // if it were declared in another unit.
+  for (const auto& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (!binding || factor.divides || factors.size() < 3 || binding->value.dimension != ratio) continue;
+    const unsigned line = sources.place(binding->declared).line;
+    const std::string what = with_article(names.words(ratio));
+    return Advice(fmt::format("{}{}divide by {}, or drop `* {}` ({}, line {})", count, count.empty() ? "" : "; ", what,
+                              factor.name, what, line))
+        .see(binding->declared, what);
+  }
+  for (const auto& factor : factors) {
+    const auto* binding = scope.find(factor.name);
+    if (!binding) continue;
+    const Dimension needed = factor.divides ? binding->value.dimension * ratio : binding->value.dimension / ratio;
+    if (const auto name = names.name(needed); name && !needed.plain()) {
+      const unsigned line = sources.place(binding->declared).line;
+      return Advice(fmt::format("{}{}if `{}` (line {}) is meant as {}, give it in {}", count, count.empty() ? "" : ": ",
+                                factor.name, line, with_article(*name), customary_unit(own, needed)))
+          .see(binding->declared, with_article(names.words(binding->value.dimension)));
+    }
+  }
+  const auto inverse = names.name(Dimension{} / ratio);
+  if (const auto name = names.name(ratio); name && !(inverse && base(Dimension{} / ratio)))
+    return fmt::format("{}; divide by {}", count, with_article(*name));
+  if (inverse) return fmt::format("{}; multiply by {}", count, with_article(*inverse));
+  return fmt::format("write {}, in {}", with_article(names.words(expected)), customary_unit(own, expected));
+}
+
+}  // namespace
+
+std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources) {
+  const auto* literal = std::get_if<NumberLiteral>(&tree.expr(bare(tree, expr)));
+  // 1/m cannot follow a number, and a number with a unit such as % is not bare.
+  if (!literal || literal->suffix.count > 0 || unit.empty() || !begins_name(unit.front())) return {};
+  const Span span = tree.span(expr);
+  return {insert_after(span, " " + unit, fmt::format("write `{} {}`", sources.text(span), unit), false)};
+}
+
+Advice unit_mend(const Word& word, const Declarations& declarations) {
+  if (const auto symbol = symbol_of_unit(word.text); symbol && declarations.units.contains(*symbol))
+    return Advice(fmt::format("write `{}`", *symbol))
+        .fix(replace(word.span, *symbol, {}, false))
+        .fact("meant", *symbol);
+  // One letter makes a million of a thousandth: `MN` and `mN`.
+  return did_you_mean(word.span, word.text, declarations.units.spellings(),
+                      "declare it, as in `unit thou = 25.4 um`, or use one of schema/units.wale", false);
+}
+
+Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
+                      const Dimension& expected, const Dimension& found) {
+  const Surroundings& surroundings = reading.surroundings;
+  const std::string unit = customary_unit(surroundings.declarations, expected);
+  const std::string text(surroundings.sources.text(tree.span(expr)));
+  const bool is_literal = std::holds_alternative<NumberLiteral>(tree.expr(bare(tree, expr)));
+  if (found.plain()) {
+    if (is_literal)
+      return Advice(fmt::format("a plain number needs its unit: write `{} {}`", text, unit))
+          .fix(append_unit(tree, expr, unit, surroundings.sources));
+    return fmt::format("give it a unit, as in `({}) * 1 {}`", text, unit);
+  }
+  if (expected.plain())
+    return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
+                       customary_unit(surroundings.declarations, found));
+  if (is_literal) return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
+  std::vector<ProductName> factors;
+  collect_names(tree, expr, false, factors);
+  return factor_mend(reading, factors, scope, expected, found / expected);
+}
+
+void report_dimension(Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope, const Dimension& found,
+                      const Dimension& expected) {
+  const DimensionNames& names = reading.dimension_names();
+  const auto sides = names.side_by_side(expected, found);
+  const std::string of_expected = names.words(expected), of_found = names.words(found);
+  Diagnostic diagnostic =
+      dimension_mend(reading, tree, expr, scope, expected, found)
+          .fact("expected", of_expected)
+          .fact("found", of_found)
+          .about(Code::wrong_dimension, tree.span(expr), fmt::format("{} expected, found {}", of_expected, of_found));
+  diagnostic.label = names.unit_beside(expected, found);
+  diagnostic.expected = sides[0];
+  diagnostic.found = sides[1];
+  reading.calls.say(std::move(diagnostic));
+}
+
+}  // namespace wale

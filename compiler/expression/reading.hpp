@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compiler/expression/call_stack.hpp"
+#include "compiler/expression/checked.hpp"
+#include "compiler/text/resolver.hpp"
+
+namespace wale {
+
+/// Where the library exports a name: the module to import, and what it is there ("function").
+struct Exporter {
+  std::string module;
+  std::string_view what;
+};
+using FindExporter = std::function<std::optional<Exporter>(std::string_view name)>;
+
+/// The surroundings of the expressions of one material or declaration.
+struct Surroundings {
+  const SourceSet& sources;
+  const Declarations& declarations;  ///< of the file whose expressions are checked
+  Diagnostics& diagnostics;
+  Resolver* resolver = nullptr;                 ///< for images and tables; null where no file may be read
+  const FindExporter* find_exporter = nullptr;  ///< for what to import; null where nothing is to be imported
+};
+
+/// The results of reading expressions besides terms and tables.
+struct CallRecord {
+  std::vector<Carrier> carriers;
+  std::vector<Span> open_spans;      ///< one for each open quantity: the call that leaves it open
+  std::vector<CheckedState> states;  ///< calls of `phase` add theirs
+  std::map<TermId, TermId> phases;   ///< the term of each of those, by its frequency
+  std::vector<CheckedPeriod> periods;
+  std::vector<std::unique_ptr<const Field>> fields;  ///< that values point to
+
+  /// Keeps a field for as long as the record, for the values that point to it.
+  const Field* keep(Field field) { return fields.emplace_back(std::make_unique<const Field>(std::move(field))).get(); }
+};
+
+/// Names that have been read, so that each is read once and each mistake is reported once.
+struct KnownNames {
+  std::map<const Constant*, Value> constants;
+  std::set<std::pair<SourceId, std::uint32_t>> misspelt;  ///< by the place where a word begins
+  std::vector<Span> ambiguous;                            ///< declarations of names that are units too
+};
+
+/// The state that the parts of the expression checker share while they read the expressions of one material.
+struct Reading {
+  Reading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
+      : surroundings(around),
+        names(&surroundings.declarations),
+        terms(terms),
+        tables(tables),
+        calls(around.sources, around.diagnostics, terms) {}
+
+  Surroundings surroundings;
+  const Declarations* names;  ///< of the file whose expression is read; another inside its functions
+  Terms& terms;
+  std::vector<HeightTable>& tables;
+  CallStack calls;
+  CallRecord record;
+  KnownNames known;
+  bool too_large = false;  ///< reported
+
+  const DimensionNames& dimension_names() const { return names->names(); }
+};
+
+}  // namespace wale
