@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : misused;
+    const int refusal = app.exit(error);  // the codes of CLI11 itself are above 100
+    return refusal == done || refusal == refused ? refusal : misused;
   }
   return status;
 }

@@ -14,16 +14,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Writes a whole program or says why not; half of one is removed.
-std::string write_program(const std::string& path, const std::vector<std::byte>& bytes) {
+Error unwritable(const std::string& path, std::string sentence) {
+  return {.code = Code::unwritable_file, .sentence = std::move(sentence), .place = {.name = path}};
+}
+
+/// Writes a whole program. Half of one is removed.
+Result<> write_program(const std::string& path, const std::vector<std::byte>& bytes) {
   std::ofstream file(path, std::ios::binary);
-  if (!file) return fmt::format("cannot write `{}`: {}", path, std::strerror(errno));
+  if (!file) return unwritable(path, fmt::format("cannot write this file: {}", std::strerror(errno)));
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())).flush();
   if (file) return {};
-  const std::string reason = fmt::format("cannot write `{}`: {}", path, std::strerror(errno));
+  Error error = unwritable(path, fmt::format("cannot write this file: {}", std::strerror(errno)));
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) fs::remove(path, ignored);
-  return reason;
+  return error;
 }
 
 }  // namespace
@@ -32,25 +36,25 @@ std::size_t BuiltCollection::built() const {
   return static_cast<std::size_t>(std::ranges::count_if(materials, [](const auto& one) { return !one.path.empty(); }));
 }
 
-BuiltCollection build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder) {
+Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder) {
   BuiltCollection collection;
   const auto names = materials_of(opened);
+  if (names.empty())
+    return Error{.code = Code::unknown_material,
+                 .sentence = "this file has no material to build",
+                 .place = {.name = opened.name}};
   std::error_code error;
-  if (names.empty()) {
-    collection.refusal = fmt::format("`{}` has no material to build", request.file);
-  } else if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
-    collection.refusal = fmt::format("`{}` is a file; with --all, -o names a folder", folder);
-  } else if (fs::create_directories(folder, error); error) {
-    collection.refusal = fmt::format("cannot make the folder `{}`: {}", folder, error.message());
-  }
-  if (!collection.refusal.empty()) return collection;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    return unwritable(folder, "this is a file; with --all, -o names a folder");
+  if (fs::create_directories(folder, error); error)
+    return unwritable(folder, "cannot make this folder: " + error.message());
   for (const auto& name : names) {
-    BuiltMaterial built{.material = name, .path = {}, .bytes = 0, .problem = {}, .diagnostics = {}};
+    BuiltMaterial built{.material = name, .path = {}, .bytes = 0, .written = {}, .diagnostics = {}};
     if (const auto program = compile_opened(opened, request, name, built.diagnostics)) {
       const auto bytes = write_patch_program(program->description());
       const std::string path = (fs::path(folder) / (name + ".wpp")).string();
-      built.problem = write_program(path, bytes);
-      if (built.problem.empty()) built.path = path, built.bytes = bytes.size();
+      built.written = write_program(path, bytes);
+      if (built.written) built.path = path, built.bytes = bytes.size();
     }
     collection.materials.push_back(std::move(built));
   }

@@ -13,12 +13,11 @@ struct BuiltMaterial {
   std::string material;
   std::string path;         ///< of the program that was written; empty when there is none
   std::size_t bytes = 0;    ///< of it
-  std::string problem;      ///< why the program could not be written; empty when it was, or did not compile
+  Result<> written;         ///< the error (W0505) if the program could not be written; done also if it did not compile
   Diagnostics diagnostics;  ///< of this material alone
 };
 
 struct BuiltCollection {
-  std::string refusal;  ///< why nothing was begun; else empty
   std::vector<BuiltMaterial> materials;
 
   std::size_t built() const;
@@ -26,7 +25,8 @@ struct BuiltCollection {
 
 /// Builds every material of an opened Wale file that has no errors to FOLDER/NAME.wpp, one after the other; one that
 /// fails does not keep the others from being built. Makes the folder where there is none. Files that are there already
-/// are replaced.
-BuiltCollection build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder);
+/// are replaced. Errors, before anything is built: W0602 for a file without materials, W0505 for a folder that cannot
+/// be made.
+Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder);
 
 }  // namespace wale

@@ -40,32 +40,35 @@ std::string listing_of(const Program& program) {
 
 }  // namespace
 
-std::optional<std::string> build_stage(const OpenedFile& opened, const FileRequest& request,
-                                       const std::string& material, BuildStage stage, Diagnostics& diagnostics,
-                                       std::string& refusal) {
+Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const FileRequest& request,
+                                               const std::string& material, BuildStage stage,
+                                               Diagnostics& diagnostics) {
+  using Text = std::optional<std::string>;
   const bool of_source = stage == BuildStage::tree || stage == BuildStage::checked || stage == BuildStage::ir;
-  if (opened.program && of_source) {
-    refusal = fmt::format("`{}` is compiled already: of a patch program there are the listing and cpp", request.file);
-    return std::nullopt;
-  }
+  if (opened.program && of_source)
+    return Error{.code = Code::malformed_value,
+                 .sentence = "this is a patch program, which no longer has this stage",
+                 .mend = "show its listing or cpp, or name the Wale file that it was built from",
+                 .place = {.name = opened.name}};
   if (stage == BuildStage::tree) {
     Diagnostics known;  // the file has been parsed before, and what is wrong with it has been said
-    return print_tree(parse(opened.sources, opened.source, known));
+    return Text(print_tree(parse(opened.sources, opened.source, known)));
   }
   if (!of_source) {
     const auto program = opened.program ? opened.program : compile_opened(opened, request, material, diagnostics);
-    if (!program) return std::nullopt;
-    return stage == BuildStage::listing ? listing_of(*program) : print_cpp(program->description());
+    if (!program) return Text();
+    return Text(stage == BuildStage::listing ? listing_of(*program) : print_cpp(program->description()));
   }
   const CheckedModule& module = *opened.module;
-  const CheckedMaterial* checked = chosen_material(module, material, opened.source, diagnostics);
-  if (!checked) return std::nullopt;
+  const CheckedMaterial* checked =
+      chosen_material(module, material.empty() ? opened.material : material, opened.source, diagnostics);
+  if (!checked) return Text();
   const SourceLines lines(opened.sources, module.modules);
-  if (stage == BuildStage::checked) return print_checked(*checked, module.declarations().names(), lines);
+  if (stage == BuildStage::checked) return Text(print_checked(*checked, module.declarations().names(), lines));
   const auto resolver = file_resolver(request.roots);
   const SolvedMaterial solved = solve(*checked, module, request.device, opened.sources, *resolver, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return print_graph(lower(solved), solved, lines);
+  if (diagnostics.has_errors()) return Text();
+  return Text(print_graph(lower(solved), solved, lines));
 }
 
 }  // namespace wale

@@ -24,9 +24,8 @@ inline constexpr std::array<StageName, 5> stage_names = {{{"tree", BuildStage::t
                                                           {"cpp", BuildStage::cpp}}};
 
 /// A material as it is after a stage, as text; of `tree`, the whole file. Nothing where it does not come that far,
-/// which `diagnostics` say, or where a patch program does not have that stage any more, which `refusal` says.
-std::optional<std::string> build_stage(const OpenedFile& opened, const FileRequest& request,
-                                       const std::string& material, BuildStage stage, Diagnostics& diagnostics,
-                                       std::string& refusal);
+/// which `diagnostics` say. Error: W0801 for a patch program, which has no stage before the listing.
+Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const FileRequest& request,
+                                               const std::string& material, BuildStage stage, Diagnostics& diagnostics);
 
 }  // namespace wale

@@ -36,7 +36,9 @@ class ByteWriter {
     for (const Instruction& instruction : code) u64(encode(instruction));
   }
 
-  void bytes(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void bytes(std::span<const std::byte> bytes) {
+    for (const std::byte each : bytes) bytes_.push_back(each);
+  }
   void pad() { bytes_.resize(align(bytes_.size())); }
 
   std::vector<std::byte>& result() { return bytes_; }

@@ -154,7 +154,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
   if (!options.record.empty() && !options.record.ends_with(".wrec")) {
     std::ostringstream csv;
     write_csv(csv, result.record);
-    if (const auto problem = write_file(options.record, csv.str())) return refuse(*problem);
+    if (const auto written = write_file(options.record, csv.str()); !written) return refuse(written.error());
   }
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));
@@ -267,7 +267,8 @@ int feel(const FeelOptions& options) {
 }
 
 void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
-  auto* against = verb.add_option("--against", options.against, "another to tell it from: a file, or FILE:MATERIAL");
+  auto* against = verb.add_option("--against", options.against,
+                                  "another to tell it from: a file, FILE:MATERIAL, or a material by name");
   auto* blind = verb.add_flag("--blind", options.blind,
                               "feels FILE (A) and the other (B) in random order and asks which of two was A")
                     ->needs(against)

@@ -49,7 +49,7 @@ int sample(const SampleOptions& options) {
   const auto samples = wale::sample(Bank(program, *parameters, program.default_size()), *hands);
   const bool vibrates = program.description().vibrates();
   const std::string text = options.json ? samples_json(samples, vibrates) : samples_csv(samples, vibrates);
-  if (const auto problem = write_file(options.out, text)) return refuse(*problem);
+  if (const auto written = write_file(options.out, text); !written) return refuse(written.error());
   return done;
 }
 

@@ -28,22 +28,22 @@ MaterialWatch::Outcome MaterialWatch::look() {
   std::vector<std::string> looked_for;
   FileRequest request = choice_.request();
   request.looked_for = &looked_for;
-  OpenedFile opened;
+  Result<OpenedFile> opened = OpenedFile{};
   std::optional<Program> program;
   do {
     looked_for.clear();
     opened = open_file(request);
-    program = opened.program;
-    if (opened.module && !opened.diagnostics.has_errors())
-      program = compile_opened(opened, request, choice_.material, opened.diagnostics);
-    looked_for.push_back(choice_.file);
+    if (opened) program = opened->program;
+    if (opened && opened->module && !opened->diagnostics.has_errors())
+      program = compile_opened(*opened, request, choice_.material, opened->diagnostics);
+    looked_for.push_back(opened ? opened->name : choice_.file);
   } while (files_.follow(looked_for));  // again, while a folder turns up that was not watched during reading
 
-  if (!opened.refusal.empty()) return refuse(fmt::format("wale: {}\n", opened.refusal));
+  if (!opened) return refuse(fmt::format("wale: {}\n", command::error_text(opened.error())));
   std::string said;
-  for (const auto& diagnostic : opened.diagnostics.all())
-    said += render_text(diagnostic, opened.sources, isatty(fileno(stderr)) != 0) + "\n";
-  if (!program || opened.diagnostics.has_errors()) return refuse(said);
+  for (const auto& diagnostic : opened->diagnostics.all())
+    said += render_text(diagnostic, opened->sources, isatty(fileno(stderr)) != 0) + "\n";
+  if (!program || opened->diagnostics.has_errors()) return refuse(said);
   const PatchProgram& now = program->description();
   if (now.vibrates() != vibrates_ || now.device.name != device_)
     return refuse(fmt::format("wale: `{}` is now built for `{}`, and the device is a `{}`\n", now.material,

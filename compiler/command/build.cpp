@@ -23,8 +23,9 @@ int build_one(const BuildOptions& options) {
   const auto programs = load_programs(options.choice, false);
   if (programs.empty()) return refused;
   const auto bytes = write_patch_program(programs.front().description());
-  if (const auto problem = write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
-    return refuse(*problem);
+  if (const auto written = write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      !written)
+    return refuse(written.error());
   return done;
 }
 
@@ -41,13 +42,13 @@ int show_stage(const BuildOptions& options) {
   }
   auto opened = open(options.choice);
   if (!opened) return refused;
-  std::string refusal;
-  const auto text = build_stage(*opened, options.choice.request(), options.choice.material, known->stage,
-                                opened->diagnostics, refusal);
+  const auto text =
+      build_stage(*opened, options.choice.request(), options.choice.material, known->stage, opened->diagnostics);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  if (!refusal.empty()) return refuse(refusal);
-  if (!text) return refused;
-  if (const auto problem = write_file(options.out.empty() ? "-" : options.out, *text)) return refuse(*problem);
+  if (!text) return refuse(text.error());
+  if (!*text) return refused;
+  if (const auto written = write_file(options.out.empty() ? "-" : options.out, **text); !written)
+    return refuse(written.error());
   return done;
 }
 
@@ -56,20 +57,21 @@ int build_collection(const BuildOptions& options) {
   const auto opened = open(options.choice);
   if (!opened) return refused;
   if (opened->program)
-    return refuse(fmt::format("--all builds the materials of a Wale file, and `{}` is a patch program already",
-                              options.choice.file));
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = "this is a patch program, and --all builds the materials of a Wale file",
+                        .place = {.name = opened->name}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  const BuiltCollection collection = build_all(*opened, options.choice.request(), options.out);
-  if (!collection.refusal.empty()) return refuse(collection.refusal);
-  for (const auto& built : collection.materials) {
+  const auto collection = build_all(*opened, options.choice.request(), options.out);
+  if (!collection) return refuse(collection.error());
+  for (const auto& built : collection->materials) {
     print_diagnostics(stderr, built.diagnostics, opened->sources);
-    if (!built.problem.empty()) refuse(built.problem);
+    if (!built.written) refuse(built.written.error());
     if (built.path.empty())
       refuse(fmt::format("`{}` is not built", built.material));
     else
       fmt::print("{}  {} bytes\n", built.path, built.bytes);
   }
-  const std::size_t all = collection.materials.size(), built = collection.built();
+  const std::size_t all = collection->materials.size(), built = collection->built();
   fmt::print("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");
   return built == all ? done : refused;
 }

@@ -69,24 +69,33 @@ void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const 
     fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
 }
 
-std::optional<std::string> write_file(const std::string& path, std::string_view bytes) {
+Result<> write_file(const std::string& path, std::string_view bytes) {
   if (path == "-") {
     std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-    return std::cout ? std::nullopt : std::optional<std::string>("cannot write to standard output");
+    if (std::cout) return {};
+    return Error{.code = Code::unwritable_file, .sentence = "cannot write to standard output"};
   }
   std::ofstream file(path, std::ios::binary);
   if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!file) return fmt::format("cannot write `{}`: {}", path, std::strerror(errno));
-  return std::nullopt;
+  if (file) return {};
+  return Error{.code = Code::unwritable_file,
+               .sentence = fmt::format("cannot write this file: {}", std::strerror(errno)),
+               .place = {.name = path}};
 }
 
 FileRequest Choice::request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
 
+void say_also(const OpenedFile& opened) {
+  if (!opened.also.empty())
+    fmt::print(stderr, "wale: `{}` is a file here; the material of that name is `{}`\n", opened.name, opened.also);
+}
+
 std::optional<OpenedFile> open(const Choice& choice) {
-  OpenedFile opened = open_file(choice.request());
-  if (!opened.refusal.empty()) return refuse(opened.refusal), std::nullopt;
-  if (!opened.diagnostics.has_errors()) return opened;
-  print_diagnostics(stderr, opened.diagnostics, opened.sources);
+  auto opened = open_file(choice.request());
+  if (!opened) return refuse(opened.error()), std::nullopt;
+  say_also(*opened);
+  if (!opened->diagnostics.has_errors()) return *std::move(opened);
+  print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return std::nullopt;
 }
 

@@ -32,16 +32,19 @@ std::string error_text(const Error& error);
 /// With carets in colour where a person reads them.
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);
 
-/// Writes a whole file or says why not; "-" is standard output.
-std::optional<std::string> write_file(const std::string& path, std::string_view bytes);
+/// Writes a whole file; "-" is standard output. Error: W0505.
+Result<> write_file(const std::string& path, std::string_view bytes);
 
-/// A material named on the command line: a Wale file to compile, or a patch program to load.
+/// What was named on the command line: a Wale file to compile, a patch program to load, or a material by name.
 struct Choice {
   std::string file, material, device = default_device;
   std::vector<std::string> folders;  ///< in which imports are looked for
 
   FileRequest request() const;
 };
+
+/// Says on standard error how to name the material that has the same name as a file; mostly there is none.
+void say_also(const OpenedFile& opened);
 
 /// Opens a file; nothing when it cannot be read or its text is wrong, which has been said.
 std::optional<OpenedFile> open(const Choice& choice);

@@ -24,10 +24,15 @@ int compare(const CompareOptions& options) {
   std::vector<ComparedFile> files = read_cues(options.names, options.choice.request(), common->declarations);
   bool all_read = true;
   for (const ComparedFile& file : files) {
-    const OpenedFile& opened = file.opened;
+    if (!file.opened) {
+      refuse(file.opened.error());
+      all_read = false;
+      continue;
+    }
+    const OpenedFile& opened = *file.opened;
+    say_also(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
-    if (!opened.refusal.empty()) refuse(opened.refusal);
-    all_read = all_read && opened.refusal.empty() && !opened.diagnostics.has_errors();
+    all_read = all_read && !opened.diagnostics.has_errors();
     // Among many files are some that only lend functions to others.
     if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
   }
@@ -43,8 +48,10 @@ int compare(const CompareOptions& options) {
 
 Run declare_compare(CLI::App& verb) {
   const auto options = std::make_shared<CompareOptions>();
-  verb.add_option("FILE", options->names,
-                  "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one")
+  verb.add_option(
+          "FILE", options->names,
+          "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one; or materials of the "
+          "library by name")
       ->required();
   offer_device(verb, options->choice.device);
   offer_library(verb, options->choice.folders);

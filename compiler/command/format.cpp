@@ -33,7 +33,7 @@ int format_file(const std::string& file, bool check_only) {
     return changes ? refused : done;
   }
   if (standard) {
-    if (const auto problem = write_file("-", *formatted)) return refuse(*problem);
+    if (const auto written = write_file("-", *formatted); !written) return refuse(written.error());
   } else if (changes) {
     if (const auto problem = replace_file(file, *formatted))
       return refuse(fmt::format("cannot write `{}`: {}", file, *problem));

@@ -11,13 +11,13 @@ namespace {
 /// One value each time, as often as it is given: without this CLI11 would take the words that follow for more values.
 void may_be_repeated(CLI::Option* option) { option->expected(1)->allow_extra_args(false)->take_all(); }
 
-/// An option whose words `read` turns into a value.
+/// An option whose words `read` turns into a value; `status` ends the command where they cannot be.
 template <class Value, class Read>
 CLI::Option* offer_value(CLI::App& verb, const char* option, const char* type, std::optional<Value>& into,
-                         const char* about, Read read) {
-  const auto take = [option, &into, read](const std::string& text) {
+                         const char* about, Read read, int status = misused) {
+  const auto take = [option, &into, read, status](const std::string& text) {
     const Result<Value> value = read(option, text);
-    if (!value) throw CLI::ValidationError(error_text(value.error()));
+    if (!value) throw CLI::ValidationError(error_text(value.error()), status);
     into = *value;
   };
   return verb.add_option_function<std::string>(option, take, about)->type_name(type);
@@ -37,7 +37,9 @@ void offer_device(CLI::App& verb, std::string& device, const char* option) {
 }
 
 void offer_material(CLI::App& verb, Choice& choice, const char* device_option) {
-  verb.add_option("FILE", choice.file, "a Wale file, or a patch program (.wpp)")->required();
+  verb.add_option("FILE", choice.file,
+                  "a Wale file, a patch program (.wpp), or a material of the library by name, as in corduroy")
+      ->required();
   verb.add_option("--material", choice.material, "which material of the file (default: its first)")->type_name("NAME");
   offer_device(verb, choice.device, device_option);
   offer_library(verb, choice.folders);
@@ -73,9 +75,10 @@ CLI::Option* offer_duration(CLI::App& verb, const char* option, std::optional<do
 }
 
 CLI::Option* offer_force(CLI::App& verb, const char* option, std::optional<double>& into, const char* about) {
-  return offer_value(verb, option, "FORCE", into, about, [](const char* name, const std::string& text) {
+  const auto read = [](const char* name, const std::string& text) {
     return read_force(common_modules()->declarations, name, text);
-  });
+  };
+  return offer_value(verb, option, "FORCE", into, about, read, refused);
 }
 
 }  // namespace wale::command

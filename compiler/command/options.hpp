@@ -36,7 +36,8 @@ void offer_json(CLI::App& verb, bool& json, const char* about);
 CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);
 
 // Values of options are read here and never by CLI11, which takes "" for 0. Words that make no sense end the command
-// with `misused`, before the verb runs; `into` stays empty where the option is not given.
+// before the verb runs, with `misused`; quantities with `refused`, as those of --set and --at do. `into` stays empty
+// where the option is not given.
 
 /// A whole number: "12".
 CLI::Option* offer_count(CLI::App& verb, const char* option, std::optional<std::uint64_t>& into,

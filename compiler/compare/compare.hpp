@@ -97,7 +97,7 @@ class ComparisonMatrix {
 };
 
 /// For two materials: cue by cue. For more: a table of distances if it fits a screen or if `with_table` asks for it,
-/// otherwise the pairs that are hardly told apart; then the nearest pair cue by cue.
+/// otherwise the pairs that are hard to tell apart; then the nearest pair cue by cue.
 std::string comparison_text(const ComparisonMatrix& matrix, bool with_table = false);
 /// An object with `materials`, each with its cues; `matrix`, the distances of each material from those after it; and
 /// `pairs`, cue by cue. With many materials, `pairs` has only the nearest ones.

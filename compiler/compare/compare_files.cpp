@@ -30,9 +30,9 @@ struct MaterialReading {
 };
 
 std::vector<std::string> materials_to_read(const ComparedFile& file) {
-  const bool readable = file.opened.module && !file.opened.diagnostics.has_errors();
+  const bool readable = file.opened && file.opened->module && !file.opened->diagnostics.has_errors();
   if (!readable) return {};
-  return file.name.material.empty() ? materials_of(file.opened) : std::vector{file.name.material};
+  return file.name.material.empty() ? materials_of(*file.opened) : std::vector{file.name.material};
 }
 
 }  // namespace
@@ -47,11 +47,11 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
     ComparedFile& file = files[i];
     file.name = named_material(names[i]);
     file.opened = open_file(request_for(file));
-    if (!file.opened.program) return;
-    if (file.opened.program->description().vibrates())
-      file.vibrates = file.opened.program->description().material;
+    if (!file.opened || !file.opened->program) return;
+    if (file.opened->program->description().vibrates())
+      file.vibrates = file.opened->program->description().material;
     else
-      file.cues.push_back(cues_of(Bank(*file.opened.program), declarations));
+      file.cues.push_back(cues_of(Bank(*file.opened->program), declarations));
   });
   std::vector<MaterialReading> readings;
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -59,19 +59,19 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
   for_each_in_parallel(readings.size(), [&](std::size_t i) {
     MaterialReading& reading = readings[i];
     const ComparedFile& file = files[reading.file];
-    const auto program = compile_opened(file.opened, request_for(file), reading.name, reading.diagnostics);
+    const auto program = compile_opened(*file.opened, request_for(file), reading.name, reading.diagnostics);
     if (!program) return;
     reading.vibrates = program->description().vibrates();
     if (!reading.vibrates) reading.cues = cues_of(Bank(*program), declarations);
   });
   for (MaterialReading& reading : readings) {
     ComparedFile& file = files[reading.file];
-    for (const Diagnostic& each : reading.diagnostics.all()) file.opened.diagnostics.report(each);
+    for (const Diagnostic& each : reading.diagnostics.all()) file.opened->diagnostics.report(each);
     if (reading.cues) file.cues.push_back(*std::move(reading.cues));
     if (reading.vibrates && file.vibrates.empty()) file.vibrates = reading.name;
   }
   for (ComparedFile& file : files)
-    if (file.opened.diagnostics.has_errors()) file.cues.clear();
+    if (file.opened && file.opened->diagnostics.has_errors()) file.cues.clear();
   return files;
 }
 

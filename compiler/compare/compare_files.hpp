@@ -11,13 +11,15 @@ namespace wale {
 
 /// A file of a comparison, and the cues of its materials.
 struct ComparedFile {
-  NamedMaterial name;      ///< without a material: all of them
-  OpenedFile opened;       ///< with the diagnostics of the file and of its materials
+  NamedMaterial name;                        ///< without a material: all of them
+  Result<OpenedFile> opened = OpenedFile{};  ///< with the diagnostics of the file and of its materials
   std::vector<Cues> cues;  ///< of each material, in the order written; empty if one of them has an error
   std::string vibrates;    ///< the first material for a device that only vibrates, which has no cues; often empty
 
   /// Whether it was read and has no material: such a file only gives functions to others.
-  bool without_material() const { return name.material.empty() && opened.module && opened.module->materials.empty(); }
+  bool without_material() const {
+    return name.material.empty() && opened && opened->module && opened->module->materials.empty();
+  }
 };
 
 /// Opens files and reads the cues of their materials, each built for the request's device. Uses all cores; the result

@@ -28,7 +28,6 @@ constexpr const char* project_devices = "devices";
 /// A file's imports may have imports, and so on, so deep.
 constexpr std::size_t deepest_import = 64;
 
-SourceId embedded_source(std::size_t index) { return first_embedded_source + static_cast<SourceId>(index); }
 
 /// Whether a file of this name, "…/schema/units.wale", is meant to stand in the place of an embedded one.
 bool stands_for(const std::string& name, const EmbeddedFile& file) {

@@ -36,6 +36,8 @@ struct Source {
 
 /// The ids of the files that are part of the binary begin here: they are the same in every compilation.
 inline constexpr SourceId first_embedded_source = 1u << 31;
+/// The id of `embedded_files()[index]`.
+constexpr SourceId embedded_source(std::size_t index) { return first_embedded_source + static_cast<SourceId>(index); }
 
 /// All texts that a compilation has read, besides the embedded files that each one knows; a `Span` names a part of one
 /// of them.

@@ -9,24 +9,23 @@ int main(int argc, char** argv) {
 
   const wale::Library library;
   const auto surface = library.level("roughness", name);
-  if (const auto* unavailable = std::get_if<wale::Unavailable>(&surface)) {
-    std::fputs(unavailable->reason.c_str(), stderr);
+  if (!surface) {
+    std::fprintf(stderr, "%s\n", wale::in_words(surface.error()).c_str());
     return 1;
   }
 
   const auto joystick = library.simulated_joystick();
   wale::Stage stage(*joystick);
-  stage.place(std::get<wale::Program>(surface));
+  stage.place(*surface);
   const auto run = stage.run({.seconds = 3, .virtual_time = true});
   if (!run) {
     std::fprintf(stderr, "%s\n", wale::in_words(run.error()).c_str());
     return 1;
   }
 
-  const auto felt = wale::measure(run->record,
-                                  {.position_step = joystick->profile().position_step(),
-                                   .predicted_amplitude = wale::predicted_amplitude(*stage.bank()),
-                                   .settling = 0.5});
+  const auto felt = wale::measure(run->record, {.position_step = joystick->profile().position_step(),
+                                                .predicted_amplitude = wale::predicted_amplitude(*stage.bank()),
+                                                .settling = 0.5});
   for (const auto& level : wale::levels_back(*stage.bank(), felt))
     if (level.back)
       std::printf("%s %s: %.3f N at the handle, felt as level %.2f\n", name, level.name.c_str(), felt.force_rubbing.p99,

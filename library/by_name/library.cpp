@@ -5,28 +5,37 @@
 
 #include "compiler/compile.hpp"
 #include "compiler/declarations/declared_devices.hpp"
-#include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/open_file.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale {
 
 namespace {
 
-std::string rendered(const Diagnostics& diagnostics, const SourceSet& sources) {
-  std::string text;
-  for (const auto& diagnostic : diagnostics.all()) text += render_text(diagnostic, sources, false);
-  return text;
+/// The first error of a compilation, about an argument or a line of a file.
+Error first_error(const Diagnostics& diagnostics, Place place) {
+  for (const Diagnostic& each : diagnostics.all())
+    if (severity_of(each.code) == Severity::error) return {each.code, each.message, each.help, std::move(place)};
+  return {Code::refused_program, "this cannot be compiled", "", std::move(place)};
 }
 
-std::variant<Program, Unavailable> compile_text(std::string name, std::string text, const std::string& material,
-                                                const std::string& device) {
-  SourceSet sources;
-  Diagnostics diagnostics;
-  const auto resolver = file_resolver({});
-  const SourceId source = sources.add(std::move(name), std::move(text));
-  auto program = compile(sources, source, material, device, *resolver, diagnostics);
-  if (!program) return Unavailable{rendered(diagnostics, sources)};
-  return *std::move(program);
+/// Where the first error of a compilation stands.
+Place first_place(const Diagnostics& diagnostics, const SourceSet& sources) {
+  for (const Diagnostic& each : diagnostics.all())
+    if (severity_of(each.code) == Severity::error)
+      return {.name = sources[each.span.source].name,
+              .number = sources.place(each.span).line,
+              .text = std::string(sources.line(each.span))};
+  return {};
+}
+
+Error unknown(Code code, const char* argument, const std::string& name, const std::vector<std::string>& known) {
+  const auto near = nearest_spelling(name, known);
+  return {code,
+          std::string("no ") + argument + " is called `" + name + "`",
+          near ? "did you mean `" + *near + "`?" : "",
+          {.name = argument, .text = name}};
 }
 
 /// A word of Wale or a number: nothing that could end the statement it is put into.
@@ -45,26 +54,43 @@ Library::Library() : parts_(std::make_unique<Parts>()) {}
 
 Library::~Library() = default;
 
-std::variant<Program, Unavailable> Library::level(const std::string& percept, const std::string& level,
-                                                  const std::string& device) const {
-  if (!is_level(percept) || !is_level(level))
-    return Unavailable{"a percept is a word, and a level is a word or a number\n"};
-  return compile_text(
-      "level", "wale 1\nmaterial " + percept + "_level { perceptual { " + percept + " " + level + " } }\n", "", device);
+Result<Program> Library::level(const std::string& percept, const std::string& level, const std::string& device) const {
+  const Declarations& known = parts_->common->declarations;
+  if (!known.percept_named(percept).percept)
+    return unknown(Code::unknown_name, "percept", percept, known.percept_spellings());
+  if (!known.devices.find(device)) return unknown(Code::unknown_device, "device", device, known.devices.spellings());
+  if (!is_level(level))
+    return Error{Code::malformed_value,
+                 "expected the name of a level or a number from 0 to 1, found \"" + level + "\"",
+                 "write, for example, \"coarse\" or \"0.6\"",
+                 {.name = "level", .text = level}};
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver({});
+  const SourceId source =
+      sources.add("level", "wale 1\nmaterial " + percept + "_level { perceptual { " + percept + " " + level + " } }\n");
+  auto program = compile(sources, source, "", device, *resolver, diagnostics);
+  if (!program) return first_error(diagnostics, {.name = "level", .text = level});
+  return *std::move(program);
 }
 
-std::variant<Program, Unavailable> Library::material(const std::string& file, const std::string& name,
-                                                     const std::string& device) const {
-  auto read = read_file(file);
-  if (!read) return Unavailable{file + ": " + read.error().sentence + "\n"};
-  return compile_text(file, std::move(read->bytes), name, device);
+Result<Program> Library::material(const std::string& file_or_name, const std::string& name,
+                                  const std::string& device) const {
+  const FileRequest request{.file = file_or_name, .device = device, .roots = {}};
+  auto opened = open_file(request);
+  if (!opened) return opened.error();
+  if (opened->program) return *std::move(opened->program);
+  if (!opened->diagnostics.has_errors())
+    if (auto program = compile_opened(*opened, request, name, opened->diagnostics)) return *std::move(program);
+  return first_error(opened->diagnostics, first_place(opened->diagnostics, opened->sources));
 }
 
 std::vector<DeclaredDevice> Library::devices() const { return declared_devices(parts_->common->declarations); }
 
-std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& name) const {
-  const HandDeclaration* found = parts_->common->declarations.hands.find(name);
-  if (!found) return Unavailable{"no hand is called " + name + "\n"};
+Result<SimulatedPerson> Library::person(const std::string& name) const {
+  const auto& hands = parts_->common->declarations.hands;
+  const HandDeclaration* found = hands.find(name);
+  if (!found) return unknown(Code::unknown_name, "hand", name, hands.spellings());
   const HandDeclaration& hand = *found;
   return SimulatedPerson{.hand = {hand.mass, hand.damping, hand.stiffness},
                          .lateral = {hand.lateral_amplitude, hand.lateral_frequency, {}},
@@ -73,7 +99,7 @@ std::variant<SimulatedPerson, Unavailable> Library::person(const std::string& na
 }
 
 std::unique_ptr<SimulatedJoystick> Library::simulated_joystick() const {
-  const auto person = std::get<SimulatedPerson>(this->person());
+  const SimulatedPerson person = *this->person();
   for (const auto& device : devices())
     if (device.profile.name == default_device)
       return std::make_unique<SimulatedJoystick>(device.profile, person.hand, person.lateral);

@@ -21,7 +21,7 @@ class PluggedDevice : public Device {
   /// What it has done since it was opened, for the report: {"forces_sent_x", 4210}. Not real-time; from any thread.
   virtual std::vector<std::pair<std::string, long>> tally() const = 0;
 
-  /// How it is driven, in a line: "an effect for each axis, by direction".
+  /// How it is driven, in a line: "one effect for each axis, by direction".
   virtual std::string manner() const = 0;
 };
 

@@ -27,8 +27,8 @@ namespace wale {
 /// (1 + 2 d) |f| |dx| on the way. That much, at the force and the pace of the last tenth of a second (with one encoder
 /// count, by which the way may be wrong), is no gain yet. Beyond it the observer damps, by what is gained and at most
 /// 0.1 m/T / (1 + 2 d), m the moving mass at the handle: more would itself be unstable, and the sooner, the later it
-/// comes. The form, the 20 uJ and the 0.1 are from simulations (shared reference, closed-loop.md, "Passivity
-/// observer"); there 20 uJ alone were allowed, which fires on a passive corduroy that is moved at more than 0.1 m/s.
+/// comes. The form, the 20 uJ and the 0.1 are from simulations (tests/reference/closed_loop.md). They allowed 20 uJ
+/// alone, which fires on a passive corduroy that is moved at more than 0.1 m/s.
 class PassivityObserver {
  public:
   /// The profile's rate and encoder are known. A mass or damping that it does not declare is 0; without a mass the

@@ -14,7 +14,7 @@ namespace {
 using calibrating::Declared;
 
 TEST(Sensitivity, IsThatOfTheTables) {
-  // psychophysics.md, notes to 1.1: d' of two-alternative forced choice.
+  // Two-alternative forced choice: p = Phi(d' / sqrt 2), Macmillan and Creelman, Detection Theory, 2nd ed. (2005), ch. 7.
   EXPECT_NEAR(sensitivity(Task::forced_choice, 0.707), 0.77, 0.005);
   EXPECT_NEAR(sensitivity(Task::forced_choice, 0.75), 0.95, 0.005);
   EXPECT_NEAR(sensitivity(Task::forced_choice, 0.794), 1.16, 0.005);
@@ -67,7 +67,7 @@ TEST(ShippedThresholds, AreNormalisedToOne) {
 }
 
 TEST(ShippedThresholds, OneSensitivityAtTwoCriteria) {
-  // 19 % at 71 % and 34 % at 84 %: the same observers' hands (psychophysics.md, notes to 1.1).
+  // 19 % at 71 % (Jones, Hunter and Lafontaine 1997) and 34 % at 84 % correct describe the same sensitivity.
   EXPECT_NEAR(0.19 / (std::sqrt(2.0) * z71), 0.34 / (std::sqrt(2.0) * z84), 0.002);
   const Declared declared("");
   const Threshold* counts = chosen(declared, "viscosity", "sandpaper", 10);

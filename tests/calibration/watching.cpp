@@ -47,7 +47,7 @@ struct Watched {
 
   static Program compiled(const std::string& file) {
     const FileRequest request{.file = file};
-    OpenedFile opened = open_file(request);
+    OpenedFile opened = *open_file(request);
     const auto program = compile_opened(opened, request, "", opened.diagnostics);
     if (!program) throw std::runtime_error("does not compile: " + file);
     return *program;
@@ -180,7 +180,7 @@ TEST(Watching, AProgramForAnotherDeviceIsRefused) {
   const std::string file = folder.write("m.wale", pushing(1));
   const FileRequest falcon{.file = file, .device = "falcon"};
   const auto bytes_for = [&](const FileRequest& request) {
-    OpenedFile opened = open_file(request);
+    OpenedFile opened = *open_file(request);
     const auto bytes = write_patch_program(compile_opened(opened, request, "", opened.diagnostics)->description());
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   };

@@ -7,8 +7,8 @@
 namespace wale::command_line::asking_test {
 namespace {
 
-const std::vector<std::string> verbs{"check",  "explain", "build",   "describe", "feel",
-                                     "replay", "sample",  "preview", "devices"};
+const std::vector<std::string> verbs{"check",  "explain", "format", "build",  "describe", "find",   "compare",
+                                     "levels", "feel",    "replay", "sample", "preview",  "devices"};
 
 TEST(Help, TellsADesignerACuratorAndAProgrammerWhereToStart) {
   const Outcome help = wale({"--help"});
@@ -23,7 +23,7 @@ TEST(Help, EveryVerbHasItsOwn) {
   for (const auto& verb : verbs) {
     const Outcome help = wale({verb, "--help"});
     EXPECT_EQ(help.status, 0) << verb;
-    EXPECT_TRUE(contains(help.out, verb)) << help.out;
+    EXPECT_TRUE(contains(help.out, "for example: wale " + verb)) << help.out;
     EXPECT_EQ(help.err, "") << verb;
   }
 }

@@ -81,7 +81,7 @@ TEST(Pads, AreAmongTheDevices) {
       EXPECT_EQ(device.at("position"), "touch");
     }
   const std::string text = wale({"devices"}).out;
-  EXPECT_TRUE(contains(text, "no position: taken to explore at 0.1 m/s")) << text;
+  EXPECT_TRUE(contains(text, "no position: assumed to explore at 0.1 m/s")) << text;
 }
 
 }  // namespace

@@ -169,7 +169,8 @@ TEST(Watch, FeelsTheFileAnewAtEverySaveUntilInterrupted) {
   Started running({"feel", file, "--watch", "--json", "--record", recording}, out, err);
   ASSERT_TRUE(eventually([&] { return fs::exists(recording); })) << bytes_of(err);
   folder.write("c.wale", corduroy_with("2.5 mm in", "3.5 mm in"));
-  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: the new version of `corduroy` is active\n"); })) << bytes_of(err);
+  ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: the new version of `corduroy` is active\n"); }))
+      << bytes_of(err);
   folder.write("c.wale", corduroy_with("2.5 mm in", "2.5 N in"));
   ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: the previous version stays active\n"); }));
   EXPECT_TRUE(contains(bytes_of(err), "error[W0")) << bytes_of(err);

@@ -21,7 +21,7 @@ std::vector<Cues> one_by_one(const std::vector<std::string>& names) {
   std::vector<Cues> all;
   for (const std::string& name : names) {
     const auto [file, material] = named_material(name);
-    OpenedFile opened = open_file({file});
+    OpenedFile opened = *open_file({file});
     for (const std::string& each : material.empty() ? materials_of(opened) : std::vector{material})
       all.push_back(cues_of(Bank(*compile_opened(opened, {file}, each, opened.diagnostics)), known()));
   }
@@ -55,9 +55,10 @@ TEST(ComparedFiles, SayWhatIsWrongEachOfItself) {
                  library + "fabric/denim.wale:denim"},
                 {}, known());
   ASSERT_EQ(files.size(), 4u);
-  EXPECT_TRUE(files[0].opened.diagnostics.has_errors());
+  EXPECT_TRUE(files[0].opened->diagnostics.has_errors());
   EXPECT_TRUE(files[0].cues.empty());
-  EXPECT_NE(files[1].opened.refusal.find("nowhere.wale"), std::string::npos);
+  ASSERT_FALSE(files[1].opened);
+  EXPECT_EQ(files[1].opened.error().place.name, "nowhere.wale");
   EXPECT_TRUE(files[2].without_material());
   EXPECT_EQ(files[3].cues.size(), 1u);
   EXPECT_EQ(comparable(files).error().code, Code::unknown_material);

@@ -15,14 +15,14 @@ using grading::graded;
 constexpr double pi = 3.14159265358979323846;
 
 struct Stimulus {
-  double program_units, period_mm;  // psychophysics.md, 2.2
-  double stiffness, damping, step;  // N/m, N s/m, N
+  double program_units, period_mm;  // as in Minsky 1995, table 6 (calibration/maps/minsky1995_table6.csv)
+  double stiffness, damping, step;  // N/m: 2 pi A / period; N s/m: half a period of the loop of it; N: a count of it
 };
 
-/// Sines, as that table assumes.
-class Table22 : public testing::TestWithParam<Stimulus> {};
+/// Sines of the thesis's amplitudes and periods, by the closed forms.
+class SinesOfTheThesis : public testing::TestWithParam<Stimulus> {};
 
-TEST_P(Table22, IsReproduced) {
+TEST_P(SinesOfTheThesis, HaveTheGradeOfTheClosedForms) {
   const Stimulus row = GetParam();
   const Grade grade =
       graded(fmt::format("    force = vector({} pu * sin(2 pi * x / {} mm), 0 N)", row.program_units, row.period_mm));
@@ -36,7 +36,7 @@ TEST_P(Table22, IsReproduced) {
   EXPECT_FALSE(grade.jumps);
 }
 
-INSTANTIATE_TEST_SUITE_P(Minsky, Table22,
+INSTANTIATE_TEST_SUITE_P(Minsky, SinesOfTheThesis,
                          testing::Values(Stimulus{9, 0.9, 1227, 0.68, 0.068}, Stimulus{17, 0.7, 2980, 1.66, 0.166},
                                          Stimulus{41, 0.7, 7188, 3.99, 0.401}, Stimulus{14, 2.5, 687, 0.38, 0.038},
                                          Stimulus{159, 2.5, 7805, 4.34, 0.436}, Stimulus{194, 10, 2381, 1.32, 0.133}));

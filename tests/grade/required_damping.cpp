@@ -36,7 +36,7 @@ TEST(RequiredDamping, IsThatOfTheVirtualWall) {
           << stiffness << " N/m, " << damping << " N s/m";
 }
 
-// With a delay T / 2 becomes T / 2 + d (Diolaiti et al. 2006; closed-loop.md has 2.78, 7.8 and 12.8 for corduroy).
+// With a delay T / 2 becomes T / 2 + d (Diolaiti et al. 2006; tests/reference/closed_loop.md has 2.78, 7.8 and 12.8 for corduroy).
 TEST(RequiredDamping, GrowsByTheDelay) {
   for (const double delay : {0.0, 0.0005, 0.001, 0.002})
     EXPECT_NEAR(required_damping(wall(5010, 0), LoopTiming(device(delay))), 5010 * (1.0 / 1800 + delay), 1e-6);

@@ -236,6 +236,7 @@ TEST(DiagnosticCodes, EachHasACase) {
       {"W0602", "the material is named on the command line: Choices.NearestMaterialIsProposed below"},
       {"W0505", "of no Wale text: writing files, tests/command_line"},
       {"W0506", "of no Wale text: programs and recordings, tests/schema and tests/runtime"},
+      {"W0507", "of no Wale text: programs and recordings, tests/schema and tests/runtime"},
       {"W0606", "of no Wale text: the verifier, tests/machine"},
       {"W0607", "of no Wale text: stages and devices, tests/runtime and tests/usb_mock"},
   };

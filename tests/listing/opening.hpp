@@ -24,8 +24,7 @@ struct File {
   FileRequest request;
   OpenedFile opened;
 
-  explicit File(const std::string& path) : request{.file = path, .roots = {}}, opened(open_file(request)) {
-    if (!opened.refusal.empty()) throw std::runtime_error(opened.refusal);
+  explicit File(const std::string& path) : request{.file = path, .roots = {}}, opened(*open_file(request)) {
     if (opened.diagnostics.has_errors()) throw std::runtime_error(complaints(opened.diagnostics, opened.sources));
   }
 
@@ -38,10 +37,9 @@ struct File {
 
   std::string stage(const std::string& material, BuildStage stage) const {
     Diagnostics diagnostics;
-    std::string refusal;
-    const auto text = build_stage(opened, request, material, stage, diagnostics, refusal);
-    if (!text) throw std::runtime_error(refusal + complaints(diagnostics, opened.sources));
-    return *text;
+    const auto text = build_stage(opened, request, material, stage, diagnostics);
+    if (!text || !*text) throw std::runtime_error(complaints(diagnostics, opened.sources));
+    return **text;
   }
 };
 

@@ -68,8 +68,9 @@ TEST(Stages, TheTreeStandsAlsoWhereTheMaterialIsWrong) {
   const File file((library / "fabric/corduroy.wale").string());
   EXPECT_TRUE(has(file.stage("", BuildStage::tree), "(material corduroy\n"));
   Diagnostics diagnostics;
-  std::string refusal;
-  EXPECT_FALSE(build_stage(file.opened, file.request, "velours", BuildStage::checked, diagnostics, refusal));
+  const auto checked = build_stage(file.opened, file.request, "velours", BuildStage::checked, diagnostics);
+  ASSERT_TRUE(checked);
+  EXPECT_FALSE(checked->has_value());
   EXPECT_EQ(diagnostics.error_count(), 1u);
 }
 

@@ -1,9 +1,9 @@
-// Files mangled at random, checksum and all: whatever the loader lets through runs and stays within its limits.
+// Files that are mangled at random, checksum included: every one that the loader accepts runs and stays within its
+// limits.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "runtime/machine/floating_point_mode.hpp"
@@ -88,10 +88,8 @@ TEST(MangledPrograms, NeverCrashAndNeverPushTooHard) {
                                        write_patch_program(example::pad(PositionSource::none))};
   for (unsigned seed = 0; seed < 6; ++seed)
     originals.push_back(write_patch_program(example::RandomProgram(seed).make()));
-  const auto start = std::chrono::steady_clock::now();
   int loaded = 0, refused = 0;
-  for (int round = 0; round < 60000; ++round) {
-    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4)) break;
+  for (int round = 0; round < 40000; ++round) {
     wpp::Bytes bytes = originals[random() % originals.size()];
     for (unsigned changes = 1 + random() % 3; changes > 0; --changes) mangle(bytes, random);
     auto result = Program::load(wpp::sealed(bytes));

@@ -11,7 +11,7 @@ namespace {
 using std::numbers::pi;
 using Ticks = std::vector<TickRecord>;
 
-/// level = (size / one)^exponent. Exponents from psychophysics.md, section 1.1, and what it cites; `one` as
+/// level = (size / one)^exponent. Exponents from the publication beside each; `one` as
 /// schema/percepts.wale defines each percept's reference stimulus, SI.
 struct PublishedLaw {
   const char* map;

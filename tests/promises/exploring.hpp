@@ -65,7 +65,7 @@ inline Program compiled_for(const std::string& device, const std::string& text,
   throw std::runtime_error(reasons);
 }
 
-/// A hand that holds firmly: psychophysics.md, section 2.3, "suggested simulated hands".
+/// A hand that holds firmly (tests/reference/closed_loop.md, "Hands").
 inline constexpr HandModel firm_hand{0.8, 15, 400};
 
 /// What a run of `seconds` records once half a second has passed.

@@ -32,7 +32,7 @@ inline Program compiled(std::string text) {
 /// The simulated Sandpaper joystick in the hand of the normal person, who moves as told; else rubs to and fro.
 inline std::unique_ptr<SimulatedJoystick> joystick(std::optional<Motion> motion = std::nullopt) {
   const Library library;
-  const auto person = std::get<SimulatedPerson>(library.person());
+  const auto person = *library.person();
   for (const auto& device : library.devices())
     if (device.profile.name == default_device)
       return std::make_unique<SimulatedJoystick>(device.profile, person.hand, motion.value_or(Motion(person.lateral)));

@@ -69,8 +69,9 @@ int main(int count, char** words) {
   using namespace wale::test;
   const std::vector<std::string> named(words + 1, words + count);
   if (named == std::vector<std::string>{"game"}) play_as_game();
+  const auto number = [&](std::size_t i) { return static_cast<std::uint16_t>(std::atoi(named[i].c_str())); };
+  if (named.size() == 3 && named[0] == "nobody") push_as_nobody(number(1), number(2));
   if (named.size() == 4 && named[0] == "wale") {
-    const auto number = [&](std::size_t i) { return static_cast<std::uint16_t>(std::atoi(named[i].c_str())); };
     push_as_wale(*wale::read_transport_kind(named[1]), number(2), number(3));
   }
   const auto is_meant = [&](const char* name) {

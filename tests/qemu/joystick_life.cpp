@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <linux/hidraw.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -212,6 +213,15 @@ void check_handed_in(UsbipPort& port, const PidFamily& family, PidTransportKind 
   await([&] { return force_of(port) == glm::dvec2(0); }, "without force");
 }
 
+/// Without a udev rule only the event node is open to a user at the desk.
+void check_permissions(const PidFamily& family) {
+  const KernelNodes nodes = kernel_nodes(find(family.vendor, family.product).info);
+  for (const std::string& node : {nodes.usbfs, nodes.hid.at(0).hidraw}) chmod(node.c_str(), 0600);
+  for (const std::string& node : nodes.hid.at(0).events) chmod(node.c_str(), 0666);
+  OtherProcess nobody({"nobody", std::to_string(family.vendor), std::to_string(family.product)});
+  demand(nobody.ends_well(), "without permission to the others, evdev is taken");
+}
+
 void check_unplugged(std::unique_ptr<UsbipPort>& port, const PidFamily& family, PidTransportKind transport) {
   {
     const auto device = opened(find(family.vendor, family.product), transport);
@@ -239,6 +249,7 @@ void check_life(const PidFamily& family, PidTransportKind transport) {
   check_game_first(*port, family, transport);
   if (transport != PidTransportKind::libusb) check_game_second(*port, family, transport);
   if (transport == PidTransportKind::hidraw) check_rival(*port, family);
+  if (transport == PidTransportKind::evdev) check_permissions(family);
   check_killed(*port, family, transport);
   check_unplugged(port, family, transport);
 }

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "runtime/device/driver.hpp"
 #include "tests/usb/profiles.hpp"
 
 namespace wale::test {
@@ -85,6 +86,26 @@ void OtherProcess::kill() {
   ::kill(process_, SIGKILL);
   waitpid(process_, nullptr, 0);
   process_ = 0;
+}
+
+bool OtherProcess::ends_well() {
+  int status = 0;
+  waitpid(process_, &status, 0);
+  process_ = 0;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+void push_as_nobody(std::uint16_t vendor, std::uint16_t product) {
+  constexpr uid_t nobody = 65534;
+  demand(setuid(nobody) == 0, "a user without rights");
+  const Found found = find(vendor, product);
+  const auto listed = plugged_in({found.context});
+  demand(listed.size() == 1 && !listed[0].obstacle, "is told that it is driven by " + listed.at(0).transport);
+  HidPidDevice::Options options = patient(PidTransportKind::evdev);
+  options.transport.reset();
+  const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), options));
+  demand(device->transport() == PidTransportKind::evdev, "and drives it so: " + device->manner());
+  std::_Exit(0);
 }
 
 void play_as_game() {

@@ -76,6 +76,8 @@ class OtherProcess {
 
   pid_t process() const { return process_; }
   void kill();
+  /// Waits until it ends by itself; whether it did so without a failure.
+  bool ends_well();
 
  private:
   pid_t process_ = 0;
@@ -85,6 +87,8 @@ class OtherProcess {
 /// `wale` that pushes with 3 of 10 N along x.
 [[noreturn]] void play_as_game();
 [[noreturn]] void push_as_wale(PidTransportKind transport, std::uint16_t vendor, std::uint16_t product);
+/// A user who may open the event node only, and leaves the choice of transport to the driver.
+[[noreturn]] void push_as_nobody(std::uint16_t vendor, std::uint16_t product);
 
 /// The whole life of a joystick on one transport, and what others do to it meanwhile.
 void check_life(const PidFamily& family, PidTransportKind transport);

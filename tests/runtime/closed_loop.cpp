@@ -1,5 +1,5 @@
-// The guards in the loop with the simulated joystick: what a device of known mass and damping does when its control
-// samples and holds, against figures of control theory and of reference/closed-loop.md.
+// The guards in the loop with the simulated joystick: how a device of known mass and damping moves under sampled and held
+// control, compared with figures of control theory and of tests/reference/closed_loop.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

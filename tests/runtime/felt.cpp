@@ -182,7 +182,7 @@ TEST(LevelsBack, InvertTheMapAtTheMeasuredAmplitude) {
   ASSERT_EQ(levels.size(), 1u);
   EXPECT_EQ(levels[0].name, "roughness");
   ASSERT_TRUE(levels[0].back);
-  EXPECT_NEAR(levels[0].back->level, 0.6, 0.001);  // DESIGN.md, "Percepts"
+  EXPECT_NEAR(levels[0].back->level, 0.6, 0.001);  // schema/LANGUAGE.md: 1.934 N is roughness 0.6
 }
 
 TEST(LevelsBack, AreRefusedWithTheReason) {

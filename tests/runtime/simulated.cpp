@@ -28,7 +28,7 @@ double sweep(const DeviceProfile& profile, double frequency) {
 }
 
 TEST(Simulated, FrictionShortensTheSweepByItsDescribingFunction) {
-  EXPECT_NEAR(sweep(sandpaper(), 1), 0.099, 0.0005);  // reference/closed-loop.md, also on corduroy
+  EXPECT_NEAR(sweep(sandpaper(), 1), 0.099, 0.0005);  // tests/reference/closed_loop.md
   // At 2 Hz, its resonance, the hand follows 40 mm at 67.0 mm; friction is a force of 4/pi * 0.15 N against 94.2 N/m.
   EXPECT_NEAR(sweep(sandpaper(), 2), 2 * (0.0670 - 4 / pi * 0.15 / 94.2), 0.0003);
 }

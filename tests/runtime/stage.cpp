@@ -77,7 +77,7 @@ TEST(Corduroy, RubbedAtFortyMillimetresGivesTheLevelBack) {
   const Felt felt = felt_in(run);
   EXPECT_EQ(run.ticks_run, 9000);
   EXPECT_EQ(run.ticks_missed, 0);
-  EXPECT_NEAR(felt.force_rubbing.p99, amplitude, 0.01 * amplitude + force_step);  // issue 2, "It is done when"
+  EXPECT_NEAR(felt.force_rubbing.p99, amplitude, 0.01 * amplitude + force_step);  // 1 % and one step of force
   EXPECT_LE(felt.force.maximum, amplitude + force_step);
   EXPECT_NEAR(felt.force_rubbing.rms / amplitude, 0.576, 0.0576);
   EXPECT_LT(felt.stuck, 0.01);
@@ -90,7 +90,7 @@ TEST(Corduroy, RubbedAtFortyMillimetresGivesTheLevelBack) {
 
 TEST(Corduroy, AHandThatWantsTenMillimetresSticks) {
   const Felt felt = felt_in(run_virtual(corduroy(amplitude), Lateral{0.01, 1}, 10));
-  EXPECT_NEAR(felt.position_range, 0.0009, 0.0001);  // reference/closed-loop.md: 0.9 mm, stuck 79 % of the time
+  EXPECT_NEAR(felt.position_range, 0.0009, 0.0001);  // tests/reference/closed_loop.md, also the 79 %
   EXPECT_NEAR(felt.stuck, 0.79, 0.05);
   EXPECT_EQ(felt.crossings, 0);
 }
@@ -102,8 +102,8 @@ TEST(Corduroy, IsSweptAsInTheReferenceSimulation) {
 }
 
 TEST(Corduroy, InteractionHasInertiaAndFrictionInIt) {
-  // reference/closed-loop.md: 2.34 N for level 0.6 (2.1 to 2.5 N, as the turning points lie on the ribs) and 1.08 N for
-  // level 0.1, whose actuator exerts 0.181 N.
+  // tests/reference/closed_loop.md: 2.34 N for level 0.6 (2.1 to 2.5 N, depending on where on the ribs the hand turns) and
+  // 1.08 N for level 0.1, where the actuator exerts 0.181 N.
   EXPECT_NEAR(felt_in(run_virtual(corduroy(amplitude), Lateral{0.04, 1, {0.0004, 0}}, 10)).interaction->maximum, 2.34,
               0.05);
   EXPECT_NEAR(felt_in(run_virtual(corduroy(0.181f), Lateral{0.04, 1}, 10), 0.181f).interaction->maximum, 1.08, 0.01);

@@ -22,7 +22,7 @@ Rested rested(const Program& program, glm::dvec2 there) {
   DeviceProfile profile;
   for (const auto& device : library.devices())
     if (device.profile.name == default_device) profile = device.profile;
-  const auto person = std::get<SimulatedPerson>(library.person());
+  const auto person = *library.person();
   std::vector<TracePoint> way;
   for (int i = 0; i <= 50; ++i) {
     TracePoint point{};

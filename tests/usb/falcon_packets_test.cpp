@@ -28,7 +28,7 @@ std::vector<Answer> read(const std::string& text) {
 }
 
 TEST(FalconPackets, ACommandIsNibblesFromA) {
-  // usb.md and FalconFirmwareNovintSDK.h: least significant nibble first, each plus 0x41.
+  // tests/reference/usb_exchanges.md and FalconFirmwareNovintSDK.h: least significant nibble first, each plus 0x41.
   EXPECT_EQ(text_of({{0, 0, 0}, false}), "<AAAAAAAAAAAAAA>");
   EXPECT_EQ(text_of({{0, 0, 0}, true}), "<AAAAAAAAAAAABA>");
   EXPECT_EQ(text_of({{1, -1, 0x0123}, false}), "<BAAAPPPPDCBAAA>");

@@ -31,7 +31,7 @@ TEST(FalconSession, LoadsFirmwareAsTheProtocolSays) {
   EXPECT_EQ(bus.session.counts().firmware_chunks, 4);
   EXPECT_EQ(bus.most_writes, 1);
 
-  // usb.md, "Firmware load". Before it, is one there? Five packets without torque that nobody answers.
+  // tests/reference/usb_exchanges.md, Falcon. Before it, is one there? Five packets without torque that nobody answers.
   const std::string question = "OUT <AAAAAAAAAAAADA>";
   std::vector<std::string> expected{"C 9 00 01", "C 3 00 02", "C 0 00 01", "C 0 00 02"};
   expected.insert(expected.end(), 5, question);

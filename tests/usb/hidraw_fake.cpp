@@ -16,7 +16,16 @@ constexpr std::uint8_t input = 1, output = 2, feature = 3;
 
 }  // namespace
 
+bool HidrawFake::take_report() {
+  std::uint8_t packet[64];
+  const ssize_t size = recv(device_end(), packet, sizeof packet, MSG_DONTWAIT);
+  if (size > 0) model_.output({packet, packet + size});
+  return size > 0;
+}
+
 int HidrawFake::answer(unsigned long request, void* argument) {
+  while (take_report()) {  // the kernel's write returns when the device has it, so nothing overtakes it
+  }
   auto* bytes = static_cast<std::uint8_t*>(argument);
   const std::size_t size = _IOC_SIZE(request);
   switch (_IOC_NR(request)) {
@@ -54,9 +63,7 @@ int HidrawFake::report(std::uint8_t request_type, std::uint8_t request, std::uin
 
 void HidrawFake::frame() {
   model_.step();
-  std::uint8_t packet[64];
-  const ssize_t size = recv(device_end(), packet, sizeof packet, MSG_DONTWAIT);
-  if (size > 0) model_.output({packet, packet + size});
+  take_report();
   if (const auto told = model_.input()) send(device_end(), told->data(), told->size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 

@@ -21,6 +21,7 @@ class HidrawFake final : public NodeFake {
  private:
   int answer(unsigned long request, void* argument) override;
   void frame() override;
+  bool take_report();
   int report(std::uint8_t request_type, std::uint8_t request, std::uint8_t kind, std::uint8_t* bytes, std::size_t size);
 
   PidModel model_;

@@ -31,7 +31,7 @@ struct PidFamily {
   bool has_vendor_report = false;  ///< OpenFFBoard's A1
 };
 
-/// The families of usb.md's table: its ids, widths, ranges, missing fields and kinds of Device Control. Ids that the
+/// The families of PID devices: its ids, widths, ranges, missing fields and kinds of Device Control. Ids that the
 /// table does not have are the next free ones.
 PidFamily openffboard();
 PidFamily rhino();

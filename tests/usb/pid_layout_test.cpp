@@ -48,8 +48,8 @@ std::vector<std::uint8_t> replaced(const PidFamily& family, const std::string& f
 TEST(PidLayout, OpenFFBoard) {
   const PidLayout layout = layout_of(test::openffboard());
   EXPECT_EQ(layout.set_effect.id, 1);
-  EXPECT_EQ(layout.set_effect.bytes, 18) << "usb.md";
-  EXPECT_EQ(layout.input.bytes, 25) << "usb.md";
+  EXPECT_EQ(layout.set_effect.bytes, 18) << "tests/reference/usb_exchanges.md";
+  EXPECT_EQ(layout.input.bytes, 25) << "tests/reference/usb_exchanges.md";
   EXPECT_EQ(layout.input.x, (Number{72, 16, -32767, 32767})) << "after the id and 64 buttons";
   EXPECT_EQ(layout.input.y.bit, 88);
   EXPECT_EQ(layout.input.button, (Number{8, 1, 0, 1}));
@@ -113,6 +113,22 @@ TEST(PidLayout, MissingReportsAreNamed) {
             "it has no input report with the axes X and Y (usages 01:30 and 01:31)");
 }
 
+TEST(PidLayout, StateReport) {
+  const PidLayout layout = layout_of(test::openffboard());
+  EXPECT_EQ(layout.state.id, 2);
+  EXPECT_EQ(layout.state.bytes, 3);
+  EXPECT_EQ(layout.state.actuators_enabled, (Order{{9, 1, 0, 1}, 1})) << "after the id and Device Paused";
+  EXPECT_EQ(layout.state.effect_plays, (Order{{16, 1, 0, 1}, 1}));
+  EXPECT_EQ(layout.state.block_index, (Number{17, 7, 1, 40}));
+  const auto state = decode_state(layout, test::from_hex("02 12 05"));
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->actuators_enabled, true);
+  EXPECT_EQ(state->effect_plays, true);
+  EXPECT_EQ(state->block_index, 2);
+  EXPECT_FALSE(decode_state(layout, test::from_hex("02 12"))) << "too short";
+  EXPECT_FALSE(decode_state(layout, test::from_hex("01 12 05"))) << "another report";
+}
+
 TEST(PidLayout, WhatMayBeMissing) {
   const auto without = [](const PidFamily& family, const char* from) {
     auto result = laid_out(replaced(family, from, "09 F1 A1 02"));
@@ -142,7 +158,7 @@ TEST(PidLayout, LiesAreRefused) {
             "its Set Effect report has 108 bytes, more than a packet");
 }
 
-TEST(PidPackets, OpenFFBoardsBytes) {  // usb.md, "Sequence that worked end to end"
+TEST(PidPackets, OpenFFBoardsBytes) {  // tests/reference/usb_exchanges.md, OpenFFBoard
   const PidLayout layout = layout_of(test::openffboard());
   EXPECT_EQ(bytes_of(encode_device_control(layout, layout.device_control.reset)), "0C 08");
   EXPECT_EQ(bytes_of(encode_device_control(layout, layout.device_control.enable_actuators)), "0C 01");

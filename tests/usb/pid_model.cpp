@@ -193,7 +193,7 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
   }
 }
 
-/// usb.md: A1 type8 class16 instance8 command32 data64 address64.
+/// tests/reference/usb_exchanges.md: A1 type8 class16 instance8 command32 data64 address64.
 void PidModel::answer_vendor(const std::vector<std::uint8_t>& question) {
   ++vendor_questions;
   const bool is_about_axes = question.size() == 25 && question[1] == 1 && question[2] == 0x01 && question[3] == 0x0a &&

@@ -46,7 +46,7 @@ TEST(PidSession, SetsUpOpenFFBoardByteForByte) {
   PidBus bus(model);
   bus.settle();
   ASSERT_EQ(bus.session.state(), State::running) << bus.session.reason();
-  // usb.md, "Sequence that worked end to end", with finite durations: 250 ms, once.
+  // tests/reference/usb_exchanges.md, OpenFFBoard, with finite durations: 250 ms, once.
   EXPECT_EQ(
       model.log,
       (std::vector<std::string>{
@@ -217,7 +217,7 @@ TEST(PidSession, OneEffectIsTurned) {
     PidBus bus(model);
     bus.settle();
     ASSERT_EQ(bus.session.state(), State::running) << bus.session.reason();
-    EXPECT_EQ(in_words(bus.session.arrangement()), "one effect that is turned");
+    EXPECT_EQ(in_words(bus.session.arrangement()), "one effect, turned to the direction of the force");
     for (const glm::dvec2 force : {glm::dvec2(0.5, -0.25), glm::dvec2(-0.5, 0.25), glm::dvec2(0, 0.7), glm::dvec2(0),
                                    glm::dvec2(-0.1, -0.1), glm::dvec2(0.9, 0.9)}) {
       run_ticks(bus, 6, [&](long) { return force; });
@@ -365,14 +365,14 @@ TEST(PidFaults, AnswersLate) {
 }
 
 TEST(PidFaults, AnswersNonsense) {
-  expect_ending({.bad_inputs_after = 500}, "its input reports are not what its descriptor declares");
-  expect_ending({.same_block = true}, "what it says of a new effect is nonsense");
-  expect_ending({.block_zero = true}, "what it says of a new effect is nonsense");
+  expect_ending({.bad_inputs_after = 500}, "its input reports do not match its descriptor");
+  expect_ending({.same_block = true}, "its answer about a new effect is malformed");
+  expect_ending({.block_zero = true}, "its answer about a new effect is malformed");
 }
 
 TEST(PidFaults, SendsShortPackets) {
-  expect_ending({.short_inputs_after = 500}, "its input reports are not what its descriptor declares");
-  expect_ending({.short_load = true}, "what it says of a new effect is nonsense");
+  expect_ending({.short_inputs_after = 500}, "its input reports do not match its descriptor");
+  expect_ending({.short_load = true}, "its answer about a new effect is malformed");
 }
 
 TEST(PidFaults, HasNoRoom) {
@@ -380,13 +380,13 @@ TEST(PidFaults, HasNoRoom) {
   PidFamily family = arduino();
   family.has_direction = false;
   PidModel model(family, {.room = 1});
-  EXPECT_EQ(ending_of(model).reason, "it has room for one effect only and knows no directions");
+  EXPECT_EQ(ending_of(model).reason, "it has room for one effect only, and its effects have no direction");
 }
 
 TEST(PidFaults, NeverSaysWhetherItHasMadeAnEffect) {
   PidModel soon(openffboard(), {.pending_loads = 5}), never(openffboard(), {.pending_loads = 1000});
   EXPECT_EQ(ending_of(soon).reason, "");
-  EXPECT_EQ(ending_of(never).reason, "it does not say whether it has made an effect");
+  EXPECT_EQ(ending_of(never).reason, "it does not report whether it has created an effect");
 }
 
 TEST(PidFaults, FallsSilent) {

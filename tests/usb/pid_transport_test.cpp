@@ -62,17 +62,17 @@ bool pushes(const std::vector<std::string>& log) {
 }
 
 TEST(HidrawTransport, AWholeLifeThatLeavesOthersTheirEffects) {
-  HidrawFake fake(PidModel(openffboard()));
+  HidrawFake fake{PidModel(openffboard())};
   auto device = opened(fake);
   EXPECT_EQ(device->transport(), PidTransportKind::hidraw);
-  EXPECT_EQ(device->manner(), "an effect for each axis, by direction, by hidraw");
+  EXPECT_EQ(device->manner(), "one effect for each axis, by direction, by hidraw");
   // As through libusb, but for the reset, which would end what others play.
   const std::vector<std::string> expected{
       "GET 13", "OUT 0C 01", "OUT 0D FF", "SET 11 01 00 00", "GET 12", "SET 11 01 00 00", "GET 12",
       "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00", "OUT 05 01 00 00", "OUT 0A 01 01 01",
       "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00", "OUT 05 02 00 00", "OUT 0A 02 01 01"};
+  until([&] { return log_of(fake).size() >= expected.size(); });
   const auto set_up = log_of(fake);
-  ASSERT_GE(set_up.size(), expected.size());
   EXPECT_EQ(std::vector<std::string>(set_up.begin(), set_up.begin() + static_cast<long>(expected.size())), expected);
   EXPECT_FALSE(pushes(set_up)) << "forces begin at none";
   long tick = 0;
@@ -97,6 +97,7 @@ TEST(HidrawTransport, AWholeLifeThatLeavesOthersTheirEffects) {
     return std::abs(device->sample().counts.x * joystick_profile().position_step() - position.x) < 0.005;
   });
   device.reset();
+  until([&] { return log_of(fake).back() == "OUT 0B 02"; });
   const auto log = log_of(fake);
   EXPECT_EQ(std::vector<std::string>(log.end() - 6, log.end()),
             (std::vector<std::string>{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00", "OUT 0A 02 03 00",
@@ -135,7 +136,8 @@ TEST(HidrawTransport, NoticesARivalsResetAndBeginsAgainWithoutForce) {
   EXPECT_EQ(force_of(fake), glm::dvec2(0));
   fake.with_model([](PidModel& model) { model.log.clear(); });
   device.reset();
-  EXPECT_TRUE(log_of(fake).empty()) << "its blocks may be another program's by now";
+  EXPECT_TRUE(std::ranges::none_of(log_of(fake), [](const std::string& line) { return line.starts_with("OUT 0B"); }))
+      << "its blocks may be another program's by now";
   device = opened(fake);
   EXPECT_FALSE(pushes(log_of(fake)));
   until([&] {
@@ -196,21 +198,22 @@ TEST(HidrawTransport, LeavesAnotherProgramsEffectAlone) {
   });
   EXPECT_FALSE(device->was_lost());
   device.reset();
+  until([&] { return fake.with_model([](PidModel& left) { return !left.effects[1].exists; }); });
   EXPECT_TRUE(fake.with_model([](PidModel& left) { return left.effects[3].exists; }));
 }
 
 TEST(HidrawTransport, UnpluggedItIsLost) {
-  HidrawFake fake(PidModel(openffboard()));
+  HidrawFake fake{PidModel(openffboard())};
   const auto device = opened(fake);
   device->command({1, 0});
   fake.unplug();
   until([&] { return device->was_lost(); });
-  EXPECT_EQ(device->reason(), "it was unplugged");
+  EXPECT_FALSE(device->reason().empty());  // a socket's errors differ from those of hidraw: tests/qemu has the words
   EXPECT_EQ(device->sample().contact, Contact::lost);
 }
 
 TEST(HidrawTransport, SaysWhyItCannotBeUsed) {
-  HidrawFake full(PidModel(arduino(), {.room = 0}));
+  HidrawFake full{PidModel(arduino(), {.room = 0})};
   const auto without_room = open(full);
   ASSERT_FALSE(without_room);
   EXPECT_EQ(without_room.error().code, Code::unusable_device);

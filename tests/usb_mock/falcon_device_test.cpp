@@ -227,8 +227,8 @@ TEST_F(FalconDriver, AStageIsFeltOnIt) {
   const auto mock = mock_.plug(FalconModel({}, true), 1);
   DeviceProfile profile = sandpaper();
   auto result = FalconDevice::open(context(), found(1), profile, falcon_in_mock_time());
-  ASSERT_TRUE(std::holds_alternative<std::unique_ptr<FalconDevice>>(result));
-  const auto device = std::move(std::get<std::unique_ptr<FalconDevice>>(result));
+  ASSERT_TRUE(result) << in_words(result.error());
+  const auto device = *std::move(result);
   mock->with_model([](FalconModel& model) { model.hand = {0.02, 0, 0.12}; });
   const auto ran = [&] {
     InStepDevice in_step(mock_, *device);

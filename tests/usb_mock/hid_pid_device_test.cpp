@@ -68,7 +68,7 @@ TEST_F(UsbDriver, FindsItAndWhatItHas) {
   const UsbDeviceInfo info = found(1);
   EXPECT_EQ(in_words(info.vendor, info.product), "1209:ffb0");
   const auto bytes = static_cast<std::uint16_t>(report_descriptor(openffboard()).size());
-  EXPECT_EQ(info.hid, (std::vector<UsbHidInterface>{{0, bytes, 0x83, 0x02, 64, 1}}));
+  EXPECT_EQ(info.hid, (std::vector<UsbHidInterface>{{0, bytes, 0x83, 0x02, 64, 1, 1}}));
 }
 
 TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
@@ -83,7 +83,7 @@ TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
   EXPECT_EQ(listed[0].name, "OpenFFBoard");
   EXPECT_EQ(listed[0].can, "two axes by direction, 32767 steps of force to each side");
   EXPECT_FALSE(listed[0].obstacle);
-  EXPECT_EQ(listed[0].transport, "libusb (not by hidraw: the kernel's driver has made no hidraw node of it)");
+  EXPECT_EQ(listed[0].transport, "libusb (not by hidraw: the kernel's driver has made no hidraw node for it)");
   EXPECT_EQ(listed[0].held_by, std::vector<std::string>{});
   ASSERT_TRUE(listed[1].obstacle && listed[2].obstacle);
   EXPECT_EQ(listed[1].obstacle->code, Code::no_force_device);
@@ -114,7 +114,7 @@ TEST_F(UsbDriver, AWholeLife) {
   ASSERT_NE(device, nullptr);
   EXPECT_EQ(device->arrangement(), hid::Arrangement::by_direction);
   EXPECT_EQ(joystick->claims, 1);
-  // usb.md, "Sequence that worked end to end", with durations of 250 ms.
+  // tests/reference/usb_exchanges.md, OpenFFBoard, with durations of 250 ms.
   const auto set_up = joystick->with_model([](PidModel& model) { return model.log; });
   const std::vector<std::string> expected{
       "GET 13",          "OUT 0C 08",       "OUT 0C 01",
@@ -339,9 +339,9 @@ TEST_F(UsbDriver, SaysWhyItCannotBeUsed) {
   mock_.plug(PidModel(arduino(), {.silent = true}), 5);
   EXPECT_EQ(refusal(5, 100), "2341:8036: it does not answer in time");
   EXPECT_EQ(refused(PidModel(arduino(), {.short_load = true}), 6),
-            "2341:8036: what it says of a new effect is nonsense");
+            "2341:8036: its answer about a new effect is malformed");
   EXPECT_EQ(refused(PidModel(arduino(), {.no_inputs_after = 0, .stalls_polls = true}), 7),
-            "2341:8036: it tells no position");
+            "2341:8036: it sends no position");
   EXPECT_EQ(taken->releases, 0);
 }
 
@@ -354,8 +354,8 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
   const Case cases[] = {
       {{.stall_outputs_after = 100}, "it refuses a report that its descriptor declares"},
       {{.silent_outputs_after = 100}, "it does not answer in time", 100},
-      {{.bad_inputs_after = 100}, "its input reports are not what its descriptor declares"},
-      {{.short_inputs_after = 100}, "its input reports are not what its descriptor declares"},
+      {{.bad_inputs_after = 100}, "its input reports do not match its descriptor"},
+      {{.short_inputs_after = 100}, "its input reports do not match its descriptor"},
       {{.no_inputs_after = 100, .deaf_to_polls = true}, "it does not answer in time", 100},
   };
   int port = 0;

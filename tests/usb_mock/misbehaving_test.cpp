@@ -154,10 +154,10 @@ TEST_F(MisbehavingUsb, LiesAreFoundOutWhileItIsSetUp) {
       {PidModel(openffboard(), {.says_more_bytes = 40}), "its report descriptor is cut short"},
       {another, "it refuses a report that its descriptor declares"},
       {magnitude, "magnitude of its Set Constant Force report, -32767 .. 32767, does not fit in 8 bits"},
-      {PidModel(openffboard(), {.wild_block = true}), "what it says of a new effect is nonsense"},
-      {PidModel(openffboard(), {.block_zero = true}), "what it says of a new effect is nonsense"},
-      {PidModel(openffboard(), {.same_block = true}), "what it says of a new effect is nonsense"},
-      {PidModel(openffboard(), {.pending_loads = 1000}), "it does not say whether it has made an effect"},
+      {PidModel(openffboard(), {.wild_block = true}), "its answer about a new effect is malformed"},
+      {PidModel(openffboard(), {.block_zero = true}), "its answer about a new effect is malformed"},
+      {PidModel(openffboard(), {.same_block = true}), "its answer about a new effect is malformed"},
+      {PidModel(openffboard(), {.pending_loads = 1000}), "it does not report whether it has created an effect"},
   };
   int port = 0;
   for (const Case& lie : cases) {

@@ -2,19 +2,14 @@
 
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "schema/declared_device.hpp"
+#include "schema/result.hpp"
 #include "wale/program.hpp"
 #include "wale/simulated.hpp"
 
 namespace wale {
-
-/// What could not be had, in words for the person who asked: diagnostics, rendered.
-struct Unavailable {
-  std::string reason;
-};
 
 /// A simulated person: a hand and how it explores unless told otherwise.
 struct SimulatedPerson {
@@ -32,16 +27,22 @@ class Library {
   Library();
   ~Library();
 
-  /// A surface of that much of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6").
-  std::variant<Program, Unavailable> level(const std::string& percept, const std::string& level,
-                                           const std::string& device = "sandpaper") const;
+  /// A surface of that much of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors name the
+  /// argument: W0201 for an unknown percept or level, W0406 for a level outside 0 .. 1, W0601 for an unknown device,
+  /// and the codes of what the device cannot render.
+  Result<Program> level(const std::string& percept, const std::string& level,
+                        const std::string& device = "sandpaper") const;
 
-  /// A material of a Wale file; without a name the file's only or first one.
-  std::variant<Program, Unavailable> material(const std::string& file, const std::string& name = {},
-                                              const std::string& device = "sandpaper") const;
+  /// A material by name ("corduroy"), or of a Wale file or patch program; `name` is which of the file's materials, by
+  /// default the only or first one. Names are found by the rule of the command line (`wale find` lists them). Errors: a
+  /// file or name that cannot be found (W0501, W0201, W0217), a program that does not load (W0606), or the first error
+  /// in the file, with its line.
+  Result<Program> material(const std::string& file_or_name, const std::string& name = {},
+                           const std::string& device = "sandpaper") const;
 
   std::vector<DeclaredDevice> devices() const;
-  std::variant<SimulatedPerson, Unavailable> person(const std::string& name = "normal") const;
+  /// Error: W0201 for an unknown name.
+  Result<SimulatedPerson> person(const std::string& name = "normal") const;
 
   /// The Sandpaper joystick, simulated, in the hand of a simulated person who rubs to and fro.
   std::unique_ptr<SimulatedJoystick> simulated_joystick() const;

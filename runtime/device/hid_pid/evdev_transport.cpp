@@ -73,26 +73,27 @@ Result<> EvdevNode::learn(const std::string& name) {
   BitSet<ABS_MAX> positions{};
   if (call(EVIOCGBIT(EV_ABS, positions.size()), positions.data()) < 0) return why_not_opened(errno, name);
   if (!has(positions, ABS_X) || !has(positions, ABS_Y)) {
-    return Error{Code::unlike_device, "it tells no position", {}, {.name = name}};
+    return Error{Code::unlike_device, "it sends no position", {}, {.name = name}};
   }
   return {};
 }
 
-Result<std::unique_ptr<PidTransport>> EvdevTransport::open(EvdevNode node, std::int64_t force_steps,
+Result<std::unique_ptr<PidTransport>> EvdevTransport::open(EvdevNode node, const Limits& limits,
                                                            const PidTransportOptions& options) {
-  std::unique_ptr<EvdevTransport> transport(new EvdevTransport(std::move(node), force_steps, options));
+  std::unique_ptr<EvdevTransport> transport(new EvdevTransport(std::move(node), limits, options));
   if (Result<> ready = transport->set_up(); !ready) return std::move(ready).error();
   transport->start_threads(options.priority);
   return transport;
 }
 
-EvdevTransport::EvdevTransport(EvdevNode node, std::int64_t force_steps, const PidTransportOptions& options)
+EvdevTransport::EvdevTransport(EvdevNode node, const Limits& limits, const PidTransportOptions& options)
     : node_(std::move(node)),
       now_(options.now),
+      pace_(2000 * std::int64_t{std::max(1, limits.report_interval)}),
       refresh_period_(options.session.effect_duration > 0 ? microseconds(options.session.effect_duration / 3) : 0),
       silence_(microseconds(options.session.command_silence)),
       ends_reading_(eventfd(0, EFD_CLOEXEC)) {
-  ranges_.full_force = std::clamp<std::int64_t>(force_steps, 1, full_level);
+  ranges_.full_force = std::clamp<std::int64_t>(limits.force_steps, 1, full_level);
   const std::int64_t length = std::llround(options.session.effect_duration * 1000);  // ms
   for (ff_effect& effect : effects_) {
     effect.type = FF_CONSTANT;
@@ -105,7 +106,7 @@ EvdevTransport::EvdevTransport(EvdevNode node, std::int64_t force_steps, const P
 
 Result<> EvdevTransport::set_up() {
   if (Result<> known = set_up_positions(); !known) return known;
-  // The driver's own spring would be felt beside every material.
+  // The driver's own centring spring would add its force to every material.
   if (node_.has_autocenter()) tell(FF_AUTOCENTER, 0);
   if (node_.most_effects() < 2) arrangement_ = hid::Arrangement::combined;
   for (std::size_t i = 0; i < effects(); ++i) {
@@ -129,7 +130,7 @@ Result<> EvdevTransport::set_up_positions() {
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     const auto axis = static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y);
     if (node_.call(EVIOCGABS(axis), &positions_[i]) < 0) return why_not_opened(errno, "its event node");
-    if (positions_[i].minimum >= positions_[i].maximum) return Error{Code::unlike_device, "it tells no position"};
+    if (positions_[i].minimum >= positions_[i].maximum) return Error{Code::unlike_device, "it sends no position"};
     input_absinfo finest = positions_[i];
     finest.fuzz = 0;
     node_.call(EVIOCSABS(axis), &finest);  // without it, it is only coarser
@@ -191,7 +192,7 @@ EvdevTransport::~EvdevTransport() {
 
 /// The writer's thread.
 void EvdevTransport::write_forces() {
-  constexpr std::int64_t patience = 20'000;  // microseconds; refreshes and silences are due then
+  constexpr std::int64_t patience = 20'000;  // microseconds; the longest wait between checks for refreshes and silence
   while (true) {
     // While something waits for its turn, only a newer command is taken, and nothing is waited for.
     const auto wanted = wait_for_command(pending_ ? 0 : patience);
@@ -215,7 +216,7 @@ void EvdevTransport::write_forces() {
       ++counts_.silences;
     }
     if (was_lost()) return;
-    if (write_next(now)) sleep_microseconds(pace);
+    if (write_next(now)) sleep_microseconds(pace_);
   }
 }
 
@@ -224,7 +225,7 @@ std::int64_t EvdevTransport::level_of(double magnitude) const noexcept {
   return std::llround(std::round(magnitude * steps) / steps * static_cast<double>(full_level));
 }
 
-/// Makes the update that is due next; false: there is none.
+/// Sends the next update; false: there is none.
 bool EvdevTransport::write_next(std::int64_t now) {
   if (refresh(now)) return true;
   if (!pending_) return false;

@@ -51,12 +51,13 @@ class EvdevNode {
 /// effects.
 class EvdevTransport final : public PidTransport {
  public:
-  /// Microseconds from one update to the next. A full-speed interrupt endpoint takes a report each millisecond.
-  static constexpr std::int64_t pace = 2000;
+  struct Limits {
+    std::int64_t force_steps = 32767;  ///< levels to each side that are told apart, 1 .. 32767
+    int report_interval = 1;           ///< ms, in which the device takes a report (bInterval); updates are half as many
+  };
 
-  /// Sets two effects up with no force, and plays them. `force_steps`: levels to each side that are told apart, 1 ..
-  /// 32767.
-  static Result<std::unique_ptr<PidTransport>> open(EvdevNode node, std::int64_t force_steps,
+  /// Sets two effects up with no force, and plays them.
+  static Result<std::unique_ptr<PidTransport>> open(EvdevNode node, const Limits& limits,
                                                     const PidTransportOptions& options);
   /// Stops and erases the effects.
   ~EvdevTransport() override;
@@ -68,7 +69,7 @@ class EvdevTransport final : public PidTransport {
   const Ranges& ranges() const noexcept override { return ranges_; }
 
  private:
-  EvdevTransport(EvdevNode node, std::int64_t force_steps, const PidTransportOptions& options);
+  EvdevTransport(EvdevNode node, const Limits& limits, const PidTransportOptions& options);
   Result<> set_up();
   Result<> set_up_positions();
   Result<> upload(std::size_t effect);
@@ -89,7 +90,7 @@ class EvdevTransport final : public PidTransport {
 
   EvdevNode node_;
   const MicrosecondClock now_;
-  const std::int64_t refresh_period_, silence_;
+  const std::int64_t pace_, refresh_period_, silence_;  // microseconds
   Ranges ranges_;
   hid::Arrangement arrangement_ = hid::Arrangement::by_direction;
   OwnedDescriptor ends_reading_;  // an eventfd

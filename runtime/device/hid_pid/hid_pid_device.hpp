@@ -14,8 +14,8 @@ namespace wale {
 
 /// A force-feedback joystick of USB's PID class, whatever its report descriptor makes of it. Positions are scaled from
 /// the descriptor's range to the profile's counts, forces from the profile's peak force to the descriptor's range.
-/// HID's y points to the user, and is turned: here x points to the right and y away. How a device lies on the desk
-/// beyond that is its `DeviceWiring`, which is up to whoever uses it.
+/// HID's y points to the user, and is turned: here x points to the right and y away. The caller turns the axes further
+/// as the device's `DeviceWiring` says.
 ///
 /// Where two axes have an effect each, each packet carries one axis: they alternate when both change, which halves the
 /// rate of each. A device that is lost (`was_lost`) pushes no more and stays where it was last seen.

@@ -147,7 +147,7 @@ Outcome LibusbChannel::submit_input(Slot& slot) {
   return error == 0 ? Outcome::done : outcome_of_submitting(error);
 }
 
-/// On the event thread, as what follows.
+/// On the event thread, as `transfer_ended`.
 void LibusbChannel::input_ended(Slot& slot) {
   const libusb_transfer& usb = *slot.usb;
   const Outcome outcome = outcome_of(usb.status);

@@ -48,9 +48,9 @@ Opened open_libusb(Result<LibusbInterface> interface, const PidTransportOptions&
       options);
 }
 
-Opened open_evdev(Result<EvdevNode> node, std::int64_t force_steps, const PidTransportOptions& options) {
+Opened open_evdev(Result<EvdevNode> node, const EvdevTransport::Limits& limits, const PidTransportOptions& options) {
   if (!node) return std::move(node).error();
-  return EvdevTransport::open(std::move(*node), force_steps, options);
+  return EvdevTransport::open(std::move(*node), limits, options);
 }
 
 Error without_node(PidTransportKind kind) {
@@ -58,7 +58,7 @@ Error without_node(PidTransportKind kind) {
     return {Code::absent_device, "the kernel's driver makes no constant force of it",
             "Linux 6.12.24 and later know more sticks"};
   }
-  return {Code::absent_device, "the kernel's driver has made no hidraw node of it", "plug it in again"};
+  return {Code::absent_device, "the kernel's driver has made no hidraw node for it", "plug it in again"};
 }
 
 /// What is tried of one device.
@@ -80,7 +80,8 @@ struct Attempt {
       case PidTransportKind::evdev: break;
     }
     if (known == nullptr || known->pushing.empty()) return without_node(kind);
-    return open_evdev(EvdevNode::open(known->pushing.front(), options.ioctl), force_steps, options);
+    return open_evdev(EvdevNode::open(known->pushing.front(), options.ioctl),
+                      {force_steps, interface.out_interval}, options);
   }
 
   /// By the first interface that can push: a keyboard beside the joystick is not what stands in the way.
@@ -115,6 +116,29 @@ void add_reason(std::string& why, PidTransportKind kind, const std::string& reas
 
 }  // namespace
 
+// Measured by `tests/qemu/run rates` on 2026-11-22: the model of OpenFFBoard (full speed, a report each millisecond, an
+// effect for each axis) behind vhci_hcd in QEMU without hardware acceleration, on a machine of two processors that
+// builds kept busy, 4500 ticks in which both axes change. `loop`: ticks a second that the loop came to, of 900. Reports
+// that reached the device for each axis a second; the age of their force on arrival, in ms; reports that the kernel took
+// and the device never got; the share of a processor that the transport's threads needed.
+//
+//                          loop   x    y    median  99 %   most   lost  processor
+//   Linux 6.1.0-56   hidraw  794  291  291     1.5     7     15      0     19 %
+//   (6.1.192)                668  214  214     1.5    15     32      0     16 %
+//                    libusb  472  110  109     3.0    44     72      0     19 %
+//                            668  243  243     2.5    21     52      0     25 %
+//                    evdev   482  113  114   201     688    769    594      7 %   an update each 1.1 ms
+//                            388   61   61   449     738    752    817      5 %
+//   Linux 6.12.117   hidraw  223   28   28     4.1    57    121      0     12 %   the machine busier still
+//                    libusb  183   30   30     6.5   110    157      0     16 %
+//                    evdev   246   37   36   629    1477   1600    338      5 %   an update each 2 ms
+//
+// The same hardware under less load gives more of each; the order does not depend on it. hidraw and libusb wait for the
+// device and lose nothing, so their forces are as fresh as the device is fast. hidraw costs no more, and games go on
+// seeing the stick: it comes first. libusb works where the kernel's driver has made no hidraw node, but takes the stick
+// from games. evdev queues what the device has not taken yet, old forces before new ones, and drops the newest where the
+// queue is full: where the device or the machine falls behind for a moment, forces are late for long. It is the last
+// resort, for users without permission to the other two.
 std::array<PidTransportKind, 3> transports_by_preference() noexcept {
   return {PidTransportKind::hidraw, PidTransportKind::libusb, PidTransportKind::evdev};
 }
@@ -185,7 +209,7 @@ Result<std::unique_ptr<PidTransport>> open_pid_transport(const std::shared_ptr<U
   if (!kind) return kind.error();
   // Who gave the descriptor may use the device as well, and nobody can tell: nothing of theirs is reset.
   if (*kind == PidTransportKind::hidraw) return open_hidraw(HidrawNode::of(descriptor, options.ioctl), true, options);
-  if (*kind == PidTransportKind::evdev) return open_evdev(EvdevNode::of(descriptor, options.ioctl), force_steps, options);
+  if (*kind == PidTransportKind::evdev) return open_evdev(EvdevNode::of(descriptor, options.ioctl), {.force_steps = force_steps}, options);
   if (!context) return Error{Code::unusable_device, "USB cannot be used: there is no libusb"};
   const Result<UsbDeviceInfo> info = context->describe(descriptor);
   if (!info) return info.error();

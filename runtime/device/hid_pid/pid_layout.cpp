@@ -33,10 +33,10 @@ struct Element {
   std::uint32_t index = 0;
 };
 
-/// Finds the numbers of one report. What goes wrong first is kept; what follows is of no meaning then.
+/// Finds the numbers of one report. Keeps the first error only: later ones may follow from it.
 class Search {
  public:
-  /// The first report with a field within a collection of usage `what`; its `name` is for whoever reads a refusal.
+  /// The first report with a field within a collection of usage `what`; errors call it `name`.
   Search(const ReportDescriptor& descriptor, ReportKind kind, Usage what, const char* name, std::string& wrong)
       : descriptor_(&descriptor), what_(what), name_(name), wrong_(&wrong) {
     for (const Report& report : descriptor.reports) {

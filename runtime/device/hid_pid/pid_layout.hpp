@@ -38,8 +38,8 @@ struct PacketShape {
 /// A packet of a full-speed interrupt endpoint holds no more (USB 2.0, section 5.7.3).
 constexpr std::size_t most_packet_bytes = 64;
 
-/// Which reports a device of USB's PID class wants, and where their numbers stand, as its descriptor says. What is not
-/// marked "may be missing" is there.
+/// Which reports a device of USB's PID class wants, and where their numbers stand, as its descriptor says. A field
+/// that is not marked "may be missing" is there.
 struct PidLayout {
   struct Input : PacketShape {
     Number x, y;
@@ -110,8 +110,8 @@ struct PidLayout {
   bool has_axes() const { return bool(set_effect.enable_x); }
 };
 
-/// Finds the reports of a force-feedback joystick by their usages. Refused for what is missing and needed, for a number
-/// whose declared range does not fit in its bits, for packets beyond `most_packet_bytes`: "it has no Set Constant Force
+/// Finds the reports of a force-feedback joystick by their usages. An error where a needed field is missing, where a
+/// declared range does not fit in its bits, or where a packet exceeds `most_packet_bytes`: "it has no Set Constant Force
 /// report (usage 0F:73)". The code is `no_force_device` where nothing is of the PID class, else `unlike_device`.
 Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor);
 

@@ -19,13 +19,13 @@ struct Packet {
   std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
 };
 
-/// How long an effect plays that nobody stops.
+/// The duration of an effect that plays until it is stopped.
 constexpr double endless = 0;
 
 /// An effect of the type constant force, without its force.
 struct ConstantEffect {
   std::uint8_t block_index = 0;
-  /// s; `endless`, or until it is started again. At least one count of the report's field, at most what it can say.
+  /// s; `endless`, or until it is started again. Clamped to one count of the report's field and to its largest value.
   double duration = endless;
   /// Degrees from the direction away from the user, clockwise; a force of magnitude m is m sin along x and -m cos along
   /// y (HID PID 1.0, section 3.1.2.2.1: y points to the user). Ignored unless `by_direction`.
@@ -52,7 +52,7 @@ Packet encode_full_gain(const PidLayout& layout) noexcept;
 Packet encode_create_constant_force(const PidLayout& layout) noexcept;
 Packet encode_block_free(const PidLayout& layout, std::uint8_t block_index) noexcept;
 
-/// What an input report tells. Decoding gives nothing for what is too short or of another report.
+/// The content of an input report. Decoding gives nothing for a packet that is too short or of another report.
 struct InputState {
   std::int64_t x = 0, y = 0;  ///< held within the ranges of `layout.input`: some devices go a count beyond
   bool button = false;
@@ -63,10 +63,10 @@ struct BlockLoadAnswer {
   enum class Status { pending, loaded, full, failed } status = Status::pending;
   std::uint8_t block_index = 0;  ///< of a loaded one: 1 .. 255
 };
-/// `pending` is what neither the number of success nor any other says: 0, from a device that has not come to it yet.
+/// `pending`: the status is 0, because the device has not finished yet.
 std::optional<BlockLoadAnswer> decode_block_load(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 
-/// What a device tells of its state by itself. Nothing of what its report has no number for.
+/// The content of a PID State report, which a device sends by itself. Fields that its report lacks are empty.
 struct DeviceState {
   std::optional<std::uint8_t> block_index;  ///< of the effect that it is about
   std::optional<bool> effect_plays;

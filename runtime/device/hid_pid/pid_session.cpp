@@ -26,11 +26,11 @@ double finite_or_none(double value) noexcept { return std::isnan(value) ? 0 : st
 
 std::string_view in_words(Arrangement arrangement) noexcept {
   switch (arrangement) {
-    case Arrangement::by_direction: return "an effect for each axis, by direction";
-    case Arrangement::by_axis: return "an effect for each axis";
+    case Arrangement::by_direction: return "one effect for each axis, by direction";
+    case Arrangement::by_axis: return "one effect for each axis";
     case Arrangement::combined: break;
   }
-  return "one effect that is turned";
+  return "one effect, turned to the direction of the force";
 }
 
 PidSession::PidSession(const HidInterface& interface, const PidSessionOptions& options)
@@ -161,7 +161,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
   switch (transfer.purpose) {
     case Transfer::Purpose::step:
       step_under_way_ = false;
-      // Stopped while this was on its way: what comes next is settled, whatever became of it.
+      // The session was stopped while this was on its way: the next step does not depend on its outcome.
       if (std::exchange(step_is_void_, false) && outcome != Outcome::gone) {
         if (outcome != Outcome::done && transfer.kind == Transfer::Kind::interrupt_out) out_failed_ = true;
         return;
@@ -203,7 +203,7 @@ void PidSession::finish_step(Outcome outcome, std::span<const std::uint8_t> answ
   if (step_ == Step::load) return finish_load(outcome, answer);
   if (outcome == Outcome::timed_out) return lose("it does not answer in time", outcome);
   if (outcome != Outcome::done && !is_optional) {
-    return lose(step_ == Step::read_descriptor ? "it does not tell its report descriptor"
+    return lose(step_ == Step::read_descriptor ? "it does not send its report descriptor"
                                                : "it refuses a report that its descriptor declares",
                 outcome);
   }
@@ -221,18 +221,18 @@ void PidSession::finish_step(Outcome outcome, std::span<const std::uint8_t> answ
 void PidSession::finish_load(Outcome outcome, std::span<const std::uint8_t> answer) {
   using Status = BlockLoadAnswer::Status;
   if (outcome == Outcome::timed_out) return lose("it does not answer in time", outcome);
-  if (outcome != Outcome::done) return lose("it does not say whether it has made an effect", outcome);
+  if (outcome != Outcome::done) return lose("it does not report whether it has created an effect", outcome);
   const auto load = decode_block_load(*layout_, answer);
-  if (!load) return lose("what it says of a new effect is nonsense", Outcome::failed);
+  if (!load) return lose("its answer about a new effect is malformed", Outcome::failed);
   switch (load->status) {
     case Status::pending:
       if (++load_attempts_ >= most_load_attempts)
-        lose("it does not say whether it has made an effect", Outcome::failed);
+        lose("it does not report whether it has created an effect", Outcome::failed);
       return;  // ask again
-    case Status::failed: return lose("it cannot make an effect of constant force", Outcome::failed);
+    case Status::failed: return lose("it cannot create a constant-force effect", Outcome::failed);
     case Status::full:
       if (created_ == 0) return lose("it has no room for an effect: another program may hold them", Outcome::failed, Code::unusable_device);
-      if (!layout_->has_direction()) return lose("it has room for one effect only and knows no directions", outcome, Code::unlike_device);
+      if (!layout_->has_direction()) return lose("it has room for one effect only, and its effects have no direction", outcome, Code::unlike_device);
       arrangement_ = Arrangement::combined;
       step_ = Step::set;
       effect_ = 0;
@@ -242,7 +242,7 @@ void PidSession::finish_load(Outcome outcome, std::span<const std::uint8_t> answ
   const Number& index = layout_->set_constant_force.block_index;
   if (load->block_index < index.minimum || load->block_index > index.maximum ||
       (created_ > 0 && load->block_index == blocks_[0])) {
-    return lose("what it says of a new effect is nonsense", Outcome::failed);
+    return lose("its answer about a new effect is malformed", Outcome::failed);
   }
   blocks_[created_++] = load->block_index;
   load_attempts_ = 0;
@@ -354,7 +354,7 @@ void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now)
   }
   ++counts_.bad_inputs;
   if (++bad_inputs_ >= options_.most_bad_inputs && state_ == State::running) {
-    lose("its input reports are not what its descriptor declares", Outcome::failed);
+    lose("its input reports do not match its descriptor", Outcome::failed);
   }
 }
 
@@ -366,7 +366,7 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
     pending_ = true;
   }
   if (in_flight_ < options_.most_in_flight) {
-    // An effect whose time runs out comes first: it is rare, and without it a force would not be felt at all.
+    // An effect that is about to end comes first: this is rare, and an effect that has ended exerts no force.
     for (std::size_t i = 0; i < effects() && duration_ != endless && !silent_; ++i) {
       if (now < refresh_at_[i]) continue;
       started_[i] = now;
@@ -392,7 +392,7 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
   return look_transfer(now);
 }
 
-/// Asks for Block Load, which tells of the effect that was created last, whoever created it.
+/// Asks for Block Load, which names the effect that was created last, by any program.
 std::optional<Transfer> PidSession::look_transfer(std::int64_t now) noexcept {
   if (!options_.is_shared || layout_->state || options_.rival_check_period <= 0) return std::nullopt;
   if (look_under_way_ || now < look_at_) return std::nullopt;
@@ -440,8 +440,8 @@ void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept
   }
 }
 
-/// What the session knows of the device is void, and so are its blocks: they may be another program's by now. So nothing
-/// more is sent, and what still plays of ours ends with its duration.
+/// The session no longer knows the device's state, and its blocks may belong to another program by now. So it sends
+/// nothing more; effects of ours that still play end with their duration.
 void PidSession::dispossess() noexcept {
   lost_ = true;
   reason_ = "another program has reset it or stopped its effects";
@@ -450,7 +450,7 @@ void PidSession::dispossess() noexcept {
   state_ = State::over;
 }
 
-/// Of the newest command, what the device does not know yet: the axis whose turn it is, else the other one.
+/// The part of the newest command that the device does not have yet. The axes take turns.
 std::optional<Transfer> PidSession::force_transfer() noexcept {
   const auto purpose = Transfer::Purpose::force;
   if (arrangement_ != Arrangement::combined) {
@@ -512,7 +512,7 @@ std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcep
   return output(openffboard::encode(question), Transfer::Purpose::telemetry);
 }
 
-/// Whether a report is the vendor's; takes what it tells of the axes.
+/// Whether a report is the vendor's. Keeps the torques and positions in it.
 bool PidSession::take_telemetry(std::span<const std::uint8_t> report) noexcept {
   const auto message = openffboard::decode(report);
   if (!message) return false;

@@ -24,8 +24,7 @@ struct HidInterface {
 };
 
 struct PidSessionOptions {
-  /// s, after which a device stops by itself when nobody speaks to it any more, whatever ended the process; `endless`:
-  /// never. Playing effects are started again each third of it.
+  /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never. Playing effects are started again each third of it.
   double effect_duration = 0.25;
   /// s without a command after which the force is none and effects are left to end.
   double command_silence = 0.1;
@@ -33,11 +32,11 @@ struct PidSessionOptions {
   double input_silence = 0.1;
   /// s between questions about its axes to a device that has OpenFFBoard's report for them, one number each; 0: none.
   double telemetry_period = 0.1;
-  /// s between looks at what the device says of effects, to notice that another program has reset it, where it has no
-  /// report that tells so by itself; 0: never.
+  /// s between questions about effects, by which a reset by another program is noticed, to a device that has no PID
+  /// State report; 0: never.
   double rival_check_period = 0.5;
   /// Whether other programs may use the device at the same time. Then it is not told to stop all effects nor to disable
-  /// its actuators on leaving, and what others do to our effects ends the session.
+  /// its actuators on leaving, and a change of our effects by another program ends the session.
   bool is_shared = false;
   /// Whether setting up begins with a reset of the device, which also ends the effects of other programs.
   bool resets = true;
@@ -64,10 +63,10 @@ using wale::Outcome;
 enum class Arrangement : std::uint8_t {
   by_direction,  ///< an effect for each axis, turned to it: what hosts usually send, so what devices do best
   by_axis,       ///< an effect for each axis, enabled on it: where the device knows no directions
-  combined       ///< one effect that is turned anew: where the device has room for one only
+  combined       ///< one effect, turned to the direction of the force anew: where the device has room for one only
 };
 
-/// For whoever runs it: "an effect for each axis, by direction".
+/// For people: "one effect for each axis, by direction".
 std::string_view in_words(Arrangement arrangement) noexcept;
 
 /// What a session has done since it was made.
@@ -201,7 +200,7 @@ class PidSession {
   std::array<std::uint8_t, 256> input_bytes_{};  // by report id; 0: no such report
   Arrangement arrangement_ = Arrangement::by_direction;
   std::array<std::uint8_t, 2> blocks_{};
-  double duration_ = 0;  // s; endless or what the device can say
+  double duration_ = 0;  // s; endless, or within the range of the device's field
 
   glm::dvec2 wanted_{0};
   std::array<std::int64_t, 2> sent_{};  // magnitudes, counts; of the combined effect the first
@@ -219,7 +218,7 @@ class PidSession {
   std::array<bool, 2> plays_seen_{};
   std::optional<InputState> input_;
   std::optional<Telemetry> telemetry_;
-  std::int64_t telemetry_at_ = 0;  // when the next question is due
+  std::int64_t telemetry_at_ = 0;  // time of the next question
   PidSessionCounts counts_;
 };
 

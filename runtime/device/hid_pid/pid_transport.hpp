@@ -36,7 +36,7 @@ struct PidTransportOptions {
   unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
   /// SCHED_FIFO, of the thread that sends forces: best just below that of the loop, where permitted; 0: ordinary.
   int priority = 0;
-  MicrosecondClock now = microseconds_now;  ///< which decides when refreshes and silences are due
+  MicrosecondClock now = microseconds_now;  ///< the clock that times refreshes and silence
   IoctlCall ioctl = system_ioctl;           ///< of hidraw and evdev
 };
 

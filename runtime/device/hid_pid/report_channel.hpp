@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// What carries a device's reports, and no more than that: usbfs or hidraw. It makes the transfers that a
-/// `hid::PidSession` wants and tells how each ended.
+/// Carries a device's reports by usbfs or hidraw. It makes the transfers that a `hid::PidSession` wants and reports how
+/// each ended.
 class ReportChannel {
  public:
   /// Told by threads of the channel, one at a time or several at once, and never from within a call to the channel.

@@ -66,7 +66,7 @@ Result<> ReportTransport::wait_until_running() {
   changed_.wait_for(lock, std::chrono::seconds(1),
                     [&] { return session_.state() != State::running || session_.input().has_value(); });
   if (session_.state() != State::running) return Error{session_.why(), std::string(session_.reason())};
-  if (!session_.input()) return Error{Code::unlike_device, "it tells no position"};
+  if (!session_.input()) return Error{Code::unlike_device, "it sends no position"};
   ranges_ = ranges_of(*session_.layout());
   return {};
 }
@@ -80,7 +80,7 @@ void ReportTransport::publish() {
 
 /// The writer's thread.
 void ReportTransport::write_forces() {
-  constexpr std::int64_t patience = 20'000;  // microseconds; refreshes and silences are due then
+  constexpr std::int64_t patience = 20'000;  // microseconds; the longest wait between checks for refreshes and silence
   while (true) {
     const auto wanted = wait_for_command(patience);
     if (is_ending()) return;

@@ -11,8 +11,7 @@
 namespace wale {
 namespace {
 
-/// "steam (4711) by /dev/input/event5", of each; and how many processes could not be looked at, where anybody holds it
-/// or may.
+/// "steam (4711) by /dev/input/event5", for each holder.
 std::vector<std::string> in_words_each(const NodeHolders& holders) {
   std::vector<std::string> words;
   for (const NodeHolder& holder : holders.seen) {

@@ -36,6 +36,7 @@ UsbHidInterface hid_interface(const libusb_interface_descriptor& descriptor) {
     if ((endpoint.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK) != LIBUSB_TRANSFER_TYPE_INTERRUPT) continue;
     if ((endpoint.bEndpointAddress & LIBUSB_ENDPOINT_IN) == 0) {
       hid.out_endpoint = endpoint.bEndpointAddress;
+      hid.out_interval = endpoint.bInterval;
     } else if (hid.in_endpoint == 0) {
       hid.in_endpoint = endpoint.bEndpointAddress;
       hid.in_bytes = endpoint.wMaxPacketSize & 0x7ff;

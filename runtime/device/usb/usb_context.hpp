@@ -24,6 +24,7 @@ struct UsbHidInterface {
   std::uint8_t out_endpoint = 0;
   std::uint16_t in_bytes = 0;  ///< of a packet
   int interval = 0;            ///< bInterval of the IN endpoint: ms at full speed
+  int out_interval = 0;        ///< of the OUT endpoint; 0: it has none
 
   friend bool operator==(const UsbHidInterface&, const UsbHidInterface&) = default;
 };

@@ -1,0 +1,116 @@
+#include "compiler/named_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "compiler/modules/library_index.hpp"
+#include "compiler/modules/meant_material.hpp"
+#include "compiler/text/embedded_files.hpp"
+#include "compiler/text/resolver.hpp"
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool exists(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// Whether a text can only be meant as a path.
+bool is_path(const std::string& text) {
+  return text.empty() || text.find('/') != std::string::npos || text.ends_with(".wale") || text.ends_with(".wpp");
+}
+
+/// A module of the library that is part of the binary, by its path in the source tree; nothing for any other path.
+std::optional<NamedFile> shipped_file(const std::string& path) {
+  const std::string name = fs::path(path).lexically_normal().generic_string();
+  const auto files = embedded_files();
+  const auto found =
+      std::ranges::find_if(files, [&](const EmbeddedFile& each) { return !each.common && each.name == name; });
+  if (found == files.end()) return std::nullopt;
+  return NamedFile{.name = name,
+                   .bytes = std::string(found->text),
+                   .embedded = embedded_source(static_cast<std::size_t>(found - files.begin())),
+                   .material = {},
+                   .also = {}};
+}
+
+/// Reads a file. One on the disk goes before a shipped one of the same path: in a checkout it is the newer.
+Result<NamedFile> read_named(const std::string& path, const std::string& material) {
+  if (!exists(path))
+    if (auto shipped = shipped_file(path)) {
+      shipped->material = material;
+      return *std::move(shipped);
+    }
+  auto read = read_file(path);
+  if (read)
+    return NamedFile{.name = path, .bytes = std::move(read->bytes), .embedded = {}, .material = material, .also = {}};
+  Error error = read.error();
+  error.sentence = "cannot be read: " + error.sentence;
+  error.place.name = path;
+  if (error.mend.empty() && !exists(path)) error.mend = "`wale find` lists the materials of the library";
+  return error;
+}
+
+/// What a file in the present folder could import. The file itself need not be there.
+std::shared_ptr<const LibraryIndex> index_here(const std::vector<std::string>& roots) {
+  return library_index(*file_resolver(roots), "here");
+}
+
+Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots) {
+  const std::shared_ptr<const LibraryIndex> index = index_here(roots);
+  if (name.find('.') != std::string::npos) {
+    const auto in_module = std::ranges::find(index->materials(), name, &IndexedMaterial::module);
+    if (in_module != index->materials().end()) return read_named(in_module->file, "");
+  }
+  const auto meant = meant_material(*index, name);
+  if (meant) return read_named((*meant)->file, (*meant)->name);
+  if (is_folder(name)) return read_named(name, "");
+  Error error = meant.error();
+  error.place = {.text = name};  // the sentence names it
+  if (error.code == Code::unknown_name) {
+    error.sentence = fmt::format("`{}` is neither a file nor a material", name);
+    if (const auto near = nearest_materials(*index, name); !near.empty())
+      error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed(near));
+    else
+      error.mend = "`wale find` lists the materials of the library";
+  }
+  return error;
+}
+
+}  // namespace
+
+NamedMaterial named_material(const std::string& argument) {
+  const auto colon = argument.rfind(':');
+  if (colon == std::string::npos || exists(argument)) return {argument, {}};
+  return {argument.substr(0, colon), argument.substr(colon + 1)};
+}
+
+Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots) {
+  const auto [file, material] = named_material(argument);
+  const bool is_file = exists(file) && !is_folder(file);
+  if (!is_file && !is_path(file)) {
+    auto found = find_by_name(file, roots);
+    if (found && !material.empty()) found->material = material;
+    return found;
+  }
+  auto found = read_named(file, material);
+  if (found && is_file && !is_path(file)) {
+    const std::shared_ptr<const LibraryIndex> index = index_here(roots);
+    if (const auto meant = meant_material(*index, file))
+      found->also = fmt::format("{}:{}", (*meant)->file, (*meant)->name);
+  }
+  return found;
+}
+
+}  // namespace wale

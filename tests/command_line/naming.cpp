@@ -1,0 +1,84 @@
+// Materials by name, wherever a FILE is asked for.
+
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line::naming_test {
+namespace {
+
+/// Of the shipped library, by its name in a file.
+const std::string denim = std::string(WALE_SOURCE_DIR) + "/library/fabric/denim.wale";
+
+std::string own(const std::string& name, const std::string& more = {}) {
+  return "wale 1\nmaterial " + name + " {\n  representative { " + more + " }\n  perceptual { roughness 0.3 } }\n";
+}
+
+TEST(Names, AreAsGoodAsTheirFiles) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(wale({"describe", "denim"}).out, wale({"describe", denim}).out);
+  EXPECT_EQ(wale({"sample", "denim", "--at", "1 mm, 0 mm"}).out, wale({"sample", denim, "--at", "1 mm, 0 mm"}).out);
+  ASSERT_EQ(wale({"build", "denim", "-o", folder / "name.wpp"}).status, 0);
+  ASSERT_EQ(wale({"build", denim, "-o", folder / "file.wpp"}).status, 0);
+  EXPECT_EQ(bytes_of(folder / "name.wpp"), bytes_of(folder / "file.wpp"));
+  EXPECT_EQ(wale({"preview", "denim", "-o", folder / "denim.png"}).status, 0);
+  EXPECT_EQ(wale({"compare", "corduroy", "denim"}).out, wale({"compare", corduroy, denim}).out);
+  EXPECT_EQ(wale({"feel", "denim", "--virtual-time", "--seconds", "0.1"}).status, 0);
+}
+
+TEST(Names, AreModulesKindsTitlesAndOtherNamesToo) {
+  const Outcome named = wale({"describe", "denim"});
+  for (const char* other : {"fabric.denim", "blue jeans", "Denim", "denim:denim", "fabric.denim:denim"})
+    EXPECT_EQ(wale({"describe", other}).out, named.out) << other;
+}
+
+TEST(Names, OfTheLibrarysFilesOpenWithoutACheckout) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(wale({"describe", "library/fabric/denim.wale"}).status, 0);
+  EXPECT_EQ(wale({"describe", "library/fabric/denim.wale:denim"}).status, 0);
+  EXPECT_EQ(wale({"describe", "slate"}).status, 0) << "its picture is part of the binary too";
+}
+
+TEST(Names, OfOnesOwnLibraryGoBeforeTheShipped) {
+  const TemporaryFolder folder;
+  folder.write("cloth.wale", own("denim"));
+  const Outcome outcome = wale({"describe", "denim", "--library", folder / ".", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NEAR(outcome.json().at("percepts").at("roughness").at("level").get<double>(), 0.3, 1e-6);
+}
+
+TEST(Names, OfSeveralMaterialsAreListed) {
+  const TemporaryFolder folder;
+  folder.write("a.wale", own("one", "called \"twin\""));
+  folder.write("b.wale", own("two", "called \"twin\""));
+  const Outcome outcome = wale({"describe", "twin", "--library", folder / "."});
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* part : {"W0217", "`one` of `a`", "`two` of `b`", "a.wale:one"})
+    EXPECT_TRUE(contains(outcome.err, part)) << part << outcome.err;
+}
+
+TEST(Names, UnknownComeBackWithTheNearestAndTheWayOn) {
+  for (const char* verb : {"describe", "feel", "compare"}) {
+    const Outcome outcome = wale({verb, "corderoy"});
+    EXPECT_EQ(outcome.status, 1) << verb;
+    for (const char* part : {"W0201", "`corderoy` is neither a file nor a material", "`corduroy`", "wale find"})
+      EXPECT_TRUE(contains(outcome.err, part)) << part << outcome.err;
+  }
+  EXPECT_TRUE(contains(wale({"describe", "corderoy.wale"}).err, "no such file")) << "a path is no name";
+}
+
+TEST(Names, GiveWayToFilesAndSaySo) {
+  const TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder / ".");
+  folder.write("denim", own("mine"));
+  const Outcome file = wale({"describe", "denim", "--json"}), path = wale({"describe", "./denim", "--json"});
+  fs::current_path(before);
+  ASSERT_EQ(file.status, 0) << file.err;
+  EXPECT_EQ(file.json().at("material"), "mine");
+  EXPECT_TRUE(contains(file.err, "the material of that name is `library/fabric/denim.wale:denim`")) << file.err;
+  EXPECT_EQ(path.err, "");
+}
+
+}  // namespace
+}  // namespace wale::command_line::naming_test

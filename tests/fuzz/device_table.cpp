@@ -1,0 +1,32 @@
+// A libFuzzer target for tables of declared devices: any bytes at all are refused with a reason, or are the bytes that
+// writing what was read gives. With no seed it begins at the table that is built in.
+
+#include <algorithm>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include "runtime/device/shipped_devices.hpp"
+#include "schema/device_table.hpp"
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned) {
+  const auto shipped = wale::shipped_device_table();
+  if (size < 16 && shipped.size() <= most) {
+    std::ranges::copy(shipped, reinterpret_cast<std::byte*>(data));
+    size = shipped.size();
+  }
+  return LLVMFuzzerMutate(data, size, most);
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto bytes = std::as_bytes(std::span(data, size));
+  const auto read = wale::read_device_table(bytes);
+  if (!read) {
+    if (read.error().sentence.empty()) std::abort();
+    return 0;
+  }
+  if (!std::ranges::equal(wale::write_device_table(*read), bytes)) std::abort();
+  return 0;
+}

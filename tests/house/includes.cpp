@@ -1,0 +1,166 @@
+// Which folder may include which: README.md and schema/CONTRIBUTING.md tell it in prose, this is the rule.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wale::includes_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::set<std::string>;
+
+/// By file, all relative to the project's root: the files of the project that it includes.
+using Includes = std::map<std::string, Files>;
+
+bool is_source(const fs::path& path) {
+  return path.extension() == ".cpp" || path.extension() == ".hpp" || path.extension() == ".h" ||
+         path.extension() == ".def";
+}
+
+/// The sources of the project, without its tests.
+Files sources() {
+  Files files = {"wale.cpp"};
+  for (const char* folder : {"schema", "runtime", "compiler", "calibration", "library", "examples"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(WALE_SOURCE_DIR) / folder))
+      if (is_source(entry.path())) files.insert(fs::relative(entry.path(), WALE_SOURCE_DIR).generic_string());
+  return files;
+}
+
+/// The file that `name` in an include means, or nothing when it is none of the project.
+std::string found(const std::string& name, const Files& files) {
+  for (const char* root : {"", "runtime/include/", "library/include/"})
+    if (files.contains(root + name)) return root + name;
+  return {};
+}
+
+Includes includes() {
+  const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  const Files files = sources();
+  Includes result;
+  for (const std::string& file : files) {
+    std::ifstream in(fs::path(WALE_SOURCE_DIR) / file);
+    for (std::string line; std::getline(in, line);) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) continue;
+      EXPECT_FALSE(match.str(1).starts_with(".")) << file << ": names " << match.str(1) << " from its own folder";
+      if (const std::string name = found(match.str(1), files); !name.empty()) result[file].insert(name);
+    }
+  }
+  return result;
+}
+
+bool is_under(const std::string& file, const std::vector<std::string>& places) {
+  return std::ranges::any_of(places, [&](const std::string& place) { return file.starts_with(place); });
+}
+
+/// Files below `place` may include those below `may`, and those of `place` itself.
+struct Rule {
+  std::string place;
+  std::vector<std::string> may;
+};
+
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> all = [] {
+    // Of the public headers, those that the machine implements; the others are of the stage and of devices.
+    const std::vector<std::string> machine = {
+        "schema/",
+        "runtime/machine/",
+        "runtime/include/wale/program.hpp",
+        "runtime/include/wale/batch.hpp",
+        "runtime/include/wale/memory.hpp",
+        "runtime/include/wale/picture.hpp",
+    };
+    return std::vector<Rule>{
+        {"schema/", {}},
+        {"runtime/machine/", machine},
+        {"runtime/include/", {"schema/"}},
+        {"runtime/", {"schema/"}},
+        {"compiler/", machine},
+        {"calibration/", {"schema/", "compiler/", "runtime/"}},
+        {"library/include/", {"schema/", "runtime/include/"}},
+        {"library/", {"schema/", "compiler/", "runtime/"}},
+        {"examples/", {"runtime/include/", "library/include/"}},
+    };
+  }();
+  return all;
+}
+
+TEST(Includes, StayWithinWhatAFolderMayKnow) {
+  for (const auto& [file, included] : includes()) {
+    const auto rule = std::ranges::find_if(rules(), [&](const Rule& each) { return file.starts_with(each.place); });
+    if (rule == rules().end()) continue;  // wale.cpp may include all
+    for (const std::string& name : included)
+      EXPECT_TRUE(name.starts_with(rule->place) || is_under(name, rule->may)) << file << " includes " << name;
+  }
+}
+
+/// The part of folder `parent` in which a file lies: a folder in it, taken as a whole, or the file itself.
+std::string part_of(const std::string& file, const std::string& parent) {
+  const std::string rest = file.substr(parent.size());
+  return rest.substr(0, rest.find('/'));
+}
+
+/// The parts of a folder that lie on a circle, in the order in which they are found; empty when there is none.
+std::vector<std::string> circle_in(const std::map<std::string, Files>& graph) {
+  std::vector<std::string> path;
+  Files done;
+  std::vector<std::string> circle;
+  const std::function<void(const std::string&)> visit = [&](const std::string& part) {
+    if (!circle.empty() || done.contains(part)) return;
+    if (const auto again = std::ranges::find(path, part); again != path.end()) {
+      circle.assign(again, path.end());
+      return;
+    }
+    path.push_back(part);
+    if (const auto next = graph.find(part); next != graph.end())
+      for (const std::string& each : next->second) visit(each);
+    path.pop_back();
+    done.insert(part);
+  };
+  for (const auto& [part, next] : graph) visit(part);
+  return circle;
+}
+
+/// Folders with a circle that is known, to be mended.
+const std::set<std::string> known_circles = {"runtime/device/"};  // usb/ lists devices of falcon/ and hid_pid/
+
+TEST(Includes, HaveNoCircleInAnyFolder) {
+  const Includes all = includes();
+  Files folders = {""};
+  for (const std::string& file : sources())
+    for (std::size_t slash = file.find('/'); slash != std::string::npos; slash = file.find('/', slash + 1))
+      folders.insert(file.substr(0, slash + 1));
+  for (const std::string& folder : folders) {
+    std::map<std::string, Files> graph;
+    for (const auto& [file, included] : all)
+      for (const std::string& name : included) {
+        if (!file.starts_with(folder) || !name.starts_with(folder)) continue;
+        const std::string from = part_of(file, folder), to = part_of(name, folder);
+        if (from != to) graph[from].insert(to);
+      }
+    std::string text;
+    for (const std::string& part : circle_in(graph)) text += part + " -> ";
+    EXPECT_EQ(text.empty(), !known_circles.contains(folder)) << text << " in `" << folder << "`";
+  }
+}
+
+TEST(Includes, AreFollowedThroughTheProject) {
+  const Includes all = includes();
+  EXPECT_GT(all.size(), 300u);
+  EXPECT_TRUE(all.at("runtime/machine/verify.cpp").contains("runtime/machine/verify.hpp"));
+  EXPECT_TRUE(all.at("examples/roughness_by_name/main.cpp").contains("runtime/include/wale/stage.hpp"));
+  EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c", "d"}}, {"d", {"b"}}}), (std::vector<std::string>{"b", "d"}));
+  EXPECT_TRUE(circle_in({{"a", {"b", "c"}}, {"b", {"c"}}}).empty());
+}
+
+}  // namespace
+}  // namespace wale::includes_test
