@@ -89,13 +89,14 @@ class SolvedSize {
 
 class FateFinder {
  public:
-  FateFinder(const Bank& bank, const FateRecord& record, std::size_t index, double most)
+  FateFinder(const Bank& bank, const FateRecord& record, std::size_t index, double most, std::string map)
       : bank_(bank),
         program_(bank.program().description()),
         record_(record),
         percept_(program_.percepts[index]),
         size_(bank, index),
-        most_(most) {}
+        most_(most),
+        map_(std::move(map)) {}
 
   DescribedFate found() const {
     const std::vector<float> registers(bank_.registers().begin(), bank_.registers().end());
@@ -128,7 +129,7 @@ class FateFinder {
   std::string realised_how() const {
     if (record_.fate != Fate::saturated) return record_.reason;
     const bool foreign = percept_.handle == Evidence::transferred && percept_.device != program_.device.name;
-    return realisation_reason(percept_.realisation, foreign ? percept_.source : "", percept_.device);
+    return realisation_reason(percept_.realisation, foreign ? map_ : "", percept_.device);
   }
 
   FateRecord with(const std::vector<float>& registers, std::size_t parameter, float value) const {
@@ -158,7 +159,8 @@ class FateFinder {
   const FateRecord& record_;
   const PerceptRecord& percept_;
   SolvedSize size_;
-  double most_;  ///< of the carrier, in its own unit
+  double most_;      ///< of the carrier, in its own unit
+  std::string map_;  ///< that solved the percept: its name
 };
 
 /// The percept of a fate if its level is a parameter of its own, and not if it only shares a carrier.
@@ -191,6 +193,15 @@ double most_of(const PatchProgram& program, const PerceptRecord& percept, const 
   return declared && declared->exerts > 0 ? given / declared->exerts : HUGE_VAL;
 }
 
+/// The map that solved a percept, by its name, or by its source where it has none or is not declared here: the program
+/// keeps the source only.
+std::string map_of(const PerceptRecord& percept, const Declarations* declarations) {
+  if (declarations)
+    for (const Map* map : declarations->maps())
+      if (map->percept == percept.name && map->source == percept.source && !map->name.empty()) return map->name;
+  return percept.source;
+}
+
 }  // namespace
 
 std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations) {
@@ -204,7 +215,7 @@ std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declar
       continue;
     }
     const double most = most_of(program, program.percepts[*index], declarations, given);
-    all.push_back(FateFinder(bank, record, *index, most).found());
+    all.push_back(FateFinder(bank, record, *index, most, map_of(program.percepts[*index], declarations)).found());
   }
   return all;
 }

@@ -50,9 +50,10 @@ class ManyFiles {
 std::vector<Cues> cues_of_all(const std::vector<ComparedFile>& files) {
   std::vector<Cues> all;
   for (const ComparedFile& file : files) {
-    for (const auto& each : file.opened.diagnostics.all())
+    if (!file.opened) throw std::runtime_error(in_words(file.opened.error()));
+    for (const auto& each : file.opened->diagnostics.all())
       if (severity_of(each.code) == Severity::error)
-        throw std::runtime_error(render_text(each, file.opened.sources, false));
+        throw std::runtime_error(render_text(each, file.opened->sources, false));
     all.insert(all.end(), file.cues.begin(), file.cues.end());
   }
   return all;
