@@ -195,10 +195,9 @@ double most_of(const PatchProgram& program, const PerceptRecord& percept, const 
 
 /// The map that solved a percept, by its name, or by its source where it has none or is not declared here: the program
 /// keeps the source only.
-std::string map_of(const PerceptRecord& percept, const Declarations* declarations) {
-  if (declarations)
-    for (const Map* map : declarations->maps())
-      if (map->percept == percept.name && map->source == percept.source && !map->name.empty()) return map->name;
+std::string map_of(const PerceptRecord& percept, const Declarations& declarations) {
+  for (const Map* map : declarations.maps())
+    if (map->percept == percept.name && map->source == percept.source && !map->name.empty()) return map->name;
   return percept.source;
 }
 

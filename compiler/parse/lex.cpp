@@ -146,6 +146,10 @@ bool Lexer::is_readable() {
     return false;
   }
   for (std::size_t at = 0; at < text_.size();) {
+    if (text_[at] > 0) {  // ASCII, as nearly all are
+      ++at;
+      continue;
+    }
     const Character character = decode(text_, at);
     if (!character.valid || character.code == 0) {
       report(Code::invalid_encoding, at, at + 1,
