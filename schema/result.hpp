@@ -20,8 +20,8 @@ struct Place {
   std::string source = {};                 ///< what it was made from, "corduroy.wale:9:13"; may be empty
 };
 
-/// What is wrong, as a value. Programs decide by `code`; the sentence is for people and is never searched. It can be read
-/// without the place.
+/// What is wrong, as a value. Programs decide by `code`; the sentence is for people and is never searched. It can be
+/// read without the place.
 struct Error {
   Code code = {};
   std::string sentence = {};       ///< what is wrong: "expected a number, found a vector"

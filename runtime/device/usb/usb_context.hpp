@@ -42,8 +42,8 @@ struct UsbDeviceInfo {
 /// "1209:ffb0"
 std::string in_words(std::uint16_t vendor, std::uint16_t product);
 
-/// Why a device cannot be used, by libusb's number of the error. Where permission lacks, the mend has the udev rule that
-/// gives it.
+/// Why a device cannot be used, by libusb's number of the error. Where permission lacks, the mend has the udev rule
+/// that gives it.
 Error why_not_usable(int error, const UsbDeviceInfo& info);
 
 struct UsbEvent {
