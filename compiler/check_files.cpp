@@ -56,12 +56,12 @@ std::string mended(const std::string& file, std::string text, const std::vector<
 /// Whether the file was changed.
 bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
   auto read = read_file(result.file);
-  if (!read || result.problem) return false;  // that it cannot be read, the check says
+  if (!read || !result.written) return false;  // that it cannot be read, the check says
   std::vector<Mend> mends;
   const std::string text = mended(result.file, read->bytes, roots, mends);
   if (text == read->bytes) return false;
-  result.problem = replace_file(result.file, text);
-  if (result.problem) return false;
+  result.written = replace_file(result.file, text);
+  if (!result.written) return false;
   result.mends.insert(result.mends.end(), mends.begin(), mends.end());
   return true;
 }
@@ -94,7 +94,7 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
 
 std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
   std::vector<MendedFile> results;
-  for (const auto& file : files) results.push_back({file, {}, std::nullopt});
+  for (const auto& file : files) results.push_back({.file = file});
   for (int pass = 0; pass < most_passes; ++pass) {
     bool changed = false;
     for (MendedFile& each : results) changed = mend_file(each, roots) || changed;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.hpp"
+#include "schema/result.hpp"
 
 namespace wale {
 
@@ -27,7 +27,7 @@ struct Mend {
 struct MendedFile {
   std::string file;
   std::vector<Mend> mends;
-  std::optional<std::string> problem;  ///< why the mends could not be written
+  Result<> written = {};  ///< the error (W0505) where the mends could not be written
 };
 
 /// Applies the safe fixes of the files, checks again, and so on until nothing more can be mended. Writes only files

@@ -141,7 +141,7 @@ std::vector<HeightTable> read_tables(ByteReader& in) {
     const std::uint64_t samples = std::uint64_t{table.width} * table.height;
     if (samples > in.remaining() / 2) {
       in.damaged(" claims ", table.width, " x ", table.height, " heights for table ", number, " and has ",
-             in.remaining(), " bytes left for them");
+                 in.remaining(), " bytes left for them");
     }
     table.heights.resize(samples);
     for (std::uint16_t& code : table.heights) code = in.u16();

@@ -193,8 +193,8 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 
-/// Why two materials cannot be compared blindly on this device.
-std::optional<Error> why_not_blind(const PreparedRun& run, const BlindMaterial& b) {
+/// Whether two materials can be compared blindly on this device. Error: W0607.
+Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
   const DeviceProfile& device = run.material.program.description().device;
   const std::string& other = b.program.description().device.name;
   if (other != device.name)
@@ -208,7 +208,7 @@ std::optional<Error> why_not_blind(const PreparedRun& run, const BlindMaterial& 
   if (plugged && !plugged->driver->is_felt)
     return Error{Code::other_device, fmt::format("the {} shows forces and does not exert them", device.name),
                  "choose a joystick, or `--device simulated`"};
-  return std::nullopt;
+  return {};
 }
 
 /// Which of two was A?
@@ -221,7 +221,7 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
   const BlindMaterial& a = run->material;
   const auto b = material_to_feel(load_programs(against, false), {});
   if (!b) return refused;
-  if (const auto error = why_not_blind(*run, *b)) return refuse(*error);
+  if (const auto able = can_be_blind(*run, *b); !able) return refuse(able.error());
   auto felt = open_prepared(options, *run, stop);
   if (!felt) return refused;
 

@@ -40,8 +40,8 @@ bool has_same_scale(const DeviceProfile& a, const DeviceProfile& b) {
          a.force_newton == b.force_newton && a.force_counts == b.force_counts && a.shaker == b.shaker;
 }
 
-/// Why a program does not suit the device that was chosen by its declaration; nothing where it does.
-std::optional<Error> why_unsuited(const PatchProgram& program, const DeviceProfile& declared, bool is_real) {
+/// Whether a program suits the device that was chosen by its declaration. Error: W0607.
+Result<> suits(const PatchProgram& program, const DeviceProfile& declared, bool is_real) {
   const std::string& built_for = program.device.name;
   if (built_for != declared.name)
     return Error{Code::other_device,
@@ -52,7 +52,7 @@ std::optional<Error> why_unsuited(const PatchProgram& program, const DeviceProfi
                  fmt::format("`{}` is built for a `{}` with other figures than its declaration has", program.material,
                              declared.name),
                  "build it again, so that its forces suit the device"};
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -92,8 +92,8 @@ Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& 
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop) {
   const ChosenDevice& chosen = device.chosen;
   if (chosen.declared)
-    if (auto error = why_unsuited(program, chosen.declared->profile, chosen.plugged.has_value()))
-      return *std::move(error);
+    if (auto suited = suits(program, chosen.declared->profile, chosen.plugged.has_value()); !suited)
+      return std::move(suited.error());
   if (!chosen.plugged) {
     auto opened = simulated(program, person, options.hand);
     if (!opened) return std::move(opened.error());

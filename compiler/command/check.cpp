@@ -24,8 +24,8 @@ bool mend(const std::vector<std::string>& files, const std::vector<std::string>&
   for (const auto& file : mend_files(files, roots)) {
     for (const auto& mend : file.mends)
       fmt::print(stderr, "mended {}:{}:{}: {}\n", file.file, mend.place.line, mend.place.column, mend.title);
-    if (file.problem) refuse(fmt::format("cannot write `{}`: {}", file.file, *file.problem));
-    written = written && !file.problem;
+    if (!file.written) refuse(file.written.error());
+    written = written && file.written;
   }
   return written;
 }

@@ -51,7 +51,11 @@ int describe_fates(const DescribeOptions& options) {
   const Choice& choice = options.choice;
   const auto opened = open(choice);
   if (!opened) return refused;
-  if (opened->program) return refuse(fmt::format("`{}` is built for one device already", choice.file));
+  if (opened->program)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = "this patch program is built for one device already",
+                        .mend = "name the Wale file that it was built from",
+                        .place = {.name = choice.file}});
   const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<DeviceFates> all;
@@ -64,10 +68,15 @@ int describe_fates(const DescribeOptions& options) {
       if (!fates) return refused;
       all.push_back(*std::move(fates));
     }
-  if (all.empty()) return refuse(fmt::format("`{}` has no material to describe", choice.file));
+  if (all.empty())
+    return refuse(Error{.code = Code::unknown_material,
+                        .sentence = "this file has no material to describe",
+                        .place = {.name = choice.file}});
   for (const std::string& setting : options.settings)
     if (!used.contains(setting))
-      return refuse(fmt::format("`--set {}` is a parameter of no material on any device", setting));
+      return refuse(Error{.code = Code::unknown_setting,
+                          .sentence = fmt::format("`{}` sets a parameter of no material on any device", setting),
+                          .place = {.name = "--set", .text = setting}});
   fmt::print("{}", options.json ? fates_json(all) : fates_text(all));
   return done;
 }

@@ -20,7 +20,7 @@ struct FormatOptions {
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
   auto read = read_file(standard ? "/dev/stdin" : file);
-  if (!read) return refuse(fmt::format("`{}` cannot be read: {}", file, read.error().sentence));
+  if (!read) return refuse(read.error());
   SourceSet sources;
   Diagnostics diagnostics;
   const SourceId source = sources.add(file, std::move(read->bytes));
@@ -35,8 +35,7 @@ int format_file(const std::string& file, bool check_only) {
   if (standard) {
     if (const auto written = write_file("-", *formatted); !written) return refuse(written.error());
   } else if (changes) {
-    if (const auto problem = replace_file(file, *formatted))
-      return refuse(fmt::format("cannot write `{}`: {}", file, *problem));
+    if (const auto written = replace_file(file, *formatted); !written) return refuse(written.error());
   }
   return done;
 }

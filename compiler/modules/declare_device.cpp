@@ -171,24 +171,9 @@ void read_motors(RecordReader& reader, DeviceProfile& profile) {
   }
 }
 
-}  // namespace
-
-void declare_device(RecordReader& reader, Declarations& declarations) {
-  const RecordDecl& record = reader.record;
-  DeviceDeclaration device;
-  device.documentation = record.documentation;
-  device.span = record.name.span;
+/// Rate, limits, filter and patch of a device, and the figures of its handle and motors.
+void read_figures(RecordReader& reader, const Declarations& declarations, DeviceDeclaration& device, bool vibrates) {
   DeviceProfile& profile = device.profile;
-  profile.name = record.name.text;
-  if (const auto* other = declarations.devices.entry(profile.name))
-    return reader.reject(Code::declared_twice, record.name.span,
-                         fmt::format("a device `{}` is declared already", profile.name), another_name(other->declared));
-
-  const bool vibrates = !reader.settings("acceleration").empty();
-  if (vibrates) {
-    profile.shaker = read_vibration(reader);
-    read_source_of_position(reader, profile);
-  }
   const bool has_position = profile.has_position();
   if (has_position) read_workspace(reader, profile);
   if (!vibrates) {
@@ -221,10 +206,11 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     read_handle(reader, profile, device.unknown);
     read_motors(reader, profile);
   }
-  read_wiring(reader, profile, device.wiring);
-  if (const auto* gain = vibrates ? nullptr : reader.setting("gain"); gain && is_unknown(*gain))
-    device.unknown.emplace_back("gain");
-  for (const auto& setting : record.settings)
+}
+
+/// Which figures nobody measured, and whether damping and friction are among those that are known.
+void read_assumptions(RecordReader& reader, DeviceDeclaration& device, bool vibrates) {
+  for (const auto& setting : reader.record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed") && (device.assumed.empty() || device.assumed.back() != setting.key.text))
         device.assumed.emplace_back(setting.key.text);
@@ -232,8 +218,14 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end() &&
            std::ranges::find(device.unknown, key) == device.unknown.end();
   };
-  profile.damping_known = !vibrates && known("damping");
-  profile.friction_known = !vibrates && known("friction");
+  device.profile.damping_known = !vibrates && known("damping");
+  device.profile.friction_known = !vibrates && known("friction");
+}
+
+/// The realisations of percepts: those of the device itself, and besides those of its class.
+void read_all_realisations(RecordReader& reader, const Declarations& declarations, DeviceDeclaration& device,
+                           bool vibrates) {
+  const DeviceProfile& profile = device.profile;
   read_realisations(reader, declarations, profile.name, device.realise);
   if (const auto* of_class = reader.setting("class"); of_class && !of_class->items.empty()) {
     device.of_class = words_of(of_class->items.front());
@@ -248,11 +240,37 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
   for (const auto& [percept, rule] : device.realise)
     if (rule.rate.has_value() != vibrates)
       reader.report(
-          Code::wrong_type, record.name.span,
+          Code::wrong_type, reader.record.name.span,
           fmt::format("`{}` {}, and its realisation of {} ({}) is {}", profile.name, vibrates ? "vibrates" : "pushes",
                       percept, rule.owner, vibrates ? "a force" : "a vibration"),
           vibrates ? "give how it shakes and its `rate`, or another class of devices"
                    : "give a force without a `rate`, or another class of devices");
+}
+
+}  // namespace
+
+void declare_device(RecordReader& reader, Declarations& declarations) {
+  const RecordDecl& record = reader.record;
+  DeviceDeclaration device;
+  device.documentation = record.documentation;
+  device.span = record.name.span;
+  DeviceProfile& profile = device.profile;
+  profile.name = record.name.text;
+  if (const auto* other = declarations.devices.entry(profile.name))
+    return reader.reject(Code::declared_twice, record.name.span,
+                         fmt::format("a device `{}` is declared already", profile.name), another_name(other->declared));
+
+  const bool vibrates = !reader.settings("acceleration").empty();
+  if (vibrates) {
+    profile.shaker = read_vibration(reader);
+    read_source_of_position(reader, profile);
+  }
+  read_figures(reader, declarations, device, vibrates);
+  read_wiring(reader, profile, device.wiring);
+  if (const auto* gain = vibrates ? nullptr : reader.setting("gain"); gain && is_unknown(*gain))
+    device.unknown.emplace_back("gain");
+  read_assumptions(reader, device, vibrates);
+  read_all_realisations(reader, declarations, device, vibrates);
   device.source = reader.text("source");
   const std::string name = profile.name;
   declarations.devices.add(name,

@@ -1,5 +1,6 @@
 #include "compiler/text/replace_file.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -55,21 +56,27 @@ class Temporary {
   bool kept_ = false;
 };
 
+Error unwritable(const std::string& path, const std::string& why) {
+  return {.code = Code::unwritable_file,
+          .sentence = fmt::format("cannot write this file: {}", why),
+          .place = {.name = path}};
+}
+
 }  // namespace
 
-std::optional<std::string> replace_file(const std::string& path, std::string_view bytes) {
+Result<> replace_file(const std::string& path, std::string_view bytes) {
   std::error_code error;
   const fs::path target = fs::canonical(path, error);
-  if (error) return error.message();
+  if (error) return unwritable(path, error.message());
   struct stat status {};
-  if (stat(target.c_str(), &status) != 0) return std::strerror(errno);
-  if (!S_ISREG(status.st_mode)) return "this is not a regular file";
-  if (access(target.c_str(), W_OK) != 0) return std::strerror(errno);
+  if (stat(target.c_str(), &status) != 0) return unwritable(path, std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) return unwritable(path, "it is not a regular file");
+  if (access(target.c_str(), W_OK) != 0) return unwritable(path, std::strerror(errno));
   Temporary temporary(target);
   if (!temporary.open() || !temporary.write(bytes) || !temporary.take_permissions_of(status) ||
       !temporary.rename_to(target))
-    return std::strerror(errno);
-  return std::nullopt;
+    return unwritable(path, std::strerror(errno));
+  return {};
 }
 
 }  // namespace wale

@@ -27,18 +27,18 @@ struct Driver;
 
 /// A device that is plugged in, as the driver that found it describes it.
 struct PluggedIn {
-  const Driver* driver = nullptr;         ///< never null in what a driver has found
-  std::string numbers = {};               ///< "1209:ffb0"; empty where it is not on USB
-  std::string port = {};                  ///< "1-2.3": where; the same when it is plugged in there again
-  std::string name = {};                  ///< as it calls itself; may be empty
-  std::string can = {};                   ///< what it can do, in a line; empty where that is not known
-  std::optional<Error> obstacle = {};     ///< why it cannot be used; nothing where no reason is known
-  std::string profile = {};               ///< the declared device that it is, where its driver knows; else empty
-  std::string transport = {};             ///< how it would be driven, and why; empty where there is one way only
+  const Driver* driver = nullptr;      ///< never null in what a driver has found
+  std::string numbers = {};            ///< "1209:ffb0"; empty where it is not on USB
+  std::string port = {};               ///< "1-2.3": where; the same when it is plugged in there again
+  std::string name = {};               ///< as it calls itself; may be empty
+  std::string can = {};                ///< what it can do, in a line; empty where that is not known
+  std::optional<Error> obstacle = {};  ///< why it cannot be used; nothing where no reason is known
+  std::string profile = {};            ///< the declared device that it is, where its driver knows; else empty
+  std::string transport = {};          ///< how it would be driven, and why; empty where there is one way only
   /// Other programs that have it open: "steam (4711) by /dev/input/event5".
   std::vector<std::string> held_by = {};
   long processes_hidden = 0;  ///< processes whose open files this user may not see
-  UsbDeviceInfo usb = {};                 ///< of a device on USB
+  UsbDeviceInfo usb = {};     ///< of a device on USB
 };
 
 /// "OpenFFBoard (1209:ffb0 at port 1-2)"

@@ -25,9 +25,7 @@ const Driver* find_driver(Drivers drivers, std::string_view name) {
   return found != drivers.end() ? *found : nullptr;
 }
 
-Connections Connections::open() {
-  return {UsbContext::open()};
-}
+Connections Connections::open() { return {UsbContext::open()}; }
 
 std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked, Drivers drivers) {
   std::vector<PluggedIn> all;

@@ -105,7 +105,7 @@ TEST(CheckFix, WhatCannotBeWrittenIsAnError) {
   ASSERT_EQ(chmod(file.c_str(), 0440), 0);
   const Outcome outcome = wale({"check", "--fix", file});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(contains(outcome.err, "cannot write `" + file + "`")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "error[W0505]: " + file + ": cannot write this file: ")) << outcome.err;
   EXPECT_EQ(bytes_of(file), wrong);
 }
 

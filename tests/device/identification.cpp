@@ -133,7 +133,8 @@ TEST(Identification, FrictionBeyondTheForceIsNoAnswer) {
   TurnedHandle handle(stiff, no_hand, {{{0, 1}, {1, 1}}}, {{{0, 1}, {1, 1}}});
   const Ran ran = identify(handle, stiff);
   EXPECT_FALSE(ran.found.motors_settled);
-  EXPECT_EQ(ran.found.problem, "its x motor: nothing moved: its friction is greater than the force, or the handle is blocked");
+  EXPECT_EQ(ran.found.problem,
+            "its x motor: nothing moved: its friction is greater than the force, or the handle is blocked");
   EXPECT_FLOAT_EQ(static_cast<float>(ran.largest), 2);
 }
 
@@ -162,7 +163,8 @@ Ran steered(const std::function<glm::dvec2(Force, long)>& where, const IdentifyO
 TEST(Identification, ABlockedAxisIsSaidToBe) {
   const Ran ran = steered([](Force force, long) { return glm::dvec2(0.01 * force.x, 0); });
   EXPECT_TRUE(ran.found.motors[0].moves);
-  EXPECT_EQ(ran.found.problem, "its y motor: nothing moved: its friction is greater than the force, or the handle is blocked");
+  EXPECT_EQ(ran.found.problem,
+            "its y motor: nothing moved: its friction is greater than the force, or the handle is blocked");
 }
 
 TEST(Identification, OneThatIsBlockedOneWayIsToldByTheOther) {

@@ -130,9 +130,6 @@ std::vector<std::string> circle_in(const std::map<std::string, Files>& graph) {
   return circle;
 }
 
-/// Folders with a circle that is known, to be mended.
-const std::set<std::string> known_circles = {"runtime/device/"};  // usb/ lists devices of falcon/ and hid_pid/
-
 TEST(Includes, HaveNoCircleInAnyFolder) {
   const Includes all = includes();
   Files folders = {""};
@@ -149,7 +146,7 @@ TEST(Includes, HaveNoCircleInAnyFolder) {
       }
     std::string text;
     for (const std::string& part : circle_in(graph)) text += part + " -> ";
-    EXPECT_EQ(text.empty(), !known_circles.contains(folder)) << text << " in `" << folder << "`";
+    EXPECT_EQ(text, "") << "in `" << folder << "`";
   }
 }
 

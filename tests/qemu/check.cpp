@@ -1,6 +1,6 @@
 // The USB drivers against models of devices that the kernel takes for real ones: its virtual host controller enumerates
-// them, its HID driver binds them, and they are reached through its usbfs, hidraw and evdev. Runs as root where vhci-hcd
-// is loaded; tests/qemu/run starts a kernel for it. What is asserted is counts, order and bytes.
+// them, its HID driver binds them, and they are reached through its usbfs, hidraw and evdev. Runs as root where
+// vhci-hcd is loaded; tests/qemu/run starts a kernel for it. What is asserted is counts, order and bytes.
 
 #include <algorithm>
 #include <charconv>

@@ -22,9 +22,8 @@ bool kernel_pushes() { return !pushing_input().empty(); }
 
 bool is_hidraw_there() {
   std::error_code error;
-  return std::ranges::any_of(std::filesystem::directory_iterator("/dev", error), [](const auto& entry) {
-    return entry.path().filename().string().starts_with("hidraw");
-  });
+  return std::ranges::any_of(std::filesystem::directory_iterator("/dev", error),
+                             [](const auto& entry) { return entry.path().filename().string().starts_with("hidraw"); });
 }
 
 std::string hidraw_of(const Found& found) { return kernel_nodes(found.info).hid.at(0).hidraw; }
@@ -93,7 +92,8 @@ void check_whole_life(UsbipPort& port, const PidFamily& family, PidTransportKind
     device->sample();
     device->command({newton, -newton});
   });
-  await_force(port, *device, {5, -5}, {0.5, 0.5}, "the newest force arrives (HID's y is to the user) " + device->reason());
+  await_force(port, *device, {5, -5}, {0.5, 0.5},
+              "the newest force arrives (HID's y is to the user) " + device->reason());
   demand(!device->was_lost(), "nothing is lost");
   const auto counts = device->counts();
   demand(counts.forces_sent[0] > 20 && counts.bad_inputs == 0, "packets go out");
@@ -115,7 +115,8 @@ void check_refused_set_up(UsbipPort& port, const PidFamily& family) {
 }
 
 void check_killed(UsbipPort& port, const PidFamily& family, PidTransportKind transport) {
-  OtherProcess wale({"wale", std::string(in_words(transport)), std::to_string(family.vendor), std::to_string(family.product)});
+  OtherProcess wale(
+      {"wale", std::string(in_words(transport)), std::to_string(family.vendor), std::to_string(family.product)});
   await([&] { return std::abs(force_of(port).x - 0.3) < near; }, "another process pushes");
   wale.kill();
   await([&] { return force_of(port) == glm::dvec2(0); }, "and when it is killed the force ends");
@@ -185,7 +186,9 @@ void reset_as_rival(const std::string& node, const PidFamily& family) {
 void check_rival(UsbipPort& port, const PidFamily& family) {
   const Found found = find(family.vendor, family.product);
   auto device = opened(found, PidTransportKind::hidraw);
-  tick(300, [&](long) { device->command({4, 0}); });  // its effects have been started again, so that their state is known
+  tick(300, [&](long) {
+    device->command({4, 0});
+  });  // its effects have been started again, so that their state is known
   await_force(port, *device, {4, 0}, {0.4, 0}, "it pushes");
   reset_as_rival(hidraw_of(found), family);
   await([&] { return device->was_lost(); }, "which is noticed: " + device->reason());

@@ -84,8 +84,9 @@ void measure(UsbipPort& port, const PidFamily& family, PidTransportKind transpor
   std::vector<std::int64_t> all = ages.of_axis[0];
   all.insert(all.end(), ages.of_axis[1].begin(), ages.of_axis[1].end());
   const auto arrived = static_cast<long>(all.size());
-  std::printf("   %-7s %5.0f %5.0f %5.0f   %6.2f %6.2f %7.2f   %5ld   %4.1f %%\n", std::string(in_words(transport)).c_str(),
-              static_cast<double>(ticks) / seconds, static_cast<double>(ages.of_axis[0].size()) / seconds,
+  std::printf("   %-7s %5.0f %5.0f %5.0f   %6.2f %6.2f %7.2f   %5ld   %4.1f %%\n",
+              std::string(in_words(transport)).c_str(), static_cast<double>(ticks) / seconds,
+              static_cast<double>(ages.of_axis[0].size()) / seconds,
               static_cast<double>(ages.of_axis[1].size()) / seconds, at(all, 0.5), at(all, 0.99), at(all, 1),
               std::max(0L, sent[0] + sent[1] - arrived), 100 * share);
   demand(!device->was_lost() && arrived > 100, "forces arrive by " + std::string(in_words(transport)));

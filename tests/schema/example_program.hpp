@@ -39,6 +39,43 @@ inline DeviceProfile device() {
   return device;
 }
 
+/// What `program` tells of the one percept that it realises.
+inline PerceptRecord roughness() {
+  using enum Operation;
+  PerceptRecord percept;
+  percept.name = "roughness";
+  percept.carrier = "lateral amplitude";
+  percept.parameter = 1;
+  percept.amplitude = 40;
+  percept.alone = true;
+  percept.prediction = {instruction(multiply, 43, 7, 35), instruction(add, 44, 43, 35)};
+  percept.magnitude = 43;
+  percept.level = 44;
+  percept.valid_low = 0.1f;
+  percept.valid_high = 4.0f;
+  percept.scatter = 0.05f;
+  percept.slope = Evidence::measured;
+  percept.anchor = Evidence::published;
+  percept.handle = Evidence::transferred;
+  percept.map = "roughness from amplitude";
+  percept.device = "sandpaper";
+  percept.source = "Minsky 1995, figure 19";
+  percept.unit = "N";
+  percept.extractor = Extractor::lateral_force;
+  percept.period_low = 0.0007f;
+  percept.period_high = 0.01f;
+  percept.one = 3.8f;
+  percept.near_threshold = 0.1f;
+  percept.spread = 0.4f;
+  percept.observers = 15;
+  percept.weber = 0.1f;
+  percept.floor = 0.05f;
+  percept.weber_evidence = Evidence::recalled;
+  percept.weber_source = "Tan 1992";
+  percept.realisation = "lateral(sin(x))";
+  return percept;
+}
+
 /// A sinusoidal grating of a live period whose force has a live amplitude, with a table, a state, grids, marks, a
 /// percept and layers: a program in which no part of the format is empty.
 ///
@@ -89,38 +126,7 @@ inline PatchProgram program() {
   p.patch_rim = 0.005f;
   p.active_watt = 0.25f;
   p.device = device();
-  PerceptRecord percept;
-  percept.name = "roughness";
-  percept.carrier = "lateral amplitude";
-  percept.parameter = 1;
-  percept.amplitude = 40;
-  percept.alone = true;
-  percept.prediction = {instruction(multiply, 43, 7, 35), instruction(add, 44, 43, 35)};
-  percept.magnitude = 43;
-  percept.level = 44;
-  percept.valid_low = 0.1f;
-  percept.valid_high = 4.0f;
-  percept.scatter = 0.05f;
-  percept.slope = Evidence::measured;
-  percept.anchor = Evidence::published;
-  percept.handle = Evidence::transferred;
-  percept.map = "roughness from amplitude";
-  percept.device = "sandpaper";
-  percept.source = "Minsky 1995, figure 19";
-  percept.unit = "N";
-  percept.extractor = Extractor::lateral_force;
-  percept.period_low = 0.0007f;
-  percept.period_high = 0.01f;
-  percept.one = 3.8f;
-  percept.near_threshold = 0.1f;
-  percept.spread = 0.4f;
-  percept.observers = 15;
-  percept.weber = 0.1f;
-  percept.floor = 0.05f;
-  percept.weber_evidence = Evidence::recalled;
-  percept.weber_source = "Tan 1992";
-  percept.realisation = "lateral(sin(x))";
-  p.percepts = {percept};
+  p.percepts = {roughness()};
   p.fates = {{"roughness", true, Fate::saturated, 0.75f, 0.5f, "`bench` gives no more"},
              {"force", false, Fate::kept, 0, 0, ""}};
   p.layers.representative = {{"title", {"Bench grating"}}, {"called", {"grating", "r\xc3\xa4ndel"}}, {"kind", {}}};

@@ -22,7 +22,8 @@ input_event event(std::uint16_t type, std::uint16_t code, std::int32_t value) {
 }  // namespace
 
 EvdevFake::EvdevFake(const Features& features) : features_(features) {
-  for (input_absinfo& axis : axes_) axis = {.value = 0, .minimum = -32767, .maximum = 32767, .fuzz = 255, .flat = 4095, .resolution = 0};
+  for (input_absinfo& axis : axes_)
+    axis = {.value = 0, .minimum = -32767, .maximum = 32767, .fuzz = 255, .flat = 4095, .resolution = 0};
   start();
 }
 

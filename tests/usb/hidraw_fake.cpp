@@ -47,7 +47,13 @@ int HidrawFake::answer(unsigned long request, void* argument) {
 
 int HidrawFake::report(std::uint8_t request_type, std::uint8_t request, std::uint8_t kind, std::uint8_t* bytes,
                        std::size_t size) {
-  const UsbModel::SetUp set_up{request_type, request, bytes[0], kind, 0, 0, static_cast<std::uint8_t>(size & 0xff),
+  const UsbModel::SetUp set_up{request_type,
+                               request,
+                               bytes[0],
+                               kind,
+                               0,
+                               0,
+                               static_cast<std::uint8_t>(size & 0xff),
                                static_cast<std::uint8_t>(size >> 8)};
   const bool is_in = request_type == class_in;
   const auto got = model_.control(set_up, is_in ? UsbModel::Bytes{} : UsbModel::Bytes(bytes, bytes + size));

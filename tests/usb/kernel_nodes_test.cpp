@@ -25,7 +25,8 @@ TEST(NodeHolders, AreFoundAmongTheOpenFilesOfOtherProcesses) {
   process(std::to_string(getpid()), "this", "/dev/hidraw3");
   std::filesystem::create_directories(proc.path() / "sys");
   const NodeHolders holders = who_holds({"/dev/hidraw3", "/dev/input/event5"}, proc.path());
-  EXPECT_EQ(holders.seen, (std::vector<NodeHolder>{{93, "joystick", "/dev/input/event5"}, {4211, "steam", "/dev/hidraw3"}}));
+  EXPECT_EQ(holders.seen,
+            (std::vector<NodeHolder>{{93, "joystick", "/dev/input/event5"}, {4211, "steam", "/dev/hidraw3"}}));
   EXPECT_EQ(in_words(holders),
             "joystick (process 93) has /dev/input/event5 open, steam (process 4211) has /dev/hidraw3 open");
   EXPECT_TRUE(in_words(who_holds({"/dev/hidraw4"}, proc.path())).empty());

@@ -13,9 +13,7 @@ using namespace hid;
 
 std::vector<std::uint8_t> bytes_of(const Packet& packet) { return {packet.view().begin(), packet.view().end()}; }
 
-ReportDescriptor parsed(const PidFamily& family) {
-  return *parse_report_descriptor(report_descriptor(family));
-}
+ReportDescriptor parsed(const PidFamily& family) { return *parse_report_descriptor(report_descriptor(family)); }
 
 TEST(OpenFFBoardReport, IsBytesAsItsHeaderSays) {
   // A1 type8 class16 instance8 command32 data64 address64, little-endian: is torque of axis 1?

@@ -105,10 +105,10 @@ class PidModel final : public UsbModel {
   std::vector<std::uint8_t> block_load();
 
   SimulatedJoystick stick_;
-  std::vector<std::uint8_t> vendor_answer_;  // that waits to be sent
+  std::vector<std::uint8_t> vendor_answer_;       // that waits to be sent
   std::deque<std::vector<std::uint8_t>> states_;  // that wait to be sent
-  long long now_ = 0;                        // ms
-  mutable long long listens_at_ = -1;        // ms, when the report that waits is taken; -1: none waits
+  long long now_ = 0;                             // ms
+  mutable long long listens_at_ = -1;             // ms, when the report that waits is taken; -1: none waits
   int created_ = 0;
   std::uint8_t last_created_ = 0;
 };

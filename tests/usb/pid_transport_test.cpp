@@ -67,10 +67,19 @@ TEST(HidrawTransport, AWholeLifeThatLeavesOthersTheirEffects) {
   EXPECT_EQ(device->transport(), PidTransportKind::hidraw);
   EXPECT_EQ(device->manner(), "one effect for each axis, by direction, by hidraw");
   // As through libusb, but for the reset, which would end what others play.
-  const std::vector<std::string> expected{
-      "GET 13", "OUT 0C 01", "OUT 0D FF", "SET 11 01 00 00", "GET 12", "SET 11 01 00 00", "GET 12",
-      "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00", "OUT 05 01 00 00", "OUT 0A 01 01 01",
-      "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00", "OUT 05 02 00 00", "OUT 0A 02 01 01"};
+  const std::vector<std::string> expected{"GET 13",
+                                          "OUT 0C 01",
+                                          "OUT 0D FF",
+                                          "SET 11 01 00 00",
+                                          "GET 12",
+                                          "SET 11 01 00 00",
+                                          "GET 12",
+                                          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+                                          "OUT 05 01 00 00",
+                                          "OUT 0A 01 01 01",
+                                          "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+                                          "OUT 05 02 00 00",
+                                          "OUT 0A 02 01 01"};
   until([&] { return log_of(fake).size() >= expected.size(); });
   const auto set_up = log_of(fake);
   EXPECT_EQ(std::vector<std::string>(set_up.begin(), set_up.begin() + static_cast<long>(expected.size())), expected);
@@ -315,8 +324,7 @@ TEST(PidTransport, ADescriptorThatIsNoDeviceIsRefused) {
   ASSERT_EQ(pipe(ends), 0);
   const auto reading = transport_of_descriptor(ends[0], NodeFake::ioctl);
   ASSERT_FALSE(reading);
-  EXPECT_EQ(reading.error().sentence,
-            "descriptor " + std::to_string(ends[0]) + " is not open for reading and writing");
+  EXPECT_EQ(reading.error().sentence, "descriptor " + std::to_string(ends[0]) + " is not open for reading and writing");
   EXPECT_EQ(reading.error().mend, "open it with O_RDWR");
   for (const int end : ends) close(end);
   const auto closed = transport_of_descriptor(ends[0], NodeFake::ioctl);

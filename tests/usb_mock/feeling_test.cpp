@@ -226,7 +226,8 @@ TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
   EXPECT_TRUE(device.is_generic);
   EXPECT_EQ(device.said,
             "using Stick of my own (1234:5678 at port 1-3) as usb_joystick\n"
-            "  no declaration is about it, so its figures are assumed; `wale devices --identify 1-3` prints one to begin with");
+            "  no declaration is about it, so its figures are assumed; `wale devices --identify 1-3` prints one to "
+            "begin with");
   auto joystick = opened(device);
   await([&] {
     joystick->command({5, 0});

@@ -87,7 +87,8 @@ TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
   EXPECT_EQ(listed[0].held_by, std::vector<std::string>{});
   ASSERT_TRUE(listed[1].obstacle && listed[2].obstacle);
   EXPECT_EQ(listed[1].obstacle->code, Code::no_force_device);
-  EXPECT_EQ(listed[1].obstacle->sentence, "it is not a force device: nothing in its report descriptor is of usage page 0F");
+  EXPECT_EQ(listed[1].obstacle->sentence,
+            "it is not a force device: nothing in its report descriptor is of usage page 0F");
   EXPECT_EQ(listed[2].obstacle->sentence, "another program has claimed it");
   EXPECT_EQ(felt->claims, felt->releases);
   EXPECT_EQ(felt->drivers_back, 0);
@@ -305,8 +306,7 @@ TEST_F(UsbDriver, IsLetGoInAnyOrder) {
   std::unique_ptr<HidPidDevice> device;
   {
     auto own = UsbContext::open();
-    auto result =
-        HidPidDevice::open(*own, found(1), joystick_profile(), in_mock_time());
+    auto result = HidPidDevice::open(*own, found(1), joystick_profile(), in_mock_time());
     device = *std::move(result);
   }
   device->command({1, 1});  // outlives its context's last other owner

@@ -5,7 +5,7 @@
 
 #include "runtime/device/falcon/falcon_device.hpp"
 #include "runtime/device/falcon/falcon_firmware.hpp"
-#include "runtime/device/usb/list_usb_devices.hpp"
+#include "runtime/device/list_usb_devices.hpp"
 
 namespace wale {
 

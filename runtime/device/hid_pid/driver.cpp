@@ -13,7 +13,7 @@
 #include "runtime/device/hid_pid/open_pid_transport.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/report_descriptor.hpp"
-#include "runtime/device/usb/list_usb_devices.hpp"
+#include "runtime/device/list_usb_devices.hpp"
 #include "schema/device_wiring.hpp"
 
 namespace wale {
@@ -80,8 +80,10 @@ void describe_hid_pid(PluggedIn& listed, const KernelNodes& nodes, libusb_device
     listed.transport = way_of(choice);
     listed.obstacle.reset();
     if (!choice.kind) {
-      listed.obstacle = Error{Code::no_permission, "no permission to open it",
-                              how_to_permit(listed.usb.vendor, listed.usb.product), {.name = "port " + listed.port}};
+      listed.obstacle = Error{Code::no_permission,
+                              "no permission to open it",
+                              how_to_permit(listed.usb.vendor, listed.usb.product),
+                              {.name = "port " + listed.port}};
     }
     return;
   }
@@ -105,13 +107,14 @@ OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugg
   if (!options.transport.empty()) {
     wanted.transport = read_transport_kind(options.transport);
     if (!wanted.transport) {
-      return Error{Code::malformed_value, "there is no transport `" + options.transport + "`",
-                   "there are hidraw, libusb and evdev", {.name = "--transport", .text = options.transport}};
+      return Error{Code::malformed_value,
+                   "there is no transport `" + options.transport + "`",
+                   "there are hidraw, libusb and evdev",
+                   {.name = "--transport", .text = options.transport}};
     }
   }
-  auto opened = options.descriptor < 0
-                    ? HidPidDevice::open(*connections.usb, plugged.usb, profile, wanted)
-                    : HidPidDevice::open(*connections.usb, options.descriptor, profile, wanted);
+  auto opened = options.descriptor < 0 ? HidPidDevice::open(*connections.usb, plugged.usb, profile, wanted)
+                                       : HidPidDevice::open(*connections.usb, options.descriptor, profile, wanted);
   if (!opened) return std::move(opened).error();
   if (options.descriptor >= 0) close(options.descriptor);  // the device has one of its own
   return *std::move(opened);

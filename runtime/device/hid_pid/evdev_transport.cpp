@@ -23,7 +23,7 @@ constexpr std::int64_t full_level = 32767;  // linux/input.h: ff_constant_effect
 // m sin along x and -m cos along y, which points to the user.
 constexpr std::uint16_t toward_x = 0x4000, toward_y = 0x8000;
 constexpr double steps_per_radian = 65536 / (2 * 3.14159265358979323846);
-constexpr std::uint16_t endless = 0;  // ff_replay: no length
+constexpr std::uint16_t endless = 0;         // ff_replay: no length
 constexpr std::int64_t most_length = 32767;  // ms
 
 template <std::size_t Bits>
@@ -42,8 +42,7 @@ void sleep_microseconds(std::int64_t duration) {
 
 }  // namespace
 
-EvdevNode::EvdevNode(OwnedDescriptor descriptor, IoctlCall ioctl)
-    : descriptor_(std::move(descriptor)), ioctl_(ioctl) {}
+EvdevNode::EvdevNode(OwnedDescriptor descriptor, IoctlCall ioctl) : descriptor_(std::move(descriptor)), ioctl_(ioctl) {}
 
 Result<EvdevNode> EvdevNode::open(const std::string& path, IoctlCall ioctl) {
   EvdevNode node(OwnedDescriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK)), ioctl);
@@ -64,8 +63,10 @@ Result<> EvdevNode::learn(const std::string& name) {
   BitSet<FF_MAX> forces{};
   if (call(EVIOCGBIT(EV_FF, forces.size()), forces.data()) < 0) return why_not_opened(errno, name);
   if (!has(forces, FF_CONSTANT)) {
-    return Error{Code::unlike_device, "the kernel's driver makes no constant force of it",
-                 "Linux 6.12.24 and later know more sticks", {.name = name}};
+    return Error{Code::unlike_device,
+                 "the kernel's driver makes no constant force of it",
+                 "Linux 6.12.24 and later know more sticks",
+                 {.name = name}};
   }
   has_gain_ = has(forces, FF_GAIN);
   has_autocenter_ = has(forces, FF_AUTOCENTER);
@@ -271,8 +272,9 @@ bool EvdevTransport::turn_and_push() {
   const double size = std::min(1.0, std::sqrt(wanted_.x * wanted_.x + wanted_.y * wanted_.y));
   const auto level = static_cast<std::int16_t>(level_of(size));
   const double turn = std::atan2(wanted_.x, -wanted_.y) * steps_per_radian;
-  const auto direction = level == 0 ? effects_[0].direction
-                                    : static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(turn)) & 0xffff);
+  const auto direction = level == 0
+                             ? effects_[0].direction
+                             : static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(turn)) & 0xffff);
   if (level == effects_[0].u.constant.level && direction == effects_[0].direction) return false;
   const bool is_turned = direction != effects_[0].direction;
   effects_[0].u.constant.level = level;

@@ -46,9 +46,9 @@ class EvdevNode {
 /// magnitude acts along the new direction; that is kept for drivers with room for one.
 ///
 /// An update returns before its report has gone, and the driver queues up to 256 of them, old forces before new ones.
-/// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it told
-/// when another program resets the device through hidraw. When the node is closed, also by a kill, the kernel erases the
-/// effects.
+/// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it
+/// told when another program resets the device through hidraw. When the node is closed, also by a kill, the kernel
+/// erases the effects.
 class EvdevTransport final : public PidTransport {
  public:
   struct Limits {
@@ -93,7 +93,7 @@ class EvdevTransport final : public PidTransport {
   const std::int64_t pace_, refresh_period_, silence_;  // microseconds
   Ranges ranges_;
   hid::Arrangement arrangement_ = hid::Arrangement::by_direction;
-  OwnedDescriptor ends_reading_;  // an eventfd
+  OwnedDescriptor ends_reading_;              // an eventfd
   std::array<input_absinfo, 2> positions_{};  // as they were before
 
   // The writer's.

@@ -72,8 +72,7 @@ Force HidPidDevice::command(Force force) noexcept {
 }
 
 std::string HidPidDevice::manner() const {
-  const std::string manner =
-      std::string(hid::in_words(arrangement())) + ", by " + std::string(in_words(transport()));
+  const std::string manner = std::string(hid::in_words(arrangement())) + ", by " + std::string(in_words(transport()));
   return why_.empty() ? manner : manner + " (" + why_ + ")";
 }
 

@@ -177,7 +177,8 @@ void HidrawChannel::read_inputs() {
   std::vector<std::uint8_t> report(most_report_bytes);
   while (true) {
     pollfd waits[2] = {{node_.descriptor(), POLLIN, 0}, {ends_reading_.get(), POLLIN, 0}};
-    if (poll(waits, 2, -1) < 0 && errno != EINTR) return listener_.silenced("its position cannot be read", Outcome::failed);
+    if (poll(waits, 2, -1) < 0 && errno != EINTR)
+      return listener_.silenced("its position cannot be read", Outcome::failed);
     if (waits[1].revents != 0) return;
     if (waits[0].revents == 0) continue;
     const ssize_t got = read(node_.descriptor(), report.data(), report.size());

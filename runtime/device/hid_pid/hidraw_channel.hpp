@@ -59,7 +59,7 @@ class HidrawChannel final : public ReportChannel {
 
   HidrawNode node_;
   Listener& listener_;
-  OwnedDescriptor ends_reading_;  // an eventfd
+  OwnedDescriptor ends_reading_;      // an eventfd
   std::vector<std::uint8_t> buffer_;  // of the thread that makes transfers
 
   std::mutex mutex_;  // of what follows

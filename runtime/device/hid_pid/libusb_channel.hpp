@@ -25,8 +25,8 @@ class LibusbInterface {
   static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
                                        const UsbHidInterface& interface);
   /// Of a usbfs node that somebody else has opened; it stays theirs.
-  static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, int descriptor,
-                                       const UsbDeviceInfo& info, const UsbHidInterface& interface);
+  static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, int descriptor, const UsbDeviceInfo& info,
+                                       const UsbHidInterface& interface);
   LibusbInterface(LibusbInterface&&) noexcept;
   LibusbInterface& operator=(LibusbInterface&&) = delete;
   ~LibusbInterface();

@@ -80,8 +80,8 @@ struct Attempt {
       case PidTransportKind::evdev: break;
     }
     if (known == nullptr || known->pushing.empty()) return without_node(kind);
-    return open_evdev(EvdevNode::open(known->pushing.front(), options.ioctl),
-                      {force_steps, interface.out_interval}, options);
+    return open_evdev(EvdevNode::open(known->pushing.front(), options.ioctl), {force_steps, interface.out_interval},
+                      options);
   }
 
   /// By the first interface that can push: a keyboard beside the joystick is not what stands in the way.
@@ -119,8 +119,8 @@ void add_reason(std::string& why, PidTransportKind kind, const std::string& reas
 // Measured by `tests/qemu/run rates` on 2026-11-22: the model of OpenFFBoard (full speed, a report each millisecond, an
 // effect for each axis) behind vhci_hcd in QEMU without hardware acceleration, on a machine of two processors that
 // builds kept busy, 4500 ticks in which both axes change. `loop`: ticks a second that the loop came to, of 900. Reports
-// that reached the device for each axis a second; the age of their force on arrival, in ms; reports that the kernel took
-// and the device never got; the share of a processor that the transport's threads needed.
+// that reached the device for each axis a second; the age of their force on arrival, in ms; reports that the kernel
+// took and the device never got; the share of a processor that the transport's threads needed.
 //
 //                          loop   x    y    median  99 %   most   lost  processor
 //   Linux 6.1.0-56   hidraw  794  291  291     1.5     7     15      0     19 %
@@ -136,9 +136,9 @@ void add_reason(std::string& why, PidTransportKind kind, const std::string& reas
 // The same hardware under less load gives more of each; the order does not depend on it. hidraw and libusb wait for the
 // device and lose nothing, so their forces are as fresh as the device is fast. hidraw costs no more, and games go on
 // seeing the stick: it comes first. libusb works where the kernel's driver has made no hidraw node, but takes the stick
-// from games. evdev queues what the device has not taken yet, old forces before new ones, and drops the newest where the
-// queue is full: where the device or the machine falls behind for a moment, forces are late for long. It is the last
-// resort, for users without permission to the other two.
+// from games. evdev queues what the device has not taken yet, old forces before new ones, and drops the newest where
+// the queue is full: where the device or the machine falls behind for a moment, forces are late for long. It is the
+// last resort, for users without permission to the other two.
 std::array<PidTransportKind, 3> transports_by_preference() noexcept {
   return {PidTransportKind::hidraw, PidTransportKind::libusb, PidTransportKind::evdev};
 }
@@ -190,8 +190,8 @@ Result<PidTransportKind> transport_of_descriptor(int descriptor, IoctlCall ioctl
   const int mode = fcntl(descriptor, F_GETFL);
   if (mode < 0) return Error{Code::malformed_value, name + " is not open", {}, {.name = name}};
   if ((mode & O_ACCMODE) != O_RDWR) {
-    return Error{Code::malformed_value, name + " is not open for reading and writing", "open it with O_RDWR",
-                 {.name = name}};
+    return Error{
+        Code::malformed_value, name + " is not open for reading and writing", "open it with O_RDWR", {.name = name}};
   }
   hidraw_devinfo numbers{};
   if (ioctl(descriptor, HIDIOCGRAWINFO, &numbers) >= 0) return PidTransportKind::hidraw;
@@ -199,8 +199,8 @@ Result<PidTransportKind> transport_of_descriptor(int descriptor, IoctlCall ioctl
   if (ioctl(descriptor, EVIOCGVERSION, &version) >= 0) return PidTransportKind::evdev;
   std::uint32_t capabilities = 0;
   if (ioctl(descriptor, USBDEVFS_GET_CAPABILITIES, &capabilities) >= 0) return PidTransportKind::libusb;
-  return Error{Code::malformed_value, name + " is of no USB device", "open a hidraw, evdev or usbfs node",
-               {.name = name}};
+  return Error{
+      Code::malformed_value, name + " is of no USB device", "open a hidraw, evdev or usbfs node", {.name = name}};
 }
 
 Result<std::unique_ptr<PidTransport>> open_pid_transport(const std::shared_ptr<UsbContext>& context, int descriptor,
@@ -209,7 +209,8 @@ Result<std::unique_ptr<PidTransport>> open_pid_transport(const std::shared_ptr<U
   if (!kind) return kind.error();
   // Who gave the descriptor may use the device as well, and nobody can tell: nothing of theirs is reset.
   if (*kind == PidTransportKind::hidraw) return open_hidraw(HidrawNode::of(descriptor, options.ioctl), true, options);
-  if (*kind == PidTransportKind::evdev) return open_evdev(EvdevNode::of(descriptor, options.ioctl), {.force_steps = force_steps}, options);
+  if (*kind == PidTransportKind::evdev)
+    return open_evdev(EvdevNode::of(descriptor, options.ioctl), {.force_steps = force_steps}, options);
   if (!context) return Error{Code::unusable_device, "USB cannot be used: there is no libusb"};
   const Result<UsbDeviceInfo> info = context->describe(descriptor);
   if (!info) return info.error();

@@ -254,7 +254,8 @@ PidLayout::State find_state(const ReportDescriptor& descriptor) {
 Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor) {
   const auto is_pid = [](const Collection& collection) { return collection.usage >> 16 == usages::pid_page; };
   if (std::none_of(descriptor.collections.begin(), descriptor.collections.end(), is_pid)) {
-    return Error{Code::no_force_device, "it is not a force device: nothing in its report descriptor is of usage page 0F"};
+    return Error{Code::no_force_device,
+                 "it is not a force device: nothing in its report descriptor is of usage page 0F"};
   }
 
   std::string wrong;

@@ -111,8 +111,8 @@ struct PidLayout {
 };
 
 /// Finds the reports of a force-feedback joystick by their usages. An error where a needed field is missing, where a
-/// declared range does not fit in its bits, or where a packet exceeds `most_packet_bytes`: "it has no Set Constant Force
-/// report (usage 0F:73)". The code is `no_force_device` where nothing is of the PID class, else `unlike_device`.
+/// declared range does not fit in its bits, or where a packet exceeds `most_packet_bytes`: "it has no Set Constant
+/// Force report (usage 0F:73)". The code is `no_force_device` where nothing is of the PID class, else `unlike_device`.
 Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor);
 
 }  // namespace wale::hid

@@ -24,7 +24,8 @@ struct HidInterface {
 };
 
 struct PidSessionOptions {
-  /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never. Playing effects are started again each third of it.
+  /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never.
+  /// Playing effects are started again each third of it.
   double effect_duration = 0.25;
   /// s without a command after which the force is none and effects are left to end.
   double command_silence = 0.1;
@@ -163,6 +164,13 @@ class PidSession {
     none
   };
 
+  /// Kinds of reports (HID 1.11, section 7.2.1).
+  static constexpr std::uint8_t input_report = 1, output_report = 2, feature_report = 3;
+
+  static constexpr std::int64_t microseconds(double seconds) noexcept {
+    return static_cast<std::int64_t>(seconds * 1e6);
+  }
+
   std::optional<Transfer> step_transfer() noexcept;
   void finish_step(Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now);
   void finish_load(Outcome outcome, std::span<const std::uint8_t> answer);
@@ -190,7 +198,8 @@ class PidSession {
   Step step_ = Step::read_descriptor;
   std::size_t effect_ = 0;  // that the step is about
   std::size_t created_ = 0;
-  bool lost_ = false, step_under_way_ = false, step_is_void_ = false, out_failed_ = false, poll_under_way_ = false, look_under_way_ = false;
+  bool lost_ = false, step_under_way_ = false, step_is_void_ = false, out_failed_ = false, poll_under_way_ = false,
+       look_under_way_ = false;
   int in_flight_ = 0, load_attempts_ = 0, failures_leaving_ = 0, bad_inputs_ = 0;
   std::string_view reason_;
   std::string refusal_;  // what `reason_` sees where it is not a literal

@@ -299,8 +299,6 @@ class Parser {
 
 }  // namespace
 
-Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes) {
-  return Parser(bytes).parse();
-}
+Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes) { return Parser(bytes).parse(); }
 
 }  // namespace wale::hid

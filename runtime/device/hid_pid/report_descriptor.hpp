@@ -92,8 +92,8 @@ constexpr std::size_t most_collection_depth = 64, most_pushed = 16;
 /// Reads a report descriptor. Any bytes are answered, in time proportional to their number, with memory bounded by the
 /// limits above. Of alternative usages between delimiters the first counts, which is the preferred one; designators and
 /// strings are skipped, and so are long items. A Usage Page that comes after the usages of an item is that of all of
-/// them (Linux reads it so); otherwise each short usage is of the page in force where it stands. An error has the offset
-/// of the item, from the first byte, as the number of its place.
+/// them (Linux reads it so); otherwise each short usage is of the page in force where it stands. An error has the
+/// offset of the item, from the first byte, as the number of its place.
 Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
 }  // namespace wale::hid

@@ -11,11 +11,11 @@ namespace wale {
 
 /// The nodes by which programs reach one interface of the HID class, where the kernel's driver is bound to it.
 struct HidNodes {
-  std::uint8_t interface = 0;        ///< its number
-  std::string hidraw;                ///< "/dev/hidraw3"; empty: there is none
-  std::vector<std::string> events;   ///< "/dev/input/event5", …
-  std::vector<std::string> pushing;  ///< the `events` whose driver makes constant forces
-  std::vector<std::string> others;   ///< "/dev/input/js0", …
+  std::uint8_t interface = 0;                   ///< its number
+  std::string hidraw;                           ///< "/dev/hidraw3"; empty: there is none
+  std::vector<std::string> events;              ///< "/dev/input/event5", …
+  std::vector<std::string> pushing;             ///< the `events` whose driver makes constant forces
+  std::vector<std::string> others;              ///< "/dev/input/js0", …
   std::vector<std::uint8_t> report_descriptor;  ///< as the kernel's driver has read it; empty where sysfs lacks it
 };
 

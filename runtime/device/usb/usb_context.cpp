@@ -89,8 +89,7 @@ Error why_not_usable(int error, const UsbDeviceInfo& info) {
       return {Code::no_permission, "no permission to open it", how_to_permit(info.vendor, info.product), place};
     case LIBUSB_ERROR_NO_DEVICE: return {Code::absent_device, "it was unplugged", {}, place};
     case LIBUSB_ERROR_BUSY: return {Code::unusable_device, "another program has claimed it", {}, place};
-    default:
-      return {Code::unusable_device, std::string("it cannot be opened: ") + libusb_strerror(error), {}, place};
+    default: return {Code::unusable_device, std::string("it cannot be opened: ") + libusb_strerror(error), {}, place};
   }
 }
 
@@ -105,7 +104,9 @@ Result<std::shared_ptr<UsbContext>> UsbContext::open() {
 Result<UsbDeviceInfo> UsbContext::describe(int descriptor) const {
   libusb_device_handle* handle = nullptr;
   if (const int error = libusb_wrap_sys_device(context_, descriptor, &handle); error != 0) {
-    return Error{Code::unusable_device, std::string("the device cannot be used: ") + libusb_strerror(error), {},
+    return Error{Code::unusable_device,
+                 std::string("the device cannot be used: ") + libusb_strerror(error),
+                 {},
                  {.name = "descriptor " + std::to_string(descriptor)}};
   }
   UsbDeviceInfo info = usb_device_info(libusb_get_device(handle));

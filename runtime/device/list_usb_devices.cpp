@@ -1,4 +1,4 @@
-#include "runtime/device/usb/list_usb_devices.hpp"
+#include "runtime/device/list_usb_devices.hpp"
 
 #include <libusb.h>
 

@@ -1,0 +1,177 @@
+// What a session does while it runs: forces out, positions and telemetry in.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "runtime/device/hid_pid/pid_session.hpp"
+
+namespace wale::hid {
+namespace {
+
+constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
+
+double finite_or_none(double value) noexcept { return std::isnan(value) ? 0 : std::clamp(value, -1.0, 1.0); }
+
+}  // namespace
+
+void PidSession::command(glm::dvec2 force, std::int64_t now) noexcept {
+  if (state_ != State::running) return;
+  if (pending_) ++counts_.overwritten;
+  wanted_ = {finite_or_none(force.x), finite_or_none(force.y)};
+  pending_ = true;
+  silent_ = false;
+  commanded_ = now;
+}
+
+void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now) noexcept {
+  if (state_ == State::over || !layout_) return;
+  if (const auto input = decode_input(*layout_, report)) {
+    input_ = *input;
+    heard_ = now;
+    bad_inputs_ = 0;
+    ++counts_.inputs;
+    return;
+  }
+  if (telemetry_ && take_telemetry(report)) {
+    ++counts_.other_reports;
+    return;
+  }
+  if (const auto state = decode_state(*layout_, report)) {
+    ++counts_.other_reports;
+    ++counts_.states;
+    return take_state(*state, now);
+  }
+  const bool is_numbered = layout_->input.id != 0;
+  if (is_numbered && !report.empty() && report[0] != layout_->input.id && input_bytes_[report[0]] != 0 &&
+      report.size() >= input_bytes_[report[0]]) {
+    ++counts_.other_reports;
+    return;
+  }
+  ++counts_.bad_inputs;
+  if (++bad_inputs_ >= options_.most_bad_inputs && state_ == State::running) {
+    lose("its input reports do not match its descriptor", Outcome::failed);
+  }
+}
+
+std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept {
+  if (now - commanded_ > microseconds(options_.command_silence) && !silent_) {
+    silent_ = true;
+    ++counts_.silences;
+    wanted_ = glm::dvec2(0);
+    pending_ = true;
+  }
+  if (in_flight_ < options_.most_in_flight) {
+    // An effect that is about to end comes first: this is rare, and an effect that has ended exerts no force.
+    for (std::size_t i = 0; i < effects() && duration_ != endless && !silent_; ++i) {
+      if (now < refresh_at_[i]) continue;
+      started_[i] = now;
+      refresh_at_[i] = now + microseconds(duration_ / 3);
+      ++in_flight_;
+      return output(encode_start(*layout_, blocks_[i], false), Transfer::Purpose::refresh);
+    }
+    if (auto transfer = force_transfer()) {
+      ++in_flight_;
+      return transfer;
+    }
+    if (auto transfer = telemetry_transfer(now)) {  // nothing else has to go now
+      ++in_flight_;
+      return transfer;
+    }
+  }
+  if (now - heard_ > microseconds(options_.input_silence) && !poll_under_way_) {
+    poll_under_way_ = true;
+    heard_ = now;  // so that the next poll is another silence later
+    ++counts_.polls;
+    return get_report(input_report, layout_->input, Transfer::Purpose::poll);
+  }
+  return look_transfer(now);
+}
+
+/// The part of the newest command that the device does not have yet. The axes take turns.
+std::optional<Transfer> PidSession::force_transfer() noexcept {
+  const auto purpose = Transfer::Purpose::force;
+  if (arrangement_ != Arrangement::combined) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t effect = (turn_ + i) % 2;
+      const double magnitude = effect == 0 ? wanted_.x : wanted_.y;
+      const std::int64_t counts = magnitude_counts(*layout_, magnitude);
+      if (counts == sent_[effect]) continue;
+      sent_[effect] = counts;
+      turn_ = 1 - effect;
+      pending_ = false;
+      ++counts_.forces_sent[effect];
+      return output(encode_constant_force(*layout_, blocks_[effect], magnitude), purpose);
+    }
+    pending_ = false;
+    return std::nullopt;
+  }
+
+  // One effect: turned by at most 90 degrees, the magnitude having the sign that this needs. A force along one line
+  // turns nothing; while it turns, the last magnitude holds for one packet.
+  double magnitude = std::min(1.0, std::sqrt(wanted_.x * wanted_.x + wanted_.y * wanted_.y));
+  if (magnitude_counts(*layout_, magnitude) != 0) {
+    double direction = std::atan2(wanted_.x, -wanted_.y) * degrees_per_radian;
+    const double change = direction - direction_ - 360 * std::round((direction - direction_) / 360);
+    if (std::abs(change) > 90) {
+      direction += 180;
+      magnitude = -magnitude;
+    }
+    const Packet turned = turned_effect(0, direction), before = turned_effect(0, direction_);
+    if (!turned_ && turned.bytes != before.bytes) {
+      direction_ = direction - 360 * std::floor(direction / 360);
+      turned_ = true;
+      pending_ = false;
+      ++counts_.directions_sent;
+      return output(turned, purpose);
+    }
+    if (turned_) {  // along the direction that was sent, also if the command has moved on
+      const double radians = direction_ / degrees_per_radian;
+      magnitude = wanted_.x * std::sin(radians) - wanted_.y * std::cos(radians);
+    }
+  }
+  turned_ = false;
+  pending_ = false;
+  const std::int64_t counts = magnitude_counts(*layout_, magnitude);
+  if (counts == sent_[0]) return std::nullopt;
+  sent_[0] = counts;
+  ++counts_.forces_sent[0];
+  return output(encode_constant_force(*layout_, blocks_[0], magnitude), purpose);
+}
+
+/// The next question of four, x and y of torque and position in turns.
+std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcept {
+  if (!telemetry_ || options_.telemetry_period <= 0 || now < telemetry_at_) return std::nullopt;
+  telemetry_at_ = now + microseconds(options_.telemetry_period);
+  openffboard::Message question;
+  question.instance = static_cast<std::uint8_t>(telemetry_->asked % 2);
+  question.command = telemetry_->asked / 2 % 2 == 0 ? openffboard::torque_command : openffboard::position_command;
+  ++telemetry_->asked;
+  return output(openffboard::encode(question), Transfer::Purpose::telemetry);
+}
+
+/// Whether a report is the vendor's. Keeps the torques and positions in it.
+bool PidSession::take_telemetry(std::span<const std::uint8_t> report) noexcept {
+  const auto message = openffboard::decode(report);
+  if (!message) return false;
+  using openffboard::Type;
+  if (message->type == Type::not_found || message->type == Type::error) ++telemetry_->refused;
+  if (message->type != Type::request || message->class_id != openffboard::axis_class || message->instance > 1) {
+    return true;
+  }
+  constexpr std::int64_t full = 32767;
+  const auto told = static_cast<std::int32_t>(std::clamp(message->data, -full - 1, full));
+  const std::size_t axis = message->instance;
+  if (message->command == openffboard::torque_command) {
+    telemetry_->torque[axis] = told;
+    telemetry_->most_torque[axis] = std::max(telemetry_->most_torque[axis], std::abs(told));
+  } else if (message->command == openffboard::position_command) {
+    telemetry_->position[axis] = told;
+  } else {
+    return true;
+  }
+  ++telemetry_->answered;
+  return true;
+}
+
+}  // namespace wale::hid

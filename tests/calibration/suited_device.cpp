@@ -1,0 +1,126 @@
+// A program knows the figures of the device that it was built for. A plugged device whose declaration has other figures
+// would turn the program's forces and places into others, so it does not get the program.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "calibration/feel/felt_device.hpp"
+#include "tests/calibration/declared.hpp"
+
+namespace wale::suited_device_test {
+namespace {
+
+using Change = std::function<void(DeviceProfile&)>;
+
+/// A driver whose devices say that they were asked, and cannot be opened: a program that comes so far was accepted.
+const Driver reached{
+    .name = "reached",
+    .is_chosen_by_auto = false,
+    .is_felt = true,
+    .find = [](const Connections&, const PluggedIn*) { return std::vector<PluggedIn>{}; },
+    .open = [](const Connections&, const PluggedIn&, const DeviceProfile&, const DeviceOptions&) -> OpenedDevice {
+      return Error{Code::lost_device, "it was asked"};
+    }};
+
+const Error suited{Code::lost_device, "it was asked"};
+
+PatchProgram built_for(const std::string& device) {
+  return calibrating::Declared(
+             "material wall { physical { force = -100 N/m * hand + lateral(grating(x, period: 5 mm), amplitude: 1 N) } "
+             "}")
+      .program("wall", device)
+      .description();
+}
+
+/// What comes of a program whose device's figures were changed after it was built, on that device as it is declared.
+Error on_plugged(PatchProgram program, const Change& change) {
+  DeviceToFeel device;
+  device.connections = Connections{.usb = Error{Code::unusable_device, "no USB here"}};
+  device.chosen.declared = DeclaredDevice{.profile = program.device};
+  device.chosen.plugged = PluggedIn{.driver = &reached, .port = "1-1"};
+  change(program.device);
+  const std::atomic<bool> stop{false};
+  const auto opened = open_to_feel(
+      device, program, {}, {}, [](const std::string&) {}, stop);
+  return opened ? Error{} : opened.error();
+}
+
+TEST(SuitedDevice, ItsOwnProgramReachesIt) {
+  for (const char* device : {"openffboard", "touch_pad"}) {
+    const Error error = on_plugged(built_for(device), [](DeviceProfile&) {});
+    EXPECT_EQ(error.code, suited.code) << device << ": " << error.sentence;
+    EXPECT_EQ(error.sentence, suited.sentence) << device;
+  }
+}
+
+TEST(SuitedDevice, OtherFiguresOfForceAndPlaceAreRefused) {
+  const std::map<std::string, Change> changes{
+      {"rate", [](DeviceProfile& profile) { profile.rate *= 2; }},
+      {"workspace", [](DeviceProfile& profile) { profile.workspace_diameter *= 1.01; }},
+      {"position counts", [](DeviceProfile& profile) { profile.position_counts += 1; }},
+      {"force", [](DeviceProfile& profile) { profile.force_newton *= 3; }},
+      {"force counts", [](DeviceProfile& profile) { profile.force_counts -= 1; }},
+  };
+  const PatchProgram program = built_for("openffboard");
+  for (const auto& [figure, change] : changes) {
+    const Error error = on_plugged(program, change);
+    EXPECT_EQ(code_name(error.code), "W0607") << figure << ": " << error.sentence;
+    EXPECT_EQ(error.sentence, "`wall` is built for a `openffboard` with other figures than its declaration has");
+    EXPECT_FALSE(error.mend.empty()) << figure;
+  }
+}
+
+TEST(SuitedDevice, OtherFiguresOfVibrationAreRefused) {
+  const std::map<std::string, Change> changes{
+      {"rate", [](DeviceProfile& profile) { profile.rate *= 2; }},
+      {"source of the position", [](DeviceProfile& profile) { profile.shaker->position = PositionSource::pointer; }},
+      {"lowest frequency", [](DeviceProfile& profile) { profile.shaker->frequency_low += 1; }},
+      {"spin up", [](DeviceProfile& profile) { profile.shaker->spin_up += 0.01; }},
+      {"acceleration",
+       [](DeviceProfile& profile) { profile.shaker->response.front().points.front().acceleration *= 1.1; }},
+      {"frequency of a response", [](DeviceProfile& profile) { profile.shaker->response.front().frequency += 0.5; }},
+      {"no vibration", [](DeviceProfile& profile) { profile.shaker.reset(); }},
+  };
+  const PatchProgram program = built_for("touch_pad");
+  for (const auto& [figure, change] : changes) {
+    const Error error = on_plugged(program, change);
+    EXPECT_EQ(code_name(error.code), "W0607") << figure << ": " << error.sentence;
+  }
+}
+
+// Forces and places stay the same when somebody weighs the handle.
+TEST(SuitedDevice, FiguresThatScaleNothingMayDiffer) {
+  const Error error = on_plugged(built_for("openffboard"), [](DeviceProfile& profile) {
+    profile.mass += 0.1;
+    profile.damping += 1;
+    profile.friction += 1;
+    profile.damping_known = !profile.damping_known;
+  });
+  EXPECT_EQ(error.code, suited.code) << error.sentence;
+}
+
+TEST(SuitedDevice, AProgramForAnotherDeviceIsRefused) {
+  const Error error = on_plugged(built_for("openffboard"), [](DeviceProfile& profile) { profile.name = "sandpaper"; });
+  EXPECT_EQ(code_name(error.code), "W0607") << error.sentence;
+  EXPECT_EQ(error.sentence, "`wall` is built for `sandpaper`, not for `openffboard`");
+}
+
+// The simulation takes the figures of the program, so nothing can disagree.
+TEST(SuitedDevice, ASimulatedDeviceTakesTheFiguresOfTheProgram) {
+  PatchProgram program = built_for("openffboard");
+  DeviceToFeel device;
+  device.chosen.declared = DeclaredDevice{.profile = program.device};
+  program.device.force_newton *= 3;
+  const std::atomic<bool> stop{false};
+  const auto opened = open_to_feel(
+      device, program, {}, {.hand = "rest"}, [](const std::string&) {}, stop);
+  ASSERT_TRUE(opened) << opened.error().sentence;
+  EXPECT_EQ(opened->device->profile().force_newton, program.device.force_newton);
+}
+
+}  // namespace
+}  // namespace wale::suited_device_test
