@@ -360,7 +360,7 @@ void StatementChecker::warn_of_unused_names(Span own) const {
     const bool written_here =
         binding.declared.source == own.source && binding.declared.begin >= own.begin && binding.declared.end <= own.end;
     if (written_here && !binding.used && !binding.value.failed())
-      unused.emplace_back(binding.key.name, binding.declared);
+      unused.emplace_back(binding.name, binding.declared);
   }
   std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
   for (const auto& [name, span] : unused) {

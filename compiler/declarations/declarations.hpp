@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "compiler/declarations/dimension.hpp"
@@ -13,7 +14,6 @@
 #include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/graph/term.hpp"
 #include "compiler/parse/syntax_tree.hpp"
-#include "compiler/text/name_index.hpp"
 #include "schema/declared_device.hpp"
 #include "schema/device_wiring.hpp"
 #include "schema/patch_program.hpp"
@@ -48,21 +48,21 @@ class Names {
   /// Names that are looked up where this has none.
   void stand_on(const Names& common) { common_ = &common; }
 
-  const Entry* entry(const NameKey& name) const {
+  const Entry* entry(std::string_view name) const {
     for (const Names* names = this; names; names = names->common_)
-      if (const auto* found = names->index_.find(name)) return *found;
+      if (const auto found = names->index_.find(name); found != names->index_.end()) return found->second;
     return nullptr;
   }
-  const T* find(const NameKey& name) const {
+  const T* find(std::string_view name) const {
     const Entry* found = entry(name);
     return found ? &found->what : nullptr;
   }
-  bool contains(const NameKey& name) const { return entry(name) != nullptr; }
+  bool contains(std::string_view name) const { return entry(name) != nullptr; }
 
   /// Enters a name that is not there yet.
   void add(std::string_view name, Entry entry) {
     const auto [added, is_new] = own_.emplace(name, std::move(entry));
-    if (is_new) index_.add(added->first, &added->second);
+    if (is_new) index_.emplace(added->first, &added->second);
   }
 
   /// Names that the file itself declares or imports.
@@ -82,7 +82,7 @@ class Names {
 
  private:
   std::map<std::string, Entry> own_;
-  NameIndex<const Entry*> index_;  ///< into `own_`: every word of a text is looked up
+  std::unordered_map<std::string_view, const Entry*> index_;  ///< into `own_`: every word of a text is looked up
   const Names* common_ = nullptr;
 };
 
@@ -203,7 +203,7 @@ struct Declarations {
   std::vector<std::string> percept_spellings() const;
 
   /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
-  Dimension dimension(const NameKey& name) const {
+  Dimension dimension(std::string_view name) const {
     const auto* found = dimensions.find(name);
     return found ? *found : Dimension{};
   }

@@ -53,7 +53,7 @@ Value number(Reading& reading, const SyntaxTree& tree, ExprId expr, const Number
   std::size_t next = 0;
   for (; next < suffix.size(); ++next) {
     const auto& part = suffix[next];
-    const NameKey key = part.name.text;
+    const std::string_view key = part.name.text;
     const Unit* found = reading.names->units.find(key);
     if (!found) break;
     if (const auto* binding = scope.find(key)) return ambiguous_unit(reading, part.name, binding->declared);

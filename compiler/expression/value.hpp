@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "compiler/declarations/dimension.hpp"
 #include "compiler/graph/term.hpp"
-#include "compiler/text/name_index.hpp"
 
 namespace wale {
 
@@ -83,7 +83,7 @@ inline std::string type_words(Value::Type type) {
 class Scope {
  public:
   struct Binding {
-    NameKey key;
+    std::string_view name;
     Value value;
     Span declared;
     bool used = false;
@@ -92,26 +92,26 @@ class Scope {
   bool hand = false;  ///< position, velocity and the patch may be used
 
   /// Null where nothing has that name. Valid until the next name is declared.
-  Binding* find(const NameKey& name) {
+  Binding* find(std::string_view name) {
     const std::size_t index = index_of(name);
     return index < bindings_.size() ? &bindings_[index] : nullptr;
   }
-  const Binding* find(const NameKey& name) const {
+  const Binding* find(std::string_view name) const {
     const std::size_t index = index_of(name);
     return index < bindings_.size() ? &bindings_[index] : nullptr;
   }
   /// A name that is there.
-  Binding& at(const NameKey& name) { return bindings_.at(index_of(name)); }
+  Binding& at(std::string_view name) { return bindings_.at(index_of(name)); }
 
   /// Enters a name, in the place of the one that was there.
-  void declare(const NameKey& name, const Value& value, Span declared) {
+  void declare(std::string_view name, const Value& value, Span declared) {
     if (Binding* known = find(name)) {
       *known = {name, value, declared};
       return;
     }
     bindings_.push_back({name, value, declared});
     if (bindings_.size() <= few) return;
-    for (std::size_t i = places_.size(); i < bindings_.size(); ++i) places_.add(bindings_[i].key, i);
+    for (std::size_t i = places_.size(); i < bindings_.size(); ++i) places_.emplace(bindings_[i].name, i);
   }
 
   /// Forgets all names, to be used again for others.
@@ -128,26 +128,26 @@ class Scope {
   /// All names in alphabetical order.
   std::vector<std::string> spellings() const {
     std::vector<std::string> names;
-    for (const Binding& binding : bindings_) names.emplace_back(binding.key.name);
+    for (const Binding& binding : bindings_) names.emplace_back(binding.name);
     std::ranges::sort(names);
     return names;
   }
 
  private:
-  /// Up to so many names, those of most functions, are faster looked through than looked up.
+  /// Up to this many names, which most functions have, a search is faster than an index.
   static constexpr std::size_t few = 8;
 
-  std::size_t index_of(const NameKey& name) const {
+  std::size_t index_of(std::string_view name) const {
     if (bindings_.size() > few) {
-      const std::size_t* place = places_.find(name);
-      return place ? *place : bindings_.size();
+      const auto place = places_.find(name);
+      return place == places_.end() ? bindings_.size() : place->second;
     }
-    const auto found = std::ranges::find(bindings_, name, &Binding::key);
+    const auto found = std::ranges::find(bindings_, name, &Binding::name);
     return static_cast<std::size_t>(found - bindings_.begin());
   }
 
   std::vector<Binding> bindings_;
-  NameIndex<std::size_t> places_;  ///< in `bindings_`, once there are more than a few
+  std::unordered_map<std::string_view, std::size_t> places_;  ///< in `bindings_`, once there are more than a few
 };
 
 /// A force algorithm's size, fixed or left open, at one of its calls: "lateral amplitude".

@@ -171,57 +171,45 @@ void read_motors(RecordReader& reader, DeviceProfile& profile) {
   }
 }
 
-/// How it shakes or pushes, and where it has the hand's place from.
-void read_actuators(RecordReader& reader, DeviceProfile& profile) {
-  if (!reader.settings("acceleration").empty()) {
-    profile.shaker = read_vibration(reader);
-    read_source_of_position(reader, profile);
-  }
-  if (profile.has_position()) read_workspace(reader, profile);
-  if (profile.shaker) return;
-  profile.position_counts = reader.positive("position", 0, "number", "4096 counts");
-  profile.force_newton = reader.positive("force", 0, "force", "10 N, 2048 counts");
-  if (const auto* force = reader.setting("force"))
-    profile.force_counts = reader.quantity(*force, 1, "number").value_or(0);
-}
-
-/// `slew 200 N/s`, which only a device that pushes has to have.
-void read_slew(RecordReader& reader, DeviceProfile& profile) {
-  if (!profile.shaker) {
-    profile.slew = reader.positive("slew", 0, "slew", "200 N/s");
-    return;
-  }
-  const auto* slew = reader.setting("slew");
-  if (!slew || slew->items.empty() || !slew->items[0].value) return;
-  const Dimension jerk = reader.declarations.dimension("acceleration") / reader.declarations.dimension("time");
-  profile.slew = reader.value(*slew->items[0].value, jerk).value_or(0);
-}
-
-/// How fast the hand and the output may move, and how the hand's velocity is filtered.
-void read_limits_of_motion(RecordReader& reader, DeviceProfile& profile) {
+/// Rate, limits, filter and patch of a device, and the figures of its handle and motors.
+void read_figures(RecordReader& reader, const Declarations& declarations, DeviceDeclaration& device, bool vibrates) {
+  DeviceProfile& profile = device.profile;
   const bool has_position = profile.has_position();
+  if (has_position) read_workspace(reader, profile);
+  if (!vibrates) {
+    profile.position_counts = reader.positive("position", 0, "number", "4096 counts");
+    profile.force_newton = reader.positive("force", 0, "force", "10 N, 2048 counts");
+    if (const auto* force = reader.setting("force"))
+      profile.force_counts = reader.quantity(*force, 1, "number").value_or(0);
+  }
+  read_rate(reader, profile);
   if (has_position)
     profile.speed_limit = reader.positive("speed", 0, "velocity", "1 m/s");
   else
     profile.shaker->exploring_speed = reader.positive("explores", 0, "velocity", "0.1 m/s");
-  read_slew(reader, profile);
+  if (!vibrates)
+    profile.slew = reader.positive("slew", 0, "slew", "200 N/s");
+  else if (const auto* slew = reader.setting("slew"); slew && !slew->items.empty() && slew->items[0].value)
+    profile.slew =
+        reader.value(*slew->items[0].value, declarations.dimension("acceleration") / declarations.dimension("time"))
+            .value_or(0);
   if (const auto* filter = has_position ? reader.required("velocity_filter", "15, 1 counts") : nullptr) {
     profile.velocity_window = reader.quantity(*filter, 0, "number").value_or(0);
     profile.velocity_noise_counts = reader.quantity(*filter, 1, "number").value_or(0);
   }
+  if (const auto* patch = reader.required("patch", "160 mm, 160 mm, 5 mm")) {
+    profile.patch_width = reader.quantity(*patch, 0, "length").value_or(0);
+    profile.patch_height = reader.quantity(*patch, 1, "length").value_or(0);
+    profile.patch_rim = reader.quantity(*patch, 2, "length").value_or(0);
+  }
+  if (!vibrates) {
+    read_handle(reader, profile, device.unknown);
+    read_motors(reader, profile);
+  }
 }
 
-/// `patch 160 mm, 160 mm, 5 mm`: width, height and rim of the patch of a material that declares none.
-void read_patch(RecordReader& reader, DeviceProfile& profile) {
-  const auto* patch = reader.required("patch", "160 mm, 160 mm, 5 mm");
-  if (!patch) return;
-  profile.patch_width = reader.quantity(*patch, 0, "length").value_or(0);
-  profile.patch_height = reader.quantity(*patch, 1, "length").value_or(0);
-  profile.patch_rim = reader.quantity(*patch, 2, "length").value_or(0);
-}
-
-/// Which figures are assumed, and which of those that grades rest on somebody measured.
-void read_what_is_known(RecordReader& reader, DeviceDeclaration& device) {
+/// Which figures nobody measured, and whether damping and friction are among those that are known.
+void read_assumptions(RecordReader& reader, DeviceDeclaration& device, bool vibrates) {
   for (const auto& setting : reader.record.settings)
     for (const auto& item : setting.items)
       if (has_word(item, "assumed") && (device.assumed.empty() || device.assumed.back() != setting.key.text))
@@ -230,17 +218,15 @@ void read_what_is_known(RecordReader& reader, DeviceDeclaration& device) {
     return reader.setting(key) && std::ranges::find(device.assumed, key) == device.assumed.end() &&
            std::ranges::find(device.unknown, key) == device.unknown.end();
   };
-  DeviceProfile& profile = device.profile;
-  profile.damping_known = !profile.shaker && known("damping");
-  profile.friction_known = !profile.shaker && known("friction");
+  device.profile.damping_known = !vibrates && known("damping");
+  device.profile.friction_known = !vibrates && known("friction");
 }
 
-/// Which percepts it realises and how, by rules of its own and by those of its class.
-void read_all_realisations(RecordReader& reader, DeviceDeclaration& device) {
-  const Declarations& declarations = reader.declarations;
-  const std::string& name = device.profile.name;
-  const bool vibrates = device.profile.shaker.has_value();
-  read_realisations(reader, declarations, name, device.realise);
+/// The realisations of percepts: those of the device itself, and besides those of its class.
+void read_all_realisations(RecordReader& reader, const Declarations& declarations, DeviceDeclaration& device,
+                           bool vibrates) {
+  const DeviceProfile& profile = device.profile;
+  read_realisations(reader, declarations, profile.name, device.realise);
   if (const auto* of_class = reader.setting("class"); of_class && !of_class->items.empty()) {
     device.of_class = words_of(of_class->items.front());
     if (const auto* found = declarations.classes.find(device.of_class))
@@ -253,11 +239,12 @@ void read_all_realisations(RecordReader& reader, DeviceDeclaration& device) {
   }
   for (const auto& [percept, rule] : device.realise)
     if (rule.rate.has_value() != vibrates)
-      reader.report(Code::wrong_type, reader.record.name.span,
-                    fmt::format("`{}` {}, and its realisation of {} ({}) is {}", name, vibrates ? "vibrates" : "pushes",
-                                percept, rule.owner, vibrates ? "a force" : "a vibration"),
-                    vibrates ? "give how it shakes and its `rate`, or another class of devices"
-                             : "give a force without a `rate`, or another class of devices");
+      reader.report(
+          Code::wrong_type, reader.record.name.span,
+          fmt::format("`{}` {}, and its realisation of {} ({}) is {}", profile.name, vibrates ? "vibrates" : "pushes",
+                      percept, rule.owner, vibrates ? "a force" : "a vibration"),
+          vibrates ? "give how it shakes and its `rate`, or another class of devices"
+                   : "give a force without a `rate`, or another class of devices");
 }
 
 }  // namespace
@@ -273,20 +260,17 @@ void declare_device(RecordReader& reader, Declarations& declarations) {
     return reader.reject(Code::declared_twice, record.name.span,
                          fmt::format("a device `{}` is declared already", profile.name), another_name(other->declared));
 
-  read_actuators(reader, profile);
-  const bool vibrates = profile.shaker.has_value();
-  read_rate(reader, profile);
-  read_limits_of_motion(reader, profile);
-  read_patch(reader, profile);
-  if (!vibrates) {
-    read_handle(reader, profile, device.unknown);
-    read_motors(reader, profile);
+  const bool vibrates = !reader.settings("acceleration").empty();
+  if (vibrates) {
+    profile.shaker = read_vibration(reader);
+    read_source_of_position(reader, profile);
   }
+  read_figures(reader, declarations, device, vibrates);
   read_wiring(reader, profile, device.wiring);
   if (const auto* gain = vibrates ? nullptr : reader.setting("gain"); gain && is_unknown(*gain))
     device.unknown.emplace_back("gain");
-  read_what_is_known(reader, device);
-  read_all_realisations(reader, device);
+  read_assumptions(reader, device, vibrates);
+  read_all_realisations(reader, declarations, device, vibrates);
   device.source = reader.text("source");
   const std::string name = profile.name;
   declarations.devices.add(name,

@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <cstring>
 
 #include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/lexer.hpp"
@@ -79,28 +78,18 @@ constexpr auto ends_plain_text = [] {
   return table;
 }();
 
-/// A word of up to four letters as a number, to be compared at once.
-constexpr std::uint32_t packed(std::string_view word) {
-  std::uint32_t number = 0;
-  for (const char c : word) number = number << 8 | static_cast<unsigned char>(c);
-  return number;
-}
+constexpr Spelling words[] = {
+    {"if", TokenKind::word_if},   {"then", TokenKind::word_then}, {"else", TokenKind::word_else},
+    {"in", TokenKind::word_in},   {"on", TokenKind::word_on},     {"from", TokenKind::word_from},
+    {"and", TokenKind::word_and}, {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
+};
 
 /// A name, or one of the words that cannot be names, all of which are short.
 TokenKind kind_of_word(std::string_view word) {
-  if (word.size() > sizeof(std::uint32_t)) return TokenKind::name;
-  switch (packed(word)) {
-    case packed("if"): return TokenKind::word_if;
-    case packed("then"): return TokenKind::word_then;
-    case packed("else"): return TokenKind::word_else;
-    case packed("in"): return TokenKind::word_in;
-    case packed("on"): return TokenKind::word_on;
-    case packed("from"): return TokenKind::word_from;
-    case packed("and"): return TokenKind::word_and;
-    case packed("or"): return TokenKind::word_or;
-    case packed("not"): return TokenKind::word_not;
-    default: return TokenKind::name;
-  }
+  constexpr std::size_t longest = 4;
+  if (word.size() > longest) return TokenKind::name;
+  const auto found = std::ranges::find(words, word, &Spelling::text);
+  return found == std::end(words) ? TokenKind::name : found->kind;
 }
 
 bool is_bracket(TokenKind kind) { return kind >= TokenKind::left_parenthesis && kind <= TokenKind::right_brace; }
@@ -156,9 +145,11 @@ bool Lexer::is_readable() {
          {"limit", NumberWithUnit{largest_source / 1048576.0, "MB"}}});
     return false;
   }
-  for (std::size_t at = 0;;) {
-    at = end_of_ascii(at);
-    if (at == text_.size()) return true;
+  for (std::size_t at = 0; at < text_.size();) {
+    if (text_[at] > 0) {  // ASCII, as nearly all are
+      ++at;
+      continue;
+    }
     const Character character = decode(text_, at);
     if (!character.valid || character.code == 0) {
       report(Code::invalid_encoding, at, at + 1,
@@ -169,17 +160,7 @@ bool Lexer::is_readable() {
     }
     at += character.bytes;
   }
-}
-
-/// The first byte from `at` on that is no ASCII character, or NUL; eight at a time, since nearly all are.
-std::size_t Lexer::end_of_ascii(std::size_t at) const {
-  constexpr std::uint64_t ones = 0x0101010101010101, tops = 0x8080808080808080;
-  for (std::uint64_t eight; at + sizeof eight <= text_.size(); at += sizeof eight) {
-    std::memcpy(&eight, text_.data() + at, sizeof eight);
-    if (((eight | (eight - ones)) & tops) != 0) break;  // a top bit is set, or something borrowed one
-  }
-  while (at < text_.size() && text_[at] > 0) ++at;
-  return at;
+  return true;
 }
 
 // Nearly all of a text: names, numbers, symbols of one character, and the space between them.
@@ -196,34 +177,6 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
     return foreign_name();
   }
   add(kind_of_word({text_.data() + begin, at_ - begin}), begin);
-}
-
-/// Takes a number that digits and perhaps a point are all of, as nearly all are; false where there is more to it.
-[[gnu::always_inline]] inline bool Lexer::plain_number() {
-  // Quotients of whole numbers below 2^53 and powers of ten up to 10^22 are rounded once, so they are exactly what
-  // from_chars makes of the digits.
-  constexpr std::size_t most_digits = 15;
-  static constexpr double powers_of_ten[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                             1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  const char* const begin = text_.data() + at_;
-  const char* end = begin;
-  std::uint64_t whole = 0;
-  const auto pass_digits = [&] {
-    const char* const first = end;
-    for (; is_digit(*end); ++end) whole = 10 * whole + static_cast<std::uint64_t>(*end - '0');
-    return static_cast<std::size_t>(end - first);
-  };
-  std::size_t count = pass_digits(), decimals = 0;
-  if (*end == '.' && is_digit(end[1])) {
-    ++end;
-    decimals = pass_digits();
-    count += decimals;
-  }
-  if (count > most_digits || *end == '.' || *end == 'e' || *end == 'E' || *end == 'x') return false;
-  at_ += static_cast<std::size_t>(end - begin);
-  add(TokenKind::number, at_ - static_cast<std::size_t>(end - begin),
-      add_number(static_cast<double>(whole) / powers_of_ten[decimals]));
-  return true;
 }
 
 [[gnu::always_inline]] inline void Lexer::add_symbol(TokenKind kind, std::size_t bytes) {
@@ -244,9 +197,7 @@ std::size_t Lexer::end_of_ascii(std::size_t at) const {
   if (at_ == text_.size()) return;
   switch (beginnings[static_cast<unsigned char>(*at)]) {
     case Beginning::name: return name();
-    case Beginning::number:
-      if (!plain_number()) number();
-      return;
+    case Beginning::number: return number();
     case Beginning::symbol: {
       const auto byte = static_cast<unsigned char>(here());
       if (begins_lookalike[byte] && after() == here()) break;

@@ -29,12 +29,10 @@ class Lexer {
  private:
   // lex.cpp: tokens as they should be
   bool is_readable();
-  std::size_t end_of_ascii(std::size_t at) const;
   void next();
   void line_comment();
   void block_comment();
   void number();
-  bool plain_number();
   void digits();
   void exponent();
   void name();
