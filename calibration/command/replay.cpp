@@ -108,7 +108,7 @@ Result<> exported(const std::string& path, Write&& write) {
   }
   if (!out)
     return Error{.code = Code::unwritable_file,
-                 .sentence = fmt::format("cannot write `{}`: {}", path, std::strerror(errno)),
+                 .sentence = fmt::format("cannot be written: {}", std::strerror(errno)),
                  .place = {.name = path}};
   return {};
 }

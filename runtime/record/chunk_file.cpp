@@ -17,13 +17,11 @@ using namespace recording_format;
 
 constexpr std::size_t least_page = 4096;
 
-/// "cannot record in `run.wrec`", with the reason and what to do about it.
-Error unwritable(const std::string& what, const std::string& path, int error) {
+/// The reason why the file cannot be recorded in, and what to do about it. The place names the file; the sentence does
+/// not.
+Error unwritable(const std::string& path, int error) {
   const auto because = [&](const std::string& reason, const std::string& mend) {
-    return Error{.code = Code::unwritable_file,
-                 .sentence = what + " `" + path + "`: " + reason,
-                 .mend = mend,
-                 .place = {.name = path}};
+    return Error{.code = Code::unwritable_file, .sentence = reason, .mend = mend, .place = {.name = path}};
   };
   switch (error) {
     case EEXIST:
@@ -31,12 +29,12 @@ Error unwritable(const std::string& what, const std::string& path, int error) {
                      "delete it or choose another name");
     case ENOENT: return because("there is no such folder", "make it first");
     case EACCES:
-    case EROFS: return because("nothing may be written there", "choose another folder");
+    case EROFS: return because("this folder cannot be written to", "choose another folder");
     case EFBIG:
-      return because("no file may become that large here (ulimit -f)", "raise the limit or record elsewhere");
+      return because("the file would exceed the limit on its size (ulimit -f)", "raise the limit or record elsewhere");
     case ENOSPC:
     case EDQUOT: return because("the disk is full", "make room or record elsewhere");
-    default: return because(std::generic_category().message(error), "");
+    default: return because("cannot be recorded in: " + std::generic_category().message(error), "");
   }
 }
 
@@ -44,7 +42,7 @@ Error unwritable(const std::string& what, const std::string& path, int error) {
 
 Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0) return unwritable("cannot record in", path, errno);
+  if (file < 0) return unwritable(path, errno);
   FileHeader header{.magic = magic,
                     .version = version,
                     .first_chunk = first_chunk,
@@ -56,7 +54,7 @@ Result<std::unique_ptr<ChunkFile>> ChunkFile::create(const std::string& path) {
   if (error == 0) return std::unique_ptr<ChunkFile>(new ChunkFile(path, file));
   close(file);
   unlink(path.c_str());
-  return unwritable("cannot record in", path, error);
+  return unwritable(path, error);
 }
 
 ChunkFile::~ChunkFile() { close(file_); }
@@ -66,13 +64,13 @@ Result<std::byte*> ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
   const auto offset = static_cast<off_t>(first_chunk + chunks_.size() * chunk_size);
   if (const int error = posix_fallocate(file_, offset, chunk_size)) {
     [[maybe_unused]] const int cut = ftruncate(file_, offset);  // so that the file ends with a whole chunk
-    return unwritable("cannot go on recording in", path_, error);
+    return unwritable(path_, error);
   }
   void* mapped = mmap(nullptr, chunk_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file_, offset);
-  if (mapped == MAP_FAILED) return unwritable("cannot go on recording in", path_, errno);
+  if (mapped == MAP_FAILED) return unwritable(path_, errno);
   chunks_.push_back(kind);
   auto* chunk = static_cast<std::byte*>(mapped);
-  // Populating makes pages present; only a store makes them writable.
+  // MAP_POPULATE makes pages present; only a store makes them writable.
   for (std::size_t at = 0; at < chunk_size; at += least_page)
     *const_cast<volatile std::byte*>(chunk + at) = std::byte{0};
   ChunkHeader header{.kind = kind, .check = 0, .number = number};

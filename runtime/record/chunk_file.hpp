@@ -12,23 +12,24 @@
 
 namespace wale {
 
-/// A recording's file as it grows: chunks one after the other, each mapped for itself. Bytes that are stored in a mapped
-/// chunk are in the file even if the process is killed.
+/// A recording's file as it grows: chunks one after the other, each with its own mapping. Bytes that are stored in a
+/// mapped chunk are in the file even if the process is killed.
 class ChunkFile {
  public:
-  /// Makes a new file. Error: `unwritable_file`, also when there is a file of that name already.
+  /// Makes a new file. Error: `unwritable_file`, also when a file of that name exists already.
   static Result<std::unique_ptr<ChunkFile>> create(const std::string& path);
   ~ChunkFile();
   ChunkFile(const ChunkFile&) = delete;
   ChunkFile& operator=(const ChunkFile&) = delete;
 
-  /// One more chunk. Its blocks on the disk are allocated and each of its pages has been written once, so that storing
-  /// in it asks the system for nothing. (A page that the kernel has written out meanwhile is write-protected, and the
+  /// Appends a chunk. Its blocks on the disk are allocated and each of its pages has been written once, so that a store
+  /// into it makes no system call. (A page that the kernel has written out meanwhile is write-protected, and the
   /// next store into it traps once.) Error: `unwritable_file`, when the disk is full. From any thread.
   Result<std::byte*> grow(recording_format::ChunkKind kind, std::uint64_t number);
   static void unmap(std::byte* chunk) noexcept;
 
-  /// Cuts off the last `unused` chunks of ticks, as far as nothing lies behind them. They must not be mapped.
+  /// Cuts off up to `unused` chunks of ticks at the file's end, stopping at the first chunk of events. The chunks cut
+  /// off must not be mapped.
   void cut(std::size_t unused) noexcept;
 
  private:

@@ -20,7 +20,7 @@ void EventReader::read_whole(const EventHeader& header, std::span<const std::byt
   const auto code = static_cast<EventCode>(header.kind);
   Bytes in("an event", payload);
   if ((code == EventCode::header) == has_header_) damaged("the header must be the first event, and the only one of its kind");
-  if (contents_.said_ticks) damaged("something comes after the end");
+  if (contents_.said_ticks) damaged("it comes after the end event");
   if (code == EventCode::header) {
     read_header(in, payload);
   } else if (code == EventCode::program) {
@@ -109,7 +109,7 @@ RecordedEvent EventReader::read_event(EventCode code, Bytes& in) {
     case EventCode::header:
     case EventCode::program: break;
   }
-  damaged("kind ", static_cast<std::uint32_t>(code), " is not known");
+  damaged("its kind ", static_cast<std::uint32_t>(code), " is unknown");
 }
 
 }  // namespace wale

@@ -8,17 +8,17 @@
 
 namespace wale {
 
-/// Reads one event after the other into the contents of a recording.
+/// Reads events, in their order, into the contents of a recording.
 class EventReader {
  public:
   explicit EventReader(RecordingContents& contents) : contents_(contents) {}
 
-  /// `payload` lies in `RecordingContents::events_bytes`. Error: `damaged_file`, when the event makes no sense where it
-  /// stands.
+  /// `payload` lies in `RecordingContents::events_bytes`. Error: `damaged_file`, when the event is malformed or does
+  /// not fit the events before it.
   Result<> read(const recording_format::EventHeader& header, std::span<const std::byte> payload);
 
   bool has_header() const { return has_header_; }
-  /// The last one that was published.
+  /// The last revision that was published; 0 before the first.
   std::uint32_t revision() const { return revision_; }
 
  private:

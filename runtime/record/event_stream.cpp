@@ -22,7 +22,7 @@ Result<> EventStream::append(EventCode kind, std::uint64_t ticks, std::span<cons
   std::memcpy(bytes.data(), &header, sizeof header);
 
   constexpr std::size_t held_back = sizeof header.size + sizeof header.check;
-  if (auto stored = store(std::array<std::byte, held_back>{}); !stored) return stored;  // zeros are the stream's end
+  if (auto stored = store(std::array<std::byte, held_back>{}); !stored) return stored;  // zeros mark the stream's end
   std::byte* const begin = chunks_.back() + chunk_header_size + used_ - held_back;
   constexpr std::array<std::byte, event_alignment> zeros{};
   const std::span<const std::byte> padding = std::span(zeros).first(aligned(payload.size()) - payload.size());

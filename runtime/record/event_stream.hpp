@@ -21,7 +21,7 @@ class EventBytes {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
     return *this;
   }
-  /// A text, after its length.
+  /// Appends the text's length in bytes as u32, then the text.
   EventBytes& operator<<(std::string_view text) {
     return *this << static_cast<std::uint32_t>(text.size()) << std::as_bytes(std::span(text));
   }
@@ -32,7 +32,7 @@ class EventBytes {
   std::vector<std::byte> bytes_;
 };
 
-/// The events of a recording: frames one after the other across chunks of their own. One thread at a time may use it.
+/// The events of a recording, written one after the other across the chunks of events. One thread at a time may use it.
 class EventStream {
  public:
   explicit EventStream(ChunkFile& file) : file_(file) {}
@@ -40,7 +40,7 @@ class EventStream {
   EventStream(const EventStream&) = delete;
   EventStream& operator=(const EventStream&) = delete;
 
-  /// One more event. If the process is killed meanwhile, the file has all of it or nothing of it. Error:
+  /// Appends an event. If the process is killed meanwhile, the file has the whole event or none of it. Error:
   /// `unwritable_file`, when the disk is full.
   Result<> append(recording_format::EventCode kind, std::uint64_t ticks, std::span<const std::byte> payload);
 
@@ -49,9 +49,9 @@ class EventStream {
   void leave_all_but_last() noexcept;
 
   ChunkFile& file_;
-  std::vector<std::byte*> chunks_;  // those of the event that is being stored
-  std::uint64_t made_ = 0;
-  std::size_t used_ = recording_format::events_per_chunk;  // of the last chunk
+  std::vector<std::byte*> chunks_;  // mapped, of the event that is being stored
+  std::uint64_t made_ = 0;          // chunks of events so far
+  std::size_t used_ = recording_format::events_per_chunk;  // bytes of the last chunk
 };
 
 }  // namespace wale

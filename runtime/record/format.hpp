@@ -15,11 +15,11 @@ namespace wale::recording_format {
 
 static_assert(std::endian::native == std::endian::little, "recordings are stored in the memory's byte order");
 
-/// As in PNG: a byte that no text has, the name, and the line ends and end-of-file mark that a transfer as text changes.
+/// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which a text transfer changes.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'R', 'C', '\r', '\n', 0x1a, '\n'};
 inline constexpr std::uint32_t version = 1;
 
-/// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, whatever the pages' size (4 to 64 KiB).
+/// Bytes before the first chunk, and of a chunk. Each chunk begins at a page, for pages of 4 to 64 KiB.
 inline constexpr std::size_t first_chunk = 64 * 1024, chunk_size = 256 * 1024;
 inline constexpr std::size_t chunk_header_size = 64;
 
@@ -41,7 +41,7 @@ struct ChunkHeader {
 };
 static_assert(sizeof(ChunkHeader) == 16);
 
-/// A tick as it is stored in a chunk. `sequence`, one more than the tick's number, is stored last.
+/// A tick as it is stored in a chunk. `sequence` is the tick's number plus 1 and is stored last.
 struct TickEntry {
   std::uint64_t sequence = 0;
   std::int64_t period = 0;
@@ -59,13 +59,13 @@ static_assert(sizeof(TickEntry) == 96 && std::is_trivially_copyable_v<TickEntry>
 inline constexpr std::size_t ticks_per_chunk = (chunk_size - chunk_header_size) / sizeof(TickEntry);
 inline constexpr std::size_t events_per_chunk = chunk_size - chunk_header_size;  ///< bytes
 
-/// Of `TickEntry::flags`: two bits of contact, the button, whether inside; the guards from bit 8 on.
+/// The bits of `TickEntry::flags`: 0 and 1 the contact, 2 the button, 3 inside a patch; the guards from bit 8 on.
 inline constexpr std::uint32_t contact_mask = 3, button_flag = 4, inside_flag = 8;
 inline constexpr int guards_shift = 8;
 
 /// The header before each event's payload. `size` and `check` are stored last, together.
 struct EventHeader {
-  std::uint32_t size = 0;   ///< one more than the payload's bytes
+  std::uint32_t size = 0;   ///< bytes of the payload, plus 1
   std::uint32_t check = 0;  ///< of the size, the fields below and the payload
   std::uint64_t ticks = 0;  ///< done before the event
   std::uint32_t kind = 0;   ///< `EventCode`
@@ -73,8 +73,8 @@ struct EventHeader {
 };
 static_assert(sizeof(EventHeader) == 24);
 
-/// `header` is the stream's first event. `program` has a program's bytes and comes before the first event that names it.
-/// The others are those of `RecordedEvent::Kind`.
+/// `header` is the stream's first event. `program` holds a program's bytes and comes before the first event that names
+/// it. The other codes match `RecordedEvent::Kind`.
 enum class EventCode : std::uint32_t {
   header = 1,
   program = 2,
@@ -93,8 +93,9 @@ constexpr std::size_t aligned(std::size_t size) {
   return (size + event_alignment - 1) / event_alignment * event_alignment;
 }
 
-/// A checksum that always notices one changed word, because each step is one-to-one in the sum so far and in the word.
-/// It misses any other damage with a probability of 2^-32. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+/// A checksum that always detects a single changed word, because each step is one-to-one in the previous sum and in the
+/// word. It misses any other damage with a probability of 2^-32.
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 class Check {
  public:
   void add(std::uint64_t word) noexcept {

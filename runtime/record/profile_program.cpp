@@ -7,7 +7,7 @@
 namespace wale {
 namespace {
 
-constexpr float some_width = 1e-3f;  // m; a profile may lack a size of patches, and a program needs one
+constexpr float some_width = 1e-3f;  // m; a program needs a patch size, and a profile may lack one
 
 PatchProgram nothing_on(const DeviceProfile& profile) {
   PatchProgram program;

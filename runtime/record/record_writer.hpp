@@ -19,14 +19,14 @@
 
 namespace wale {
 
-/// Records a run in a file as it happens: a tick that was appended is in the file even if the process is killed at once.
+/// Records a run in a file as it happens: an appended tick is in the file even if the process is killed at once.
 /// Ticks come from the real-time thread, which stores them in chunks that another thread has mapped in advance; events
 /// come from the control side. When the disk is full, or slower than the loop, the recording ends and the run goes on.
 class RecordWriter final : public TickSink {
  public:
   /// Begins a new file. With `ticks_may_wait`, as in virtual time, the thread that appends maps chunks itself. Errors:
-  /// `unwritable_file`, `short_of_resources` without a thread, and `refused_program` for a profile on which no program
-  /// may run.
+  /// `unwritable_file`; `short_of_resources` when the system gives no thread; `refused_program` for a profile on which
+  /// no program may run.
   static Result<std::unique_ptr<RecordWriter>> begin(const std::string& path, const RecordingHeader& header,
                                                      bool ticks_may_wait);
   /// Ends the file after the last tick.
@@ -44,12 +44,12 @@ class RecordWriter final : public TickSink {
   void replace(std::size_t patch, const Program& program) noexcept;
   void set(std::size_t patch, std::size_t parameter, float value) noexcept;
   void move(std::size_t patch, glm::vec2 position) noexcept;
-  /// All changes so far are about to be handed to the loop as this revision.
+  /// All changes so far reach the loop as this revision. Call it before they are handed over.
   void publish(std::uint32_t revision) noexcept;
   /// The run is over and no more ticks come: the recording is complete.
   void end() noexcept;
 
-  /// Why the recording ended before the run; nothing where it did not. Call it when no more ticks come.
+  /// Why the recording ended before the run, if it did. Call it when no more ticks come.
   std::optional<Error> ended_early() const;
 
  private:
@@ -72,7 +72,7 @@ class RecordWriter final : public TickSink {
   std::unique_ptr<ChunkFile> file_;
   EventStream events_;
   bool waits_;
-  bool whole_ = true;  // every event so far is in the file; the control side's
+  bool whole_ = true;  // every event so far is in the file; used by the control side only
   std::map<const DecodedProgram*, std::pair<Program, std::uint32_t>> known_;
   std::map<std::uint64_t, std::uint32_t> by_hash_;
 

@@ -21,7 +21,7 @@ bool all_zero(std::span<const std::byte> bytes) {
   return std::ranges::all_of(bytes, [](std::byte byte) { return byte == std::byte{0}; });
 }
 
-/// No run has more than these, and sums of them do not overflow.
+/// Larger than in any run, and small enough that sums of them do not overflow.
 constexpr std::int32_t most_counts = 1 << 29;
 constexpr std::int64_t most_periods = std::int64_t{1} << 53;
 
@@ -40,7 +40,7 @@ class RecordingReader {
       note(sentence("its end declares ", *contents_.said_ticks, " ticks, and it has ", contents_.ticks), bytes_.size());
     if (!problem_ || most_ticks_ <= contents_.ticks) return {};
     problem_->mend = contents_.ticks == 0
-                         ? "nothing of it can be read; record again"
+                         ? "no tick of it can be read; record again"
                          : sentence("the ", contents_.ticks, " ticks before it are intact: read them with --ticks ",
                                     contents_.ticks);
     return *problem_;
@@ -61,32 +61,32 @@ class RecordingReader {
             .place = {.name = {}, .number = byte}};
   }
 
-  /// Keeps the first damage that is found, at a byte of the file.
+  /// Notes damage at a byte of the file, in place of any that was noted before.
   void note(std::string sentence, std::size_t byte) { problem_ = damaged_at(byte, std::move(sentence)); }
 
   Result<> read_file_header() const {
-    if (bytes_.empty()) return damaged_at(0, "it is empty, and nothing was recorded in it");
+    if (bytes_.empty()) return damaged_at(0, "the file is empty: nothing was recorded in it");
     const auto begins = [&](std::size_t length) {
       return std::equal(magic.begin(), magic.begin() + static_cast<std::ptrdiff_t>(length), bytes_.begin(),
                         [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); });
     };
     if (!begins(std::min(magic.size(), bytes_.size()))) {
       if (bytes_.size() >= 4 && begins(4))
-        return damaged_at(4, "a transfer as text has damaged it", "copy it as binary");
-      return damaged_at(0, "it is not a recording: it does not begin as one does",
+        return damaged_at(4, "a transfer as text has damaged the recording", "copy it as binary");
+      return damaged_at(0, "this is not a recording: the first bytes of one are missing",
                         "make one with `wale feel FILE --record NAME.wrec`");
     }
     if (bytes_.size() < first_chunk)
-      return damaged_at(bytes_.size(), sentence("it is cut short within its header, at byte ", bytes_.size()),
+      return damaged_at(bytes_.size(), sentence("the file is cut short within its header, at byte ", bytes_.size()),
                         "copy it again");
     const auto header = at<FileHeader>(0);
     if (header.version > version && header.check == check_of(header))
       return Error{.code = Code::newer_file,
-                   .sentence = sentence("it has format ", header.version, ", and this Wale reads up to ", version),
+                   .sentence = sentence("its format is ", header.version, ", and this Wale reads up to ", version),
                    .mend = "update Wale"};
     if (header.check != check_of(header) || header.version != version || header.first_chunk != first_chunk ||
         header.chunk_size != chunk_size || header.tick_size != sizeof(TickEntry))
-      return damaged_at(0, "its header (byte 0) is damaged", "copy it again");
+      return damaged_at(0, "the recording's header (byte 0) is damaged", "copy it again");
     return {};
   }
 
@@ -105,7 +105,7 @@ class RecordingReader {
         chunks->push_back(offset);
     }
     if (!problem_ && offset < bytes_.size() && !all_zero(bytes_.subspan(offset)))
-      note(sentence("it is cut short within the chunk at byte ", offset), offset);
+      note(sentence("the file is cut short within the chunk at byte ", offset), offset);
     for (const std::size_t chunk : event_chunks) {
       const auto part = bytes_.subspan(chunk + chunk_header_size, events_per_chunk);
       contents_.events_bytes.insert(contents_.events_bytes.end(), part.begin(), part.end());
@@ -136,7 +136,7 @@ class RecordingReader {
       if (auto read = reader.read(header, payload); !read) return damaged("makes no sense: " + in_words(read.error()));
       at += aligned(sizeof header + payload.size());
     }
-    if (!reader.has_header() && !problem_) note("it ends before anything was recorded", bytes_.size());
+    if (!reader.has_header() && !problem_) note("the recording ends before its first event", bytes_.size());
     most_revision_ = reader.revision();
   }
 
@@ -184,7 +184,6 @@ Result<std::shared_ptr<Contents>> contents_of(FileBytes bytes, const std::string
   auto read = RecordingReader(*contents, most_ticks).read();
   if (read) return contents;
   Error error = std::move(read).error();
-  error.sentence = "`" + name + "`: " + error.sentence;
   error.place.name = name;
   return error;
 }

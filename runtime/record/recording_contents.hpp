@@ -9,7 +9,7 @@
 
 namespace wale {
 
-/// The contents of a recording, as far as they have been read.
+/// The contents of a recording that have been read so far.
 struct RecordingContents {
   FileBytes bytes;
   std::vector<std::size_t> tick_chunks;  ///< bytes from the file's beginning
@@ -17,8 +17,8 @@ struct RecordingContents {
   std::vector<std::byte> events_bytes;  ///< all events one after the other
   RecordingHeader header;
   std::vector<RecordedEvent> events;
-  std::vector<RecordedProgram> programs;  ///< bytes of `events_bytes`
-  std::optional<std::uint64_t> said_ticks;
+  std::vector<RecordedProgram> programs;    ///< their bytes lie in `events_bytes`
+  std::optional<std::uint64_t> said_ticks;  ///< in the end event, if there is one
 
   std::size_t offset(std::size_t tick) const {
     using namespace recording_format;

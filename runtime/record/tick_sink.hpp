@@ -4,7 +4,7 @@
 
 namespace wale {
 
-/// Gets every tick of a run, on the real-time thread.
+/// Receives every tick of a run, on the real-time thread.
 class TickSink {
  public:
   virtual ~TickSink() = default;

@@ -11,7 +11,8 @@
 namespace wale {
 namespace {
 
-/// One line of cells. Numbers in the shortest digits that read back the same, independent of any locale.
+/// One line of cells. A number has the fewest digits that read back as the same number, in any locale; not-a-number
+/// gives an empty cell.
 class Line {
  public:
   explicit Line(std::ostream& out) : out_(out) {}
@@ -83,7 +84,7 @@ void write_csv(std::ostream& out, const Record& record) {
 void write_csv(std::ostream& out, const Recording& recording) {
   const DeviceProfile& device = recording.header().device;
   const bool vibrates = device.shaker.has_value();
-  const double seconds_per_tick = 1 / device.rate;  // as the run itself has it
+  const double seconds_per_tick = 1 / device.rate;  // the same bits as in the run's `Record`
   write_header(out, vibrates);
   out << ",counts x,counts y,"
       << (vibrates

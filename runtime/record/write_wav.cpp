@@ -14,7 +14,7 @@ constexpr std::uint32_t samples_per_second = 44100;
 constexpr std::uint16_t channels = 2, float_format = 3, bits = 32;
 constexpr std::uint32_t frame_bytes = channels * bits / 8;
 
-/// Of a RIFF WAVE file: the format chunk, the fact chunk that formats other than PCM have, and the data chunk's head.
+/// The start of a RIFF WAVE file: the format chunk, the fact chunk (for formats other than PCM), the data chunk's head.
 struct WavHeader {
   std::array<char, 4> riff{'R', 'I', 'F', 'F'};
   std::uint32_t size = 0;

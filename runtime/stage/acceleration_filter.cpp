@@ -48,7 +48,7 @@ class LeastSquares {
 };
 
 bool fits(const Parabola& parabola, std::span<const Point> points, double noise) {
-  constexpr double rounding = 1e-9;  // so that samples on the very edge of the band count as within
+  constexpr double rounding = 1e-9;  // so that samples exactly on the band's edge count as within
   return std::ranges::all_of(points, [&](const Point& point) {
     const double off = point.rise - (parabola.place + point.age * (parabola.slope + point.age * parabola.curve));
     return std::abs(off) <= noise + rounding;
@@ -87,8 +87,8 @@ double AccelerationFilter::operator()(int counts, long periods) noexcept {
     }
   }
   if (first >= count) return 0;
-  // From the longest window on, because a short one may miss the noise where a longer one does not; the shortest counts
-  // whether its parabola fits or not.
+  // Windows are tried from the longest down, because a short one may exceed the noise where a longer one does not. The
+  // shortest is used whether its parabola fits or not.
   std::size_t oldest = count - 1;
   while (oldest > first && !fits(parabolas[oldest], std::span(points).first(oldest + 1), noise_)) --oldest;
   return 2 * parabolas[oldest].curve;

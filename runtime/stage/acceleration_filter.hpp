@@ -7,21 +7,21 @@
 namespace wale {
 
 /// Acceleration from encoder counts, for one axis: twice the curvature of the least-squares parabola over the longest
-/// window within which the parabola passes within the noise of all samples. The idea is that of `VelocityFilter` one
-/// order higher; where the motion turns sharply the window is short, where it is smooth it is long.
+/// window in which the parabola passes within the noise of all samples. It is `VelocityFilter` one order higher: the
+/// window is short where the motion turns sharply and long where it is smooth.
 ///
 /// A second difference of counts is useless (at 900 Hz one count is 45 m/s^2 on a 0.23 m workspace of 4096 counts), and
 /// the noise of a parabola's curvature falls with the power 5/2 of its length. So windows are longer than a velocity's:
-/// at least half of the profile's `velocity_window`, at most twice it, and at most 64 ticks. The estimate is that of
+/// at least half of the profile's `velocity_window`, at most twice it, and at most 64 ticks. The estimate holds for
 /// the window's middle, so it lags by half the window: 17 ms for 15 ticks of velocity window at 900 Hz.
 class AccelerationFilter {
  public:
   /// The profile's `velocity_window` in ticks and `velocity_noise_counts`. Allocates.
   explicit AccelerationFilter(const DeviceProfile& profile);
 
-  /// Takes the sample `counts`, `periods` ticks after the one before (at least 1; more when some were skipped), and
-  /// gives counts per tick per tick: zero until samples reach over the shortest window, and again after a gap longer
-  /// than the longest. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  /// Takes the sample `counts`, `periods` ticks after the last one (at least 1; more when some were skipped), and
+  /// returns counts per tick^2: zero until samples span the shortest window, and again after a gap longer than the
+  /// longest window. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   double operator()(int counts, long periods) noexcept;
 
  private:
@@ -43,10 +43,10 @@ class PlainDifferences {
     double velocity = 0, acceleration = 0;
   };
 
-  /// Takes the sample `counts`, `periods` ticks after the one before (at least 1). Velocity is zero at the first
-  /// sample, acceleration at the first two; where periods were skipped it is the difference of the two velocities over
-  /// the time between the middles of their intervals. Real-time: allocates nothing, takes no lock, makes no system
-  /// call, does not throw.
+  /// Takes the sample `counts`, `periods` ticks after the last one (at least 1). Velocity is zero at the first sample,
+  /// acceleration at the first two. Acceleration is the difference of the last two velocities over the time between
+  /// the middles of their intervals, which skipped periods lengthen.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Result operator()(int counts, long periods) noexcept;
 
  private:

@@ -10,30 +10,30 @@
 
 namespace wale {
 
-/// How long each step of each tick takes, by the monotonic clock. In virtual time it reads no clock.
+/// Measures how long each step of each tick takes, by the monotonic clock. In virtual time it reads no clock.
 class CostMeter {
  public:
   explicit CostMeter(bool reads_clock) : reads_clock_(reads_clock) {}
 
-  /// A tick begins, and its first step with it.
+  /// Begins a tick and its first step.
   /// Real-time: allocates nothing, takes no lock, does not throw; reading the clock is no system call where the kernel
   /// maps it into the process, as Linux does.
   void begin() noexcept {
     if (reads_clock_) began_ = last_ = clock_.now();
   }
-  /// The step under way is over, and the next one begins. Real-time likewise.
+  /// Ends the current step and begins the next one. Real-time likewise.
   void end(TickCosts::Step step) noexcept {
     if (!reads_clock_) return;
     const std::int64_t now = clock_.now();
     steps_[step].add(now - last_);
     last_ = now;
   }
-  /// The last step was the tick's last. Real-time likewise.
+  /// Ends the tick with the step ended last. Real-time likewise.
   void end_tick() noexcept {
     if (reads_clock_) whole_.add(last_ - began_);
   }
 
-  /// Nothing in virtual time.
+  /// Empty in virtual time.
   std::optional<TickCosts> summary() const;
 
  private:

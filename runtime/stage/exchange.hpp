@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// Hands whole values from a control thread to a real-time thread, newest only, and takes the used ones back, so that
+/// Hands whole values from a control thread to a real-time thread, the newest only, and takes used ones back, so that
 /// the real-time thread never allocates or frees. One thread on each side; neither ever waits for the other.
 template <class Value>
 class Exchange {
@@ -14,7 +14,7 @@ class Exchange {
   Exchange() = default;
   Exchange(const Exchange&) = delete;
   Exchange& operator=(const Exchange&) = delete;
-  /// Both threads are done.
+  /// Call it when both threads are done.
   ~Exchange() {
     delete offered_.load();
     delete held_;
@@ -33,9 +33,9 @@ class Exchange {
     while (entry != nullptr) delete std::exchange(entry, entry->next);
   }
 
-  /// Real-time side: takes the value offered, if there is one, and gives back the one held so far. True if it took one.
-  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw. The retry in it happens at most
-  /// once for each `collect`.
+  /// Real-time side: takes the offered value, if any, and gives back the one held so far. Returns whether it took one.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw. It retries at most once for
+  /// each `collect`.
   bool take() noexcept {
     if (offered_.load(std::memory_order_relaxed) == nullptr) return false;
     Entry* taken = offered_.exchange(nullptr, std::memory_order_acquire);
@@ -57,7 +57,7 @@ class Exchange {
   };
 
   std::atomic<Entry*> offered_ = nullptr;
-  std::atomic<Entry*> returned_ = nullptr;  // a stack; only one side pushes and the other takes it whole
+  std::atomic<Entry*> returned_ = nullptr;  // a stack: one side pushes, the other takes it whole
   Entry* held_ = nullptr;                   // the real-time thread's
 };
 

@@ -44,7 +44,7 @@ int main_axis(std::span<const TickRecord> record) {
 
 int sign_of(float value) { return (value > 0) - (value < 0); }
 
-/// Counts swings of the force from beyond +threshold to beyond -threshold and back, and those of them during which the
+/// Counts swings of the force from beyond +threshold to beyond -threshold and back, and the swings during which the
 /// hand keeps its direction.
 void count_swings(std::span<const TickRecord> record, float threshold, Felt& felt) {
   const int axis = main_axis(record);

@@ -12,11 +12,11 @@ namespace {
 /// Finer cells are no faster (measured with 10 to 100 000 patches, moving and random points).
 constexpr double cells_a_side_per_root = 2;
 constexpr std::uint32_t most_cells_a_side = 512;
-/// Entries that lists may hold for each patch, and beside.
+/// The lists may hold so many entries for each patch, and so many more.
 constexpr std::size_t entries_per_patch = 32, more_entries = 4096;
 
-/// Of a rectangle along one axis: a little wider than any point that rounding lets in, and a little narrower than any
-/// that it leaves out.
+/// A rectangle's extent along one axis, with rounding: a little wider than any point that `contains` accepts, and a
+/// little narrower than any that it rejects.
 struct Extent {
   Extent(float centre, float size) {
     const double half = static_cast<double>(size) / 2,
@@ -43,7 +43,7 @@ std::uint32_t open_from(std::vector<std::uint32_t>& next_open, std::size_t row, 
 
 }  // namespace
 
-/// Of equal rectangles only the one in front can be felt.
+/// Drops all but the front one of equal rectangles: only that can be felt.
 void FrontMost::drop_repeated(std::vector<Entry>& front_first) {
   const auto hash = [](const PatchOutline& each) {
     std::size_t mixed = 0;
@@ -90,21 +90,21 @@ FrontMost::FrontMost(std::span<const PatchOutline> patches) {
 
 std::uint32_t FrontMost::cell(double coordinate, int axis) const noexcept {
   const double u = (coordinate - low_[axis]) * cells_per_metre_[axis];
-  const double least = u > 0 ? u : 0;  // not-a-number, too
+  const double least = u > 0 ? u : 0;  // 0 for not-a-number too
   return least < side_ ? static_cast<std::uint32_t>(least) : side_ - 1;
 }
 
 bool FrontMost::list(std::span<const Entry> front_first) {
   const std::size_t cells = std::size_t{side_} * side_;
   const std::size_t most = side_ == 1 ? front_first.size() : entries_per_patch * front_first.size() + more_entries;
-  // A row's cells that a patch has covered are passed over by those behind it.
+  // Patches skip the cells of a row that a patch in front of them covers.
   const std::size_t links = side_ + 1;
   std::vector<std::uint32_t> next_open(side_ * links);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> placed;  // cell, place in front_first
   for (std::size_t row = 0; row < side_; ++row)
     std::iota(next_open.begin() + static_cast<std::ptrdiff_t>(row * links),
               next_open.begin() + static_cast<std::ptrdiff_t>((row + 1) * links), 0u);
-  // Whether what lies between two coordinates is the whole cell: its neighbours' points are then no longer in it.
+  // Whether the interval between two coordinates covers the whole cell: it then reaches into both neighbours.
   const auto covers = [this](double inner_low, double inner_high, std::uint32_t cell_number, int axis) {
     if (!(inner_low < inner_high)) return false;
     const bool from = cell_number == 0 ? inner_low <= low_[axis] : cell(inner_low, axis) < cell_number;

@@ -7,26 +7,26 @@
 
 namespace wale {
 
-/// The rectangle that a patch takes on the workspace, in m from its centre, and which of several lies in front.
+/// The rectangle that a patch covers on the workspace, in m from its centre, and its layer.
 struct PatchOutline {
   glm::vec2 position{0.0f};  ///< of the patch's centre
   float width = 0, height = 0;
-  float layer = 0;  ///< the greater, the farther in front; among equals the one that comes later
+  float layer = 0;  ///< a greater one lies in front; among equals, the later patch does
 
-  /// A hand at this position, m from the patch's centre, is within; on the edge it is.
+  /// Whether a hand at this position, m from the patch's centre, is within. The edge counts as within.
   bool contains(glm::vec2 hand) const noexcept {
     return (hand.x < 0 ? -hand.x : hand.x) <= width / 2 && (hand.y < 0 ? -hand.y : hand.y) <= height / 2;
   }
 };
 
-/// Finds the front-most of many patches under a point: a uniform grid over all of them, whose cells list the outlines
-/// that reach into them from front to back, down to the first that covers the cell. Immutable: built on a control
-/// thread, whole.
+/// Finds the front-most of many patches under a point: a uniform grid over all patches. Each cell lists the outlines
+/// that reach into it, from front to back, down to the first that covers the cell. Immutable; a control thread
+/// builds it.
 class FrontMost {
  public:
   static constexpr std::uint32_t none = 0xffffffff;
 
-  /// `patches` in the order in which they were placed. Takes time and memory in proportion to their number: where many
+  /// `patches` in the order in which they were placed. Time and memory are proportional to their number: where many
   /// cross many cells, the cells become larger. Allocates.
   explicit FrontMost(std::span<const PatchOutline> patches);
   FrontMost() : FrontMost(std::span<const PatchOutline>()) {}
@@ -35,9 +35,9 @@ class FrontMost {
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   std::uint32_t at(glm::dvec2 point) const noexcept;
 
-  /// Cells a side.
+  /// Cells along a side.
   std::uint32_t side() const { return side_; }
-  /// Outlines in all lists together.
+  /// The number of outlines in all lists.
   std::size_t entries() const { return entries_.size(); }
 
  private:
@@ -46,15 +46,15 @@ class FrontMost {
     std::uint32_t number;
   };
 
-  /// The column or row of a coordinate along `axis`, which is held in the grid; it never falls as the coordinate rises.
+  /// The column or row of a coordinate along `axis`, clamped to the grid; it never falls as the coordinate rises.
   std::uint32_t cell(double coordinate, int axis) const noexcept;
   static void drop_repeated(std::vector<Entry>& front_first);
-  /// Lists everything on `side_` cells a side; false when there is too much of it.
+  /// Fills the lists for `side_` cells along a side; false when they would have too many entries.
   bool list(std::span<const Entry> front_first);
 
   std::uint32_t side_ = 1;
   glm::dvec2 low_{0.0}, cells_per_metre_{0.0};
-  std::vector<std::uint32_t> first_;  ///< of each cell among the entries, row by row, and one more
+  std::vector<std::uint32_t> first_;  ///< each cell's first entry, row by row, and then the number of entries
   std::vector<Entry> entries_;
 };
 

@@ -7,7 +7,7 @@
 namespace wale {
 namespace {
 
-constexpr float furthest = 1e6f;  ///< N; beyond it is no force, and no energy
+constexpr float furthest = 1e6f;  ///< N; a larger number is no force of any device, and its energy is not metered
 
 }  // namespace
 
@@ -73,7 +73,7 @@ Force Guards::bounded(Force wanted) const noexcept { return heat_.held_within(wi
 
 Force Guards::within_limits(Force wanted) noexcept {
   const Force possible = within_device(wanted), allowed = within_user(possible);
-  // A hand at rest wants no frequency, and nothing is held back when it gets the least one with no amplitude.
+  // A hand at rest wants frequency 0. The least frequency with amplitude 0 feels the same, so it is not counted.
   if (vibrates_ ? possible.x != wanted.x : possible != wanted) ++counts_.device_limit;
   if (allowed != possible) ++counts_.user_limit;
   if (vibrates_) return allowed;

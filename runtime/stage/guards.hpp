@@ -11,32 +11,32 @@
 
 namespace wale {
 
-/// What stands between a program's force and the device, whatever the program does. In order: a force that is not a
-/// number becomes zero; what gives more energy than it may is held back; its size is held within what the user allows
-/// and each axis within the device's peak force and what its motor bears without growing too hot; after `slew` was
-/// called the force moves no faster than the profile's slew, until it has caught up with the wanted one; and the
-/// passivity observer takes away what the sampled loop gained, within the same limits. Begins at zero force, slewing.
-/// On a pad, which gives no energy, the amplitude is held within what the user allows and the greatest acceleration and
-/// is not less than nothing, and slews likewise; the frequency is held within those that the pad has, at the least one
-/// where nothing is wanted.
+/// Limits a program's force before it reaches the device, whatever the program does. In order: a force that is not a
+/// number becomes zero; a force that gives more energy than it may is reduced; its size is clamped to what the user
+/// allows and each axis to the device's peak force and to what its motor bears without overheating; after a call of
+/// `slew` the force moves no faster than the profile's slew, until it reaches the wanted one; the passivity observer
+/// takes away the energy that the sampled loop gained, within the same limits. Begins at zero force, slewing.
+/// On a pad, which gives no energy, the amplitude is clamped between 0 and the lesser of the user's limit and the
+/// greatest acceleration, and slews likewise; the frequency is clamped to the pad's range, and is its least one where
+/// nothing is wanted.
 class Guards {
  public:
-  /// A profile without a slew (zero) does not slow anything. `most` is the largest force that the user allows, N.
+  /// A profile without a slew (zero) does not limit the rate. `most` is the largest force that the user allows, N.
   explicit Guards(const DeviceProfile& profile, double most = HUGE_VAL);
 
   /// Something changed that may make the wanted force jump.
   void slew() noexcept { slewing_ = max_step_ > 0; }
 
-  /// The hand is on this program now, and its force may give so much, but no more watts than the device gives; see
-  /// `EnergyMeter`.
+  /// The hand is on another program now. Its force may give the energy `range` (J) and the power `active` (W), but no
+  /// more power than the device allows; see `EnergyMeter`.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void allow(double range, double active) noexcept { meter_.allow(range, std::min(active, most_active_)); }
 
-  /// The force (N) that may be commanded when `wanted` is, with the handle at `position` (m from the workspace's
-  /// centre), `periods` after the last; `commanded` then says what the actuator does.
+  /// The force (N) to command in place of `wanted`, with the handle at `position` (m from the workspace's centre),
+  /// `periods` after the last call. Call `commanded` next, with the force that the actuator exerts.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force operator()(Force wanted, glm::dvec2 position, long periods) noexcept;
-  /// No force at once, whatever was wanted; from there it slews back. Counted by its reason.
+  /// Commands zero force at once, from which the force slews back. Counted by its reason.
   /// Real-time likewise.
   enum class Reason { overrun, stale, lost };
   Force cut(Reason reason, glm::dvec2 position, long periods) noexcept;
@@ -50,9 +50,9 @@ class Guards {
  private:
   Force within_device(Force wanted) const noexcept;
   Force within_user(Force wanted) const noexcept;
-  /// Within what the device can, the user allows and the motors bear.
+  /// Clamped to the limits of the device, the user and the motors' heat.
   Force bounded(Force wanted) const noexcept;
-  /// The same, counted.
+  /// The same, and counts each limit that changed the force.
   Force within_limits(Force wanted) noexcept;
   Force slewed(Force wanted) noexcept;
 

@@ -8,7 +8,7 @@
 namespace wale {
 namespace {
 
-constexpr double most_under_way = 1000;  ///< commands: no device is that late
+constexpr double most_under_way = 1000;  ///< commands; no device lags by more
 
 double lateness(double delay, double bandwidth) {
   return delay + (bandwidth > 0 ? 1 / (2 * std::numbers::pi * bandwidth) : 0.0);
@@ -42,7 +42,7 @@ Lag::Answer Lag::arriving() const noexcept {
 
 Lag::Answer Lag::over(const Answer& held, long periods) noexcept {
   if (prompt_) return held;
-  // Beyond as many as are remembered nothing new comes.
+  // More periods than answers are held would add only `held` again.
   const long count = std::clamp(periods, 1L, static_cast<long>(answers_.size()));
   Answer sum;
   for (long period = 0; period < count; ++period) {

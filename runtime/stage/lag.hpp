@@ -9,38 +9,38 @@
 
 namespace wale {
 
-/// How late the actuators of a device are: while a command is on its way they still exert an older one. Each axis is
-/// late by the profile's delay and by the time constant of its bandwidth.
+/// Models the lag of a device's actuators: while a command is under way they still exert an older one. Each axis lags
+/// by the profile's delay and by the time constant of its bandwidth.
 class Lag {
  public:
-  /// A command, and the place of the handle that it answers.
+  /// A command, and the handle's position from which it was computed.
   struct Answer {
     glm::dvec2 force{0}, place{0};  ///< N, m
   };
 
-  /// Allocates as much as there are commands under way, a thousand at most.
+  /// Allocates room for the commands under way, a thousand at most.
   explicit Lag(const DeviceProfile& profile);
 
-  /// As if this had been the answer for ever.
+  /// Begins as if this had always been the answer.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void begin(const Answer& answer) noexcept;
 
-  /// The mean over the `periods` control periods that just ended, all through which `held` was the last command, of
-  /// what the actuators exert and of the places that this answers. A command that arrives within a period acts for the
-  /// rest of it. Real-time likewise.
+  /// The mean force of the actuators, and the mean position that it answers, over the `periods` control periods that
+  /// just ended. `held` was the last command throughout. A command that arrives within a period acts for the rest of
+  /// it. Real-time likewise.
   Answer over(const Answer& held, long periods) noexcept;
 
   /// Periods between a command and its force, of each axis.
   glm::dvec2 periods() const noexcept { return periods_; }
 
  private:
-  /// What arrives in the period that ends with the newest command.
+  /// The answer that arrives in the period that ends with the newest command.
   Answer arriving() const noexcept;
 
-  bool prompt_ = true;  // not late at all
+  bool prompt_ = true;  // no lag on either axis
   glm::dvec2 periods_{0};
   std::array<std::size_t, 2> whole_{};  // periods
-  glm::dvec2 part_{0};                  // of one more
+  glm::dvec2 part_{0};                  // of one more period
   std::vector<Answer> answers_;         // a ring, one a period; a power of two
   std::size_t newest_ = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace wale {
 
-/// The latest of a stream of values: one thread stores without ever waiting, others read a whole one (a sequence lock).
+/// The latest of a stream of values (a sequence lock): one thread stores and never waits, others read whole values.
 template <class Value>
 class Latest {
   static_assert(std::is_trivially_copyable_v<Value>);
@@ -22,7 +22,7 @@ class Latest {
     std::memcpy(words.data(), &value, sizeof value);
     const std::uint64_t version = version_.load(std::memory_order_relaxed);
     version_.store(version + 1, std::memory_order_relaxed);  // odd: under way
-    // Each word is released after that, so whoever sees a new word also sees that the version is no longer the old one.
+    // Each word is released after the version, so a reader of a new word also sees that the version has changed.
     for (std::size_t i = 0; i < words.size(); ++i) words_[i].store(words[i], std::memory_order_release);
     version_.store(version + 2, std::memory_order_release);
   }

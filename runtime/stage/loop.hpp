@@ -9,18 +9,18 @@ namespace wale {
 /// One period that is served.
 struct Beat {
   long period = 0;            ///< its number since the run began, from 0
-  long elapsed = 0;           ///< periods since the beat before; 0 for the first
+  long elapsed = 0;           ///< periods since the last beat; 0 for the first
   long skipped = 0;           ///< periods that passed unserved just before this one
   std::int64_t lateness = 0;  ///< ns after the deadline that the loop waited for
 };
 
-/// Time that passes by itself (CLOCK_MONOTONIC).
+/// The system's clock (CLOCK_MONOTONIC).
 struct MonotonicClock {
   std::int64_t now() noexcept;                   ///< ns
-  void sleep_until(std::int64_t when) noexcept;  ///< ns; whatever signals come between
+  void sleep_until(std::int64_t when) noexcept;  ///< ns; signals do not end the sleep
 };
 
-/// Time that passes by waiting only, so that no tick is ever late.
+/// A clock that only sleeping advances, so that no tick is ever late.
 struct VirtualClock {
   std::int64_t now() noexcept { return now_; }
   void sleep_until(std::int64_t when) noexcept { now_ = when; }
@@ -29,8 +29,8 @@ struct VirtualClock {
   std::int64_t now_ = 0;
 };
 
-/// Serves `periods` periods of 1 / `rate` seconds at absolute deadlines, none of which drifts, or until `stopped()`. A
-/// period that has wholly passed when the loop wakes is skipped: served periods never follow each other in a burst.
+/// Serves `periods` periods of 1 / `rate` seconds at absolute deadlines that do not drift, or until `stopped()`. A
+/// period that has wholly passed when the loop wakes is skipped, so served periods never follow each other in a burst.
 /// Returns how many were skipped.
 /// Real-time: does nothing besides the clock's calls, `stopped()` and `serve(Beat)`.
 template <class Clock, class Stopped, class Serve>
@@ -51,7 +51,7 @@ long run_loop(Clock& clock, double rate, long periods, Stopped&& stopped,
     skipped = std::min(skipped, periods - n);
     missed += skipped;
     n += skipped;
-    if (n == periods) break;  // the run ended while nobody looked
+    if (n == periods) break;  // the last periods were skipped
     serve(Beat{n, n - last, skipped, lateness});
     last = n;
   }

@@ -6,7 +6,7 @@
 namespace wale {
 namespace {
 
-/// e^-x for 0 <= x <= 10, by Taylor's series of its 64th root. Our own, because the bits of libm's depend on the
+/// e^-x for 0 <= x <= 10, by Taylor's series of its 64th root. It does not call libm, whose bits depend on the
 /// processor.
 double decayed(double x) {
   double sum = 1;
@@ -22,7 +22,7 @@ MotorHeat::MotorHeat(const DeviceProfile& profile)
   if (continuous_square_ == 0) return;
   const double period = 1 / profile.rate;
   kept_ = decayed(period / profile.heating_seconds);
-  // At least two periods, so that one tick cannot heat by more than is left.
+  // At least two periods, so that one tick cannot heat the motor beyond its limit.
   const double slewing = profile.slew > 0 ? profile.force_newton / (2 * profile.slew) : 0;
   reserve_ = profile.heating_seconds / std::max(slewing, 2 * period);
 }

@@ -12,7 +12,7 @@ constexpr double share_of_impedance = 0.1;  ///< of m/T
 constexpr double memory_seconds = 0.1;
 constexpr double most_gained = 2;  ///< of what is allowed
 
-/// How late a device is taken to be.
+/// The lag that is counted: none where the damping is assumed.
 Lag lag_of(DeviceProfile profile) {
   if (!profile.damping_known) profile.delay_x = profile.delay_y = profile.bandwidth_x = profile.bandwidth_y = 0;
   return Lag(profile);
@@ -53,7 +53,7 @@ Force PassivityObserver::operator()(Force force, glm::dvec2 position, long perio
   field_ = field;
   if (!(gained_ > allowed) || length == 0 || largest_damping_ == 0) return force;
   ++acted_;
-  // Held for one period at this pace, the damping takes up what is beyond the allowance.
+  // Held for one period at this speed, the damping absorbs the energy beyond the allowance.
   const double damping = std::min((gained_ - allowed) * elapsed / (length * length), largest_damping_);
   return Force(field - step * (damping / elapsed));
 }

@@ -11,7 +11,7 @@
 
 namespace wale {
 
-/// A patch as the control side was asked for it.
+/// A patch as the caller placed it; owned by the control side.
 struct Placement {
   Program program;
   glm::vec2 position;
@@ -19,7 +19,7 @@ struct Placement {
   float layer;
   std::vector<float> parameters;
   std::shared_ptr<Memory> memory;
-  bool moves = false;  ///< it has been moved, so it is found apart from those that stay
+  bool moves = false;  ///< it has been moved, so it is searched apart from the patches that stay
 
   Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
       : program(placed),
@@ -29,7 +29,7 @@ struct Placement {
         parameters(placed.default_parameters()),
         memory(std::make_shared<Memory>(placed)) {}
 
-  /// The same patch with another program, and with those parameters that the new program has too.
+  /// The same patch with another program. It keeps the values that were set of parameters with the same name and unit.
   Placement(const Placement& old, const Program& replacing)
       : program(replacing),
         position(old.position),

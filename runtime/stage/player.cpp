@@ -6,10 +6,10 @@
 namespace wale {
 namespace {
 
-/// s; a force that nobody renewed for longer has nothing to do any more with where the hand is.
+/// s; a force that was not renewed for longer no longer fits the hand's position.
 constexpr double longest_hold = 0.02;
 
-/// What stepped in between the two.
+/// The guards that acted between the two counts.
 std::uint32_t guard_bits(const GuardCounts& before, const GuardCounts& after) noexcept {
   const auto bit = [](long then, long now, GuardBit guard) {
     return now > then ? static_cast<std::uint32_t>(guard) : 0u;
@@ -42,7 +42,7 @@ void PlacedPatches::arrange(std::span<const MovedPatch> moving) {
   std::vector<PatchOutline> outlines;
   outlines.reserve(patches_->size());
   for (const auto& patch : *patches_) outlines.push_back(outline_of(*patch, patch->position));
-  for (const MovedPatch& each : moving) outlines[each.number].width = -1;  // is nowhere
+  for (const MovedPatch& each : moving) outlines[each.number].width = -1;  // contains no point
   staying_ = std::make_shared<const FrontMost>(outlines);
   move(moving);
 }
@@ -130,8 +130,8 @@ void Player::serve(const Beat& beat) noexcept {
   patches_.take();
   const PlacedPatches* all = reading.contact == Contact::good ? patches_.held() : nullptr;
   const PlacedPatches::Found found = all ? all->at(position) : PlacedPatches::Found{};
-  // Whatever is not as it was: where the hand is, the patch's parameters, its program, its place. Another patch cannot
-  // have the address of the last one, which was not let go before the new ones were there.
+  // Slew when the patch, its parameters, its program or its position changed. A new patch cannot have the address of
+  // the last one, because that was not freed before the new one was made.
   if (found != felt_) guards_.slew();
   felt_ = found;
   costs_.end(TickCosts::find);

@@ -21,47 +21,47 @@
 
 namespace wale {
 
-/// A patch at its parameters and its place on the workspace (m from its centre): what the control side hands over.
-/// The memory is that of the bank's program. Patches that differ in their parameters only share it; whoever plays it is
-/// the only one to touch it, and the control side lets it go.
+/// A patch with its parameters and its position (m from the workspace's centre), as the control side hands it over. The
+/// memory belongs to the bank's program, and patches that differ only in parameters share it. Only the thread that
+/// plays the patch uses the memory; the control side frees it.
 struct PlacedPatch {
   Bank bank;
   glm::vec2 position;
   std::shared_ptr<Memory> memory;
   float layer = 0;
   std::uint32_t number = 0;           ///< on the stage
-  double potential_range = HUGE_VAL;  ///< J, of the bank's force; without a bound nothing that it gives is held back
+  double potential_range = HUGE_VAL;  ///< J, of the bank's force; infinite: its energy is not limited
 };
 
-/// Where a patch is that has been moved.
+/// The position of a patch that has been moved.
 struct MovedPatch {
   std::size_t number = 0;
   glm::vec2 position{0};  ///< m from the workspace's centre
 };
 
-/// All that lies on the workspace, as the control side hands it over. What does not change from one to the next they
-/// share: the real-time thread alone touches the patches, and lets the last one go to the control side. Patches that
-/// have been moved are found apart from those that stay, so that moving one takes no time among many others.
+/// All patches on the workspace, as the control side hands them over. Successive values share the patches that did not
+/// change. Only the real-time thread uses the patches; it leaves freeing them to the control side. Patches that have
+/// been moved are searched apart from those that stay, so the cost of a move does not grow with the others' number.
 class PlacedPatches {
  public:
   using Patches = std::vector<std::shared_ptr<PlacedPatch>>;
 
-  /// None.
+  /// No patch.
   PlacedPatches();
   /// One patch alone.
   explicit PlacedPatches(PlacedPatch patch);
 
-  std::uint32_t revision = 0;  ///< counts what a run hands over, from 1 on
+  std::uint32_t revision = 0;  ///< the number of this hand-over in the run, from 1 on
 
   const Patches& patches() const noexcept { return *patches_; }
 
-  /// Takes others in their place, by their numbers. What lies where is as it was until `arrange`: where a patch is new,
-  /// or has another size, that is called before the next look.
+  /// Replaces the patches; their index is their number. Call `arrange` before the next `at` when a patch is new or has
+  /// another size: until then `at` searches the previous outlines.
   void take(Patches patches) { patches_ = std::make_shared<const Patches>(std::move(patches)); }
-  /// Finds out what is in front where, but for those in `moving`, in time proportional to the number of patches.
-  /// Those that move stand in the order of their numbers.
+  /// Prepares the search for all patches, in time proportional to their number. `moving` has the moved patches in the
+  /// order of their numbers.
   void arrange(std::span<const MovedPatch> moving);
-  /// The same for those that move alone, which are the same as at the last `arrange`.
+  /// Prepares the search for the moved patches only. They are the same patches as at the last `arrange`.
   void move(std::span<const MovedPatch> moving);
 
   /// The front-most patch under a point (m from the workspace's centre) and where it is, or null.
@@ -76,12 +76,12 @@ class PlacedPatches {
 
  private:
   std::shared_ptr<const Patches> patches_;
-  std::shared_ptr<const FrontMost> staying_;  // by their places in `patches_`
+  std::shared_ptr<const FrontMost> staying_;  // by their indices in `patches_`
   std::vector<MovedPatch> moved_;
-  std::shared_ptr<const FrontMost> moving_;  // by their places in `moved_`; null where there are none
+  std::shared_ptr<const FrontMost> moving_;  // by their indices in `moved_`; null where there are none
 };
 
-/// What one axis tells of the hand, in counts and ticks.
+/// One axis's estimates of velocity and acceleration, in counts and ticks.
 class AxisFilters {
  public:
   explicit AxisFilters(const DeviceProfile& profile) : velocity_(profile), acceleration_(profile) {}
@@ -101,12 +101,12 @@ class AxisFilters {
   PlainDifferences raw_;
 };
 
-/// The real-time half of a stage: what one thread does at each beat. The device is without force once it is gone.
+/// The real-time half of a stage: the work of one thread at each beat. Its end commands zero force.
 class Player {
  public:
-  /// `record` keeps the last `beats` beats, at least one, and `sink` gets each. All outlive the player. `most_newton`
-  /// is the largest force that the user allows; `real_time` says that time passes by itself, so that costs can be
-  /// measured. Allocates.
+  /// `record` keeps the last `beats` beats, at least one, and `sink` receives each. All outlive the player.
+  /// `most_newton` is the largest force that the user allows; with `real_time`, the cost of each step is measured by
+  /// the clock. Allocates.
   Player(Device& device, Exchange<PlacedPatches>& patches, Record& record, std::size_t beats,
          double most_newton = HUGE_VAL, bool real_time = false, TickSink* sink = nullptr);
   ~Player() { device_.command(Force(0)); }
@@ -121,28 +121,28 @@ class Player {
   /// From any thread.
   Progress progress() const { return latest_.load(); }
 
-  /// After the last beat.
+  /// Call these after the last beat.
   Lateness lateness() const { return lateness_.summary(); }
   std::optional<TickCosts> costs() const { return costs_.summary(); }
   GuardCounts guards() const noexcept;
   long served() const { return static_cast<long>(served_); }
-  /// Brings the record into order, and cuts it to the beats served.
+  /// Sorts the record by time, and cuts it to the beats served.
   void finish();
 
  private:
-  /// The hand as this beat has it, but for its position on the patch.
+  /// The hand at this beat, without its position on the patch.
   Hand hand(const Reading& reading, const Beat& beat) noexcept;
   /// Why there must be no force now, if there must be none.
   std::optional<Guards::Reason> reason_to_cut(const Reading& reading, const Beat& beat) const noexcept;
   /// The program's force, with the hand within the patch.
   Force feel(PlacedPatch& patch, const Hand& hand) noexcept;
-  /// What became of the program's output.
+  /// The program's output and what the guards and the device made of it.
   struct Output {
     Force wanted{0};     ///< by the program
     Force commanded{0};  ///< after the guards
     Force exerted{0};    ///< by the actuator
   };
-  /// Enters the beat in the record, and lets it be seen. `before` is what the guards had counted until then.
+  /// Records the beat and publishes the progress. `before` has the guards' counts before this beat.
   void note(const Beat& beat, const Reading& reading, const Hand& hand, const Output& output,
             const GuardCounts& before) noexcept;
 
@@ -156,7 +156,7 @@ class Player {
   AxisFilters filters_x_, filters_y_;
   Guards guards_;
   const Memory* inside_ = nullptr;  // the memory of the patch that the hand was on at the last beat
-  PlacedPatches::Found felt_;       // that patch, where it was
+  PlacedPatches::Found felt_;       // that patch and its position
   long restored_ = 0;
   TimeHistogram lateness_;
   CostMeter costs_;

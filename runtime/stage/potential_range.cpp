@@ -20,12 +20,12 @@ bool goes_by_place_alone(const Program& program) {
          });
 }
 
-/// Where number `index` of `count` equal parts of a length has its middle, from the middle of all.
+/// The middle of part `index` of the `count` equal parts of a length, from the middle of the whole.
 float middle(std::size_t index, std::size_t count, float length) {
   return length * ((static_cast<float>(index) + 0.5f) / static_cast<float>(count) - 0.5f);
 }
 
-/// J, the farthest that the potential goes along any of the lines of one direction.
+/// J, the largest range of the potential along any line of one direction.
 double farthest_along(const Bank& bank, bool along_x) {
   const float length = along_x ? bank.size().width : bank.size().height;
   const float across = along_x ? bank.size().height : bank.size().width;

@@ -7,10 +7,10 @@
 
 namespace wale {
 
-/// A run that was recorded, played again: its beats in place of a clock's, and someone who sees what becomes of each.
+/// A recorded run to replay: it gives the beats in place of a clock, and receives the tick that each beat gives.
 class RecordedRun : public TickSink {
  public:
-  /// The next beat to serve, if there is one; what lies on the stage has been changed to what lay there then.
+  /// The next beat to serve, if there is one. The stage has been changed first to what it was at that beat.
   virtual std::optional<Beat> next() = 0;
 };
 

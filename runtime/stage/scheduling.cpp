@@ -23,9 +23,9 @@ void touch_stack() {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Asks the kernel to let no processor fall into a sleep from which it takes longer than 0 us to wake, as long as the
-/// descriptor that is returned stays open (Linux, Documentation/power/pm_qos_interface.rst). Below 0 and `errno`: it
-/// does not let us.
+/// Asks the kernel to keep processors out of sleep states that take longer than 0 us to leave, as long as the returned
+/// descriptor stays open (Linux, Documentation/power/pm_qos_interface.rst). Below 0, with the reason in `errno`, when
+/// the kernel refuses.
 int hold_latency() {
   const int file = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
   if (file < 0) return file;

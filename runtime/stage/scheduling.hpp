@@ -4,13 +4,13 @@
 
 namespace wale {
 
-/// SCHED_FIFO, of the loop: above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs and migration
-/// threads (99). The threads that serve a device are best just below it.
+/// The loop's priority under SCHED_FIFO: above the interrupt threads of a PREEMPT_RT kernel (50), below its watchdogs
+/// and migration threads (99). Threads that serve a device should have one just below it.
 inline constexpr int loop_priority = 80;
 
-/// Makes the calling thread as punctual as the system permits: SCHED_FIFO, the process's memory locked (what is mapped
-/// now), its stack touched, the processors kept from sleeping so deeply that they wake late. Gives back memory and
-/// processors when it goes, and says in one line what it got.
+/// Makes the calling thread as punctual as the system permits: SCHED_FIFO, the process's memory that is mapped now
+/// locked, its stack touched, the processors kept from sleep states that are slow to leave. Its end releases memory and
+/// processors. `status` says in one line what was granted.
 class RealTimeClaim {
  public:
   RealTimeClaim();

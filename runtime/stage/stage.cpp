@@ -26,7 +26,7 @@ constexpr long longest_run = 1L << 24;
 constexpr double endless = 0x1p53;  // ticks: the greatest number that a double counts exactly
 constexpr double progress_seconds = 0.1;
 
-/// Six digits are enough to tell a person a value.
+/// Six digits: enough for a person.
 std::string digits(double value) {
   std::array<char, 32> text;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6).ptr};
@@ -62,7 +62,7 @@ Result<> complete(const DeviceProfile& profile) {
   return {};
 }
 
-/// A program drives either actuators that push or one that shakes.
+/// An error unless both push or both vibrate.
 Result<> fits(const PatchProgram& program, const DeviceProfile& device) {
   if (program.vibrates() == device.shaker.has_value()) return {};
   return Error{.code = Code::other_device,
@@ -72,7 +72,7 @@ Result<> fits(const PatchProgram& program, const DeviceProfile& device) {
                .mend = "build it for " + device.name};
 }
 
-/// A value that a caller gave makes no sense.
+/// The error of a value that the caller must not give.
 Error malformed(std::string name, std::string sentence) {
   return {.code = Code::malformed_value, .sentence = std::move(sentence), .place = {.name = std::move(name)}};
 }
@@ -115,7 +115,7 @@ struct Stage::Parts {
   std::vector<std::size_t> replaced;  // placements whose memories may have predecessors
   std::vector<std::size_t> movers;    // placements that have been moved, in rising order
   bool cleared = false;               // all placements are new since they were last published
-  bool rearranged = false;            // since then one may have got another size, or has been moved for the first time
+  bool rearranged = false;            // since then a size may have changed, or a patch moved for the first time
   bool moved = false;                 // since then one of the movers has been moved
   bool finished = false;              // the real-time thread's last tick is done
   bool running = false;

@@ -8,10 +8,10 @@
 
 namespace wale {
 
-/// A histogram of fixed size of how long things took: exact below 64 ns, then 32 buckets for each doubling.
+/// A histogram of durations, of fixed size: exact below 64 ns, then 32 buckets for each doubling.
 class TimeHistogram {
  public:
-  /// Counts one time; less than nothing counts as nothing.
+  /// Counts one duration; a negative one counts as 0.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void add(std::int64_t nanoseconds) noexcept;
 

@@ -8,15 +8,15 @@ namespace wale {
 
 /// Velocity from encoder counts, for one axis: the slope over the longest window for which the straight line between
 /// the newest sample and the oldest passes within the noise of all samples between (Janabi-Sharifi, Hayward, Chen 2000,
-/// "first-order adaptive windowing", end-fit). A steady hand is measured over a long window, a turning one over a
-/// short.
+/// "first-order adaptive windowing", end-fit). The window is long while the hand moves steadily and short where it
+/// turns.
 class VelocityFilter {
  public:
   /// The profile's `velocity_window` in ticks (at least one is used) and `velocity_noise_counts`. Allocates.
   explicit VelocityFilter(const DeviceProfile& profile);
 
-  /// Takes the sample `counts`, `periods` ticks after the one before (at least 1; more when some were skipped), and
-  /// gives counts per tick. The first sample gives zero.
+  /// Takes the sample `counts`, `periods` ticks after the last one (at least 1; more when some were skipped), and
+  /// returns counts per tick. The first sample gives zero.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   double operator()(int counts, long periods) noexcept;
 

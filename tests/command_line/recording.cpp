@@ -81,9 +81,10 @@ TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
   EXPECT_EQ(again.status, 1);
   EXPECT_TRUE(contains(again.err, "the file exists already")) << again.err;
   EXPECT_EQ(bytes_of(file), before);
-  const Outcome nowhere = feel({corduroy, "--record", folder / "none/a.wrec"});
+  const std::string in_no_folder = folder / "none/a.wrec";
+  const Outcome nowhere = feel({corduroy, "--record", in_no_folder});
   EXPECT_EQ(nowhere.status, 1);
-  EXPECT_TRUE(contains(nowhere.err, "there is no such folder")) << nowhere.err;
+  EXPECT_TRUE(contains(nowhere.err, ": " + in_no_folder + ": there is no such folder\n")) << nowhere.err;
   const Outcome odd = feel({corduroy, "--record", folder / "a.record"});
   EXPECT_EQ(odd.status, 1);
   EXPECT_TRUE(contains(odd.err, "NAME.wrec")) << odd.err;
@@ -107,9 +108,11 @@ TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
   EXPECT_TRUE(contains(outcome.err, "tick 1000 (byte " + std::to_string(at) + ") is damaged")) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, "--ticks 1000")) << outcome.err;
   EXPECT_EQ(wale({"replay", damaged, "--ticks", "1000"}).status, 0);
-  EXPECT_TRUE(contains(wale({"replay", folder.write("empty.wrec", "")}).err, "it is empty"));
-  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "it is not a recording"));
-  EXPECT_TRUE(contains(wale({"replay", folder / "none.wrec"}).err, "No such file"));
+  EXPECT_TRUE(contains(wale({"replay", folder.write("empty.wrec", "")}).err, "the file is empty"));
+  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "this is not a recording"));
+  const std::string missing = folder / "none.wrec";
+  EXPECT_EQ(wale({"replay", missing}).err,
+            "wale: error[W0501]: " + missing + ": cannot be read: No such file or directory\n");
   EXPECT_EQ(wale({"replay"}).status, 2);
 }
 

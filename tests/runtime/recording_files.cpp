@@ -124,7 +124,7 @@ TEST(RecordingFile, AFlippedByteIsFoundOrIsNone) {
     const auto read = Recording::read(std::move(flipped), "flipped");
     if (!read) {
       ++found;
-      ASSERT_TRUE(read.error().sentence.starts_with("`flipped`: ")) << read.error().sentence;
+      ASSERT_EQ(read.error().place.name, "flipped") << read.error().sentence;
       ASSERT_EQ(read.error().place.name, "flipped");
       continue;
     }
@@ -152,7 +152,7 @@ TEST(RecordingFile, OfADamagedOneTheTicksBeforeCanBeHad) {
   ASSERT_NE(at, 0u);
   bytes[at + 40] ^= std::byte{1};
   EXPECT_EQ(refused(Recording::read(bytes, "a.wrec")),
-            "`a.wrec`: tick 1234 (byte " + std::to_string(at) +
+            "tick 1234 (byte " + std::to_string(at) +
                 ") is damaged; the 1234 ticks before it are intact: read them with --ticks 1234");
   const auto before = Recording::read(bytes, "a.wrec", 1234);
   ASSERT_TRUE(before) << refused(before);
@@ -170,7 +170,7 @@ TEST(RecordingFile, CutShortItIsRefusedOrShorter) {
     EXPECT_FALSE(read) << size;
   }
   const auto cut = Recording::read({bytes.begin(), bytes.end() - 5}, "cut");
-  EXPECT_NE(refused(cut).find("`cut`: it is cut short within the chunk at byte"), std::string::npos) << refused(cut);
+  EXPECT_TRUE(refused(cut).starts_with("the file is cut short within the chunk at byte")) << refused(cut);
 }
 
 TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
@@ -178,22 +178,23 @@ TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
     const auto bytes = std::as_bytes(std::span(text));
     return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
   };
-  EXPECT_EQ(reason(""), "`x`: it is empty, and nothing was recorded in it");
-  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"),
-            "`x`: it is not a recording: it does not begin as one does; make one with `wale feel FILE --record NAME.wrec`");
-  EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "`x`: a transfer as text has damaged it; copy it as binary");
+  EXPECT_EQ(reason(""), "the file is empty: nothing was recorded in it");
+  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"), "this is not a recording: the first bytes of one are missing; "
+                                          "make one with `wale feel FILE --record NAME.wrec`");
+  EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "a transfer as text has damaged the recording; copy it as binary");
   EXPECT_EQ(reason(std::string("\x89WRC\r\n\x1a\n", 8)),
-            "`x`: it is cut short within its header, at byte 8; copy it again");
+            "the file is cut short within its header, at byte 8; copy it again");
   std::vector<std::byte> newer = some_recording();
   FileHeader header;
   std::memcpy(&header, newer.data(), sizeof header);
   header.version = 2;
   header.check = check_of(header);
   std::memcpy(newer.data(), &header, sizeof header);
-  EXPECT_EQ(refused(Recording::read(newer, "x")), "`x`: it has format 2, and this Wale reads up to 1; update Wale");
+  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 2, and this Wale reads up to 1; update Wale");
   const TemporaryFolder folder;
-  EXPECT_EQ(refused(Recording::open(folder / "none.wrec")),
-            "`" + folder / "none.wrec" + "` cannot be read: No such file or directory");
+  const auto missing = Recording::open(folder / "none.wrec");
+  EXPECT_EQ(refused(missing), "cannot be read: No such file or directory");
+  EXPECT_EQ(missing.error().place.name, folder / "none.wrec");
 }
 
 TEST(RecordingFile, CannotBeMadeWhereItWouldTakeAnothersPlaceOrThereIsNone) {
@@ -203,16 +204,15 @@ TEST(RecordingFile, CannotBeMadeWhereItWouldTakeAnothersPlaceOrThereIsNone) {
   stage.place(oil(1));
   const auto attempt = [&](const std::string& file) {
     const auto result = stage.run({.seconds = 0.01, .virtual_time = true, .record_to = RecordTo{file, {}}});
-    return result ? "not refused" : in_words(result.error());
+    return result ? "not refused" : result.error().place.name + ": " + in_words(result.error());
   };
   EXPECT_EQ(attempt(folder / "a.wrec"), "not refused");
   const auto before = bytes_of(folder / "a.wrec");
   EXPECT_EQ(attempt(folder / "a.wrec"),
-            "cannot record in `" + folder / "a.wrec" +
-                "`: the file exists already, and a recording never overwrites a file; delete it or choose another name");
+            folder / "a.wrec" +
+                ": the file exists already, and a recording never overwrites a file; delete it or choose another name");
   EXPECT_EQ(bytes_of(folder / "a.wrec"), before);
-  EXPECT_EQ(attempt(folder / "none/a.wrec"),
-            "cannot record in `" + folder / "none/a.wrec" + "`: there is no such folder; make it first");
+  EXPECT_EQ(attempt(folder / "none/a.wrec"), folder / "none/a.wrec" + ": there is no such folder; make it first");
   device.profile_.mass = -1;
   EXPECT_NE(attempt(folder / "b.wrec").find("the device's mass (kg)"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "b.wrec"));
@@ -239,10 +239,10 @@ TEST(RecordingFile, OnAFullDiskTheRunGoesOnAndSaysWhatIsRecorded) {
     EXPECT_EQ(done.ticks_run + done.ticks_missed, static_cast<long>(7 * ticks_per_chunk + 500));
     if (static_cast<std::size_t>(done.ticks_run) <= 7 * ticks_per_chunk) continue;  // a machine too busy for the test
     ASSERT_TRUE(done.record_problem);
+    EXPECT_EQ(done.record_problem->place.name, file);
     EXPECT_EQ(in_words(*done.record_problem), "the recording ends after " + std::to_string(7 * ticks_per_chunk) +
-                                       " ticks: cannot go on recording in `" + file +
-                                       "`: no file may become that large here (ulimit -f); raise the limit or record "
-                                       "elsewhere");
+                                                  " ticks: the file would exceed the limit on its size (ulimit -f); "
+                                                  "raise the limit or record elsewhere");
     const Recording recording = opened(file);
     EXPECT_EQ(recording.ticks(), 7 * ticks_per_chunk);
     EXPECT_FALSE(recording.complete());

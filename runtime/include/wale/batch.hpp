@@ -11,15 +11,15 @@
 namespace wale {
 
 /// Independent instances of one program: each has its own hand and its own states, which it keeps from tick to tick,
-/// and all read the same grids, to which nothing is written. For simulated experiments, grading and whoever else needs
-/// the future of many hands; bit-identical to a `tick` with a `Memory` whose grids stay as they are.
+/// and all read the same grids, which are never written. For simulated experiments, grading and other predictions of
+/// many hands. Bit-identical to a `tick` with a `Memory` whose grids do not change.
 ///
-/// Instances run in blocks of lanes and do not know of one another: their order and number change no bit. The bank may
-/// be let go. One thread at a time may use a batch.
+/// Instances run in blocks of lanes and are independent: their order and number change no bit. The bank need not
+/// outlive the batch. One thread at a time may use a batch.
 class Batch {
  public:
-  /// `instances` hands, none of which has entered. Grids are those of `grids` as they are now, if it is of the bank's
-  /// program, else as at the beginning. Allocates; copies the registers and the grids once for all instances.
+  /// `instances` hands, none of which has entered. Grids have their values in `grids` now, if that is of the bank's
+  /// program, else their initial ones. Allocates; copies the registers and the grids once for all instances.
   Batch(const Bank& bank, std::size_t instances, const Memory* grids = nullptr);
   ~Batch();
   Batch(Batch&&) noexcept;
@@ -27,7 +27,7 @@ class Batch {
 
   std::size_t size() const;
 
-  /// All hands come in: what `Memory::enter` does, for each. `hands` is as long as the batch.
+  /// All hands enter, as in `Memory::enter`. `hands` is as long as the batch.
   void enter(std::span<const Hand> hands);
   /// One tick of each instance. `hands` and `forces` (N) are as long as the batch.
   void tick(std::span<const Hand> hands, std::span<Force> forces);
@@ -40,17 +40,17 @@ class Batch {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Moves some hands on: `first` is the number of the first of them, `forces` (N) is what each felt in the tick before
-/// `tick`, or 0 when that is the first, number 0. `hands` has one for each of `forces`, as it was left the last time,
-/// at first all zero. Called from several threads at once, never for the same hands.
+/// Moves some hands: `first` is the number of the first of them. `forces` (N) has the force on each in the tick before
+/// `tick`, or 0 at tick 0. `hands` has one hand for each force, as the last call left it; at tick 0 all are zero.
+/// Called from several threads at once, never for the same hands.
 using MoveHands =
     std::function<void(std::size_t first, long tick, std::span<const Force> forces, std::span<Hand> hands)>;
 
 /// Runs `instances` independent hands through `ticks` ticks in closed loop, on all cores: each block of hands goes
 /// through all of its ticks on one thread. Hands enter where the first call of `move` puts them. After the last tick
-/// `move` is called once more, with number `ticks`, for the forces; where it puts the hands then is of no concern.
-/// Results depend neither on the number of cores nor on who runs first. What `move` throws is thrown again. `grids` as
-/// for a `Batch`. Allocates.
+/// `move` is called once more, with number `ticks`, to receive the forces; the hands are then ignored.
+/// Results do not depend on the number of cores or the order of threads. What `move` throws is thrown again. `grids` is
+/// as for a `Batch`. Allocates.
 void run_batch(const Bank& bank, std::size_t instances, long ticks, const MoveHands& move,
                const Memory* grids = nullptr);
 

@@ -11,23 +11,23 @@ namespace wale {
 /// Whether a device can be relied on now.
 enum class Contact {
   good,
-  stale,  ///< it is there, and has sent no new position for too long
+  stale,  ///< it is connected, and has sent no new position for too long
   lost    ///< it was unplugged or does not answer properly; it may come back
 };
 
-/// What a device reports once a tick.
+/// A device's report, once a tick.
 struct Reading {
   glm::ivec2 counts{0};  ///< encoder counts from the workspace's centre; metres are counts * position_step()
-  /// N, the force of the hand on the handle, averaged over the period that just ended; it contains inertia and friction.
-  /// Not-a-number where the device does not know it.
+  /// N, the force of the hand on the handle, averaged over the period that just ended, with inertia and friction.
+  /// Not-a-number where the device does not measure it.
   Force interaction{std::numeric_limits<float>::quiet_NaN()};
   bool button = false;  ///< the device's button is pressed
   /// Unless it is `good`, the position is an old one and no force is commanded.
   Contact contact = Contact::good;
 };
 
-/// A force-feedback joystick: position in, force out; or a pad: position in where it has one, vibration out. One thread
-/// at a time uses it.
+/// A force-feedback joystick: position in, force out. Or a pad: vibration out, and position in if it has one. One
+/// thread at a time uses it.
 ///
 /// The real-time loop calls `elapse`, `sample` and `command` once a tick, in this order; they allocate nothing, take no
 /// lock, do not throw, and make no system call besides those that reach the hardware.
@@ -42,9 +42,9 @@ class Device {
 
   virtual Reading sample() noexcept = 0;
 
-  /// Pushes with `force` (N at the handle) until the next command. Returns what the actuator exerts from now on, after
-  /// calibration, clamping and quantisation; a device that cannot tell returns what it sent. A pad, whose profile says
-  /// that it vibrates, is commanded an amplitude (m/s^2) and a frequency (Hz) and returns how it shakes now.
+  /// Pushes with `force` (N at the handle) until the next command. Returns the force that the actuator exerts from now
+  /// on, after calibration, clamping and quantisation, or the force sent where the device does not know it. A pad (a
+  /// profile that vibrates) takes an amplitude (m/s^2) and a frequency (Hz) and returns those of its vibration now.
   virtual Force command(Force force) noexcept = 0;
 };
 

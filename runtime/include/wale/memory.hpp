@@ -12,32 +12,32 @@
 
 namespace wale {
 
-/// What one placed program remembers from tick to tick: its states and the cells of its grids. It outlives banks: a
-/// parameter that changes makes a new bank and leaves the memory as it is. One thread at a time may use it.
+/// The memory of one placed program from tick to tick: its states and the cells of its grids. It outlives banks: a
+/// change of a parameter makes a new bank and leaves the memory as it is. One thread at a time may use it.
 ///
 /// Grids begin at their initial values when the memory is made and keep what is written; states begin anew whenever the
 /// hand enters. Before the first `enter` a state is the number of its range that is nearest to 0.
 class Memory {
  public:
-  /// Allocates all that the program will ever remember.
+  /// Allocates all states and cells.
   explicit Memory(const Program& program);
 
-  /// Allocates it for a program that takes the place of another one: what has the same name and unit as in
-  /// `predecessor`'s program (grids: all of them the same names, units and sizes) goes on from there, once `succeed` is called.
+  /// The memory of a program that replaces `predecessor`'s. When `succeed` is called, states of the same name and unit
+  /// keep their values, and so do the grids if all have the same names, units and sizes. Allocates.
   Memory(const Program& program, std::shared_ptr<Memory> predecessor);
 
-  /// Takes over from the predecessor, which has taken over from its own, what goes on: the grids and, where the hand
-  /// was on the patch all the time, the states; after `enter`, so that what is new begins as on entering. Only the
-  /// first call does anything. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  /// Takes over values from the predecessor, after that has done so from its own: the grids and, with `with_states`
+  /// (the hand stayed on the patch), the states. Call it after `enter`, so that new states begin as on entering. Only
+  /// the first call does anything. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void succeed(bool with_states) noexcept;
-  /// Whether `other` is a predecessor, however many came between, that has not been succeeded. Real-time likewise.
+  /// Whether `other` is a direct or earlier predecessor that has not been succeeded. Real-time likewise.
   bool follows(const Memory* other) const noexcept;
-  /// Lets the predecessor go if it has been succeeded. For the side that allocates.
+  /// Releases the predecessor if it has been succeeded. For the control side: it frees memory.
   void forget_predecessor();
 
-  /// The hand has come in: runs the program's `enter` section and sets the states, each held in its range; one whose
-  /// initial value is not a number gets the number of its range that is nearest to 0. `bank` is of the same program, or
-  /// nothing happens.
+  /// The hand enters: runs the program's `enter` section and sets the states, each clamped to its range. A state whose
+  /// initial value is not a number gets the number of its range that is nearest to 0. Does nothing if `bank` is of
+  /// another program.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void enter(Bank& bank, const Hand& hand) noexcept;
 
@@ -54,7 +54,7 @@ class Memory {
  private:
   friend Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept;
 
-  /// The end of a tick, which left its results in `registers`.
+  /// Ends a tick: stores its results, which are in `registers`, in the states and grids.
   void remember(const float* registers) noexcept;
 
   Program program_;
@@ -62,9 +62,9 @@ class Memory {
   std::vector<float> cells_;
   long restored_ = 0;
   std::shared_ptr<Memory> predecessor_;
-  std::vector<std::pair<std::uint16_t, std::uint16_t>> kept_states_;  // there and here
+  std::vector<std::pair<std::uint16_t, std::uint16_t>> kept_states_;  // number in the predecessor, and in this memory
   bool keeps_grids_ = false;
-  /// Set by the real-time side, read by the other; a copy of a memory copies what it was.
+  /// Set by the real-time side, read by the control side; a copy of a memory copies its value.
   struct Succeeded : std::atomic<bool> {
     Succeeded() : std::atomic<bool>(true) {}
     Succeeded(const Succeeded& other) : std::atomic<bool>(other.load()) {}
@@ -76,10 +76,10 @@ class Memory {
   Succeeded succeeded_;
 };
 
-/// One execution of the program: its force on the hand, in N, and what it remembers from here on. States read as they
-/// were when the tick began; at its end each becomes its next value, held in its range, or its initial value again when
-/// that is not a number; then grids are written, from registers that know nothing of these writes. `memory` was made
-/// for the bank's program; otherwise it is left alone and the tick is one without memory.
+/// Runs the program once: returns its force on the hand, in N, and updates the memory. During the tick states have the
+/// values from its beginning. At its end each state gets its next value, clamped to its range, or its initial value
+/// when that is not a number. Then the grids are written, with values computed before any of these writes. A `memory`
+/// of another program is left unchanged, and the tick runs without memory.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept;
 

@@ -12,17 +12,17 @@
 
 namespace wale {
 
-/// The surface at many positions (m from the patch's centre) as the memory has it: its height, in m or as a plain
-/// number (`Picture::relief_is_length`), and its colour: red, green and blue in 0 .. 1, not-a-number 0.
+/// The surface at many positions (m from the patch's centre) with the memory's states and grids: its height, in m or as
+/// a plain number (`Picture::relief_is_length`), and its colour: red, green and blue in 0 .. 1, 0 for not-a-number.
 ///
-/// Without a memory, or with that of another program, states are as after entering at the patch's centre at rest and
-/// grids as at the beginning. `heights` is as long as `positions`; `colours` is too, or is empty where nobody asks, and
-/// is left alone by a program that says no colours.
+/// Without a memory, or with one of another program, states are as after entering at the patch's centre at rest and
+/// grids have their initial values. `heights` is as long as `positions`; so is `colours`, or it is empty when colours
+/// are not wanted. A program without colours leaves `colours` unchanged.
 void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::vec2> positions, std::span<float> heights,
                  std::span<glm::vec3> colours = {});
 
-/// A shape that the picture shows now: `values` are what `MarkKind` says of its kind, in m, rad and s, the others 0.
-/// They may be anything a float can be.
+/// A shape that the picture shows now. `MarkKind` gives the meaning of `values`, in m, rad and s; unused ones are 0.
+/// They may be any float, infinities and not-a-number included.
 struct ShownMark {
   MarkKind kind = MarkKind::point;
   std::array<float, 5> values{};
@@ -31,8 +31,8 @@ struct ShownMark {
   friend bool operator==(const ShownMark&, const ShownMark&) = default;
 };
 
-/// Runs the picture's frame section for a hand and gives its marks in the order of drawing. A memory of another program
-/// counts as one just made and entered here.
+/// Runs the picture's frame section for a hand and returns its marks in drawing order. A memory of another program
+/// counts as a new one that the hand has just entered.
 std::vector<ShownMark> show(const Bank& bank, const Memory& memory, const Hand& hand);
 
 }  // namespace wale

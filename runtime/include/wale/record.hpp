@@ -12,25 +12,25 @@ namespace wale {
 /// One tick of a run.
 struct TickRecord {
   double time = 0;            ///< s since the run began
-  glm::vec2 position{0};      ///< m from the workspace's centre, as the encoder has it
+  glm::vec2 position{0};      ///< m from the workspace's centre, by the encoder
   glm::vec2 velocity{0};      ///< m/s, filtered
-  Force force{0};             ///< N, what the actuator exerts from this tick on: clamped, quantised, held; of a pad
-                              ///< how it shakes, m/s^2 and Hz
+  Force force{0};             ///< N, exerted by the actuator from this tick on: clamped, quantised, held; on a pad
+                              ///< its vibration, m/s^2 and Hz
   Force interaction{0};       ///< N from hand to handle over the period before; not-a-number where unknown
   float lateness = 0;         ///< s that the tick began after its deadline
-  std::uint32_t skipped = 0;  ///< periods that passed unserved just before
+  std::uint32_t skipped = 0;  ///< periods that were not served just before this tick
   bool inside = false;        ///< the hand was within the patch
 };
 
 /// A run, tick by tick.
 struct Record {
   double seconds_per_tick = 0;
-  bool vibrates = false;  ///< of a pad
+  bool vibrates = false;  ///< the device is a pad
   std::vector<TickRecord> ticks;
 };
 
-/// One line per tick under a header with units, in the shortest digits that read back as the same numbers. Unknown
-/// values are empty.
+/// Writes one line per tick under a header with units. Numbers have the fewest digits that read back as the same
+/// numbers. Unknown values are empty.
 void write_csv(std::ostream& out, const Record& record);
 
 }  // namespace wale

@@ -11,19 +11,19 @@
 
 namespace wale {
 
-/// A person's hand and arm: a mass on a spring and a damper whose far end is where the person wants to be.
+/// A person's hand and arm: a mass on a spring and a damper whose far end is the position that the person aims for.
 struct HandModel {
   double mass = 0;       ///< kg
   double damping = 0;    ///< N s/m
   double stiffness = 0;  ///< N/m
 };
 
-/// Where the simulated person wants to be, in m from the workspace's centre.
+/// The position that the simulated person aims for, in m from the workspace's centre.
 struct Rest {
   glm::dvec2 position{0};
 };
 
-/// To and fro along x, beginning at the centre towards +x.
+/// A sine along x that begins at the centre, towards +x.
 struct Lateral {
   double amplitude = 0;  ///< m to each side
   double frequency = 0;  ///< Hz
@@ -39,20 +39,20 @@ struct Circular {
 
 using Motion = std::variant<Rest, Lateral, Circular, Trace>;
 
-/// Where a motion is at `time` (s) and how fast it goes. The same bits on every machine.
+/// The position and velocity of a motion at `time` (s). The same bits on every machine.
 TracePoint at(const Motion& motion, double time) noexcept;
 
-/// A joystick of the profile's mass, damping, friction, encoders and actuators in the hand of a simulated person who
+/// A joystick with the profile's mass, damping, friction, encoders and actuators in the hand of a simulated person who
 /// holds its handle rigidly. A command reaches the actuator after the profile's delay, and the actuator is a
-/// first-order low-pass of its bandwidth, each axis by its own figures. Its time is the number of periods elapsed;
-/// everything is the same bit for bit each time.
+/// first-order low-pass of the profile's bandwidth; each axis has its own figures. Time is the number of periods
+/// elapsed, so every run gives the same bits.
 ///
-/// The person starts at rest where the motion starts. Both axes are independent but for the edge of the round
+/// The person starts at rest where the motion starts. The axes are independent except at the edge of the round
 /// workspace, where the handle stops dead.
 class SimulatedJoystick final : public Device {
  public:
-  /// The profile's rate, workspace, counts and force are positive; `profile.mass + hand.mass` is positive. Allocates as
-  /// much as there are commands under way.
+  /// The profile's rate, workspace, counts and force are positive; `profile.mass + hand.mass` is positive. Allocates
+  /// room for the commands under way.
   SimulatedJoystick(DeviceProfile profile, HandModel hand, Motion motion);
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
@@ -60,17 +60,17 @@ class SimulatedJoystick final : public Device {
   Reading sample() noexcept override;
   Force command(Force force) noexcept override;
 
-  /// The handle's true position and velocity, m and m/s, which no device knows.
+  /// The handle's true position and velocity, m and m/s, which a real device does not know.
   glm::dvec2 position() const { return position_; }
   glm::dvec2 velocity() const { return velocity_; }
 
  private:
-  /// The way of a command along one axis.
+  /// The actuator of one axis, and the commands under way to it.
   struct Actuator {
     std::vector<double> under_way;  ///< N, the last commands; the newest at `newest`
     std::size_t newest = 0;
     double delay = 0;   ///< steps of the integration
-    double follow = 1;  ///< share of the way to the command that the actuator goes in one step
+    double follow = 1;  ///< share of the difference to the command that the actuator makes up in one step
     double since = 0;   ///< steps since the newest command
     double force = 0;   ///< N
 

@@ -21,15 +21,15 @@ struct Trace {
   bool velocities_given = false;
 };
 
-/// Reads CSV text: a header with the columns `t` (or `time`), `x`, `y` and optionally both `vx` and `vy`, in any order
-/// among others, which are ignored. A unit may follow the name as `t (s)`, `t [s]` or `t_s`: s, ms; m, cm, mm; m/s,
+/// Reads CSV text: a header with the columns `t` (or `time`), `x`, `y` and optionally both `vx` and `vy`, in any order.
+/// Other columns are ignored. A unit may follow the name as `t (s)`, `t [s]` or `t_s`: s, ms; m, cm, mm; m/s,
 /// cm/s, mm/s; SI without one. Lines may end in CRLF, be blank, or be a comment beginning with `#`; a byte order mark
 /// is skipped. The CSV of a run's record is a trace too.
 /// The error's place is the line, from 1.
 Result<Trace> read_trace(std::string_view text);
 
-/// Where the trace is at `time` (s): on the cubic through the two neighbouring points with their velocities, so that
-/// velocity is the derivative of position; at rest on the first point before it and on the last one after it.
+/// The position and velocity at `time` (s), on the cubic through the two neighbouring points and their velocities, so
+/// velocity is the derivative of position. At rest at the first point before the trace and at the last one after it.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 TracePoint at(const Trace& trace, double time) noexcept;
 
