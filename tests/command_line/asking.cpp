@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/command_line/running.hpp"
 
 namespace wale::command_line::asking_test {
