@@ -17,7 +17,7 @@ struct CsvRow {
 };
 
 /// Reads comma-separated values row by row. Takes a byte order mark, lines that end in CR LF, and cells in quotes,
-/// which may hold commas. Passes over lines that are empty or begin with `#`.
+/// which may hold commas. Skips lines that are empty or begin with `#`.
 class CsvReader {
  public:
   /// The text must outlive the rows.
@@ -31,8 +31,8 @@ class CsvReader {
   std::size_t line_ = 0;
 };
 
-/// The first row, which names the columns. Errors: W0504 where there is none, which says what was `expected`, and where
-/// the columns are separated by semicolons or tabs.
+/// The first row, which names the columns. Errors: W0504 where there is none (the sentence says what was `expected`),
+/// and where the columns are separated by semicolons or tabs.
 Result<CsvRow> read_headings(CsvReader& reader, const std::string& expected);
 
 /// "x (mm)", "x [mm]" or "x" as a name and a unit, which may be empty.
@@ -42,7 +42,7 @@ struct CsvHeading {
 CsvHeading heading_of(std::string_view cell);
 
 /// The finite number in a column, counted from 0, whose name is `name`. Errors: W0504 where the row has no such column
-/// or something else stands there.
+/// or the cell is not a finite number.
 Result<double> number_in(const CsvRow& row, std::size_t column, std::string_view name);
 
 /// W0504: "expected …, found …", at a line or, with 0, in the text as a whole.

@@ -7,9 +7,9 @@
 
 namespace wale {
 
-/// Where a vibrating pad knows the hand's place from.
+/// The source of the hand's position on a vibrating pad.
 enum class PositionSource : std::uint8_t {
-  none = 0,     ///< nowhere: a material's differences from place to place are lost
+  none = 0,     ///< no position: a material's differences from place to place are lost
   pointer = 1,  ///< a mouse or another pointer, in the hand or beside it
   touch = 2,    ///< the finger on it
 };
@@ -33,14 +33,14 @@ struct Shaker {
   PositionSource position = PositionSource::none;
   double frequency_low = 0, frequency_high = 0;  ///< Hz; it shakes at no others
   double command_steps = 0;                      ///< from no command to the full one; 0: continuous
-  double spin_up = 0;                            ///< s, in which it covers 63 % of the way to a command
+  double spin_up = 0;                            ///< s, in which it makes up 63 % of the difference to a command
   double exploring_speed = 0;                    ///< m/s, the assumed speed of the hand where there is no position
   std::vector<Response> response;                ///< frequencies rising
 
   /// The greatest acceleration at any frequency, m/s^2.
   double peak() const;
   /// The acceleration (m/s^2) of a command (0 .. 1) at a frequency (Hz), and the command of an acceleration, at most 1.
-  /// Linear between the declared points; beyond the first and the last frequency those count. Real-time.
+  /// Linear between the declared points; beyond the first or last frequency, that of the first or last. Real-time.
   double acceleration(double command, double frequency) const noexcept;
   double command(double acceleration, double frequency) const noexcept;
 
@@ -62,8 +62,8 @@ struct DeviceProfile {
   double speed_limit = 0;         ///< m/s; the runtime's limit of velocity, and the fastest that measuring explores
   /// N/s, of a pad m/s^3: how fast the output may move after a change of program, bank or patch.
   double slew = 0;
-  /// N per axis, which its motor bears for any length of time without overheating, and s, the time constant of its
-  /// heating, which follows the square of the force; 0: not declared.
+  /// N per axis, which its motor bears indefinitely without overheating, and s, the time constant of its heating, which
+  /// follows the square of the force; 0: not declared.
   double continuous_newton = 0, heating_seconds = 0;
   double active_watt = 0;            ///< W, the most that a program may give to the hand by itself
   double velocity_window = 0;        ///< ticks; the longest window of the velocity filter
@@ -77,9 +77,9 @@ struct DeviceProfile {
   double delay_x = 0, delay_y = 0;   ///< s, from a sample to the force that answers it, beyond the period it is held
   /// Hz, of each axis: where the actuator, modelled as a first-order low-pass, has lost 3 dB of force; 0: no limit.
   double bandwidth_x = 0, bandwidth_y = 0;
-  bool damping_known = false;   ///< somebody measured it; otherwise it is assumed, and no grade rests on it
-  bool friction_known = false;  ///< the same of the friction
-  /// Of a device that vibrates: it has no force and, without a position, neither workspace nor counts.
+  bool damping_known = false;   ///< it was measured; otherwise it is assumed, and no grade rests on it
+  bool friction_known = false;  ///< the same for the friction
+  /// Set for a device that vibrates: it has no force and, without a position, neither workspace nor counts.
   std::optional<Shaker> shaker;
 
   /// Metres per encoder count; 0 without a position.

@@ -20,23 +20,23 @@ struct Place {
   std::string source = {};                 ///< what it was made from, "corduroy.wale:9:13"; may be empty
 };
 
-/// What is wrong, as a value. Programs decide by `code`; the sentence is for people and is never searched. It can be
-/// read without the place.
+/// An error, as a value. Programs decide by `code`; the sentence is for people and is never searched. It makes sense
+/// without the place, and does not repeat the place's name.
 struct Error {
   Code code = {};
   std::string sentence = {};       ///< what is wrong: "expected a number, found a vector"
   std::string mend = {};           ///< what to do about it; may be empty
   Place place = {};                ///< where
-  std::vector<Place> led_to = {};  ///< what led to it, the first first: the instructions before a refused one
+  std::vector<Place> led_to = {};  ///< its causes in their order: the instructions before a refused one
 };
 
 /// The error in one line for a person: "the disk is full; make room or record elsewhere".
 std::string in_words(const Error& error);
 
-/// The error for a person in several lines: what `in_words` says, then what led to it, one a line.
+/// The error for a person in several lines: that of `in_words`, then its causes, one per line.
 std::string explained(const Error& error);
 
-/// A value, or why there is none: the one way in which a function of this project says that it failed.
+/// A value or an error: every function of this project that can fail returns one.
 ///
 ///     Result<Trace> trace = load_trace(file);
 ///     if (!trace) return trace.error();
@@ -48,26 +48,26 @@ class [[nodiscard]] Result {
  public:
   Result(Value value) : held_(std::in_place_index<0>, std::move(value)) {}
   Result(Error error) : held_(std::in_place_index<1>, std::move(error)) {}
-  /// Of something that makes a `Value`, as a `unique_ptr` to a derived class makes one to its base.
+  /// From anything that converts to a `Value`, as a `unique_ptr` to a derived class does to one to its base.
   template <class Other>
   requires(std::is_convertible_v<Other, Value> && !std::is_same_v<std::remove_cvref_t<Other>, Value> &&
            !std::is_same_v<std::remove_cvref_t<Other>, Error> && !std::is_same_v<std::remove_cvref_t<Other>, Result>)
       Result(Other&& other)
       : held_(std::in_place_index<0>, std::forward<Other>(other)) {}
-  /// Done, where there is no value to give.
+  /// Success without a value.
   Result() requires std::is_same_v<Value, std::monostate> : held_(std::in_place_index<0>) {}
 
   bool has_value() const noexcept { return held_.index() == 0; }
   explicit operator bool() const noexcept { return has_value(); }
 
-  /// The value, which there must be: ask first.
+  /// The value. Call it only if `has_value()`.
   Value& operator*() & { return std::get<0>(held_); }
   const Value& operator*() const& { return std::get<0>(held_); }
   Value&& operator*() && { return std::get<0>(std::move(held_)); }
   Value* operator->() { return &std::get<0>(held_); }
   const Value* operator->() const { return &std::get<0>(held_); }
 
-  /// The error, which there must be: ask first.
+  /// The error. Call it only if not `has_value()`.
   Error& error() & { return std::get<1>(held_); }
   const Error& error() const& { return std::get<1>(held_); }
   Error&& error() && { return std::get<1>(std::move(held_)); }

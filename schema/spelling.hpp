@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// How many slips make `b` of `a`, capitals aside: a letter inserted, dropped or replaced, or two neighbours that
-/// changed places, each letter touched once (the optimal string alignment distance).
+/// The number of slips that turn `a` into `b`, ignoring case: a letter inserted, dropped or replaced, or two neighbours
+/// swapped, each letter touched once (the optimal string alignment distance).
 std::size_t letters_changed(std::string_view a, std::string_view b);
 
 /// The candidate that a reader would take `word` for: the fewest letters changed, and at most a third of them;
@@ -23,7 +23,7 @@ struct NearSpelling {
   bool certain = false;
 };
 
-/// As `nearest_spelling`, and whether it is the only one in question.
+/// As `nearest_spelling`, and whether it is the only candidate.
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace wale

@@ -111,7 +111,8 @@ std::vector<const IndexedMaterial*> LibraryIndex::meant_by(std::string_view text
   if (take([&](const IndexedMaterial& each) { return each.name == text; })) return found;
   if (take([&](const IndexedMaterial& each) { return same(each.title) || std::ranges::any_of(each.called, same); }))
     return found;
-  take([&](const IndexedMaterial& each) { return each.kind == text; });
+  if (take([&](const IndexedMaterial& each) { return each.kind == text; })) return found;
+  take([&](const IndexedMaterial& each) { return each.module == text || each.module + "." + each.name == text; });
   return found;
 }
 

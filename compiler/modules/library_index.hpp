@@ -40,7 +40,8 @@ class LibraryIndex {
   const ExportedName* exported(std::string_view name) const;
 
   /// The materials that a text may mean: those of that name; where there are none, those with that title or `called`
-  /// so, capitals or not; where there are none either, those of that kind.
+  /// so, capitals or not; then those of that kind; then those of that module, "fabric.denim", or the one named with its
+  /// module, "sandpaper.chapter4.Viscous".
   std::vector<const IndexedMaterial*> meant_by(std::string_view text) const;
 
   /// Everything by which a material may be meant.

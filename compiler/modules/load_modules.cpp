@@ -28,7 +28,6 @@ constexpr const char* project_devices = "devices";
 /// A file's imports may have imports, and so on, so deep.
 constexpr std::size_t deepest_import = 64;
 
-
 /// Whether a file of this name, "…/schema/units.wale", is meant to stand in the place of an embedded one.
 bool stands_for(const std::string& name, const EmbeddedFile& file) {
   if (!name.ends_with(file.name)) return false;
@@ -260,9 +259,10 @@ class ModuleLoader {
 
   void report_ambiguous(const Word& word, const std::vector<const IndexedMaterial*>& found) {
     const IndexedMaterial& first = *found.front();
+    const bool is_one_name = std::ranges::count(found, first.name, &IndexedMaterial::name) > 1;
+    const std::string one = is_one_name ? first.module + "." + first.name : first.name;
     diagnostics_.report(
-        Advice(first.name == word.text ? fmt::format("import the one that you mean, as in `import {}`", first.module)
-                                       : fmt::format("name the one that you mean, as in `{}`", first.name))
+        Advice(fmt::format("name the one that you mean, as in `{}`", one))
             .about(Code::ambiguous_material, word.span,
                    fmt::format("`{}` may be {} materials of the library: {}", word.text, found.size(), listed(found))));
   }

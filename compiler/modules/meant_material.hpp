@@ -10,8 +10,9 @@
 namespace wale {
 
 // The one rule by which a name means a material of a library, in a file (`like`, `=`, blends, `between`) and on the
-// command line. `LibraryIndex::meant_by` goes first: by name; else by title or `called`; else by kind. Of several that
-// remain, those of `imported` modules go before others, and those of the person's own files before the shipped ones.
+// command line. `LibraryIndex::meant_by` goes first: by name; else by title or `called`; else by kind; else by module
+// (`fabric.denim`, `sandpaper.chapter4.Viscous`). Of several that remain, those of `imported` modules go before others,
+// and those of the person's own files before the shipped ones.
 
 /// Leaves of several materials those that go before the others.
 void keep_preferred(std::vector<const IndexedMaterial*>& found, const std::vector<std::string_view>& imported);

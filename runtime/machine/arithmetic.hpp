@@ -11,9 +11,9 @@
 /// The functions that `schema/instruction.def` names in its column of meanings, on 32-bit floats.
 ///
 /// The same bits on every machine that rounds to nearest, in one lane and in a block: no call of the mathematical
-/// library, no fused multiply-add, no branch that lanes would have to share. Not-a-number propagates, but for
-/// `limited`. Stated errors hold in the mode that `FloatingPointMode` sets and are held by
-/// tests/machine/arithmetic.cpp.
+/// library, no fused multiply-add, no branch that lanes would have to share. Not-a-number propagates, except through
+/// `limited`. The stated errors hold in the mode that `FloatingPointMode` sets; tests/machine/arithmetic.cpp checks
+/// them.
 namespace wale {
 
 namespace arithmetic {
@@ -25,14 +25,14 @@ inline constexpr float least_normal = std::numeric_limits<float>::min();
 inline std::uint32_t bits_of(float a) { return std::bit_cast<std::uint32_t>(a); }
 inline float float_of(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
-/// Added to a float below 2^22 in size, leaves the nearest whole number in the low bits of the sum.
+/// Added to a float below 2^22 in size, it leaves the nearest whole number in the low bits of the sum.
 inline constexpr float rounder = 12582912.0f;  // 1.5 * 2^23
 inline constexpr std::uint32_t rounder_bits = 0x4b400000u;
 
-/// The zero of its sign for a subnormal number, whatever the thread's mode. All that comes to the machine from outside
-/// goes through this, and results are flushed by `FloatingPointMode`, so that no register, state or cell is subnormal:
-/// an operation that only chooses among its operands could else be compiled to one that flushes or to one that does
-/// not.
+/// Replaces a subnormal number by the zero of its sign, whatever the thread's mode. All numbers from outside go through
+/// this, and `FloatingPointMode` flushes results, so that no register, state or cell is subnormal. Otherwise the bits
+/// would depend on the compiler: it may translate an operation that only chooses among its operands to one that
+/// flushes or to one that does not.
 inline float flushed(float a) {
   const std::uint32_t bits = bits_of(a);
   return (bits & 0x7f800000u) == 0 ? float_of(bits & 0x80000000u) : a;
@@ -42,13 +42,13 @@ inline float flushed(float a) {
 
 inline float absolute(float a) {
 #if defined(__GNUC__)
-  return __builtin_fabsf(a);  // the same bits, without a way through the integer registers
+  return __builtin_fabsf(a);  // the same bits, without a detour through the integer registers
 #else
   return arithmetic::float_of(arithmetic::bits_of(a) & 0x7fffffffu);
 #endif
 }
 
-/// `a` held in low .. high; `otherwise` for not-a-number.
+/// `a` clamped to low .. high; `otherwise` for not-a-number.
 inline float held_within(float a, float low, float high, float otherwise) {
   return a >= low ? (a <= high ? a : high) : (a < low ? low : otherwise);
 }
@@ -76,9 +76,9 @@ namespace arithmetic {
 
 /// Sine of `a` radians or, a quarter turn on, cosine.
 ///
-/// Takes off the nearest multiple of half a turn (for the cosine, of those between), in three parts of which the first
-/// two have 11 bits, so that their multiples are exact for |a| <= 1e4; then an odd polynomial of degree 9, minimax
-/// within 4.7e-9 on +-1.572, and the sign.
+/// Subtracts the nearest multiple of half a turn (for the cosine, an odd multiple of a quarter turn) in three parts.
+/// The first two have 11 bits, so that their multiples are exact for |a| <= 1e4. An odd polynomial of degree 9 follows,
+/// minimax within 4.7e-9 on +-1.572, then the sign.
 template <bool quarter_turn_on>
 float wave(float a) {
   const float half_turns = a * 0.318309886f;
@@ -86,7 +86,7 @@ float wave(float a) {
   const float whole = rounded - rounder;
   const float taken = quarter_turn_on ? whole - 0.5f : whole;
   const float rest = ((a - taken * 3.140625f) - taken * 9.67502593994140625e-4f) - taken * 1.509957990978376e-7f;
-  // Far beyond the stated range the rest is noise; it must not leave the polynomial's range.
+  // Far beyond the stated range the remainder is noise; it must not leave the polynomial's range.
   const float least = rest < -1.572f ? -1.572f : rest;
   const float r = least > 1.572f ? 1.572f : least;
   const float z = r * r;
@@ -101,7 +101,7 @@ float wave(float a) {
 inline float sine_of(float a) { return arithmetic::wave<false>(a); }
 inline float cosine_of(float a) { return arithmetic::wave<true>(a); }
 
-/// Relative error below 2e-7; from 128 on infinity; below -126, where floats become subnormal, 0.
+/// Relative error below 2e-7. Infinity from 128 on; 0 below -126, where floats would be subnormal.
 inline float exp2_of(float a) {
   using namespace arithmetic;
   const float rounded = a + rounder;
@@ -120,8 +120,8 @@ inline float exp2_of(float a) {
   return a == a ? below_most : a;
 }
 
-/// Error below 2e-7 of the result or, near 1, of a - 1. Of zero and of subnormals minus infinity, of less
-/// not-a-number, of infinity infinity.
+/// Error below 2e-7 of the result or, near 1, of a - 1. Minus infinity for zero and subnormals, not-a-number for less,
+/// infinity for infinity.
 inline float log2_of(float a) {
   using namespace arithmetic;
   const std::uint32_t bits = bits_of(a);
@@ -151,7 +151,7 @@ inline float log2_of(float a) {
 /// normal(-a) = 1 - normal(a) as far as floats go.
 ///
 /// The tail is exp(-a^2 / 2) times a polynomial in u = 1 / (1 + 0.27 |a|): the form of Abramowitz and Stegun 26.2.17
-/// with one term more, fitted to 1.3e-8 and written in v = 1 - u, which loses nothing near 0.
+/// with one term more, fitted to 1.3e-8, and written in v = 1 - u, which keeps the precision near 0.
 inline float normal_of(float a) {
   const float all = absolute(a);
   const float size = all > 40.0f ? 40.0f : all;  // where the tail has long been 0
@@ -167,7 +167,7 @@ inline float normal_of(float a) {
   return a > 0.0f ? 1.0f - tail : tail;
 }
 
-/// `a` held within +-`ceiling`. Not-a-number gives 0, and so does a ceiling that is negative or not a number.
+/// `a` clamped to +-`ceiling`. Not-a-number gives 0, and so does a ceiling that is negative or not a number.
 inline float limited(float a, float ceiling) {
   const float below = ceiling < a ? ceiling : a;
   const float within = below < -ceiling ? -ceiling : below;
@@ -175,9 +175,9 @@ inline float limited(float a, float ceiling) {
   return a == a ? usable : 0.0f;
 }
 
-/// The angle of the vector (`b`, `a`) within [-pi, pi]; error below 3e-7 absolute, 2e-7 relative. Of (0, 0) it is 0,
-/// and signed zeros count as 0: of (-1, -0) it is pi. Infinities are taken at their word: of (infinity, infinity) it is
-/// pi / 4.
+/// The angle of the vector (`b`, `a`) within [-pi, pi]; error below 3e-7 absolute, 2e-7 relative. The angle of (0, 0)
+/// is 0. Signed zeros count as 0: the angle of (-1, -0) is pi. Two infinities count as equal: the angle of (infinity,
+/// infinity) is pi / 4.
 ///
 /// The quotient of the smaller side by the larger, then an odd polynomial on [0, 1] (minimax, 7.4e-9), then the octant.
 inline float arctangent_of(float a, float b) {
@@ -197,7 +197,7 @@ inline float arctangent_of(float a, float b) {
        3.3332987e-1f) *
           z * t +
       t;
-  // A quarter and half a turn in two parts, or their own rounding would be most of the error.
+  // A quarter and half a turn are added in two parts each, because their rounding would be most of the error.
   const float eighth = steep ? 1.57079637f - (p + 4.37113883e-8f) : p;
   const float half = b < 0.0f ? 3.14159274f - (eighth + 8.74227766e-8f) : eighth;
   return a < 0.0f ? -half : half;
@@ -205,7 +205,7 @@ inline float arctangent_of(float a, float b) {
 
 namespace arithmetic {
 
-/// floor(a) as a 32-bit integer: held within +-(2^31 - 128), and 0 for not-a-number.
+/// floor(a) as a 32-bit integer, clamped to +-(2^31 - 128); 0 for not-a-number.
 inline std::uint32_t lattice_index(float a) {
   constexpr float most = 2147483520.0f;
   const float number = a == a ? a : 0.0f;
@@ -215,8 +215,8 @@ inline std::uint32_t lattice_index(float a) {
   return static_cast<std::uint32_t>(towards_zero - (static_cast<float>(towards_zero) > held ? 1 : 0));
 }
 
-/// A permutation of the 32-bit integers in which each bit of the argument turns each bit of the result with a chance
-/// near a half (C. Wellons' lowbias32).
+/// A permutation of the 32-bit integers in which each bit of the argument flips each bit of the result with a
+/// probability near a half (C. Wellons' lowbias32).
 inline std::uint32_t mixed(std::uint32_t h) {
   h = (h ^ h >> 16) * 0x7feb352du;
   h = (h ^ h >> 15) * 0x846ca68bu;
@@ -225,8 +225,8 @@ inline std::uint32_t mixed(std::uint32_t h) {
 
 }  // namespace arithmetic
 
-/// A number in [0, 1), always the same for the same floor(a), floor(b) and floor(c), with 24 bits that neither
-/// neighbours nor orders of the three share. Not-a-number counts as 0; beyond 2^31 all are one.
+/// A number in [0, 1) of 24 bits that depends on floor(a), floor(b) and floor(c) only. Neighbouring arguments, and the
+/// same ones in another order, give unrelated numbers. Not-a-number counts as 0; all numbers beyond 2^31 count as one.
 inline float hash_of(float a, float b, float c) {
   using namespace arithmetic;
   const std::uint32_t first = mixed(lattice_index(a) + 0x9e3779b9u);

@@ -19,15 +19,15 @@ namespace wale {
 
 struct DecodedProgram;
 
-/// A section's code for blocks of lanes, decoded when it is first asked for: what runs at a device and nowhere else
-/// asks for peaks only.
+/// A section's code for blocks of lanes, decoded at the first request: a program that runs only at a device requests
+/// the code of its peaks only.
 class BlockSection {
  public:
-  /// Outlived by the program, of which `instructions` are a section.
+  /// `instructions` are a section of the program, which must outlive this.
   BlockSection(const DecodedProgram& program, std::span<const Instruction> instructions)
       : program_(program), instructions_(instructions) {}
 
-  /// Any thread may ask, but not the real-time one: whoever is first decodes, which allocates, and others wait for it.
+  /// From any thread but the real-time one: the first caller decodes, which allocates, and others wait for it.
   const BlockCode& code() const;
 
  private:
@@ -37,10 +37,10 @@ class BlockSection {
   mutable BlockCode code_;
 };
 
-/// A verified program made ready: what `Program` points to.
+/// A verified program, ready to run: `Program` points to it.
 ///
-/// What runs at the device's rate is decoded for one lane at once, and for blocks of lanes when a batch needs it; setup
-/// and predictions run `description`'s instructions as they are.
+/// Code that runs at the device's rate is decoded for one lane when the program is loaded, and for blocks of lanes when
+/// a batch needs it. Setup and predictions run `description`'s instructions as they are.
 struct DecodedProgram {
   explicit DecodedProgram(PatchProgram verified);
 
@@ -48,9 +48,9 @@ struct DecodedProgram {
   std::vector<std::shared_ptr<const SharedMap>> maps;         ///< one for each table
   std::vector<std::reference_wrapper<const Spline>> splines;  ///< theirs
   std::vector<GridShape> grids;                               ///< one for each grid
-  std::vector<float> initial_cells;                           ///< of all grids, as they are when the program is placed
+  std::vector<float> initial_cells;                           ///< of all grids, when the program is placed
   Envelope envelope;
-  std::vector<Input> tick_inputs;  ///< that change from tick to tick and are read by tick, enter or what follows them
+  std::vector<Input> tick_inputs;  ///< that change from tick to tick and that tick, enter, picture or frame reads
   HandReader hand_reader;          ///< of these
   ThreadedCode lane_enter, lane_tick, lane_frame;
   BlockSection enter{*this, description.enter}, tick{*this, description.tick}, picture{*this, description.picture.code};

@@ -11,8 +11,8 @@ namespace wale {
 /// While it lives, the thread rounds to nearest, traps nothing and flushes denormals to zero, because an operation on a
 /// denormal can cost a hundred times as much. Its end restores the host's mode, sticky flags included.
 ///
-/// On processors other than x86 and 64-bit ARM it does nothing. Code that computes under it must be in a function of
-/// its own that is not inlined, because the compiler does not know that arithmetic depends on the mode.
+/// On processors other than x86 and 64-bit ARM it does nothing. Code that computes under it must be in a separate
+/// function that is not inlined, because the compiler does not know that arithmetic depends on the mode.
 class FloatingPointMode {
  public:
 #if defined(__SSE__)

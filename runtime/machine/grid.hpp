@@ -7,13 +7,13 @@
 
 namespace wale {
 
-/// Where a grid's cells stand among all cells of a program, row by row from the lower left. Each side has at least one.
+/// A grid's cells among all cells of a program, row by row from the lower left. Each side has at least one cell.
 struct GridShape {
   std::size_t first;  ///< its first cell
   std::uint32_t columns, rows;
 };
 
-/// A grid's value between four cells and its derivatives per cell of each coordinate.
+/// A grid's value between four cells, and its derivatives along each coordinate, per cell.
 struct GridSample {
   float value, along_a, along_b;
 };
@@ -21,11 +21,11 @@ struct GridSample {
 /// A coordinate between two neighbouring cells.
 struct HeldCoordinate {
   std::uint32_t cell, next;  ///< 0 .. cells - 1
-  float fraction;            ///< from the one to the other
-  float slope;               ///< of what is held by what it is held from: 0 beyond the edges, else 1
+  float fraction;            ///< 0 at `cell`, 1 at `next`
+  float slope;               ///< derivative of the clamped coordinate: 0 beyond the edges, else 1
 };
 
-/// `coordinate` brought into the grid: beyond its edges it is held there, and not-a-number is taken for 0.
+/// `coordinate` clamped to the grid's edges; not-a-number counts as 0.
 inline HeldCoordinate held(float coordinate, std::uint32_t cells) {
   const float last = static_cast<float>(cells - 1);
   const float least = coordinate > 0.0f ? coordinate : 0.0f;
@@ -37,7 +37,7 @@ inline HeldCoordinate held(float coordinate, std::uint32_t cells) {
   return {cell, cells > 1 ? cell + 1 : cell, u - static_cast<float>(cell), within ? 1.0f : 0.0f};
 }
 
-/// The number of the cell that is nearest to `coordinate`, which is held at the edges; 0 for not-a-number.
+/// The number of the cell nearest to `coordinate`, which is clamped to the edges; 0 for not-a-number.
 inline std::uint32_t nearest(float coordinate, std::uint32_t cells) {
   const float last = static_cast<float>(cells - 1);
   const float least = coordinate > 0.0f ? coordinate : 0.0f;
@@ -45,7 +45,7 @@ inline std::uint32_t nearest(float coordinate, std::uint32_t cells) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(u + 0.5f));
 }
 
-/// Between the four cells nearest to (a, b), which is in cells from the centre of the first one.
+/// The value between the four cells nearest to (a, b), in cells from the centre of the first one.
 inline GridSample recall_of(const GridShape& shape, const float* cells, float a, float b) {
   const HeldCoordinate column = held(a, shape.columns);
   const HeldCoordinate row = held(b, shape.rows);
@@ -60,7 +60,7 @@ inline GridSample recall_of(const GridShape& shape, const float* cells, float a,
           row.slope * (above - below)};
 }
 
-/// Among all cells of the program, the one of this grid that is nearest to (a, b).
+/// The index, among all cells of the program, of this grid's cell nearest to (a, b).
 inline std::size_t cell_at(const GridShape& shape, float a, float b) {
   return shape.first + std::size_t{nearest(b, shape.rows)} * shape.columns + nearest(a, shape.columns);
 }

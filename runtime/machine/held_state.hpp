@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// How a state begins and goes on, without its name.
+/// The registers and range that determine a state.
 struct StateRule {
   explicit StateRule(const State& state)
       : low(arithmetic::flushed(state.low)),
@@ -18,17 +18,17 @@ struct StateRule {
   RegisterNumber initial, next;
 };
 
-/// What a state becomes when code leaves `value` for it: held in its range, and `otherwise` for not-a-number.
+/// The state's next value when its register holds `value`: clamped to its range; `otherwise` for not-a-number.
 inline float held_state(float value, const StateRule& rule, float otherwise) {
   return held_within(value, rule.low, rule.high, otherwise);
 }
 
-/// What a state begins with when `enter` leaves `value` for it.
+/// The state's first value when `enter` leaves `value` in its register.
 inline float initial_state(float value, const StateRule& rule) {
   return held_state(value, rule, rule.low > 0.0f ? rule.low : (rule.high < 0.0f ? rule.high : 0.0f));
 }
 
-/// What is written to a grid at the end of a tick.
+/// A write to a grid at the end of a tick.
 struct WriteRule {
   WriteRule(const GridWrite& write, const Grid& grid, const GridShape& where)
       : shape(where),
@@ -40,7 +40,7 @@ struct WriteRule {
 
   GridShape shape;
   RegisterNumber u, v, value;
-  float low, high;  ///< what the value is held in
+  float low, high;  ///< the value is clamped to this range
 };
 
 }  // namespace wale

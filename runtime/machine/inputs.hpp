@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// What a device can do, in either direction of an axis. A position relative to a patch's centre reaches one workspace
-/// at most.
+/// The limits of a device's motion, in either direction of an axis. A position relative to a patch's centre reaches at
+/// most one workspace diameter.
 struct Envelope {
   explicit Envelope(const DeviceProfile& device)
       : reach(static_cast<float>(device.widest_patch())),
@@ -22,9 +22,9 @@ struct Envelope {
   float acceleration;  ///< m/s^2
 };
 
-/// Writes one input of each hand to `values`, which has room for them: held within the envelope, not-a-number as 0 and
-/// subnormal numbers as zeros.
-/// `input` is one of those that change from tick to tick.
+/// Writes one input of each hand to `values`, which has room for them: clamped to the envelope, with 0 for not-a-number
+/// and for subnormal numbers.
+/// `input` is one that changes from tick to tick.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept;
 
@@ -32,7 +32,7 @@ void place_input(Input input, std::span<const Hand> hands, const Envelope& envel
 class HandReader {
  public:
   HandReader() = default;
-  /// Of inputs that change from tick to tick.
+  /// Reads these inputs, which change from tick to tick.
   HandReader(std::span<const Input> inputs, const Envelope& envelope);
 
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.

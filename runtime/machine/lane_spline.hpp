@@ -8,11 +8,11 @@ namespace wale {
 
 #if defined(__GNUC__)
 
-/// Four floats side by side, each multiplied and added like a float of its own.
+/// Four floats side by side, each multiplied and added like a single float.
 using FourFloats [[gnu::vector_size(16)]] = float;
 
-/// What `sample_of` gives, to the bit, for one lane alone: its sums run over four rows at a time, and a place within
-/// the table, which is foreseen, is not mirrored.
+/// The same bits as `sample_of`, for one lane: sums run over four rows at a time, and a place within the table, the
+/// predicted case, is not mirrored.
 inline SplineSample sample_in_lane(const Spline& spline, float a, float b) {
   const auto placed = [](float coordinate, float last) -> MirroredCoordinate {
     const float u = absolute(coordinate);

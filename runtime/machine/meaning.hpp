@@ -5,7 +5,7 @@
 
 namespace wale {
 
-/// What an operation makes of its operands: the column `meaning` of `schema/instruction.def`, once for all
+/// The result of an operation on its operands: the column `meaning` of `schema/instruction.def`, once for all
 /// interpreters. Special operations have none.
 template <Operation>
 struct Meaning;

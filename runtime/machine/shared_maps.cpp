@@ -8,7 +8,7 @@
 namespace wale {
 namespace {
 
-/// All maps that are alive, by the hash of their content, and some that no longer are.
+/// All maps in use, by the hash of their content, and some expired ones.
 struct Registry {
   std::mutex mutex;
   std::unordered_multimap<std::uint64_t, std::weak_ptr<const SharedMap>> maps;

@@ -7,7 +7,7 @@
 
 namespace wale {
 
-/// A sampled map as programs have it in common: its heights and their spline.
+/// A sampled map that programs share: its heights and their spline.
 struct SharedMap {
   explicit SharedMap(const HeightTable& heights) : table(heights), spline(table) {}
 
@@ -15,8 +15,8 @@ struct SharedMap {
   const Spline spline;
 };
 
-/// The one map of these heights in this process: found among those that are alive, every height compared, or made.
-/// Any thread may ask, but not the real-time one: it allocates, and waits while another thread makes a map.
+/// The one map of these heights in this process: an existing one, found by comparing every height, or a new one.
+/// From any thread but the real-time one: it allocates, and waits while another thread makes a map.
 std::shared_ptr<const SharedMap> shared_map(const HeightTable& table);
 
 }  // namespace wale

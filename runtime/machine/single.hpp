@@ -4,8 +4,8 @@
 
 namespace wale {
 
-/// What the machine makes of one operation on single values, in its own arithmetic and its treatment of subnormals. 0
-/// for operations that read tables, grids or peaks.
+/// The machine's result of one operation on single values, with its arithmetic and its treatment of subnormals. 0 for
+/// operations that read tables, grids or peaks.
 float result_of(Operation operation, float a, float b, float c);
 
 }  // namespace wale

@@ -13,7 +13,7 @@ namespace wale {
 ///
 /// Coefficients are computed in double and kept as float, row by row: at a sample the spline is within 3e-7 of it.
 /// With 16 bits each it would be within 2e-5, more than a step of the table's own codes, and no faster: at a random
-/// place of a map beyond the cache the four rows are fetched at once, and tiles of four by four take as long.
+/// place of a map larger than the cache the four rows are fetched at once, and tiles of four by four take as long.
 struct Spline {
   explicit Spline(const HeightTable& table);
 
@@ -23,7 +23,7 @@ struct Spline {
   std::vector<float> coefficients;  ///< height + 3 rows likewise
 };
 
-/// A spline's value, in [0, 1] but for overshoot, and its derivatives per sample of each coordinate.
+/// A spline's value, in [0, 1] except for overshoot, and its derivatives along each coordinate, per sample.
 struct SplineSample {
   float value, along_a, along_b;
 };
@@ -35,8 +35,8 @@ struct MirroredCoordinate {
   float sign;          ///< of the derivative: -1 where the mirror image runs backwards
 };
 
-/// `coordinate` brought between 0 and `last`, the last sample's number. Any float is safe: not-a-number and infinities
-/// are taken for 0, and far beyond the table the position within the image is as good as the float's own resolution.
+/// `coordinate` mirrored into 0 .. `last`, the last sample's number. Any float is safe: not-a-number and infinities
+/// count as 0, and far beyond the table the position has the float's own resolution.
 inline MirroredCoordinate mirrored(float coordinate, float last) {
   const float period = last + last;
   const float image = coordinate - floor_of(coordinate / period) * period;  // [0, period], rounding aside

@@ -7,12 +7,12 @@
 #include "runtime/machine/meaning.hpp"
 
 // Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973), each handler a function that ends by jumping to
-// the next one: what all of them need stays in the registers of the calling convention, each saves only what it uses
-// itself, and the processor predicts each jump by what came before it.
+// the next one. Values that all handlers need stay in the registers of the calling convention, each handler saves only
+// the registers that it uses, and the processor predicts each handler's jump by itself.
 
-// A function must end in a jump to the next one, or the stack would grow with the program. GCC and Clang see to that
-// where they optimise and nothing is left to be done on the way out, as there is for sanitizers. Elsewhere, and with
-// WALE_PORTABLE_DISPATCH, the switch is the only way. tests/machine/threaded_code.cpp looks at the stack.
+// A function must end in a jump to the next one, or the stack would grow with the program. GCC and Clang make that jump
+// when they optimise and no work is left at the function's end, as sanitizers leave some. Elsewhere, and with
+// WALE_PORTABLE_DISPATCH, only the switch is built. tests/machine/threaded_code.cpp checks the stack.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WALE_SANITIZED
 #elif defined(__has_feature)
@@ -60,7 +60,7 @@ template <Operation operation, unsigned forwarded>
   } else if constexpr (operation == Operation::peak) {
     return last;  // setup's alone, which is not decoded
   } else if constexpr (operation == Operation::limit) {
-    // What is within stays as it is. The branch is foreseen, where a minimum and a maximum would be waited for.
+    // A value within stays unchanged. The processor predicts the branch, but would wait for a minimum and a maximum.
     if (absolute(a) <= b) [[likely]]
       return *results = a;
     return *results = limited(a, b);
@@ -106,7 +106,7 @@ constexpr std::size_t handlers = [] {
 using Handler = void (*)(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers,
                          float last) noexcept;
 
-// `at` is stepped on in its place: GCC would make a copy for the next one and move it.
+// `at` is incremented in place: GCC would copy a next one and move it.
 #define WALE_RUN_FROM_HERE                                          \
   last = step<operation, forwarded>(*at, last, registers, lookups); \
   ++at;                                                             \
@@ -158,7 +158,7 @@ constexpr auto handlers_by_number = [] {
 
 #endif
 
-/// What an instruction's handler is called under a way of dispatch.
+/// The number or address of an instruction's handler under a dispatch.
 std::uintptr_t handler_of(unsigned number, [[maybe_unused]] Dispatch dispatch) {
 #if defined(WALE_TAIL_CALLS)
   if (dispatch == Dispatch::wide_tail_calls) return reinterpret_cast<std::uintptr_t>(handlers_by_number<true>[number]);

@@ -12,9 +12,9 @@
 
 namespace wale {
 
-/// How the machine gets from one instruction to the next. All give the same bits.
+/// The machine's way from one instruction to the next. All give the same bits.
 enum class Dispatch {
-  wide_tail_calls,  ///< as the next, in instructions that not every processor has (AVX)
+  wide_tail_calls,  ///< as `tail_calls`, with AVX instructions, which not every processor has
   tail_calls,       ///< each instruction holds the address of the function that runs it, which jumps to the next one's
   portable_switch,  ///< each instruction holds a number, and one switch chooses
 };
@@ -22,15 +22,15 @@ enum class Dispatch {
 /// The best that this build and this processor have.
 Dispatch fastest_dispatch();
 
-/// An instruction decoded for one lane: what runs it, and its registers. What runs it knows which operands are the
-/// result of the instruction before, and takes these from where that left them instead of from memory.
+/// An instruction decoded for one lane: its handler and its registers. Each handler is made for a choice of operands
+/// that are the last instruction's result, and takes these from a processor register instead of from memory.
 struct alignas(16) ThreadedInstruction {
   std::uintptr_t handler = 0;
   RegisterNumber destination = 0, a = 0, b = 0, c = 0;
 };
 static_assert(sizeof(ThreadedInstruction) == 16);
 
-/// What code looks into besides registers: the program's tables and grids, and the cells of all grids.
+/// The data that code reads besides registers: the program's tables and grids, and the cells of all grids.
 struct LaneLookups {
   const std::reference_wrapper<const Spline>* splines = nullptr;
   const GridShape* grids = nullptr;
@@ -43,7 +43,7 @@ struct ThreadedCode {
   Dispatch dispatch = Dispatch::portable_switch;
 };
 
-/// Verified code of a section other than setup (which alone runs peaks) made ready. A `dispatch` that this build or
+/// Decodes the verified code of a section other than setup (which alone runs peaks). A `dispatch` that this build or
 /// this processor lacks becomes the fastest that they have.
 ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch = fastest_dispatch());
 

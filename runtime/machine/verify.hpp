@@ -25,13 +25,13 @@ inline constexpr std::size_t shown_instructions = 5;
 
 /// Checks that a program may run. schema/PATCH_PROGRAM.md lists the rules.
 ///
-/// A program that passes stops in time, reads only what is defined, remembers a bounded amount, and commands no force
-/// beyond its ceilings, whatever its registers hold. Takes time and memory in proportion to the program. From any
+/// A program that passes ends in time, reads only defined registers, has a bounded memory, and commands no force
+/// beyond its ceilings, whatever its registers hold. Time and memory are proportional to the program's size. From any
 /// thread.
 ///
 /// The error is `refused_program`. Where an instruction breaks a rule, `place` is that instruction (its section, its
-/// number from 0, its text, and the line of Wale where the program carries it), and `led_to` has the instructions that
-/// its operands come from and itself, in the order in which they run, at most `shown_instructions`.
+/// number from 0, its text, and its line of Wale if the program records it). `led_to` has the instructions that its
+/// operands come from and itself, in the order in which they run, at most `shown_instructions`.
 Result<> verify(const PatchProgram& program);
 
 }  // namespace wale

@@ -118,10 +118,10 @@ TEST(Likes, AreFoundInTheModulesOfTheLanguage) {
 TEST(Likes, ThatMayBeSeveralAreAnErrorThatNamesThem) {
   const std::map<std::string, std::string> files{{"new.cloth", spring("denim", 50, "kind test.twill")},
                                                  {"old.cloth", spring("denim", 30, "kind test.twill")}};
-  EXPECT_EQ(
-      Checked(like("denim"), files).said(),
-      "W0217 `denim` may be 2 materials of the library: `denim` of `new.cloth`, `denim` of `old.cloth`; import the "
-      "one that you mean, as in `import new.cloth`");
+  EXPECT_EQ(Checked(like("denim"), files).said(),
+            "W0217 `denim` may be 2 materials of the library: `denim` of `new.cloth`, `denim` of `old.cloth`; name the "
+            "one that you mean, as in `new.cloth.denim`");
+  EXPECT_FLOAT_EQ(Checked(like("old.cloth"), files).force(), -0.03f);
   // The mend does.
   EXPECT_FLOAT_EQ(Checked("import old.cloth\n" + like("denim"), files).force(), -0.03f);
   EXPECT_FLOAT_EQ(Checked("import old.cloth\n" + like("test.twill"), files).force(), -0.03f);
@@ -197,6 +197,12 @@ TEST(MaterialNames, ThatNothingHasComeWithTheNearestThreeAndTheirImports) {
   EXPECT_TRUE(own.starts_with("W0201 no material is called `quil`; did you mean `quils`, ")) << own;
 }
 
+TEST(MaterialNames, MayBeGivenWithTheirModules) {
+  const std::map<std::string, std::string> files{{"a.cloth", spring("quilt", 1)}, {"b.cloth", spring("quilt", 2)}};
+  for (const char* what : {"a.cloth.quilt", "b.cloth", "0.5 a.cloth.quilt"})
+    EXPECT_EQ(Checked(std::string("material m = ") + what + "\n", files).said(), "") << what;
+}
+
 TEST(MaterialNames, OfWhatIsNoMaterialSayWhatItIs) {
   EXPECT_EQ(Checked("material m = softened\n", two_springs).said(),
             "W0201 no material is called `softened`; `softened` is a function of `cloth`; to use it in an expression, "
@@ -221,6 +227,12 @@ TEST(MaterialNames, OnACommandLineFollowTheSameRule) {
   EXPECT_EQ(meant_material(index, "oak").error().code, Code::ambiguous_material);
   EXPECT_EQ(meant_material(index, "oak").error().sentence,
             "`oak` may be 2 materials: `oak` of `other`, `oak` of `third`");
+  // Where one name is not enough, the module tells them apart.
+  ASSERT_TRUE(meant_material(index, "third.oak"));
+  EXPECT_EQ((*meant_material(index, "third.oak"))->module, "third");
+  ASSERT_TRUE(meant_material(index, "third"));
+  EXPECT_EQ((*meant_material(index, "third"))->name, "oak");
+  EXPECT_EQ(meant_material(index, "third.ok").error().code, Code::unknown_name);
   EXPECT_EQ(meant_material(index, "fellt").error().code, Code::unknown_name);
   EXPECT_EQ(meant_material(index, "fellt").error().mend, "the nearest: `felt` of `shipped`");
 }

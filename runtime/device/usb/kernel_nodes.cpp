@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paths in a folder whose names begin so, sorted; none where there is no such folder.
+/// The paths in a folder whose names begin with a prefix, sorted; none where there is no such folder.
 std::vector<fs::path> entries(const fs::path& folder, std::string_view beginning) {
   std::vector<fs::path> found;
   std::error_code error;
@@ -38,8 +38,8 @@ std::string line_of(const fs::path& path) {
   return line;
 }
 
-/// Whether the bits of force feedback that an input device has, words of hexadecimal digits with the lowest last, say
-/// that it makes a constant force.
+/// Whether an input device makes a constant force, by its bits of force feedback: words of hexadecimal digits, the
+/// lowest last.
 bool makes_constant_force(const fs::path& input) {
   const std::string bits = content_of(input / "capabilities" / "ff");
   constexpr unsigned word_bits = 8 * sizeof(long);

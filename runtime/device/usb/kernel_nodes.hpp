@@ -14,12 +14,12 @@ struct HidNodes {
   std::uint8_t interface = 0;                   ///< its number
   std::string hidraw;                           ///< "/dev/hidraw3"; empty: there is none
   std::vector<std::string> events;              ///< "/dev/input/event5", …
-  std::vector<std::string> pushing;             ///< those of `events` whose driver makes constant forces
+  std::vector<std::string> pushing;             ///< the `events` whose driver makes constant forces
   std::vector<std::string> others;              ///< "/dev/input/js0", …
-  std::vector<std::uint8_t> report_descriptor;  ///< as the kernel's driver has read it; empty where it is not told
+  std::vector<std::uint8_t> report_descriptor;  ///< as the kernel's driver has read it; empty where sysfs lacks it
 };
 
-/// All nodes of a device that is plugged in. What sysfs does not tell is left out.
+/// All nodes of a device that is plugged in, as far as sysfs lists them.
 struct KernelNodes {
   std::string product;  ///< as the device calls itself; may be empty
   std::string usbfs;    ///< "/dev/bus/usb/001/004"
@@ -52,7 +52,7 @@ std::string in_words(const NodeHolders& holders);
 /// The two lines of udev that give the person at the desk permission to a device, by usbfs and by hidraw.
 /// runtime/device/hid_pid/70-wale.rules has them for all devices that are declared.
 std::string udev_rule(std::uint16_t vendor, std::uint16_t product);
-/// What to do to have them.
+/// What to do to install the rule.
 std::string how_to_permit(std::uint16_t vendor, std::uint16_t product);
 
 }  // namespace wale

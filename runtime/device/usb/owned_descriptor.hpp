@@ -7,7 +7,7 @@
 
 namespace wale {
 
-/// An open file descriptor that is closed in the end. -1: none.
+/// An open file descriptor, which its destructor closes. -1: none.
 class OwnedDescriptor {
  public:
   OwnedDescriptor() = default;
@@ -21,7 +21,7 @@ class OwnedDescriptor {
     if (descriptor_ >= 0) close(descriptor_);
   }
 
-  /// A second descriptor of the same open file, which no program that is started inherits.
+  /// A second descriptor of the same open file. Programs that this process starts do not inherit it.
   static OwnedDescriptor copy_of(int descriptor) noexcept {
     return OwnedDescriptor(fcntl(descriptor, F_DUPFD_CLOEXEC, 0));
   }

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// Why a node such as /dev/hidraw3 cannot be used, by the number of the system's error.
+/// The error of a node such as /dev/hidraw3 that cannot be used, by the system's error number.
 Error why_not_opened(int error, const std::string& node);
 
 }  // namespace wale

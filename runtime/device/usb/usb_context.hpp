@@ -29,11 +29,11 @@ struct UsbHidInterface {
   friend bool operator==(const UsbHidInterface&, const UsbHidInterface&) = default;
 };
 
-/// A device that is plugged in, as its descriptors say.
+/// A device that is plugged in, by its descriptors.
 struct UsbDeviceInfo {
   std::uint16_t vendor = 0, product = 0;
   std::uint8_t bus = 0, address = 0;
-  std::string port;  ///< as Linux names it: "1-2.3"; the same after it is plugged in there again
+  std::string port;  ///< as Linux names it: "1-2.3"; the same when the device is plugged in there again
   std::vector<UsbHidInterface> hid;
 
   friend bool operator==(const UsbDeviceInfo&, const UsbDeviceInfo&) = default;
@@ -42,7 +42,7 @@ struct UsbDeviceInfo {
 /// "1209:ffb0"
 std::string in_words(std::uint16_t vendor, std::uint16_t product);
 
-/// Why a device cannot be used, by libusb's number of the error. Where permission lacks, the mend has the udev rule
+/// The error of a device that cannot be used, by libusb's error number. Without permission, the mend has the udev rule
 /// that gives it.
 Error why_not_usable(int error, const UsbDeviceInfo& info);
 
@@ -52,8 +52,8 @@ struct UsbEvent {
   std::uint8_t bus = 0, address = 0;
 };
 
-/// libusb, and the thread that handles its events. Devices share it and keep it alive; it is let go on no thread of its
-/// own.
+/// libusb, and the thread that handles its events. Devices share it and keep it alive. The last reference must not be
+/// released on its event thread.
 class UsbContext {
  public:
   static Result<std::shared_ptr<UsbContext>> open();
@@ -61,22 +61,22 @@ class UsbContext {
   UsbContext(const UsbContext&) = delete;
   UsbContext& operator=(const UsbContext&) = delete;
 
-  /// What is plugged in now.
+  /// The devices that are plugged in now.
   std::vector<UsbDeviceInfo> devices() const;
 
-  /// Calls `changed` on the event thread whenever a device comes or goes; it returns soon, opens no device and does not
-  /// watch anew. One at a time; an empty one ends it. False: this system does not tell.
+  /// Calls `changed` on the event thread whenever a device arrives or leaves; it must return soon, open no device and
+  /// not call `watch`. One function at a time; an empty one ends the watch. False: this system does not report changes.
   bool watch(std::function<void(const UsbEvent&)> changed);
 
-  /// Gives the event thread this SCHED_FIFO priority, which is best just below that of the loop. False: not permitted.
+  /// Gives the event thread this SCHED_FIFO priority, which should be just below the loop's. False: not permitted.
   bool set_priority(int priority);
 
-  /// What a usbfs node is of that somebody else has opened.
+  /// The device of a usbfs node that another party has opened.
   Result<UsbDeviceInfo> describe(int descriptor) const;
 
   libusb_context* handle() const { return context_; }
-  /// The device that `info` is of, with a reference that the caller gives back (`libusb_unref_device`); null when it is
-  /// gone.
+  /// The device that `info` describes, with a reference that the caller releases (`libusb_unref_device`); null when it
+  /// is gone.
   libusb_device* find(const UsbDeviceInfo& info) const;
 
  private:
@@ -87,7 +87,7 @@ class UsbContext {
   std::atomic<bool> ends_{false};
   std::mutex watch_mutex_;
   std::function<void(const UsbEvent&)> changed_;
-  int watch_ = -1;  // libusb's number of it
+  int watch_ = -1;  // libusb's number of the watch
   std::thread events_;
 };
 

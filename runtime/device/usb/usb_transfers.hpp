@@ -6,12 +6,12 @@
 
 namespace wale {
 
-/// Of a steady clock. Real-time.
+/// The time of a steady clock. Real-time.
 std::int64_t microseconds_now() noexcept;
-/// What tells the time to a driver: `microseconds_now`, but for devices whose own time is not the clock's.
+/// A driver's clock: `microseconds_now`, except for devices with a time of their own.
 using MicrosecondClock = std::int64_t (*)() noexcept;
 
-/// What libusb's status of a transfer, and its error when submitting one, come to.
+/// The outcome of a transfer, by libusb's status of it or by libusb's error when submitting it.
 Outcome outcome_of(int libusb_status) noexcept;
 Outcome outcome_of_submitting(int libusb_error) noexcept;
 
