@@ -36,7 +36,7 @@ constexpr const char* about =
   designers    write a material, then:   wale check my.wale;  wale describe my.wale;  wale feel my.wale
   curators     find, compare and trust:  wale find ribbed;  wale compare A.wale B.wale;  wale levels roughness;
                                          wale describe --json FILE;  wale preview FILE -o OUT.png
-  programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10 mm, 5 mm"
+  programmers  take a program along:     wale build FILE -o OUT.wpp;  wale sample FILE --at "10.6 mm, 5 mm"
                                          examples/roughness_by_name asks for a roughness by name from C++
 
 Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";

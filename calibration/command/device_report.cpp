@@ -56,7 +56,7 @@ nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
 /// What a device pushes with, or how it shakes, in two lines.
 std::string figures_text(const DeviceProfile& profile) {
   if (!profile.shaker)
-    return fmt::format("  {:<12} 2 axes, {:.4g} N in {:.4g} steps, {:.4g} mm across in {:.4g} counts, {:.4g} Hz\n",
+    return fmt::format("  {:<12} 2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz\n",
                        profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
                        profile.position_counts, profile.rate) +
            fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
@@ -67,7 +67,7 @@ std::string figures_text(const DeviceProfile& profile) {
       shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
   if (shaker.position == PositionSource::none)
     return text + fmt::format("  {:<12} no position: assumed to explore at {:.3g} m/s\n", "", shaker.exploring_speed);
-  return text + fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.4g} counts\n", "",
+  return text + fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.0f} counts\n", "",
                             position_word(shaker.position), 1e3 * profile.workspace_diameter, profile.position_counts);
 }
 
@@ -132,6 +132,11 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Dec
           {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};
 }
 
+/// Zero stands for a figure that nobody knows.
+nlohmann::ordered_json known_or_null(double figure) {
+  return figure > 0 ? nlohmann::ordered_json(figure) : nlohmann::ordered_json(nullptr);
+}
+
 nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
   const DeviceProfile& profile = device.profile;
   return {{"name", profile.name},
@@ -147,7 +152,7 @@ nlohmann::ordered_json joystick_json(const DeclaredDevice& device) {
           {"damping_newton_second_per_m", profile.damping},
           {"friction_newton", profile.friction},
           {"delay_s", {profile.delay_x, profile.delay_y}},
-          {"bandwidth_hz", {profile.bandwidth_x, profile.bandwidth_y}},
+          {"bandwidth_hz", {known_or_null(profile.bandwidth_x), known_or_null(profile.bandwidth_y)}},
           {"usb", numbers_of(device.wiring)},
           {"axes_lie", {in_words(device.wiring.axes[0]), in_words(device.wiring.axes[1])}},
           {"motors_lie", {in_words(device.wiring.motors[0]), in_words(device.wiring.motors[1])}},
@@ -161,10 +166,10 @@ constexpr const char* spellings =
     "to feel on (wale feel --device NAME)\n"
     "  auto         the best one plugged in, else simulated; the default\n"
     "  simulated    a simulation of the joystick that the program was built for, in a simulated hand\n"
-    "  NAME         the real device of that name, from the list below; simulated where there is no real one\n"
-    "  simulated:NAME, always simulated\n"
+    "  simulated:NAME, a simulation of the device of that name, from the list below\n"
+    "  NAME         the real device of that name; a simulation if it cannot be plugged in, as sandpaper\n"
     "  usb, vendor and product (1209:ffb0), a port (1-2): the device that is plugged in there\n"
-    "  a real device that is not plugged in is waited for\n"
+    "  If a real device is named and not plugged in, wale feel waits for it.\n"
     "\nto build for (wale build --device NAME)\n";
 
 constexpr const char* nothing_plugged =

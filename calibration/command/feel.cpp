@@ -282,10 +282,12 @@ void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
 Run declare_feel(CLI::App& verb) {
   const auto options = std::make_shared<FeelOptions>();
   offer_material(verb, options->choice, "--built-for");
+  verb.get_option("--built-for")
+      ->description("the device to build for (default: the one that it is felt on; sandpaper for `simulated`)");
   offer_settings(verb, options->settings);
   verb.add_option("--device", options->device,
-                  "auto (default): the best one plugged in, else simulated; simulated; a name from `wale devices`: the "
-                  "real one; simulated:NAME; usb; 1209:ffb0; a port, 1-2. One that is not plugged in is waited for")
+                  "auto (default): the best one plugged in, else simulated; simulated; simulated:NAME; NAME, as `wale "
+                  "devices` lists them; usb; vendor and product, 1209:ffb0; a port, 1-2")
       ->type_name("NAME");
   verb.add_option("--transport", options->transport,
                   "how a real device is driven, where its driver knows several ways; see `wale devices`")

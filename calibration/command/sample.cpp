@@ -65,7 +65,7 @@ Run declare_sample(CLI::App& verb) {
       ->type_name("FILE");
   offer_output(verb, options->out, "where to write (default: standard output)");
   offer_json(verb, options->json, "a JSON array instead of CSV");
-  verb.footer("for example: wale sample corduroy --at \"10 mm, 5 mm\"");
+  verb.footer("for example: wale sample corduroy --at \"10.6 mm, 5 mm\"");
   return [options] { return sample(*options); };
 }
 

@@ -118,9 +118,12 @@ int describe(const DescribeOptions& options) {
 Run declare_describe(CLI::App& verb) {
   const auto options = std::make_shared<DescribeOptions>();
   offer_material(verb, options->choice);
+  verb.get_option("--material")->description("which material of the file (default: all of them)");
+  verb.get_option("--device")
+      ->description("the device to build for, or `all` (default: sandpaper; see `wale devices`)");
   offer_settings(verb, options->settings);
   verb.add_flag("--exports", options->exports,
-                "what the file offers to those that import it (default where it has no material)")
+                "what the file offers to those that import it (the default for a file without a material)")
       ->excludes("--material");
   offer_json(verb, options->json, "an object for one material, an array for several");
   verb.footer("for example: wale describe corduroy --set wale=4mm;  wale describe my.wale --device all");

@@ -95,12 +95,14 @@ int find(const FindOptions& options) {
 
 Run declare_find(CLI::App& verb) {
   const auto options = std::make_shared<FindOptions>();
-  verb.add_option("TEXT", options->texts,
-                  "the beginning of a word in a material's name, title, kind, other names, what it feels like, or its "
-                  "documentation; with several, all must be there (default: lists every material)");
+  verb.add_option(
+      "TEXT", options->texts,
+      "the beginning of a word in a material's name, title, kind, other names (`called`), the texts of its `feels`, "
+      "or its documentation; with several, all must be there (default: lists every material)");
   verb.add_option("--kind", options->kind, "only materials of this kind, as in fabric or fabric.woven")
       ->type_name("KIND");
   offer_library(verb, options->folders);
+  verb.get_option("--library")->description("a folder whose materials are listed too; may be repeated");
   offer_json(verb, options->json, "an array with all that is known of each");
   verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
   return [options] { return find(*options); };
@@ -108,6 +110,7 @@ Run declare_find(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb find_verb{"find", "lists the materials of the library, or those with these words", declare_find};
+extern const Verb find_verb{
+    "find", "lists the materials of the library and of your .wale files here, or those with these words", declare_find};
 
 }  // namespace wale::command

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/command_line/running.hpp"
 
 namespace wale::command_line::asking_test {
@@ -156,6 +158,25 @@ TEST(Devices, AreTheSimulatedOneAndThoseToBuildFor) {
   EXPECT_EQ(named("simulated").at("feel"), true);
   EXPECT_EQ(named("sandpaper").at("force_newton"), 10.0);
   EXPECT_EQ(named("sandpaper").at("rate_hz"), 900.0);
+}
+
+TEST(Devices, HaveTheirStepsInWholeNumbers) {
+  const std::string text = wale({"devices"}).out;
+  EXPECT_TRUE(contains(text, "openffboard  2 axes, 20 N in 32767 steps")) << text;
+  EXPECT_TRUE(contains(text, "arduino_ffb  2 axes, 20 N in 10000 steps")) << text;
+  EXPECT_FALSE(contains(text, "e+0")) << text;
+}
+
+TEST(Devices, HaveNoFigureForAnUnknownBandwidth) {
+  std::size_t unknown = 0;
+  for (const auto& device : wale({"devices", "--json"}).json()) {
+    if (!device.contains("bandwidth_hz")) continue;
+    const std::vector<std::string> without = device.at("unknown");
+    const bool is_unknown = std::ranges::find(without, "bandwidth") != without.end();
+    unknown += is_unknown;
+    for (const auto& axis : device.at("bandwidth_hz")) EXPECT_EQ(axis.is_null(), is_unknown) << device;
+  }
+  EXPECT_GT(unknown, 0u);
 }
 
 TEST(Choices, UnknownNamesAreRefusedWithTheNearest) {

@@ -61,6 +61,11 @@ TEST(Pages, TheFrontPageIsShortAndHasTheTwoCommands) {
   EXPECT_NE(page.find("\ntests/run\n"), std::string::npos);
 }
 
+TEST(Pages, TheFrontPageShowsAWholeFile) {
+  const std::string page = text_of(root / "README.md");
+  EXPECT_NE(page.find("```\n" + text_of(root / "library/fabric/corduroy.wale") + "```\n"), std::string::npos);
+}
+
 /// Folders are rooms; each has its line in the page of its folder, as `room/`.
 TEST(Pages, NameEveryRoom) {
   for (const char* folder : {"compiler", "runtime", "calibration", "tests"}) {
