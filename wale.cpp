@@ -69,7 +69,10 @@ int main(int argc, char** argv) {
 
   for (const Verb* each : verbs) {
     CLI::App* declared = app.add_subcommand(each->name, each->about);
-    declared->callback([&status, run = each->declare(*declared)] { status = run(); });
+    declared->callback([&status, declared, run = each->declare(*declared)] {
+      const Result<> complete = without_empty_words(*declared);
+      status = complete ? run() : refuse(complete.error());
+    });
   }
 
   if (argc == 1) {

@@ -48,6 +48,16 @@ void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostic
                       .help = "what is more is held back while it is felt; declare less, or take another device"});
 }
 
+/// "`a`, `b` and 3 more": at most eight names.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  const std::size_t shown = std::min(names.size(), most);
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i)
+    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+  return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
+}
+
 }  // namespace
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
@@ -75,7 +85,7 @@ const CheckedMaterial* chosen_material(const CheckedModule& module, const std::s
        .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
        .help = near                 ? fmt::format("did you mean `{}`?", *near)
                : candidates.empty() ? "add one, as in `material corduroy { … }`"
-                                    : fmt::format("it has `{}`", candidates.front())});
+                                    : "it has " + listed(candidates)});
   return nullptr;
 }
 

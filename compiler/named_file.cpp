@@ -92,12 +92,17 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
 
 NamedMaterial named_material(const std::string& argument) {
   const auto colon = argument.rfind(':');
-  if (colon == std::string::npos || exists(argument)) return {argument, {}};
+  if (colon == std::string::npos || colon + 1 == argument.size() || exists(argument)) return {argument, {}};
   return {argument.substr(0, colon), argument.substr(colon + 1)};
 }
 
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots) {
   const auto [file, material] = named_material(argument);
+  if (file.ends_with(':') && !exists(file))
+    return Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("`{}` names no material behind its colon", argument),
+                 .mend = "write FILE:MATERIAL, or leave out the colon",
+                 .place = {.text = argument}};
   const bool is_file = exists(file) && !is_folder(file);
   if (!is_file && !is_path(file)) {
     auto found = find_by_name(file, roots);

@@ -29,10 +29,12 @@ struct NamedFile {
 ///     compiler/modules/meant_material.hpp: its name, its title or another name, or its kind.
 ///
 /// A text with a `/` or with the ending of a file is never looked for as a name. Errors: W0501 for a file that cannot
-/// be read, W0201 for an unknown name, with the nearest three, W0217 for a name of several materials.
+/// be read, W0201 for an unknown name, with the nearest three, W0217 for a name of several materials, W0801 for nothing
+/// behind the colon.
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots);
 
-/// FILE:MATERIAL in two parts; where there is a file of the whole name, or no `:`, the material is empty.
+/// FILE:MATERIAL in two parts; where there is a file of the whole name, or no `:`, the material is empty. With nothing
+/// behind the `:` it stays with the file, and `find_named` refuses it.
 struct NamedMaterial {
   std::string file;
   std::string material;

@@ -67,7 +67,9 @@ std::string found_typed(const std::string& text) {
 Result<std::uint64_t> read_count(const std::string& option, const std::string& text, const CountRange& range) {
   const auto count = whole_number<std::uint64_t>(text);
   if (count && *count >= range.least && *count <= range.most) return *count;
-  const bool has_most = range.most != std::numeric_limits<std::uint64_t>::max();
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const bool is_too_large = !count && !text.empty() && std::ranges::all_of(text, is_digit);
+  const bool has_most = is_too_large || range.most != std::numeric_limits<std::uint64_t>::max();
   return unexpected(option, text,
                     has_most          ? fmt::format("a whole number from {} to {}", range.least, range.most)
                     : range.least > 0 ? fmt::format("a whole number of at least {}", range.least)

@@ -146,8 +146,8 @@ Run declare_devices(CLI::App& verb) {
   offer_force(verb, "--max-force", options->max_force,
               "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of its own)")
       ->needs(identifies);
-  verb.add_option("--transport", options->transport, "how --identify drives it, where its driver knows several ways")
-      ->type_name("NAME")
+  offer_name(verb, "--transport", options->transport, transport_names(),
+             "how --identify drives it, where its driver knows several ways: hidraw, libusb or evdev")
       ->needs(identifies);
   verb.footer("for example: wale devices --json; wale devices --identify > devices.wale");
   return [options, identifies] { return identifies->count() > 0 ? identify(*options) : list_devices(*options); };

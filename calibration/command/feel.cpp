@@ -24,6 +24,7 @@
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale::command {
 namespace {
@@ -50,12 +51,10 @@ struct FeelOptions {
 void say(const std::string& what) { fmt::print(stderr, "wale: {}\n", what); }
 
 /// A material to feel, with its parameters as set.
-std::optional<BlindMaterial> material_to_feel(const std::vector<Program>& programs,
-                                              const std::vector<std::string>& settings) {
-  if (programs.empty()) return std::nullopt;
-  auto parameters = chosen_parameters(programs.front(), settings);
-  if (!parameters) return std::nullopt;
-  return BlindMaterial{programs.front(), *std::move(parameters)};
+Result<BlindMaterial> material_to_feel(const Program& program, const std::vector<std::string>& settings) {
+  auto parameters = chosen_parameters(program, settings);
+  if (!parameters) return parameters.error();
+  return BlindMaterial{program, *std::move(parameters)};
 }
 
 /// A material, and the device that it is built for and felt on.
@@ -65,29 +64,46 @@ struct PreparedRun {
   BlindMaterial material;
 };
 
+/// Whether `name`, where it is given, is a device to build for. Error: W0601.
+Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDevice>& known) {
+  std::vector<std::string> names;
+  for (const DeclaredDevice& each : known) names.push_back(each.profile.name);
+  if (name.empty() || std::ranges::find(names, name) != names.end()) return {};
+  const auto near = nearest_spelling(name, names);
+  return Error{Code::unknown_device,
+               fmt::format("no device is called `{}`", name),
+               near ? fmt::format("did you mean `{}`?", *near) : "`wale devices` lists them",
+               {.name = "--built-for", .text = name}};
+}
+
 /// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it;
-/// nothing when what is wrong has been printed.
-std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop) {
+/// nothing when what is wrong has been printed, with the exit `status` for it.
+std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop, int& status) {
+  status = refused;
   Choice built = options.choice;
   built.device.clear();  // it is not known yet
   auto opened = open(built);
   if (!opened) return std::nullopt;
   const std::vector<DeclaredDevice> known =
       opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders);
+  if (const auto is_known = can_be_built_for(options.built_for, known); !is_known)
+    return refuse(is_known.error()), std::nullopt;
   const bool asks = !options.device.empty();
   auto device =
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
                       .only_simulated = options.virtual_time || options.hand},
                      known, options.seconds, say, stop);
-  if (!device) return refuse(device.error()), std::nullopt;
+  if (!device) return status = refuse(device.error()), std::nullopt;
   const ChosenDevice& chosen = device->chosen;
   if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
 
   built.device = chosen.declared ? chosen.declared->profile.name : options.choice.device;
   if (opened->module) check_levels(opened->module->declarations(), opened->source, built.device, opened->diagnostics);
-  auto material = material_to_feel(programs_of(*opened, built, false), options.settings);
-  if (!material) return std::nullopt;
+  const auto programs = programs_of(*opened, built, false);
+  if (programs.empty()) return std::nullopt;
+  auto material = material_to_feel(programs.front(), options.settings);
+  if (!material) return status = refuse(material.error()), std::nullopt;
   return PreparedRun{*std::move(device), std::move(built), *std::move(material)};
 }
 
@@ -104,7 +120,7 @@ std::optional<FeltDevice> open_prepared(const FeelOptions& options, const Prepar
 /// Whether a largest force can be kept; what is wrong has been printed where not.
 bool can_limit(const FeelOptions& options, const PatchProgram& program) {
   if (!options.max_force || !program.vibrates()) return true;
-  refuse(Error{Code::malformed_value,
+  refuse(Error{Code::other_device,
                fmt::format("`{}` only vibrates: it has no force to limit", program.device.name),
                "leave out --max-force",
                {.name = "--max-force"}});
@@ -165,8 +181,9 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
 }
 
 int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
-  const auto prepared_run = prepared(options, stop);
-  if (!prepared_run) return refused;
+  int status = done;
+  const auto prepared_run = prepared(options, stop, status);
+  if (!prepared_run) return status;
   const auto& [device, built, material] = *prepared_run;
   const PatchProgram& program = material.program.description();
   if (!can_limit(options, program)) return refused;
@@ -213,14 +230,18 @@ Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
 
 /// Which of two was A?
 int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
-  const auto run = prepared(options, stop);
-  if (!run) return refused;
+  int status = done;
+  const auto run = prepared(options, stop, status);
+  if (!run) return status;
   Choice against = run->built;
   const NamedMaterial named = named_material(options.against);
   against.file = named.file, against.material = named.material;
   const BlindMaterial& a = run->material;
-  const auto b = material_to_feel(load_programs(against, false), {});
-  if (!b) return refused;
+  against.device_option.clear();  // it was named for A
+  const auto programs = load_programs(against, false);
+  if (programs.empty()) return refused;
+  const auto b = material_to_feel(programs.front(), {});
+  if (!b) return refuse(b.error());
   if (const auto able = can_be_blind(*run, *b); !able) return refuse(able.error());
   auto felt = open_prepared(options, *run, stop);
   if (!felt) return refused;
@@ -289,9 +310,9 @@ Run declare_feel(CLI::App& verb) {
                   "auto (default): the best one plugged in, else simulated; simulated; simulated:NAME; NAME, as `wale "
                   "devices` lists them; usb; vendor and product, 1209:ffb0; a port, 1-2")
       ->type_name("NAME");
-  verb.add_option("--transport", options->transport,
-                  "how a real device is driven, where its driver knows several ways; see `wale devices`")
-      ->type_name("NAME");
+  offer_name(verb, "--transport", options->transport, transport_names(),
+             "how a real device is driven, where its driver knows several ways: hidraw, libusb or evdev; see `wale "
+             "devices`");
   verb.add_option("--hand", options->hand,
                   "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   offer_duration(verb, "--seconds", options->seconds, {.endless = true},
@@ -310,8 +331,8 @@ Run declare_feel(CLI::App& verb) {
       ->excludes(virtual_time);
   offer_json(verb, options->json, "the report as a JSON object");
   verb.footer("for example: wale feel velvet --against denim --blind");
-  return [options, built_for = verb.get_option("--built-for")] {
-    if (built_for->count() > 0) options->built_for = options->choice.device;
+  return [options] {
+    if (!options->choice.device_option.empty()) options->built_for = options->choice.device;
     return feel(*options);
   };
 }

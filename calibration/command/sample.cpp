@@ -4,12 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compiler/command/options.hpp"
-#include "compiler/modules/load_modules.hpp"
-#include "compiler/quantity.hpp"
 #include "runtime/device/simulated/load_trace.hpp"
 
 namespace wale::command {
@@ -18,17 +17,16 @@ namespace {
 struct SampleOptions {
   Choice choice;
   std::vector<std::string> settings;
-  std::string at, trace;  ///< one of them is given
+  std::optional<Hand> at;  ///< either this or `trace` is given
+  std::string trace;
   std::string out = "-";
   bool json = false;
 };
 
 Result<std::vector<SampledHand>> hands_of(const SampleOptions& options) {
   std::vector<SampledHand> hands;
-  if (options.trace.empty()) {
-    const auto hand = read_hand(declared_everywhere()->declarations, "--at", options.at);
-    if (!hand) return hand.error();
-    hands.push_back({0, *hand});
+  if (options.at) {
+    hands.push_back({0, *options.at});
     return hands;
   }
   const auto trace = load_trace(options.trace);
@@ -43,7 +41,7 @@ int sample(const SampleOptions& options) {
   if (programs.empty()) return refused;
   const Program& program = programs.front();
   const auto parameters = chosen_parameters(program, options.settings);
-  if (!parameters) return refused;
+  if (!parameters) return refuse(parameters.error());
   const auto hands = hands_of(options);
   if (!hands) return refuse(hands.error());
   const auto samples = wale::sample(Bank(program, *parameters, program.default_size()), *hands);
@@ -58,7 +56,7 @@ Run declare_sample(CLI::App& verb) {
   offer_material(verb, options->choice);
   offer_settings(verb, options->settings);
   auto* places = verb.add_option_group("hands", "where the hand is")->require_option(1);
-  places->add_option("--at", options->at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
+  offer_hand(*places, "--at", options->at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
   places
       ->add_option("--trace", options->trace,
                    "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick")

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "runtime/device/simulated/load_trace.hpp"
 #include "runtime/device/wait_for_device.hpp"
+#include "schema/spelling.hpp"
 #include "wale/simulated.hpp"
 #include "wale/simulated_pad.hpp"
 
@@ -17,7 +19,16 @@ Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person)
   if (hand == "circular") return Motion(Circular{person.circular_radius, person.circular_frequency, {}});
   if (hand == "rest") return Motion(Rest{});
   auto trace = load_trace(hand);
-  if (!trace) return std::move(trace.error());
+  if (!trace) {
+    Error error = std::move(trace.error());
+    std::error_code ignored;
+    if (std::filesystem::exists(hand, ignored)) return error;
+    const auto near = nearest_spelling(hand, {"lateral", "circular", "rest"});
+    error.sentence = fmt::format("`{}` is neither lateral, circular, rest nor the file of a trace", hand);
+    error.mend = near ? fmt::format("did you mean `{}`?", *near) : "a trace is a CSV file of t, x, y";
+    error.place = {.name = "--hand", .text = hand};
+    return error;
+  }
   return Motion(*std::move(trace));
 }
 

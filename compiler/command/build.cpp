@@ -20,7 +20,15 @@ struct BuildOptions {
 };
 
 int build_one(const BuildOptions& options) {
-  const auto programs = load_programs(options.choice, false);
+  auto opened = open(options.choice);
+  if (!opened) return refused;
+  if (opened->program)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("this is a patch program already, built for `{}`",
+                                                opened->program->description().device.name),
+                        .mend = "name the Wale file that it was built from",
+                        .place = {.name = opened->name}});
+  const auto programs = programs_of(*opened, options.choice, false);
   if (programs.empty()) return refused;
   const auto bytes = write_patch_program(programs.front().description());
   if (const auto written = write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

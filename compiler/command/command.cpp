@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale::command {
 namespace {
@@ -29,12 +31,30 @@ Error not_a_setting(const std::string& text) {
           .place = {.name = "--set", .text = text}};
 }
 
+/// Whether the value of an option cannot be read: it is nonsense, of another dimension, or outside its range.
+bool is_misuse(const Error& error) {
+  if (!error.place.name.starts_with('-')) return false;
+  switch (error.code) {
+    case Code::malformed_value:
+    case Code::value_out_of_range:
+    case Code::missing_argument:
+    case Code::wrong_dimension:
+    case Code::mismatched_dimensions:
+    case Code::unknown_unit:
+    case Code::number_out_of_range: return true;
+    default: return false;
+  }
+}
+
 Error no_parameter(const PatchProgram& program, const std::string& name) {
   std::vector<std::string> known;
   for (const auto& parameter : program.parameters) known.push_back(parameter.name);
+  const auto near = nearest_spelling(name, known);
   return {.code = Code::unknown_setting,
           .sentence = fmt::format("`{}` has no parameter `{}`", program.material, name),
-          .mend = known.empty() ? "it has no parameters" : fmt::format("its parameters: {}", fmt::join(known, ", ")),
+          .mend = near            ? fmt::format("did you mean `{}`?", *near)
+                  : known.empty() ? "it has no parameters"
+                                  : fmt::format("its parameters: {}", fmt::join(known, ", ")),
           .place = {.name = "--set", .text = name}};
 }
 
@@ -45,7 +65,10 @@ int refuse(const std::string& reason) {
   return refused;
 }
 
-int refuse(const Error& error) { return refuse(error_text(error)); }
+int refuse(const Error& error) {
+  refuse(error_text(error));
+  return is_misuse(error) ? misused : refused;
+}
 
 void warn(const Error& warning) { fmt::print(stderr, "wale: {}\n", error_text(warning)); }
 
@@ -90,9 +113,35 @@ void say_also(const OpenedFile& opened) {
     fmt::print(stderr, "wale: `{}` is a file here; the material of that name is `{}`\n", opened.name, opened.also);
 }
 
+Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice) {
+  if (!opened.program) return {};
+  const PatchProgram& program = opened.program->description();
+  if (!material.empty() && material != program.material)
+    return Error{.code = Code::unknown_material,
+                 .sentence = fmt::format("this patch program holds `{}` alone, and no `{}`", program.material, material),
+                 .mend = "name no material, or the Wale file that it was built from",
+                 .place = {.name = opened.name}};
+  if (!choice.device_option.empty() && choice.device != program.device.name)
+    return Error{.code = Code::other_device,
+                 .sentence = fmt::format("this patch program is built for `{}`", program.device.name),
+                 .mend = fmt::format("leave out {}, or name the Wale file that it was built from", choice.device_option),
+                 .place = {.name = opened.name}};
+  return {};
+}
+
 std::optional<OpenedFile> open(const Choice& choice) {
+  const std::string named = named_material(choice.file).material;
+  if (!named.empty() && !choice.material.empty() && named != choice.material) {
+    refuse(Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("`{}` names `{}`, and --material `{}`", choice.file, named, choice.material),
+                 .mend = "name one of the two",
+                 .place = {.text = choice.material}});
+    return std::nullopt;
+  }
   auto opened = open_file(choice.request());
   if (!opened) return refuse(opened.error()), std::nullopt;
+  if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
+    return refuse(same.error()), std::nullopt;
   say_also(*opened);
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
@@ -124,20 +173,25 @@ std::vector<Program> load_programs(const Choice& choice, bool all) {
   return opened ? programs_of(*opened, choice, all) : std::vector<Program>{};
 }
 
-std::optional<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {
+Result<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {
   auto values = program.default_parameters();
   const std::shared_ptr<const CommonModules> common = common_modules();
+  std::vector<std::string> set;
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
+    if (equals == std::string::npos) return not_a_setting(setting);
     const std::string name = setting.substr(0, equals);
     const auto index = program.parameter(name);
-    if (equals == std::string::npos || !index) {
-      refuse(equals == std::string::npos ? not_a_setting(setting) : no_parameter(program.description(), name));
-      return std::nullopt;
-    }
+    if (!index) return no_parameter(program.description(), name);
+    if (std::ranges::find(set, name) != set.end())
+      return Error{.code = Code::malformed_value,
+                   .sentence = fmt::format("`{}` is set twice", name),
+                   .mend = "set it once",
+                   .place = {.name = "--set", .text = setting}};
+    set.push_back(name);
     const auto read = read_parameter(common->declarations, "--set", program.description().parameters[*index],
                                      setting.substr(equals + 1));
-    if (!read) return refuse(read.error()), std::nullopt;
+    if (!read) return read.error();
     if (read->unusual) warn(*read->unusual);
     values[*index] = read->value;
   }

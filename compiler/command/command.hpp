@@ -21,6 +21,7 @@ inline constexpr int misused = 2;
 
 /// Says why on standard error; `refused`.
 int refuse(const std::string& reason);
+/// The same; `misused` where the value of an option cannot be read.
 int refuse(const Error& error);
 
 /// Says a warning on standard error.
@@ -38,6 +39,7 @@ Result<> write_file(const std::string& path, std::string_view bytes);
 /// What was named on the command line: a Wale file to compile, a patch program to load, or a material by name.
 struct Choice {
   std::string file, material, device = default_device;
+  std::string device_option;  ///< "--device" where that option named the device; empty: it is the default
   std::vector<std::string> folders;  ///< in which imports are looked for
 
   FileRequest request() const;
@@ -45,6 +47,10 @@ struct Choice {
 
 /// Says on standard error how to name the material that has the same name as a file; mostly there is none.
 void say_also(const OpenedFile& opened);
+
+/// Whether a patch program is the material `material` and built for the device of `choice`, where they are named; any
+/// Wale file passes. Errors: W0202 for another material, W0607 for another device.
+Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice);
 
 /// Opens a file; nothing when it cannot be read or its text is wrong, which has been said.
 std::optional<OpenedFile> open(const Choice& choice);
@@ -56,7 +62,8 @@ std::shared_ptr<const CommonModules> declared_everywhere();
 std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all);
 std::vector<Program> load_programs(const Choice& choice, bool all);
 
-/// The program's parameters with `--set NAME=VALUE` applied, or nothing, when what is wrong has been printed.
-std::optional<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings);
+/// The program's parameters with `--set NAME=VALUE` applied. Errors: W0801 for a text that is no setting and for a
+/// parameter that is set twice, W0206 for an unknown parameter, those of `read_parameter`.
+Result<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings);
 
 }  // namespace wale::command

@@ -32,6 +32,10 @@ int compare(const CompareOptions& options) {
     const OpenedFile& opened = *file.opened;
     say_also(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
+    if (const auto same = is_as_named(opened, file.name.material, options.choice); !same) {
+      refuse(same.error());
+      all_read = false;
+    }
     all_read = all_read && !opened.diagnostics.has_errors();
     // Among many files are some that only lend functions to others.
     if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
@@ -53,7 +57,7 @@ Run declare_compare(CLI::App& verb) {
           "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one; or materials of the "
           "library by name")
       ->required();
-  offer_device(verb, options->choice.device);
+  offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);
   verb.add_flag("--matrix", options->with_table,
                 "prints how far each is from every other, also of more materials than fit a screen");

@@ -23,8 +23,8 @@ struct DescribeOptions {
 };
 
 /// What one device makes of a material. Settings that its program has a parameter for are added to `used`: a percept
-/// that is lost on a device has none there. Nothing where a setting is wrong, which has been said.
-std::optional<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& request, const std::string& material,
+/// that is lost on a device has none there. Nothing where a setting is wrong.
+Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& request, const std::string& material,
                                     const std::vector<std::string>& settings, const Declarations& declarations,
                                     std::set<std::string>& used) {
   DeviceFates fates{.material = material, .device = request.device, .fates = {}, .refusal = {}};
@@ -41,7 +41,7 @@ std::optional<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest&
   });
   used.insert(known.begin(), known.end());
   const auto parameters = chosen_parameters(*program, known);
-  if (!parameters) return std::nullopt;
+  if (!parameters) return parameters.error();
   fates.fates = fates_at(Bank(*program, *parameters, program->default_size()), declarations);
   return fates;
 }
@@ -65,7 +65,7 @@ int describe_fates(const DescribeOptions& options) {
       FileRequest request = choice.request();
       request.device = device;
       auto fates = fates_on(*opened, request, material, options.settings, common->declarations, used);
-      if (!fates) return refused;
+      if (!fates) return refuse(fates.error());
       all.push_back(*std::move(fates));
     }
   if (all.empty())
@@ -96,6 +96,12 @@ int describe(const DescribeOptions& options) {
   if (options.choice.device == "all") return describe_fates(options);
   auto opened = open(options.choice);
   if (!opened) return refused;
+  if (options.exports && opened->program)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("this is a patch program, built for `{}`, and exports nothing",
+                                                opened->program->description().device.name),
+                        .mend = "name the Wale file that it was built from",
+                        .place = {.name = opened->name}});
   if (const auto status = describe_exports(*opened, options)) return *status;
   const auto programs = programs_of(*opened, options.choice, true);
   if (programs.empty()) return refused;
@@ -103,7 +109,7 @@ int describe(const DescribeOptions& options) {
   std::vector<Description> descriptions;
   for (const auto& program : programs) {
     const auto parameters = chosen_parameters(program, options.settings);
-    if (!parameters) return refused;
+    if (!parameters) return refuse(parameters.error());
     descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
   }
   if (options.json) {

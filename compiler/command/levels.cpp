@@ -37,7 +37,7 @@ Run declare_levels(CLI::App& verb) {
   offer_device(verb, options->device);
   offer_count(verb, "--steps", options->steps, {.least = 2, .most = 1000, .example = 5},
               "how many levels (default: as many as can be told apart)");
-  offer_number(verb, "--jnd", options->apart, {.least = 0, .most = 1000, .above_least = true, .example = 1.5},
+  offer_number(verb, "--jnd", options->apart, {.least = 0.01, .most = 1000, .example = 1.5},
                "the least distance between two levels, in just noticeable differences (default: 1)");
   offer_json(verb, options->json, "a JSON object");
   verb.footer("for example: wale levels roughness --device falcon --steps 5");

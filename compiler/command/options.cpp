@@ -1,9 +1,15 @@
 #include "compiler/command/options.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
+#include "schema/spelling.hpp"
 
 namespace wale::command {
 namespace {
@@ -11,29 +17,74 @@ namespace {
 /// One value each time, as often as it is given: without this CLI11 would take the words that follow for more values.
 void may_be_repeated(CLI::Option* option) { option->expected(1)->allow_extra_args(false)->take_all(); }
 
-/// An option whose words `read` turns into a value; `status` ends the command where they cannot be.
+/// An option whose words `read` turns into a value.
 template <class Value, class Read>
 CLI::Option* offer_value(CLI::App& verb, const char* option, const char* type, std::optional<Value>& into,
-                         const char* about, Read read, int status = misused) {
-  const auto take = [option, &into, read, status](const std::string& text) {
+                         const char* about, Read read) {
+  const auto take = [option, &into, read](const std::string& text) {
     const Result<Value> value = read(option, text);
-    if (!value) throw CLI::ValidationError(error_text(value.error()), status);
+    if (!value) throw CLI::ValidationError(error_text(value.error()), misused);
     into = *value;
   };
   return verb.add_option_function<std::string>(option, take, about)->type_name(type);
 }
 
+constexpr const char* device_about = "the device to build for (default: sandpaper; see `wale devices`)";
+
+/// Whether each is a folder, or empty, which `without_empty_words` refuses. Error: W0501.
+Result<> are_folders(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    std::error_code ignored;
+    if (folder.empty() || std::filesystem::is_directory(folder, ignored)) continue;
+    const bool exists = std::filesystem::exists(folder, ignored);
+    return Error{.code = Code::unreadable_file,
+                 .sentence = fmt::format("`{}` {}", folder, exists ? "is no folder" : "does not exist"),
+                 .mend = "name a folder that holds Wale files",
+                 .place = {.name = "--library", .text = folder}};
+  }
+  return {};
+}
+
 }  // namespace
 
+Result<> without_empty_words(const CLI::App& verb) {
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option->get_expected_min() == 0) continue;  // a flag, or an option that may stand alone
+    const auto& words = option->results();
+    if (std::ranges::find(words, "") == words.end()) continue;
+    const std::string name = option->get_name();
+    return Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("expected {}, found nothing", option->get_positional() ? "a word"
+                                                                       : option->get_type_name()),
+                 .mend = option->get_required() ? "" : fmt::format("leave out {} where nothing is meant", name),
+                 .place = {.name = name}};
+  }
+  for (const CLI::App* group : verb.get_subcommands({}))
+    if (const auto complete = without_empty_words(*group); !complete) return complete;
+  return {};
+}
+
 void offer_library(CLI::App& verb, std::vector<std::string>& folders) {
+  const auto take = [&folders](const std::vector<std::string>& given) {
+    if (const auto found = are_folders(given); !found) throw CLI::ValidationError(error_text(found.error()), refused);
+    folders = given;
+  };
   may_be_repeated(
-      verb.add_option("--library", folders, "a folder to look for imports in, after the file's own; may be repeated")
+      verb.add_option_function<std::vector<std::string>>(
+              "--library", take, "a folder to look for imports in, after the file's own; may be repeated")
           ->type_name("DIR"));
 }
 
-void offer_device(CLI::App& verb, std::string& device, const char* option) {
-  verb.add_option(option, device, "the device to build for (default: sandpaper; see `wale devices`)")
-      ->type_name("NAME");
+void offer_device(CLI::App& verb, std::string& device) {
+  verb.add_option("--device", device, device_about)->type_name("NAME");
+}
+
+void offer_device(CLI::App& verb, Choice& choice, const char* option) {
+  const auto take = [&choice, option](const std::string& name) {
+    choice.device = name;
+    choice.device_option = option;
+  };
+  verb.add_option_function<std::string>(option, take, device_about)->type_name("NAME");
 }
 
 void offer_material(CLI::App& verb, Choice& choice, const char* device_option) {
@@ -41,7 +92,7 @@ void offer_material(CLI::App& verb, Choice& choice, const char* device_option) {
                   "a Wale file, a patch program (.wpp), or a material of the library by name, as in corduroy")
       ->required();
   verb.add_option("--material", choice.material, "which material of the file (default: its first)")->type_name("NAME");
-  offer_device(verb, choice.device, device_option);
+  offer_device(verb, choice, device_option);
   offer_library(verb, choice.folders);
 }
 
@@ -54,6 +105,22 @@ void offer_json(CLI::App& verb, bool& json, const char* about) { verb.add_flag("
 
 CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about) {
   return verb.add_option("-o,--output", out, about)->type_name("FILE");
+}
+
+CLI::Option* offer_name(CLI::App& verb, const char* option, std::string& into, const std::vector<std::string>& names,
+                        const char* about) {
+  const auto take = [option, &into, names](const std::string& text) {
+    into = text;
+    if (text.empty() || std::ranges::find(names, text) != names.end()) return;
+    const auto near = nearest_spelling(text, names);
+    throw CLI::ValidationError(
+        error_text({.code = Code::malformed_value,
+                    .sentence = fmt::format("expected {}, {}", fmt::join(names, ", "), found_typed(text)),
+                    .mend = near ? fmt::format("did you mean `{}`?", *near) : "",
+                    .place = {.name = option, .text = text}}),
+        misused);
+  };
+  return verb.add_option_function<std::string>(option, take, about)->type_name("NAME");
 }
 
 CLI::Option* offer_count(CLI::App& verb, const char* option, std::optional<std::uint64_t>& into,
@@ -74,11 +141,18 @@ CLI::Option* offer_duration(CLI::App& verb, const char* option, std::optional<do
                      [range](const char* name, const std::string& text) { return read_duration(name, text, range); });
 }
 
+CLI::Option* offer_hand(CLI::App& verb, const char* option, std::optional<Hand>& into, const char* about) {
+  const auto read = [](const char* name, const std::string& text) {
+    return read_hand(common_modules()->declarations, name, text);
+  };
+  return offer_value(verb, option, "HAND", into, about, read);
+}
+
 CLI::Option* offer_force(CLI::App& verb, const char* option, std::optional<double>& into, const char* about) {
   const auto read = [](const char* name, const std::string& text) {
     return read_force(common_modules()->declarations, name, text);
   };
-  return offer_value(verb, option, "FORCE", into, about, read, refused);
+  return offer_value(verb, option, "FORCE", into, about, read);
 }
 
 }  // namespace wale::command

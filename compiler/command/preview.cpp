@@ -21,7 +21,7 @@ int preview(const PreviewOptions& options) {
   const auto programs = load_programs(options.choice, false);
   if (programs.empty()) return refused;
   const auto parameters = chosen_parameters(programs.front(), options.settings);
-  if (!parameters) return refused;
+  if (!parameters) return refuse(parameters.error());
   const auto common = common_modules();
   const Bank bank(programs.front(), *parameters, programs.front().default_size());
   const auto drawing = draw_preview(bank, preview_text(bank, common->declarations), common->declarations);

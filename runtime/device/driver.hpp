@@ -69,12 +69,16 @@ struct Driver {
   /// Opens what `find` found, and sets it up without force: may take a second. An error leaves the device as it was.
   OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
                        const DeviceOptions& options);
+  /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty where there is one way only.
+  std::span<const std::string_view> transports = {};
 };
 
 using Drivers = std::span<const Driver* const>;
 
 /// All drivers, in the order in which `auto` prefers their devices.
 Drivers drivers();
+/// The ways to drive a device of any of them: "hidraw", "libusb".
+std::vector<std::string> transport_names(Drivers drivers = wale::drivers());
 /// The one of that name, or null.
 const Driver* find_driver(Drivers drivers, std::string_view name);
 

@@ -20,6 +20,12 @@ constexpr std::array all_drivers = {
 
 Drivers drivers() { return all_drivers; }
 
+std::vector<std::string> transport_names(Drivers drivers) {
+  std::vector<std::string> names;
+  for (const Driver* driver : drivers) names.insert(names.end(), driver->transports.begin(), driver->transports.end());
+  return names;
+}
+
 const Driver* find_driver(Drivers drivers, std::string_view name) {
   const auto found = std::ranges::find(drivers, name, &Driver::name);
   return found != drivers.end() ? *found : nullptr;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,8 @@ enum class PidTransportKind : std::uint8_t {
 /// "hidraw", as `--transport` spells it, and back; anything else is none.
 std::string_view in_words(PidTransportKind kind) noexcept;
 std::optional<PidTransportKind> read_transport_kind(std::string_view text) noexcept;
+/// All of them, in the order of the kinds.
+std::span<const std::string_view> pid_transport_names() noexcept;
 
 /// The one system call on a device's node that a socket cannot stand in for where there is no device. As ioctl(2): less
 /// than 0 is a failure, with `errno`.
