@@ -71,7 +71,8 @@ int main(int argc, char** argv) {
     CLI::App* declared = app.add_subcommand(each->name, each->about);
     declared->callback([&status, declared, run = each->declare(*declared)] {
       const Result<> complete = without_empty_words(*declared);
-      status = complete ? run() : refuse(complete.error());
+      if (!complete) refuse(complete.error());
+      status = complete ? run() : misused;
     });
   }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/meant_material.hpp"
 #include "compiler/text/embedded_files.hpp"
@@ -45,6 +46,14 @@ std::optional<NamedFile> shipped_file(const std::string& path) {
                    .also = {}};
 }
 
+/// A file of another sort, by the bytes that it begins with.
+Error no_material(const std::string& path, const std::string& what, const std::string& mend) {
+  return {.code = Code::malformed_value,
+          .sentence = fmt::format("this is {}, and neither a Wale file nor a patch program", what),
+          .mend = mend,
+          .place = {.name = path}};
+}
+
 /// Reads a file. One on the disk goes before a shipped one of the same path: in a checkout it is the newer.
 Result<NamedFile> read_named(const std::string& path, const std::string& material) {
   if (!exists(path))
@@ -53,6 +62,9 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
       return *std::move(shipped);
     }
   auto read = read_file(path);
+  if (read && read->bytes.starts_with("\x89WRC")) return no_material(path, "a recording", "`wale replay` reads it");
+  if (read && read->bytes.starts_with("\x89PNG"))
+    return no_material(path, "a picture", "a Wale file shows it by `image(\"FILE.png\", …)`");
   if (read)
     return NamedFile{.name = path, .bytes = std::move(read->bytes), .embedded = {}, .material = material, .also = {}};
   Error error = read.error();
@@ -80,7 +92,12 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
   error.place = {.text = name};  // the sentence names it
   if (error.code == Code::unknown_name) {
     error.sentence = fmt::format("`{}` is neither a file nor a material", name);
-    if (const auto near = nearest_materials(*index, name); !near.empty())
+    const auto kinds = kinds_in(*index);
+    const bool is_kind = std::ranges::find(kinds, name) != kinds.end();
+    if (is_kind) {
+      error.sentence = fmt::format("`{}` is a kind of material, and no material", name);
+      error.mend = fmt::format("`wale find --kind {}` lists its materials", name);
+    } else if (const auto near = nearest_materials(*index, name); !near.empty())
       error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed(near));
     else
       error.mend = "`wale find` lists the materials of the library";

@@ -283,6 +283,11 @@ int feel(const FeelOptions& options) {
                         fmt::format("expected a file NAME.wrec or NAME.csv, found `{}`", record),
                         "NAME.wrec is a recording for `wale replay`, NAME.csv a table",
                         {.name = "--record"}});
+  if (options.virtual_time && options.seconds && std::isinf(*options.seconds))
+    return refuse(Error{Code::malformed_value,
+                        "a run in virtual time has an end, found \"inf\"",
+                        "give its length, as in `--seconds \"5 s\"`, or leave out --virtual-time",
+                        {.name = "--seconds"}});
   const std::atomic<bool>& stop = stop_on_signals();
   return options.blind ? feel_blind(options, stop) : feel_one(options, stop);
 }

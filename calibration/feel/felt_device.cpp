@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "runtime/device/simulated/load_trace.hpp"
 #include "runtime/device/wait_for_device.hpp"
@@ -23,7 +24,11 @@ Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person)
     Error error = std::move(trace.error());
     std::error_code ignored;
     if (std::filesystem::exists(hand, ignored)) return error;
-    const auto near = nearest_spelling(hand, {"lateral", "circular", "rest"});
+    const std::vector<std::string> motions{"lateral", "circular", "rest"};
+    auto near = nearest_spelling(hand, motions);
+    constexpr std::size_t telling = 4;  // "circle" begins as "circular" does, and is too short to be near to it
+    for (const std::string& motion : motions)
+      if (!near && hand.size() >= telling && motion.starts_with(hand.substr(0, telling))) near = motion;
     error.sentence = fmt::format("`{}` is neither lateral, circular, rest nor the file of a trace", hand);
     error.mend = near ? fmt::format("did you mean `{}`?", *near) : "a trace is a CSV file of t, x, y";
     error.place = {.name = "--hand", .text = hand};

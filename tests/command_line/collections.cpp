@@ -73,6 +73,7 @@ struct Borrower {
 TEST(Libraries, AreGivenOnTheCommandLine) {
   const Borrower borrower;
   const std::string shared = borrower.folder / "shared", other = borrower.folder / "other";
+  fs::create_directory(other);
   EXPECT_TRUE(contains(wale({"describe", borrower.file}).err, "W0212"));
   const std::vector<std::vector<std::string>> commands{{"check", borrower.file},
                                                        {"describe", borrower.file},

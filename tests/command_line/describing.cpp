@@ -202,7 +202,7 @@ TEST(Set, OutsideTheUsualRangeIsAWarning) {
   EXPECT_TRUE(contains(outcome.err, "from 30 N/m to 120 N/m")) << outcome.err;
   EXPECT_DOUBLE_EQ(outcome.json().at("parameters").at(0).at("value").get<double>(), 150);
   EXPECT_EQ(wale({"describe", file, "--set", "k=30 N/m"}).err, "") << "the range's own ends are usual";
-  EXPECT_EQ(wale({"describe", file, "--set", "k=250 N/m"}).status, 1);
+  EXPECT_EQ(wale({"describe", file, "--set", "k=250 N/m"}).status, 2);
 }
 
 TEST(Describing, KeepsWordsThatNobodyInterprets) {
@@ -225,7 +225,7 @@ TEST(Feeling, WithNoMoreForceThanTheUserAllows) {
   EXPECT_GT(limited.at("guards").at("user_limit").get<long>(), 100);
   EXPECT_EQ(felt("9 N").json().at("guards").at("user_limit"), 0);
   for (const char* wrong : {"0 N", "-2 N", "3", "5 mm", "much"}) {
-    EXPECT_EQ(felt(wrong).status, 1) << wrong;
+    EXPECT_EQ(felt(wrong).status, 2) << wrong;
     EXPECT_FALSE(felt(wrong).err.empty()) << wrong;
   }
 }

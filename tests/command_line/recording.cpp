@@ -86,7 +86,7 @@ TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
   EXPECT_EQ(nowhere.status, 1);
   EXPECT_TRUE(contains(nowhere.err, ": " + in_no_folder + ": there is no such folder\n")) << nowhere.err;
   const Outcome odd = feel({corduroy, "--record", folder / "a.record"});
-  EXPECT_EQ(odd.status, 1);
+  EXPECT_EQ(odd.status, 2);
   EXPECT_TRUE(contains(odd.err, "NAME.wrec")) << odd.err;
 }
 

@@ -10,20 +10,19 @@ namespace {
 struct ValueOption {
   std::vector<std::string> words;  ///< of the command, before the option
   std::string option;
-  int status;  ///< 2 for numbers; 1 for quantities, which are read as those of a Wale file
 };
 
 const std::vector<ValueOption> options{
-    {{"levels", "roughness"}, "--steps", 2},
-    {{"levels", "roughness"}, "--jnd", 2},
-    {{"feel", corduroy, "--virtual-time"}, "--seconds", 2},
-    {{"feel", corduroy, "--virtual-time"}, "--max-force", 1},
-    {{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind"}, "--trials", 2},
-    {{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind"}, "--seed", 2},
-    {{"replay", "missing.wrec"}, "--ticks", 2},
-    {{"devices", "--identify"}, "--max-force", 1},
-    {{"sample", corduroy}, "--at", 1},
-    {{"describe", corduroy}, "--set", 1},
+    {{"levels", "roughness"}, "--steps"},
+    {{"levels", "roughness"}, "--jnd"},
+    {{"feel", corduroy, "--virtual-time"}, "--seconds"},
+    {{"feel", corduroy, "--virtual-time"}, "--max-force"},
+    {{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind"}, "--trials"},
+    {{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind"}, "--seed"},
+    {{"replay", "missing.wrec"}, "--ticks"},
+    {{"devices", "--identify"}, "--max-force"},
+    {{"sample", corduroy}, "--at"},
+    {{"describe", corduroy}, "--set"},
 };
 
 TEST(Values, NonsenseIsRefusedWithWhatWasTypedAndAnExample) {
@@ -35,7 +34,7 @@ TEST(Values, NonsenseIsRefusedWithWhatWasTypedAndAnExample) {
       words.push_back(each.option == "--set" ? "wale=" + typed : typed);
       const Outcome outcome = wale(words);
       const std::string told = testing::PrintToString(words) + "\n" + outcome.err;
-      EXPECT_EQ(outcome.status, each.status) << told;
+      EXPECT_EQ(outcome.status, 2) << told;
       EXPECT_EQ(outcome.out, "") << told;
       EXPECT_TRUE(contains(outcome.err, each.option)) << told;
       EXPECT_TRUE(contains(outcome.err, "expected ")) << told;
@@ -56,7 +55,82 @@ TEST(Values, SenseIsRead) {
 
 TEST(Values, RangesAreToldWhole) {
   EXPECT_TRUE(contains(wale({"levels", "roughness", "--steps", "1"}).err, "a whole number from 2 to 1000"));
-  EXPECT_TRUE(contains(wale({"levels", "roughness", "--jnd", "0"}).err, "a number above 0"));
+  EXPECT_TRUE(contains(wale({"levels", "roughness", "--jnd", "0"}).err, "a number from 0.01 to 1000"));
+}
+
+/// A command, its exit status, and what it says.
+struct Refused {
+  std::vector<std::string> words;
+  int status;
+  std::string said;
+};
+
+void expect_refused(const std::vector<Refused>& commands) {
+  for (const Refused& each : commands) {
+    const Outcome outcome = wale(each.words);
+    const std::string told = testing::PrintToString(each.words) + "\n" + outcome.err;
+    EXPECT_EQ(outcome.status, each.status) << told;
+    EXPECT_EQ(outcome.out, "") << told;
+    EXPECT_TRUE(contains(outcome.err, each.said)) << each.said << " in " << told;
+    EXPECT_FALSE(contains(outcome.err, "warning[")) << told;
+  }
+}
+
+TEST(Values, EmptyTextsAreRefusedByTheirOption) {
+  expect_refused({{{"build", corduroy, "--device", "", "-o", "a.wpp"}, 2, "--device: expected"},
+                  {{"feel", corduroy, "--virtual-time", "--record", ""}, 2, "--record: expected"},
+                  {{"feel", corduroy, "--virtual-time", "--transport", ""}, 2, "--transport: expected"},
+                  {{"feel", corduroy, "--virtual-time", "--built-for", ""}, 2, "--built-for: expected"},
+                  {{"replay", "a.wrec", "--csv", ""}, 2, "--csv: expected"},
+                  {{"replay", "a.wrec", "--wav", ""}, 2, "--wav: expected"},
+                  {{"describe", corduroy, "--material", ""}, 2, "--material: expected"},
+                  {{"describe", corduroy, "--library", ""}, 2, "--library: expected"},
+                  {{"preview", corduroy, "-o", ""}, 2, "--output: expected"},
+                  {{"sample", corduroy, "--trace", ""}, 2, "--trace: expected"},
+                  {{"find", "--kind", ""}, 2, "--kind: expected"},
+                  {{"explain", ""}, 2, "CODE: expected"},
+                  {{"levels", ""}, 2, "PERCEPT: expected"}});
+}
+
+TEST(Values, NamesThatMeanNothingAreRefused) {
+  expect_refused(
+      {{{"describe", "brick:"}, 1, "behind its colon"},
+       {{"compare", "denim:", "velvet"}, 1, "behind its colon"},
+       {{"describe", corduroy + ":corduroy", "--material", "other"}, 1, "names `corduroy`, and --material `other`"},
+       {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
+       {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},
+       {{"describe", "std"}, 1, "`wale find --kind std`"},
+       {{"describe", corduroy, "--library", "/nowhere"}, 1, "--library: `/nowhere` does not exist"},
+       {{"feel", corduroy, "--virtual-time", "--transport", "banana"}, 2, "expected hidraw, libusb, evdev"},
+       {{"feel", corduroy, "--device", "simulated:falcon", "--built-for", "nope"}, 1, "error[W0601]: --built-for"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "foo"}, 1, "lateral, circular, rest nor"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "circle"}, 1, "did you mean `circular`"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "Lateral"}, 1, "did you mean `lateral`"},
+       {{"describe", corduroy, "--set", "Wale=4mm"}, 1, "did you mean `wale`"},
+       {{"describe", corduroy, "--set", "wale=4mm", "--set", "wale=5mm"}, 2, "`wale` is set twice"}});
+}
+
+TEST(Values, NumbersThatCannotBeDoneAreRefused) {
+  expect_refused({{{"replay", "a.wrec", "--ticks", "99999999999999999999"}, 2, "to 18446744073709551615"},
+                  {{"levels", "roughness", "--jnd", "1e-30"}, 2, "from 0.01"},
+                  {{"levels", "bumpiness", "--steps", "50"}, 1, "error["},
+                  {{"feel", corduroy, "--virtual-time", "--seconds", "inf"}, 2, "--seconds"},
+                  {{"feel", corduroy, "--virtual-time", "--record", "x.txt"}, 2, "--record"}});
+}
+
+TEST(Values, APatchProgramIsWhatItWasBuiltAs) {
+  const TemporaryFolder folder;
+  const std::string program = folder / "c.wpp";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  expect_refused({{{"describe", program, "--device", "falcon"}, 1, "built for `sandpaper`"},
+                  {{"feel", program, "--virtual-time", "--built-for", "falcon"}, 1, "built for `sandpaper`"},
+                  {{"describe", program, "--material", "x"}, 1, "holds `corduroy` alone"},
+                  {{"describe", program + ":x"}, 1, "holds `corduroy` alone"},
+                  {{"describe", program, "--exports"}, 1, "built for `sandpaper`"},
+                  {{"build", program, "-o", folder / "d.wpp"}, 1, "built for `sandpaper`"}});
+  EXPECT_EQ(wale({"describe", program, "--device", "sandpaper"}).status, 0);
+  const std::string recording = folder.write("a.wrec", "\x89WRC"), picture = folder.write("a.png", "\x89PNG");
+  expect_refused({{{"describe", recording}, 1, "`wale replay`"}, {{"describe", picture}, 1, "a picture"}});
 }
 
 }  // namespace
