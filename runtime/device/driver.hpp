@@ -58,7 +58,8 @@ struct DeviceOptions {
 };
 
 /// One driver: how it finds its devices, and how it opens one. Choosing, listing, identifying and opening go through
-/// the table of drivers (drivers.def): a new driver is a folder with a driver.cpp, and one row of that table.
+/// the table of drivers (drivers.def): a new driver is a folder with a driver.cpp, and one row of that table. It is
+/// `constinit`, so that the table is whole before any other object is made.
 struct Driver {
   std::string_view name;   ///< also a spelling for `--device`: the best device of this driver
   bool is_chosen_by_auto;  ///< whether `auto` may take its devices; others have to be named

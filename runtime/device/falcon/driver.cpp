@@ -38,7 +38,7 @@ OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugge
 
 }  // namespace
 
-const Driver falcon_driver{
+constinit const Driver falcon_driver{
     .name = "novint-falcon", .is_chosen_by_auto = true, .is_felt = true, .find = find_falcon, .open = open_falcon};
 
 }  // namespace wale

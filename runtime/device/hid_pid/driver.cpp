@@ -122,11 +122,11 @@ OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugg
 
 }  // namespace
 
-const Driver hid_pid_driver{.name = "hid-pid",
-                            .is_chosen_by_auto = true,
-                            .is_felt = true,
-                            .find = find_hid_pid,
-                            .open = open_hid_pid,
-                            .transports = pid_transport_names()};
+constinit const Driver hid_pid_driver{.name = "hid-pid",
+                                      .is_chosen_by_auto = true,
+                                      .is_felt = true,
+                                      .find = find_hid_pid,
+                                      .open = open_hid_pid,
+                                      .transports = pid_transport_names};
 
 }  // namespace wale

@@ -10,18 +10,17 @@
 namespace wale {
 namespace {
 
-constexpr std::array<std::string_view, 3> names_of_kinds{"hidraw", "libusb", "evdev"};
 constexpr int seen_bits = 28;
 
 }  // namespace
 
-std::string_view in_words(PidTransportKind kind) noexcept { return names_of_kinds[static_cast<std::size_t>(kind)]; }
-
-std::span<const std::string_view> pid_transport_names() noexcept { return names_of_kinds; }
+std::string_view in_words(PidTransportKind kind) noexcept {
+  return pid_transport_names[static_cast<std::size_t>(kind)];
+}
 
 std::optional<PidTransportKind> read_transport_kind(std::string_view text) noexcept {
-  for (std::size_t i = 0; i < names_of_kinds.size(); ++i) {
-    if (names_of_kinds[i] == text) return static_cast<PidTransportKind>(i);
+  for (std::size_t i = 0; i < pid_transport_names.size(); ++i) {
+    if (pid_transport_names[i] == text) return static_cast<PidTransportKind>(i);
   }
   return std::nullopt;
 }

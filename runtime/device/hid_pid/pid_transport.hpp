@@ -2,6 +2,7 @@
 
 #include <semaphore.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -26,7 +27,7 @@ enum class PidTransportKind : std::uint8_t {
 std::string_view in_words(PidTransportKind kind) noexcept;
 std::optional<PidTransportKind> read_transport_kind(std::string_view text) noexcept;
 /// All of them, in the order of the kinds.
-std::span<const std::string_view> pid_transport_names() noexcept;
+inline constexpr std::array<std::string_view, 3> pid_transport_names{"hidraw", "libusb", "evdev"};
 
 /// The one system call on a device's node that a socket cannot stand in for where there is no device. As ioctl(2): less
 /// than 0 is a failure, with `errno`.

@@ -30,7 +30,7 @@ OpenedDevice open_pointer(const Connections&, const PluggedIn&, const DeviceProf
 
 }  // namespace
 
-const Driver pointer_driver{
+constinit const Driver pointer_driver{
     .name = pointer_name, .is_chosen_by_auto = false, .is_felt = false, .find = find_pointer, .open = open_pointer};
 
 }  // namespace wale
