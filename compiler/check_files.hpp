@@ -14,7 +14,8 @@ struct CheckedFiles {
   Diagnostics diagnostics;
 };
 
-/// Reads and checks files; one that cannot be read is a diagnostic (W0501). What is wrong with a file that several of
+/// Reads and checks files; one that cannot be read is a diagnostic (W0501), and so is one that is no text
+/// of Wale, such as a picture or a patch program (W0801). What is wrong with a file that several of
 /// them import is said once. Imports are looked for in `roots` at last.
 CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {});
 

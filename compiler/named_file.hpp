@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/text/source.hpp"
@@ -15,7 +16,7 @@ struct NamedFile {
   std::string bytes;
   std::optional<SourceId> embedded;  ///< of a file that is part of the binary
   std::string material;              ///< empty where only the file is named
-  std::string also;  ///< FILE:MATERIAL of the material that has the same name as this file; empty where there is none
+  std::string taken;  ///< where the argument may mean another material too: a sentence that names both; mostly empty
 };
 
 /// Finds what a FILE argument means, the first that there is:
@@ -30,8 +31,11 @@ struct NamedFile {
 ///
 /// A text with a `/` or with the ending of a file is never looked for as a name. Errors: W0501 for a file that cannot
 /// be read, W0201 for an unknown name, with the nearest three, W0217 for a name of several materials, W0801 for nothing
-/// behind the colon.
+/// behind the colon and for a recording, a picture or another file that is neither Wale nor a patch program.
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots);
+
+/// Whether a file is a patch program, by its name or by the bytes that it begins with.
+bool is_patch_program(std::string_view path, std::string_view bytes);
 
 /// FILE:MATERIAL in two parts; where there is a file of the whole name, or no `:`, the material is empty. With nothing
 /// behind the `:` it stays with the file, and `find_named` refuses it.

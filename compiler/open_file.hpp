@@ -27,7 +27,7 @@ struct OpenedFile {
   Diagnostics diagnostics;
   std::string name;                     ///< the path of the file
   std::string material;                 ///< the one that was named; empty where only the file was
-  std::string also;                     ///< FILE:MATERIAL of the material that has the file's name; mostly empty
+  std::string taken;                    ///< as in `NamedFile`
   std::optional<Program> program;       ///< of a patch program
   std::optional<CheckedModule> module;  ///< of a Wale file, with or without errors
 };

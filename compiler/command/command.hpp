@@ -39,14 +39,14 @@ Result<> write_file(const std::string& path, std::string_view bytes);
 /// What was named on the command line: a Wale file to compile, a patch program to load, or a material by name.
 struct Choice {
   std::string file, material, device = default_device;
-  std::string device_option;  ///< "--device" where that option named the device; empty: it is the default
+  std::string device_option;         ///< "--device" where that option named the device; empty: it is the default
   std::vector<std::string> folders;  ///< in which imports are looked for
 
   FileRequest request() const;
 };
 
-/// Says on standard error how to name the material that has the same name as a file; mostly there is none.
-void say_also(const OpenedFile& opened);
+/// Says on standard error which of two materials was taken, where the name may mean both; mostly it does not.
+void say_taken(const OpenedFile& opened);
 
 /// Whether a patch program is the material `material` and built for the device of `choice`, where they are named; any
 /// Wale file passes. Errors: W0202 for another material, W0607 for another device.

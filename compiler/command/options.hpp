@@ -15,7 +15,7 @@
 namespace CLI {
 class App;
 class Option;
-}
+}  // namespace CLI
 
 namespace wale::command {
 
@@ -23,16 +23,31 @@ namespace wale::command {
 /// Called before a verb runs, of all its options. Error: W0801.
 Result<> without_empty_words(const CLI::App& verb);
 
+/// The help texts of options that mean slightly different things in some verbs.
+namespace help_text {
+inline constexpr const char* library = "a folder to look for imports in, after the file's own; may be repeated";
+inline constexpr const char* material = "which material of the file (default: its first)";
+inline constexpr const char* device = "the device to build for (default: sandpaper; see `wale devices`)";
+}  // namespace help_text
+
 /// --library DIR, which may be repeated. A DIR that is no folder ends the command.
-void offer_library(CLI::App& verb, std::vector<std::string>& folders);
+void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char* about = help_text::library);
 
 /// --device NAME, or the same under another name, for a verb without a material.
 void offer_device(CLI::App& verb, std::string& device);
 /// The same for a material.
-void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device");
+void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device",
+                  const char* about = help_text::device);
+
+/// How a verb calls the options that name one material, and explains them.
+struct MaterialOptions {
+  const char* device_option = "--device";
+  const char* about_material = help_text::material;
+  const char* about_device = help_text::device;
+};
 
 /// FILE, --material NAME, --device NAME and --library DIR: what names one material.
-void offer_material(CLI::App& verb, Choice& choice, const char* device_option = "--device");
+void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& options = {});
 
 /// --set NAME=VALUE, which may be repeated.
 void offer_settings(CLI::App& verb, std::vector<std::string>& settings);
@@ -46,7 +61,8 @@ CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);
 // Values of options are read here and never by CLI11, which takes "" for 0. Words that make no sense end the command
 // before the verb runs, with `misused`. `into` stays empty where the option is not given.
 
-/// One of a few names. Another is refused, with the nearest or with all of them.
+/// One of a few names, which the help text lists behind `about`. Another is refused, with the nearest or with all of
+/// them.
 CLI::Option* offer_name(CLI::App& verb, const char* option, std::string& into, const std::vector<std::string>& names,
                         const char* about);
 

@@ -86,6 +86,6 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources);
 
 /// The mend for a word that is no unit: the symbol of a unit written out, or the nearest name.
-Advice unit_mend(const Word& word, const Declarations& declarations);
+Advice unit_mend(const Word& word, const Declarations& declarations, const Surroundings& surroundings);
 
 }  // namespace wale

@@ -182,7 +182,8 @@ void Parser::declaration() {
     const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;
     std::string help;
     if (meant) help = fmt::format("did you mean `{}`?", *meant);
-    if (!keyword.empty() && followed_by(TokenKind::equals)) help = fmt::format("write `let {} = …`", keyword);
+    const bool defines = !keyword.empty() && followed_by(TokenKind::equals);
+    if (defines) help = fmt::format("write `material {0} = …`, or `let {0} = …` for a value", keyword);
     for (const std::string_view word : {"param", "height", "force", "state", "next", "show", "patch"}) {
       if (keyword == word) help = fmt::format("`{}` stands in the `physical {{ … }}` of a material", word);
     }
@@ -191,9 +192,10 @@ void Parser::declaration() {
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
                 "`class`, `device`, `levels` or `hand`",
                 shown(here()), std::move(help),
-                meant                            ? respell_here(declaration_words)
-                : help.starts_with("write `let") ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
-                                                 : std::vector<Fix>{},
+                meant     ? respell_here(declaration_words)
+                : defines ? std::vector{insert_before(span_of(here()), "material ", "write `material`", false),
+                                        insert_before(span_of(here()), "let ", "write `let`", false)}
+                          : std::vector<Fix>{},
                 {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
     lost_ = lost_ || !meant;
     if (lost_ || keyword == "wale") throw Abandon{};
@@ -334,6 +336,7 @@ void Parser::material() {
   material.name = declared_name("material");
   if (at(TokenKind::equals)) {
     advance();
+    in_origin_ = true;
     material.derived_from = expression();
   }
   // The brace may stand in the next line: nothing else begins with one.

@@ -166,6 +166,11 @@ void Parser::no_operand(bool next_statement) {
     throw Abandon{};
   }
   std::string help;
+  if (at_ > 1 && kind(at_ - 1) == TokenKind::word_in && kind(at_ - 2) == TokenKind::number) {
+    const Token& in = token(at_ - 1);
+    fail(message, "a value", fmt::format("a range follows `in`; for inches write `{} inch`", spelling(token(at_ - 2))),
+         {replace(span_of(in), "inch", {}, false)});
+  }
   switch (here().kind) {
     case TokenKind::left_bracket: help = "vectors are written `vector(a, b)`"; break;
     case TokenKind::word_not: help = "`not` is of a condition: put it and its condition in parentheses"; break;
@@ -200,6 +205,7 @@ bool Parser::is_suffix_name(std::size_t index) const {
   if (kind(index) != TokenKind::name) return false;
   if (token(index).starts_line && begins_statement(index)) return false;
   if (in_force_ && is_word(index, "limit")) return false;
+  if (is_like(index)) return false;
   const TokenKind next = kind(index + 1);
   if (!ends_statement(index + 1) && (next == TokenKind::left_parenthesis || next == TokenKind::colon)) return false;
   const auto is_this = [&](std::string_view word) { return is_word(index, word); };
