@@ -56,16 +56,24 @@ bool Parser::is_like(std::size_t index) const {
   return kind(index + 1) == TokenKind::name || kind(index + 1) == TokenKind::text;
 }
 
+/// The text of the value that begins at the token, or of its first part: a number with its unit.
+std::string_view Parser::value_at(std::size_t index) const {
+  const TokenKind next = kind(index + 1);
+  const bool has_unit = kind(index) == TokenKind::number && (next == TokenKind::name || next == TokenKind::percent) &&
+                        !ends_statement(index + 1);
+  return text_.substr(token(index).begin, token(index + (has_unit ? 1 : 0)).end - token(index).begin);
+}
+
 /// `wale = 1.2 mm` and `wale 1.2 mm` in the parentheses of a call.
 std::string Parser::mend_argument() const {
   if (at_ == 0 || kind(at_ - 1) != TokenKind::name || !begins_argument(at_ - 1)) return {};
   const std::string_view name = spelling(token(at_ - 1));
   if (at(TokenKind::equals) && begins_value(kind(at_ + 1)))
-    return fmt::format("arguments are named with `:`, as in `{}: {}`", name, spelling(token(at_ + 1)));
+    return fmt::format("arguments are named with `:`, as in `{}: {}`", name, value_at(at_ + 1));
   if (!at(TokenKind::number)) return {};
-  const std::string named = fmt::format("`{}: {}`", name, spelling(here()));
+  const std::string named = fmt::format("`{}: {}`", name, value_at(at_));
   if (in_origin_) return "arguments are named with `:`, as in " + named;
-  return fmt::format("to multiply, write `{} * {}`; to name an argument, {}", name, spelling(here()), named);
+  return fmt::format("to multiply, write `{} * {}`; to name an argument, {}", name, value_at(at_), named);
 }
 
 /// A material with its weight behind it, with a title that nothing weighs, or with `like` before it.
@@ -76,7 +84,8 @@ std::string Parser::mend_origin() const {
   if (is_like(at_ - 1)) return fmt::format("leave out `like`: write `= {}`", spelling(here()));
   const bool is_weight = previous.kind == TokenKind::number || previous.kind == TokenKind::percent;
   if (at(TokenKind::text) && is_weight)
-    return fmt::format("a title is weighed with `*`, as in `{} * {}`", spelling(previous), spelling(here()));
+    return fmt::format("a title is weighed with `*`, as in `{} * {}`",
+                       value_at(previous.kind == TokenKind::percent && at_ > 1 ? at_ - 2 : at_ - 1), spelling(here()));
   if (at(TokenKind::number) && previous.kind == TokenKind::name)
     return fmt::format("the weight stands first: write `{} {}`", spelling(here()), spelling(previous));
   return {};
