@@ -82,11 +82,12 @@ Word Parser::declared_name(std::string_view declares) {
   }
   const bool hyphen = at(TokenKind::minus) && followed_by(TokenKind::name) && here().begin == name.span.end &&
                       token(at_ + 1).begin == here().end;
-  const TokenKind behind = kind(at_ + 1);
+  std::size_t behind = at_;
+  while (kind(behind) == TokenKind::name && !token(behind).starts_line) ++behind;
+  const bool ends_heading =
+      kind(behind) == TokenKind::left_brace || (kind(behind) == TokenKind::equals && !token(behind).starts_line);
   const bool may_name_dimension = declares == "state" || declares == "memory";  // `state p position`, without its `:`
-  const bool second_word =
-      !may_name_dimension && at(TokenKind::name) && !here().starts_line &&
-      (behind == TokenKind::left_brace || (behind == TokenKind::equals && !token(at_ + 1).starts_line));
+  const bool second_word = behind > at_ && ends_heading && !may_name_dimension;
   return hyphen || second_word ? joined_name(declares, name) : name;
 }
 

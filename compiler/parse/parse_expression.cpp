@@ -160,17 +160,19 @@ ExprId Parser::operand() {
 /// Reports the token that stands where a value was expected.
 void Parser::no_operand(bool next_statement) {
   const std::string message = "expected a value" + after_previous();
+  std::string help;
+  std::vector<Fix> fixes;
+  if (at_ > 1 && kind(at_ - 1) == TokenKind::word_in && kind(at_ - 2) == TokenKind::number) {
+    help = fmt::format("a range follows `in`; for inches write `{} inch`", spelling(token(at_ - 2)));
+    fixes = {replace(span_of(token(at_ - 1)), "inch", {}, false)};
+  }
   if (next_statement) {
     const Span end = span_of(token(at_ - 1));
-    complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, "a value", "the end of the line", {});
+    complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, "a value", "the end of the line",
+                std::move(help), std::move(fixes));
     throw Abandon{};
   }
-  std::string help;
-  if (at_ > 1 && kind(at_ - 1) == TokenKind::word_in && kind(at_ - 2) == TokenKind::number) {
-    const Token& in = token(at_ - 1);
-    fail(message, "a value", fmt::format("a range follows `in`; for inches write `{} inch`", spelling(token(at_ - 2))),
-         {replace(span_of(in), "inch", {}, false)});
-  }
+  if (!help.empty()) fail(message, "a value", std::move(help), std::move(fixes));
   switch (here().kind) {
     case TokenKind::left_bracket: help = "vectors are written `vector(a, b)`"; break;
     case TokenKind::word_not: help = "`not` is of a condition: put it and its condition in parentheses"; break;
