@@ -112,8 +112,13 @@ TEST(Files, OfAnotherKindAreToldAsWhatTheyAre) {
                {folder / "modules", "a folder", "modules/one.wale`"},
                {folder.write("empty", ""), "the end of the file", "write `wale 1`"}};
   for (const auto& [file, what, mend] : kinds)
-    for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
-             {"check"}, {"format"}, {"describe"}, {"compare", corduroy}, {"feel", "--virtual-time"}, {"preview"}}) {
+    for (const std::vector<std::string>& verb :
+         std::vector<std::vector<std::string>>{{"check"},
+                                               {"format"},
+                                               {"describe"},
+                                               {"compare", corduroy},
+                                               {"feel", "--virtual-time"},
+                                               {"preview", "-o", folder / "out.png"}}) {
       std::vector<std::string> words = verb;
       words.push_back(file);
       const Outcome outcome = wale(words);
@@ -207,8 +212,8 @@ TEST(Devices, StandInOneColumn) {
 
 TEST(Devices, HaveTheirStepsInWholeNumbers) {
   const std::string text = wale({"devices"}).out;
-  EXPECT_TRUE(contains(text, "openffboard  2 axes, 20 N in 32767 steps")) << text;
-  EXPECT_TRUE(contains(text, "arduino_ffb  2 axes, 20 N in 10000 steps")) << text;
+  EXPECT_TRUE(contains(text, "openffboard   2 axes, 20 N in 32767 steps")) << text;
+  EXPECT_TRUE(contains(text, "arduino_ffb   2 axes, 20 N in 10000 steps")) << text;
   EXPECT_FALSE(contains(text, "e+0")) << text;
 }
 
