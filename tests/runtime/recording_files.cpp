@@ -178,7 +178,8 @@ TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
     const auto bytes = std::as_bytes(std::span(text));
     return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
   };
-  EXPECT_EQ(reason(""), "the file is empty: nothing was recorded in it");
+  EXPECT_EQ(reason(""),
+            "the file is empty: nothing was recorded in it; make one with `wale feel FILE --record NAME.wrec`");
   EXPECT_EQ(reason("t (s),x (m)\n0,0\n"), "this is not a recording: the first bytes of one are missing; "
                                           "make one with `wale feel FILE --record NAME.wrec`");
   EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "a transfer as text has damaged the recording; copy it as binary");
