@@ -43,7 +43,7 @@ Exploration explore(Bank bank, const GradingHand& hand) {
         if (memory.states()[state] != entered[state]) exploration.changing[state] = true;
       exploration.hands.push_back(now);
       exploration.states.insert(exploration.states.end(), memory.states().begin(), memory.states().end());
-      // The mean force of the step's two ends, so that the steps themselves add no energy to a conservative field.
+      // The step is centred on the hand's place, so that sampling gives almost no energy to a conservative field.
       const glm::dvec2 force = glm::dvec2(tick(bank, memory, now)),
                        step = 0.5 * (at(time + period) - at(time - period));
       const double joule = force.x * step.x + force.y * step.y;
