@@ -154,7 +154,7 @@ void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
   material_.colour = parts;
 }
 
-/// A surface is drawn as a whole, wherever the hand is. It may depend on the place and on states and memories only.
+/// A surface is drawn as a whole, wherever the hand is, so it may not depend on time or motion.
 bool ShowChecker::is_of_place(const Value& value) {
   const auto dependence = material_.terms.dependence(value.x);
   if (!dependence.on(Dependence::velocity | Dependence::moment)) return true;
