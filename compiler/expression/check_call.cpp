@@ -188,8 +188,8 @@ bool carries_a_percept(const Reading& reading, std::string_view function, std::s
 void record_carrier(Reading& reading, const FunctionDecl& function, const std::vector<Actual>& actuals,
                     const FormalParameter& formal, const Value& result, Span span) {
   const auto actual = [&](std::string_view name) -> const Value* {
-    for (std::size_t i = actuals.size();
-         i-- > 0;)  // backwards: of two formals with the same name, an error, use the last
+    // Backwards: if two formals have the same name, which is an error, the last one counts.
+    for (std::size_t i = actuals.size(); i-- > 0;)
       if (function.parameters[i].name.text == name) return &actuals[i].value;
     return nullptr;
   };

@@ -9,8 +9,9 @@ namespace wale {
 
 /// The value of a name in the scope, of the hand or the patch, or of a constant. Unknown names are reported.
 Value value_of_name(Reading& reading, const Word& word, Scope& scope);
-/// The value of a name that is bound in the scope.
+/// The value of a name that the scope binds.
 Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& scope);
+/// The value of a name that the scope does not bind.
 Value free_value(Reading& reading, const Word& word, Scope& scope);
 
 /// Whether a name has a value here. For `hand.x`, the part before the dot decides.

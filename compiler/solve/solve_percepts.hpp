@@ -88,7 +88,7 @@ class PerceptSolver {
   void warn_of_range(const Told& told);
   std::vector<std::size_t> by_priority() const;
   bool serves_out_of_order(const std::vector<std::size_t>& order) const;
-  /// The position of each of `told_` in the order, counted from 1; 0 for those that are not served.
+  /// The position of each of `told_` in the order, counted from 0; also 0 for those that are not served.
   std::vector<double> turns(const std::vector<std::size_t>& order) const;
   /// Sets all sizes for percepts `served` so far, and returns the sum of their forces in the unit of the device's
   /// limit.
