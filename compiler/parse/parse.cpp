@@ -182,18 +182,24 @@ void Parser::declaration() {
     const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;
     std::string help;
     if (meant) help = fmt::format("did you mean `{}`?", *meant);
-    if (!keyword.empty() && followed_by(TokenKind::equals)) help = fmt::format("write `let {} = …`", keyword);
+    bool lacks_let = !keyword.empty() && followed_by(TokenKind::equals);
+    if (lacks_let) help = fmt::format("write `let {} = …`", keyword);
     for (const std::string_view word : {"param", "height", "force", "state", "next", "show", "patch"}) {
-      if (keyword == word) help = fmt::format("`{}` belongs into the `physical {{ … }}` of a material", word);
+      if (keyword != word) continue;
+      help = fmt::format("`{}` belongs in the `physical {{ … }}` of a material", word);
+      lacks_let = false;
     }
-    if (keyword == "wale") help = "the version is stated once, in the first line";
+    if (keyword == "wale") {
+      help = "the version is stated once, in the first line";
+      lacks_let = false;
+    }
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
                 "`class`, `device`, `levels` or `hand`",
                 shown(here()), std::move(help),
-                meant                            ? respell_here(declaration_words)
-                : help.starts_with("write `let") ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
-                                                 : std::vector<Fix>{},
+                meant       ? respell_here(declaration_words)
+                : lacks_let ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
+                            : std::vector<Fix>{},
                 {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
     lost_ = lost_ || !meant;
     if (lost_ || keyword == "wale") throw Abandon{};

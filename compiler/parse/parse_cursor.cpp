@@ -201,7 +201,7 @@ std::string Parser::mend_here() const {
     case TokenKind::greater_equal: return "comparisons cannot be chained; join two of them with `and`";
     case TokenKind::plus_minus: return "a tolerance belongs to a percept; to subtract, write `-`";
     case TokenKind::range: return "a range follows `in`: `in 1 mm .. 5 mm`";
-    case TokenKind::colon: return "named arguments belong into the parentheses of a call";
+    case TokenKind::colon: return "named arguments belong in the parentheses of a call";
     case TokenKind::right_parenthesis: return "it closes no `(`; remove it";
     case TokenKind::word_then:
     case TokenKind::word_else: return "write a conditional as `if … then … else …`";

@@ -55,7 +55,7 @@ std::vector<Fix> Parser::fixes_here() const {
       return {insert_after(span_of(previous), " *", "multiply with `*`",
                            number_before && (call || next.kind == TokenKind::left_parenthesis))};
     case TokenKind::comma:
-      if (!mend_here().starts_with("decimals")) return {};
+      if (mend_here().empty()) return {};
       // Among arguments the comma may really be meant as a comma.
       return {replace(span_of(next), ".", "write a decimal point", open_parentheses_.empty())};
     case TokenKind::right_parenthesis:
