@@ -16,7 +16,7 @@ struct Registry {
 };
 
 Registry& registry() {
-  static Registry* const all = new Registry;  // programs in static variables may outlive any other static variable
+  static Registry* const all = new Registry;  // never destroyed: programs in static variables may outlive other static variables
   return *all;
 }
 
