@@ -65,8 +65,8 @@ Kernel kernel([[maybe_unused]] bool wide) {
   return narrow_kernel<operation, uniform_a, uniform_b, uniform_c>;
 }
 
-// Look-ups run in two loops, first over the places and then over the values there, so that the compiler makes gathers of
-// the second loop.
+// Look-ups run in two loops, first over the places and then over the values there, so that the compiler makes gathers
+// of the second loop.
 
 template <bool uniform_a, bool uniform_b>
 [[gnu::always_inline]] inline void look_up_spline(float* destination, const float* as, const float* bs,

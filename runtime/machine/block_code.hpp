@@ -15,7 +15,8 @@ namespace wale {
 
 /// The number of lanes of a block, which run side by side.
 inline constexpr std::size_t lanes = 128;
-/// Floats from one row of lanes to the next: the lanes and one more cache line, so that rows do not collide in the cache.
+/// Floats from one row of lanes to the next: the lanes and one more cache line, so that rows do not collide in the
+/// cache.
 inline constexpr std::size_t row_stride = lanes + 16;
 
 /// The tables and grids that instructions read besides registers.

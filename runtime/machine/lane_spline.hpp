@@ -25,8 +25,8 @@ inline SplineSample sample_in_lane(const Spline& spline, float a, float b) {
   const MirroredCoordinate column = placed(a, spline.last_column);
   const MirroredCoordinate row = placed(b, spline.last_row);
 
-  // The weights of `CubicWeights`: along a and b at the fraction f, then along both at 1 - f. By symmetry, the weights of
-  // the two samples after the place are those of the two before it at 1 - f.
+  // The weights of `CubicWeights`: along a and b at the fraction f, then along both at 1 - f. By symmetry, the weights
+  // of the two samples after the place are those of the two before it at 1 - f.
   const float across = column.fraction, down = row.fraction;
   const FourFloats f = {across, down, 1.0f - across, 1.0f - down};
   const FourFloats f_squared = f * f;

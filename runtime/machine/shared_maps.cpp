@@ -16,7 +16,8 @@ struct Registry {
 };
 
 Registry& registry() {
-  static Registry* const all = new Registry;  // never destroyed: programs in static variables may outlive other static variables
+  // Never destroyed: programs in static variables may outlive other static variables.
+  static Registry* const all = new Registry;
   return *all;
 }
 

@@ -19,7 +19,7 @@ struct Spline {
 
   std::uint32_t width, height;      ///< samples, 2 or more
   float last_column, last_row;      ///< numbers of the last samples, width - 1 and height - 1
-  std::uint32_t stride;             ///< coefficients in a row, width + 3: one mirrored before the first, two after the last
+  std::uint32_t stride;             ///< coefficients in a row, width + 3: mirrored ones, one before and two after
   std::vector<float> coefficients;  ///< height + 3 rows, mirrored likewise
 };
 
@@ -69,7 +69,8 @@ struct CubicWeights {
 template <class Coefficient>
 SplineSample sample_among(const Coefficient& coefficient, const CubicWeights& across, const CubicWeights& down) {
   float value = 0.0f, along_a = 0.0f, along_b = 0.0f;
-  const auto add_row = [&](int j) {  // no loop here: compilers vectorise the loop over lanes only if there is none inside
+  // No loop over rows: compilers vectorise the loop over lanes only if there is none inside.
+  const auto add_row = [&](int j) {
     const float c0 = coefficient(j, 0), c1 = coefficient(j, 1), c2 = coefficient(j, 2), c3 = coefficient(j, 3);
     const float row_value =
         (across.value[0] * c0 + across.value[1] * c1) + (across.value[2] * c2 + across.value[3] * c3);

@@ -6,13 +6,13 @@
 #include "runtime/machine/lane_spline.hpp"
 #include "runtime/machine/meaning.hpp"
 
-// Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973). Each handler is a function that ends with a jump
-// to the next one. Values that all handlers need stay in the registers of the calling convention, each handler saves only
-// the registers that it uses, and the processor predicts each handler's jump separately.
+// Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973). Each handler is a function that ends with a
+// jump to the next one. Values that all handlers need stay in the registers of the calling convention, each handler
+// saves only the registers that it uses, and the processor predicts each handler's jump separately.
 
-// A function must end with a jump to the next one, or the stack would grow with the program. GCC and Clang make that jump
-// when they optimise and no work is left at the function's end; sanitizers leave some. With sanitizers, other compilers
-// or WALE_PORTABLE_DISPATCH only the switch is built. tests/machine/threaded_code.cpp checks the stack.
+// A function must end with a jump to the next one, or the stack would grow with the program. GCC and Clang make that
+// jump when they optimise and no work is left at the function's end; sanitizers leave some. With sanitizers, other
+// compilers or WALE_PORTABLE_DISPATCH only the switch is built. tests/machine/threaded_code.cpp checks the stack.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WALE_SANITIZED
 #elif defined(__has_feature)

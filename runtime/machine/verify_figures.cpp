@@ -56,7 +56,8 @@ void verify_states(const PatchProgram& program) {
     if (state.name.empty()) refuse("state ", i, " has no name");
     if (!names.insert(state.name).second) refuse("state ", i, " is the second with the name ", state.name);
     if (!std::isfinite(state.low) || !std::isfinite(state.high) || !(state.low <= state.high)) {
-      refuse("state ", state.name, " has the range ", state.low, " .. ", state.high, ", expected a finite range in rising order");
+      refuse("state ", state.name, " has the range ", state.low, " .. ", state.high,
+             ", expected a finite range in rising order");
     }
   }
 }
@@ -145,7 +146,8 @@ void verify_vibration(const Shaker& vibration) {
   require_within(vibration.command_steps, 0, 1e9, "the device's number of command steps");
   require_within(vibration.spin_up, 0, 10, "the device's spin-up (s)");
   const bool has_position = vibration.position != PositionSource::none;
-  if (vibration.position > PositionSource::touch) refuse("the device has a position source that this Wale does not know");
+  if (vibration.position > PositionSource::touch)
+    refuse("the device has a position source that this Wale does not know");
   require_within(vibration.exploring_speed, has_position ? 0 : 1e-3, 100, "the device's exploring speed (m/s)");
   require_within(static_cast<double>(vibration.response.size()), 1, 4096, "the number of frequencies in its response");
   double frequency = 0;

@@ -141,7 +141,8 @@ TEST(Verification, InputsBelongToSections) {
 }
 
 TEST(Verification, Tables) {
-  EXPECT_EQ(refusal_after([](auto& p) { p.picture.code[2].c = 1; }), "picture 2 `sample` reads table 1, but the program has 1");
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.code[2].c = 1; }),
+            "picture 2 `sample` reads table 1, but the program has 1");
   EXPECT_EQ(refusal_after([](auto& p) {
               p.tables[0] = {1, 6, std::vector<std::uint16_t>(6)};
             }),
@@ -177,10 +178,8 @@ TEST(Verification, RegisterSpace) {
 }
 
 TEST(Verification, OutputsAreForceXAndForceYOnce) {
-  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }),
-            "output force y occurs 0 times, expected once");
-  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.clear(); }),
-            "output force x occurs 0 times, expected once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }), "output force y occurs 0 times, expected once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.clear(); }), "output force x occurs 0 times, expected once");
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs.push_back(p.outputs[0]); }),
             "output force x occurs 2 times, expected once");
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].axis = 2; }), "an output is neither force x nor force y");
@@ -206,7 +205,8 @@ TEST(Verification, OutputsEndInTheirLimit) {
 TEST(Verification, CeilingsAreProved) {
   const auto unproved = [](int number) {
     return "output force x has register " + std::to_string(number) +
-           " as its ceiling, expected a constant above 0 and up to 10 N, or a register that setup limits by such a constant";
+           " as its ceiling, expected a constant above 0 and up to 10 N, or a register that setup limits by such a "
+           "constant";
   };
   const auto with_ceiling = [](RegisterNumber number) {
     PatchProgram p = program();
@@ -245,7 +245,8 @@ TEST(Verification, Parameters) {
   EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].high = inf; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].low = -inf; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].low = nan; }), "");
-  EXPECT_EQ(refusal_after([](auto& p) { p.parameters[1].unit_in_si = 0; }), "parameter amplitude has a unit of 0, expected more than 0");
+  EXPECT_EQ(refusal_after([](auto& p) { p.parameters[1].unit_in_si = 0; }),
+            "parameter amplitude has a unit of 0, expected more than 0");
   EXPECT_NE(refusal_after([](auto& p) { p.parameters[1].unit_in_si = std::nan(""); }), "");
 }
 
@@ -265,8 +266,7 @@ TEST(Verification, Patch) {
 }
 
 TEST(Verification, Device) {
-  EXPECT_EQ(refusal_after([](auto& p) { p.device.rate = 20; }),
-            "the device's rate (Hz) is 20, expected 100 .. 10000");
+  EXPECT_EQ(refusal_after([](auto& p) { p.device.rate = 20; }), "the device's rate (Hz) is 20, expected 100 .. 10000");
   for (double DeviceProfile::*figure :
        {&DeviceProfile::workspace_diameter, &DeviceProfile::position_counts, &DeviceProfile::force_newton,
         &DeviceProfile::force_counts, &DeviceProfile::rate, &DeviceProfile::speed_limit}) {
@@ -300,7 +300,8 @@ TEST(Verification, ADeviceHeatsAtSomePace) {
 
 TEST(Verification, Percepts) {
   EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].name.clear(); }), "percept 0 has no name");
-  EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].parameter = 2; }), "percept 0 is set by parameter 2, but the program has 2");
+  EXPECT_EQ(refusal_after([](auto& p) { p.percepts[0].parameter = 2; }),
+            "percept 0 is set by parameter 2, but the program has 2");
   for (const RegisterNumber amplitude : {0, 4, 42, 43, 60}) {
     PatchProgram p = program();
     p.percepts[0].amplitude = amplitude;

@@ -39,11 +39,11 @@ TEST(VerificationOfMemory, StatesReadInTickPictureAndFrameOnly) {
 
 TEST(VerificationOfMemory, NoSectionWritesStates) {
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].destination = 42; }),
-            "tick 0 `multiply` writes register 42, and tick may write only 6 registers from 43 on");
+            "tick 0 `multiply` writes register 42, but tick may write only 6 registers from 43 on");
   EXPECT_EQ(refusal_after([](auto& p) { p.enter[0].destination = 42; }),
-            "enter 0 `multiply` writes register 42, and enter may write only 6 registers from 43 on");
+            "enter 0 `multiply` writes register 42, but enter may write only 6 registers from 43 on");
   EXPECT_EQ(refusal_after([](auto& p) { p.setup[0].destination = 42; }),
-            "setup 0 `divide` writes register 42, and setup may write only 4 registers from 38 on");
+            "setup 0 `divide` writes register 42, but setup may write only 4 registers from 38 on");
 }
 
 TEST(VerificationOfMemory, InitialValues) {
@@ -79,7 +79,8 @@ TEST(VerificationOfMemory, StatesHaveNamesAndRanges) {
   PatchProgram p = example::program();
   p.states.push_back(p.states[0]);
   EXPECT_EQ(refusal_of(p), "state 1 is the second with the name wear");
-  EXPECT_EQ(refusal_after([](auto& p) { p.states[0].low = 2; }), "state wear has the range 2 .. 1, expected a finite range in rising order");
+  EXPECT_EQ(refusal_after([](auto& p) { p.states[0].low = 2; }),
+            "state wear has the range 2 .. 1, expected a finite range in rising order");
   for (const float end : {nan, inf, -inf}) {
     PatchProgram low = example::program(), high = example::program();
     low.states[0].low = end;
@@ -117,7 +118,8 @@ TEST(VerificationOfMemory, GridsAreForTickPictureAndFrame) {
             sentence("percept 0 0 `recall`"));
   EXPECT_EQ(refusal_after([](auto& p) { p.tick.insert(p.tick.begin(), instruction(recall, 43, 0, 1, 1)); }), "");
   EXPECT_EQ(refusal_after([](auto& p) { p.picture.code.push_back(instruction(cell, 43, 0, 1, 1)); }), "");
-  EXPECT_EQ(refusal_after([](auto& p) { p.picture.frame[1].c = 2; }), "frame 1 `recall` reads grid 2, but the program has 2");
+  EXPECT_EQ(refusal_after([](auto& p) { p.picture.frame[1].c = 2; }),
+            "frame 1 `recall` reads grid 2, but the program has 2");
 }
 
 TEST(VerificationOfMemory, GridsMakeSense) {

@@ -31,8 +31,7 @@ TEST(VerificationOfPads, OutputsAreThoseOfTheDevice) {
   const std::string neither = "an output is neither amplitude nor frequency, the only outputs of this device";
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].quantity = OutputQuantity::force; }), neither);
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[1].axis = 1; }), neither);
-  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }),
-            "output frequency occurs 0 times, expected once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }), "output frequency occurs 0 times, expected once");
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[1] = p.outputs[0]; }),
             "output amplitude occurs 2 times, expected once");
   PatchProgram joystick = example::least();
