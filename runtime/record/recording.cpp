@@ -158,7 +158,8 @@ class RecordingReader {
 
   std::string what_is_wrong(const TickEntry& entry, std::size_t number, const RecordedTick& before) const {
     if (entry.sequence != number + 1 || entry.check != check_of(entry)) return "is damaged";
-    if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost)) return "has an unknown state of contact with the device";
+    if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost))
+      return "has an unknown state of contact with the device";
     if (entry.period < 0 || entry.period > most_periods) return "has a period outside any run";
     if (number > 0 && (entry.elapsed == 0 || entry.period <= before.period))
       return "does not come after the tick before it";

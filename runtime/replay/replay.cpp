@@ -131,7 +131,7 @@ class Replaying final : public RecordedRun {
         const std::vector<float> defaults = added.default_parameters();
         if (defaults.size() != event.parameters.size())
           damaged("patch ", placed_.size(), " was placed with ", event.parameters.size(),
-                 " parameters, but its program has ", defaults.size());
+                  " parameters, but its program has ", defaults.size());
         stage_.add(added, event.position, event.size, event.layer);
         placed_.push_back(event.program);
         for (std::size_t i = 0; i < defaults.size(); ++i)

@@ -7,8 +7,8 @@
 namespace wale {
 
 /// Acceleration from encoder counts, for one axis: twice the curvature of the least-squares parabola over the longest
-/// window in which the parabola passes within the noise of all samples. This is `VelocityFilter` with one order more: the
-/// window is short where the motion turns sharply and long where it is smooth.
+/// window in which the parabola passes within the noise of all samples. This is `VelocityFilter` with one order more:
+/// the window is short where the motion turns sharply and long where it is smooth.
 ///
 /// A second difference of counts is useless (at 900 Hz one count is 45 m/s^2 on a 0.23 m workspace of 4096 counts), and
 /// the noise of a parabola's curvature falls with the power 5/2 of its length. So windows are longer than for velocity:

@@ -13,12 +13,11 @@ namespace wale {
 
 /// Limits the force of any program before it reaches the device. In order: a force that is not a number becomes zero; a
 /// force that gives more energy than allowed is reduced; its size is clamped to the user's limit, and each axis to the
-/// device's peak force and to the force that its motor bears without overheating; after a call of `slew` the force moves
-/// no faster than the profile's slew, until it reaches the wanted one; the passivity observer takes away the energy that
-/// the sampled loop gained, within the same limits. Begins at zero force, slewing.
-/// On a pad, which gives no energy, the amplitude is clamped between 0 and the lesser of the user's limit and the
-/// greatest acceleration, and slews likewise; the frequency is clamped to the pad's range, and is its least one while
-/// the wanted amplitude is 0.
+/// device's peak force and to the force that its motor bears without overheating; after a call of `slew` the force
+/// moves no faster than the profile's slew, until it reaches the wanted one; the passivity observer takes away the
+/// energy that the sampled loop gained, within the same limits. Begins at zero force, slewing. On a pad, which gives no
+/// energy, the amplitude is clamped between 0 and the lesser of the user's limit and the greatest acceleration, and
+/// slews likewise; the frequency is clamped to the pad's range, and is its least one while the wanted amplitude is 0.
 class Guards {
  public:
   /// A profile without a slew (zero) does not limit the rate. `most` is the largest force that the user allows, N.

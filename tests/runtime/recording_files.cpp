@@ -179,8 +179,9 @@ TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
     return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
   };
   EXPECT_EQ(reason(""), "the file is empty: nothing was recorded in it");
-  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"), "this is not a recording: its first bytes are not those of a .wrec file; "
-                                          "make one with `wale feel FILE --record NAME.wrec`");
+  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"),
+            "this is not a recording: its first bytes are not those of a .wrec file; "
+            "make one with `wale feel FILE --record NAME.wrec`");
   EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "a transfer as text has damaged the recording; copy it as binary");
   EXPECT_EQ(reason(std::string("\x89WRC\r\n\x1a\n", 8)),
             "the file is cut short within its header, at byte 8; copy it again");
