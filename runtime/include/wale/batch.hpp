@@ -10,16 +10,17 @@
 
 namespace wale {
 
-/// Independent instances of one program. Each has its own hand and its own states, which it keeps from tick to tick; all
-/// read the same grids, which nothing writes. For simulated experiments, grading and other predictions of many hands.
-/// Bit-identical to a `tick` with a `Memory` whose grids do not change.
+/// Independent instances of one program. Each has its own hand and its own states, which it keeps from tick to tick;
+/// all read the same grids, which nothing writes. For simulated experiments, grading and other predictions of many
+/// hands. Bit-identical to a `tick` with a `Memory` whose grids do not change.
 ///
 /// Instances run in blocks of lanes and are independent: their order and number change no bit. The bank need not
 /// outlive the batch. One thread at a time may use a batch.
 class Batch {
  public:
-  /// `instances` hands, none of which has entered. Grids have their present values in `grids` if that is a memory of the
-  /// bank's program, otherwise their initial ones. Allocates; copies the registers and the grids once for all instances.
+  /// `instances` hands, none of which has entered. Grids have their present values in `grids` if that is a memory of
+  /// the bank's program, otherwise their initial ones. Allocates; copies the registers and the grids once for all
+  /// instances.
   Batch(const Bank& bank, std::size_t instances, const Memory* grids = nullptr);
   ~Batch();
   Batch(Batch&&) noexcept;

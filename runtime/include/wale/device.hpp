@@ -43,8 +43,9 @@ class Device {
   virtual Reading sample() noexcept = 0;
 
   /// Pushes with `force` (N at the handle) until the next command. Returns the force that the actuator exerts from now
-  /// on, after calibration, clamping and quantisation; if the device does not know it, the force that was sent. A pad (a
-  /// profile that vibrates) takes an amplitude (m/s^2) and a frequency (Hz) and returns those of its present vibration.
+  /// on, after calibration, clamping and quantisation; if the device does not know it, the force that was sent. A pad
+  /// (a profile that vibrates) takes an amplitude (m/s^2) and a frequency (Hz) and returns those of its present
+  /// vibration.
   virtual Force command(Force force) noexcept = 0;
 };
 

@@ -31,8 +31,8 @@ struct ShownMark {
   friend bool operator==(const ShownMark&, const ShownMark&) = default;
 };
 
-/// Runs the picture's frame section for a hand and returns its marks in drawing order. With a memory of another program,
-/// states and grids are those of a new memory that the hand has just entered.
+/// Runs the picture's frame section for a hand and returns its marks in drawing order. With a memory of another
+/// program, states and grids are those of a new memory that the hand has just entered.
 std::vector<ShownMark> show(const Bank& bank, const Memory& memory, const Hand& hand);
 
 }  // namespace wale

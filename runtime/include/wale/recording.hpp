@@ -136,20 +136,20 @@ struct Replay {
   double largest_force = 0;  ///< the largest difference of the commanded force, N or m/s^2
 };
 
-/// Runs the recorded programs on the recorded counts, changes the stage at the recorded ticks, and compares bit for bit:
-/// patch, filtered velocity, the program's force, the commanded force, the guards. The device gives its recorded answers:
-/// counts, contact, and the actuator's force for each command. Errors: those of `Program::load` for the recorded
-/// programs, and those of the stage for the recorded changes.
+/// Runs the recorded programs on the recorded counts, changes the stage at the recorded ticks, and compares bit for
+/// bit: patch, filtered velocity, the program's force, the commanded force, the guards. The device gives its recorded
+/// answers: counts, contact, and the actuator's force for each command. Errors: those of `Program::load` for the
+/// recorded programs, and those of the stage for the recorded changes.
 Result<Replay> replay(const Recording& recording);
 
 /// The columns of `write_csv(Record)`, then those that only a recording has: raw counts, the program's force, the
 /// force commanded, patch, revision, contact, and which guards stepped in, in words.
 void write_csv(std::ostream& out, const Recording& recording);
 
-/// The force as sound: WAV, 44.1 kHz, two channels of 32-bit floats, x on the left and y on the right, each tick's force
-/// held until the next; 1 is the device's peak force. For a pad both channels are the vibration itself: a sine of its
-/// amplitude and frequency, where 1 is its greatest acceleration. Error: `unwritable_file` if the sound is longer than a
-/// WAV file holds (4 GiB); then nothing is written. The caller checks whether `out` took the bytes.
+/// The force as sound: WAV, 44.1 kHz, two channels of 32-bit floats, x on the left and y on the right, each tick's
+/// force held until the next; 1 is the device's peak force. For a pad both channels are the vibration itself: a sine of
+/// its amplitude and frequency, where 1 is its greatest acceleration. Error: `unwritable_file` if the sound is longer
+/// than a WAV file holds (4 GiB); then nothing is written. The caller checks whether `out` took the bytes.
 Result<> write_wav(std::ostream& out, const Recording& recording);
 
 }  // namespace wale

@@ -51,8 +51,8 @@ TracePoint at(const Motion& motion, double time) noexcept;
 /// workspace, where the handle stops dead.
 class SimulatedJoystick final : public Device {
  public:
-  /// The profile's rate, workspace, counts and force must be positive, and so must `profile.mass + hand.mass`. Allocates
-  /// room for the commands under way.
+  /// The profile's rate, workspace, counts and force must be positive, and so must `profile.mass + hand.mass`.
+  /// Allocates room for the commands under way.
   SimulatedJoystick(DeviceProfile profile, HandModel hand, Motion motion);
 
   const DeviceProfile& profile() const noexcept override { return profile_; }

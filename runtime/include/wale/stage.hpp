@@ -38,8 +38,8 @@ struct RunOptions {
   double seconds = 0;             ///< how long; positive, may be fractional
   double most_newton = HUGE_VAL;  ///< the largest force that the user allows; positive
   bool virtual_time = false;      ///< as fast as possible on the calling thread; every run gives the same bits
-  /// Called about ten times a second, never on the real-time thread. In virtual time it is called between two ticks, ten
-  /// times per second of the run; a change that it makes to the stage takes effect at the next tick.
+  /// Called about ten times a second, never on the real-time thread. In virtual time it is called between two ticks,
+  /// ten times per second of the run; a change that it makes to the stage takes effect at the next tick.
   std::function<void(const Progress&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;
@@ -124,9 +124,9 @@ class Stage {
   void place(const Program& program, glm::vec2 position, PatchSize size);
 
   /// Puts one more patch on the stage and returns its number, one more than the last one's. Where patches overlap, the
-  /// hand feels the one with the greatest `layer`, and among equals the one that was added last. The hand enters a patch
-  /// anew each time it comes to it, also from another patch. Finding the patch takes as long among a hundred thousand
-  /// patches as among ten.
+  /// hand feels the one with the greatest `layer`, and among equals the one that was added last. The hand enters a
+  /// patch anew each time it comes to it, also from another patch. Finding the patch takes as long among a hundred
+  /// thousand patches as among ten.
   std::size_t add(const Program& program, glm::vec2 position, PatchSize size, float layer = 0);
 
   /// Replaces the program of a patch. The patch keeps its place and layer; where it had its program's own size, it gets
@@ -140,18 +140,18 @@ class Stage {
   /// Moves a patch's centre to `position` (m from the workspace's centre). Takes effect at the first tick after it is
   /// ready; then the force slews if it has changed. A patch's first move in a run takes as long to be ready as adding
   /// one, some 0.1 s among a hundred thousand; later moves take time in proportion to the number of patches that have
-  /// ever been moved in the run. If the hand is still on the moved patch, it does not enter anew and the memory goes on;
-  /// the energy that moving gives to the hand counts as the program's own. Error: `malformed_value` without such a patch,
-  /// or if the position is not finite.
+  /// ever been moved in the run. If the hand is still on the moved patch, it does not enter anew and the memory goes
+  /// on; the energy that moving gives to the hand counts as the program's own. Error: `malformed_value` without such a
+  /// patch, or if the position is not finite.
   Result<> move(std::size_t patch, glm::vec2 position);
 
-  /// Sets a parameter of patch 0 or of another patch, in SI units. Errors: `malformed_value` without such a patch, or if
-  /// the value is not a number in the parameter's range; `unknown_name` without such a parameter.
+  /// Sets a parameter of patch 0 or of another patch, in SI units. Errors: `malformed_value` without such a patch, or
+  /// if the value is not a number in the parameter's range; `unknown_name` without such a parameter.
   Result<> set(std::string_view parameter, float value);
   Result<> set(std::size_t patch, std::string_view parameter, float value);
 
-  /// A bank of a patch with its present parameters, for `predict` and `levels_back`. Runs setup and peaks. Gives nothing
-  /// if there is no such patch.
+  /// A bank of a patch with its present parameters, for `predict` and `levels_back`. Runs setup and peaks. Gives
+  /// nothing if there is no such patch.
   std::optional<Bank> bank(std::size_t patch = 0) const;
 
   /// Runs for `options.seconds`. Afterwards the device exerts no force, also after an error. Errors:
