@@ -11,8 +11,8 @@ namespace wale {
 
 namespace {
 
-constexpr double settling_seconds =
-    0.5;  // s, at most half a run, in which forces slew in and the hand comes up to speed
+/// s, at most half a run, in which forces slew in and the hand comes up to speed.
+constexpr double settling_seconds = 0.5;
 
 std::string force_text(const ForceSize& size) {
   return fmt::format("P99 {:.3f} N, maximum {:.3f} N, RMS {:.3f} N", size.p99, size.maximum, size.rms);
