@@ -151,7 +151,7 @@ Run declare_replay(CLI::App& verb) {
                   "writes the force as sound: x left, y right, the device's peak force full scale")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
-              "replays only this many ticks from the beginning, as those before a damage");
+              "only this many ticks from the beginning; of a damaged recording, those before the damage");
   offer_json(verb, options->json, "a JSON object");
   verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
   return [options] { return replay(*options); };
