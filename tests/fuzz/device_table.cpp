@@ -1,5 +1,7 @@
-// A libFuzzer target for tables of declared devices: any bytes at all are refused with a reason, or are the bytes that
-// writing what was read gives. With no seed it begins at the table that is built in.
+// A libFuzzer target for tables of declared devices. Any bytes are refused with a reason, or are read and written back
+// unchanged. Without a seed, it starts with the built-in table.
+
+#include "schema/device_table.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "runtime/device/shipped_devices.hpp"
-#include "schema/device_table.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
