@@ -8,14 +8,14 @@
 
 namespace wale {
 
-/// What one device makes of one material.
+/// The fates of one material's percepts and physics on one device.
 struct DeviceFates {
   std::string material, device;
   Result<std::vector<DescribedFate>> fates;  ///< or why it cannot be built for the device
 };
 
-/// A table for each material: what becomes of each percept and of the physics, with a column for each device. A device
-/// that it cannot be built for has dashes in its column, and the error's sentence below the table.
+/// A table for each material: a row for each percept and part of the physics, and a column for each device. If a device
+/// refuses the material, its column has dashes, and the error's sentence follows the table.
 std::string fates_text(const std::vector<DeviceFates>& all);
 /// JSON: an object by material, then by device, with `fates` as in `wale describe --json`, or with the sentence of the
 /// error as `refused`.

@@ -7,11 +7,11 @@ constexpr bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' 
 
 constexpr bool continues_name(char c) { return begins_name(c) || is_digit(c); }
 
-/// The micro sign and the Greek letter.
+/// Whether it is the micro sign or the Greek letter mu.
 inline bool is_micro(char32_t code) { return code == 0xB5 || code == 0x3BC; }
 
-/// Letters of other alphabets, roughly: everything beyond Latin-1's signs but for the blocks of punctuation and
-/// symbols.
+/// Whether it is a letter of another alphabet, approximately: everything beyond the signs of Latin-1 except the blocks
+/// of punctuation and symbols.
 inline bool is_foreign_letter(char32_t code) {
   const bool sign = code == 0xD7 || code == 0xF7 || (code >= 0x2000 && code <= 0x2BFF) ||
                     (code >= 0x3000 && code <= 0x303F) || (code >= 0xFE00 && code <= 0xFEFF) || code >= 0xFFF0;
