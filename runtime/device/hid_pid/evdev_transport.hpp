@@ -46,9 +46,18 @@ class EvdevNode {
 /// magnitude acts along the new direction; that is kept for drivers with room for one.
 ///
 /// An update returns before its report has gone, and the driver queues up to 256 of them, old forces before new ones.
-/// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it
-/// told when another program resets the device through hidraw. When the node is closed, also by a kill, the kernel
-/// erases the effects.
+/// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. When the node
+/// is closed, also by a kill, the kernel erases the effects.
+///
+/// Of other programs the kernel tells little:
+/// - An effect that was erased, through another descriptor of the same open file, is refused at its next update. Each
+///   refresh updates the effect too, without a report where nothing changed. The device is lost then.
+/// - Programs with the node open cannot change or erase our effects. The kernel lets them stop one, which the next
+///   refresh starts again, and set the gain and the centring spring, which it tells nobody.
+/// - A reset through hidraw or libusb passes the kernel's driver by. It goes on accepting updates, and no event, ioctl
+///   or file of sysfs shows that the effects are gone (Linux 6.1 and 6.12, tests/qemu). The stick gives no force until
+///   it is opened again; if another program has created an effect meanwhile, it may get our forces. Only reports of the
+///   device's state on hidraw would tell, and a user who may open hidraw is better served by that transport.
 class EvdevTransport final : public PidTransport {
  public:
   struct Limits {
@@ -73,6 +82,7 @@ class EvdevTransport final : public PidTransport {
   Result<> set_up();
   Result<> set_up_positions();
   Result<> upload(std::size_t effect);
+  bool update(std::size_t effect);
   bool tell(std::uint16_t code, std::int32_t value);
   void start_threads(int priority);
 
@@ -84,7 +94,7 @@ class EvdevTransport final : public PidTransport {
   void read_positions();
   void take(const input_event& event);
   void read_state();
-  void lose(const char* reason);
+  void lose(std::string reason);
 
   std::size_t effects() const noexcept { return arrangement_ == hid::Arrangement::combined ? 1 : 2; }
 

@@ -50,8 +50,13 @@ ReportTransport::~ReportTransport() {
     std::unique_lock lock(mutex_);
     session_.stop();
     pump();
-    // Each of its last transfers ends, if only by its timeout.
-    changed_.wait(lock, [&] { return session_.state() == hid::PidSession::State::over; });
+    // Each of its last transfers ends, if only by its timeout, and the session waits for no longer than its
+    // `rival_patience`.
+    constexpr std::chrono::milliseconds between_looks(10);
+    while (session_.state() != hid::PidSession::State::over) {
+      changed_.wait_for(lock, between_looks);
+      pump();
+    }
     closes_ = true;
   }
   channel_->close();
