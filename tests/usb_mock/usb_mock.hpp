@@ -28,6 +28,15 @@ class MockUsbDevice {
   MockUsbDevice(const MockUsbDevice&) = delete;
   MockUsbDevice& operator=(const MockUsbDevice&) = delete;
 
+  /// Nodes beside usbfs with the same model behind them. Both are called under the device's lock.
+  class Attachment {
+   public:
+    virtual ~Attachment() = default;
+    virtual void frame(UsbModel& model) = 0;
+    virtual void unplug() = 0;
+  };
+  void attach(Attachment* attachment);
+
   /// One frame: at most one packet for each endpoint.
   void frame();
   /// Whether the driver has taken whatever has ended, and has asked for more in vain: what it does about that is done.
@@ -80,6 +89,7 @@ class MockUsbDevice {
   std::deque<Urb> controls_, done_;
   UMockdevIoctlClient* unserved_ = nullptr;  // for whom one has ended, until it has asked for more in vain
   long frame_ = 0;
+  Attachment* attachment_ = nullptr;
   int fifo_ = -1;
   bool is_shown_ready_ = true, is_gone_ = false;
 };
@@ -120,6 +130,8 @@ class UsbMock {
     return device;
   }
   void unplug(const std::shared_ptr<MockUsbDevice>& device);
+
+  UMockdevTestbed* testbed() const { return testbed_; }
 
   /// While it lives frames pass only by `pass_frame`, of the thread that made it.
   class InStep {

@@ -173,8 +173,20 @@ Outcome HidrawChannel::ask(const hid::Transfer& transfer, std::span<const std::u
   return Outcome::done;
 }
 
+/// Reports that came while the device was set up: of states that the set-up itself has passed through, which would be
+/// taken for a rival's work.
+void HidrawChannel::discard_old_inputs(std::vector<std::uint8_t>& buffer) {
+  constexpr int most_held = 64;  // HIDRAW_BUFFER_SIZE, linux/hidraw.h
+  for (int i = 0; i < most_held; ++i) {
+    pollfd wait{node_.descriptor(), POLLIN, 0};
+    if (poll(&wait, 1, 0) != 1 || (wait.revents & (POLLERR | POLLHUP)) != 0) return;
+    if (read(node_.descriptor(), buffer.data(), buffer.size()) <= 0) return;
+  }
+}
+
 void HidrawChannel::read_inputs() {
   std::vector<std::uint8_t> report(most_report_bytes);
+  discard_old_inputs(report);
   while (true) {
     pollfd waits[2] = {{node_.descriptor(), POLLIN, 0}, {ends_reading_.get(), POLLIN, 0}};
     if (poll(waits, 2, -1) < 0 && errno != EINTR)
