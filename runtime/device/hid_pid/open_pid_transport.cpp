@@ -117,28 +117,35 @@ void add_reason(std::string& why, PidTransportKind kind, const std::string& reas
 }  // namespace
 
 // Measured by `tests/qemu/run rates` on 2026-11-22: the model of OpenFFBoard (full speed, a report each millisecond, an
-// effect for each axis) behind vhci_hcd in QEMU without hardware acceleration, on a machine of two processors that
-// builds kept busy, 4500 ticks in which both axes change. `loop`: ticks a second that the loop came to, of 900. Reports
-// that reached the device for each axis a second; the age of their force on arrival, in ms; reports that the kernel
-// took and the device never got; the share of a processor that the transport's threads needed.
+// effect for each axis) behind vhci_hcd in QEMU without hardware acceleration, on a machine of two processors with
+// nothing else to do, twice by each transport, 4500 ticks in which both axes change. `loop`: ticks a second that the
+// loop came to, of 900. Reports that reached the device for each axis a second; the age of their force on arrival, in
+// ms; reports that the kernel took and the device never got; the share of a processor that the transport's threads
+// needed.
 //
 //                          loop   x    y    median  99 %   most   lost  processor
-//   Linux 6.1.0-56   hidraw  794  291  291     1.5     7     15      0     19 %
-//   (6.1.192)                668  214  214     1.5    15     32      0     16 %
-//                    libusb  472  110  109     3.0    44     72      0     19 %
-//                            668  243  243     2.5    21     52      0     25 %
-//                    evdev   482  113  114   201     688    769    594      7 %   an update each 1.1 ms
-//                            388   61   61   449     738    752    817      5 %
-//   Linux 6.12.117   hidraw  223   28   28     4.1    57    121      0     12 %   the machine busier still
-//                    libusb  183   30   30     6.5   110    157      0     16 %
-//                    evdev   246   37   36   629    1477   1600    338      5 %   an update each 2 ms
+//   Linux 6.1.0-56   hidraw  897  484  484     1.4     2      9      0     16 %
+//   (6.1.192)                896  483  483     1.4     2      6      0     16 %
+//                    libusb  896  485  485     2.4     3     11      0     19 %
+//                            898  486  486     2.4     3      7      0     19 %
+//                    evdev   887  208  208     1.3     6     15      0      5 %   an update each 2 ms
+//                            896  211  211     1.2     2      8      0      5 %
+//   Linux 6.12.117   hidraw  897  484  484     1.4     2      9      0     14 %
+//                    libusb  891  481  481     2.4     3     13      0     17 %
+//                    evdev   895  212  212     1.2     3     14      0      4 %   an update each 2 ms
 //
-// The same hardware under less load gives more of each; the order does not depend on it. hidraw and libusb wait for the
-// device and lose nothing, so their forces are as fresh as the device is fast. hidraw costs no more, and games go on
-// seeing the stick: it comes first. libusb works where the kernel's driver has made no hidraw node, but takes the stick
-// from games. evdev queues what the device has not taken yet, old forces before new ones, and drops the newest where
-// the queue is full: where the device or the machine falls behind for a moment, forces are late for long. It is the
-// last resort, for users without permission to the other two.
+// While builds kept both processors busy:
+//
+//   Linux 6.1.0-56   hidraw  668  214  214     1.5    15     32      0     16 %
+//                    libusb  472  110  109     3.0    44     72      0     19 %
+//                    evdev   388   61   61   449     738    752    817      5 %
+//
+// hidraw and libusb wait for the device and lose nothing, so their forces are as fresh as the device is fast. hidraw is
+// a millisecond fresher, costs no more, and games go on seeing the stick: it comes first. libusb works where the
+// kernel's driver has made no hidraw node, but takes the stick from games. evdev needs least, but brings less than half
+// as many forces, and it queues what the device has not taken yet, old forces before new ones, and drops the newest
+// where the queue is full: where the device or the machine falls behind for a moment, forces are late for long. It is
+// the last resort, for users without permission to the other two.
 std::array<PidTransportKind, 3> transports_by_preference() noexcept {
   return {PidTransportKind::hidraw, PidTransportKind::libusb, PidTransportKind::evdev};
 }
