@@ -228,7 +228,7 @@ void MockHidNodes::unplug() {
     g_object_unref(report.writer);
   }
   outputs_.clear();
-  hidraw_->show_whether_readable(true);  // so that whoever waits reads, and is told
+  hidraw_->show_whether_readable(true);  // waiting programs read, and get the error
   event_->show_whether_readable(true);
 }
 
@@ -373,7 +373,7 @@ long MockHidNodes::answer_event(PidModel& model, UMockdevIoctlClient* client, un
   return static_cast<long>(size);
 }
 
-/// All that is queued, at once: hid_hw_wait, which precedes what has to be answered.
+/// Sends all queued reports at once, as hid_hw_wait does before a request that has an answer.
 void MockHidNodes::send_now(PidModel& model) {
   for (const Report& report : std::exchange(outputs_, {})) {
     const bool is_taken = model.take(pid_out_endpoint, report.bytes);

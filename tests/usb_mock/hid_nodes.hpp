@@ -54,10 +54,10 @@ class MockNode {
   bool is_readable_ = false;
 };
 
-/// What Linux makes of a joystick of the PID class that it has bound: the folders of sysfs, a hidraw node, and an event
-/// node whose force feedback is played by reports, as drivers/hid/usbhid/hid-pidff.c does. Both nodes and the usbfs
-/// node of the joystick have the same model behind them, and one report reaches it in each frame. Claiming the usbfs
-/// node does not take these nodes away, as the kernel does: tests/qemu has that.
+/// The kernel's side of a joystick of the PID class that it has bound: folders of sysfs, a hidraw node, and an event
+/// node that plays effects by reports, as drivers/hid/usbhid/hid-pidff.c does. Both nodes and the joystick's usbfs node
+/// have the same model behind them, and one report reaches it in each frame. Unlike the kernel, this keeps its nodes
+/// when usbfs claims the interface: tests/qemu shows that.
 class MockHidNodes final : public MockUsbDevice::Attachment, public MockNode::Kernel {
  public:
   /// `number`: of /dev/hidrawN and /dev/input/eventN, each once in a testbed. The joystick outlives it.
@@ -66,7 +66,7 @@ class MockHidNodes final : public MockUsbDevice::Attachment, public MockNode::Ke
 
   const std::string& hidraw() const { return hidraw_->path(); }
   const std::string& event() const { return event_->path(); }
-  /// Every open file of the nodes is closed, as after a kill, which umockdev does not always see.
+  /// Closes all open files of the nodes, as after a kill. umockdev does not see a kill within a call.
   void close_all();
 
   void frame(UsbModel& model) override;

@@ -137,7 +137,7 @@ TEST_F(HidNodes, AreFoundAndListed) {
   ASSERT_EQ(listed.size(), 1u);
   EXPECT_FALSE(listed[0].obstacle);
   EXPECT_EQ(listed[0].transport, "hidraw");
-  EXPECT_EQ(joystick_->claims, 0) << "what sysfs tells is not asked of the device";
+  EXPECT_EQ(joystick_->claims, 0) << "the report descriptor is read from sysfs";
   EXPECT_TRUE(log().empty());
 }
 

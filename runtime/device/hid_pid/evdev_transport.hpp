@@ -54,10 +54,11 @@ class EvdevNode {
 ///   refresh updates the effect too, without a report where nothing changed. The device is lost then.
 /// - Programs with the node open cannot change or erase our effects. The kernel lets them stop one, which the next
 ///   refresh starts again, and set the gain and the centring spring, which it tells nobody.
-/// - A reset through hidraw or libusb passes the kernel's driver by. It goes on accepting updates, and no event, ioctl
-///   or file of sysfs shows that the effects are gone (Linux 6.1 and 6.12, tests/qemu). The stick gives no force until
-///   it is opened again; if another program has created an effect meanwhile, it may get our forces. Only reports of the
-///   device's state on hidraw would tell, and a user who may open hidraw is better served by that transport.
+/// - A reset through hidraw does not go through the kernel's force-feedback driver. The driver goes on accepting
+///   updates, and no event, ioctl or file of sysfs shows that the effects are gone (Linux 6.1 and 6.12, tests/qemu).
+///   The stick gives no force until it is opened again; if another program has created an effect meanwhile, that effect
+///   may get our forces. Only reports of the device's state on hidraw would tell, and a user who may open hidraw is
+///   better served by that transport.
 class EvdevTransport final : public PidTransport {
  public:
   struct Limits {

@@ -132,8 +132,10 @@ class PidSession {
   /// `answer` is what came in. Real-time as `next` is; allocates while setting up.
   void finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now);
 
-  /// An input report has come on the interrupt endpoint. Real-time.
-  void receive(std::span<const std::uint8_t> report, std::int64_t now) noexcept;
+  /// An input report has come on the interrupt endpoint. An old one was held back while the device was set up: the
+  /// states that it tells are those that the set-up passed through, such as disabled actuators after its reset.
+  /// Real-time.
+  void receive(std::span<const std::uint8_t> report, std::int64_t now, bool is_old = false) noexcept;
 
   /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user).
   /// Not-a-number is none. Ignored unless running. Real-time.
@@ -187,6 +189,7 @@ class PidSession {
   bool take_telemetry(std::span<const std::uint8_t> report) noexcept;
   std::optional<Transfer> look_transfer(std::int64_t now) noexcept;
   void take_state(const DeviceState& state, std::int64_t now) noexcept;
+  void take_old_state(const DeviceState& state) noexcept;
   void take_look(std::span<const std::uint8_t> answer) noexcept;
   bool still_owns(std::span<const std::uint8_t> answer) const noexcept;
   void dispossess() noexcept;

@@ -30,6 +30,13 @@ bool PidSession::is_ours(std::uint8_t block) const noexcept {
          blocks_.begin() + static_cast<std::ptrdiff_t>(created_);
 }
 
+/// The last of the old states is the one that the device was in when the session began to listen.
+void PidSession::take_old_state(const DeviceState& state) noexcept {
+  if (state.actuators_enabled) actuators_seen_ = *state.actuators_enabled;
+  if (!state.effect_plays || !state.block_index || !is_ours(*state.block_index)) return;
+  plays_seen_[*state.block_index == blocks_[0] ? 0 : 1] = *state.effect_plays;
+}
+
 /// Only what was seen to be true before counts when it turns false: firmware that never sets these bits is common.
 void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept {
   if (!options_.is_shared) return;

@@ -17,8 +17,8 @@ class ReportChannel {
    public:
     /// A transfer has ended; `answer` is what came in.
     virtual void ended(const hid::Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer) = 0;
-    /// An input report has come. An empty one is a report that could not be held.
-    virtual void received(std::span<const std::uint8_t> report) = 0;
+    /// An input report has come. An empty one is a report that could not be held. An old one came before `listen`.
+    virtual void received(std::span<const std::uint8_t> report, bool is_old) = 0;
     /// No input reports come any more. `reason` outlives the channel.
     virtual void silenced(std::string_view reason, Outcome outcome) = 0;
 

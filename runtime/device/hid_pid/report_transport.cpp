@@ -121,10 +121,10 @@ void ReportTransport::ended(const hid::Transfer& transfer, Outcome outcome, std:
   }
 }
 
-void ReportTransport::received(std::span<const std::uint8_t> report) {
+void ReportTransport::received(std::span<const std::uint8_t> report, bool is_old) {
   const std::lock_guard lock(mutex_);
   if (closes_ || session_.state() == hid::PidSession::State::over) return;
-  session_.receive(report, now_());
+  session_.receive(report, now_(), is_old);
   pump();
 }
 
