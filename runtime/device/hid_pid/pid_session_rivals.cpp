@@ -16,8 +16,8 @@ std::optional<Transfer> PidSession::look_transfer(std::int64_t now) noexcept {
   return get_report(feature_report, layout_->block_load, Transfer::Purpose::look);
 }
 
-/// A block of ours that was given out again was freed before, which only a reset does: a device gives out no block that
-/// is in use. A block that is not ours is another program's, which has the same right to it as we have to ours.
+/// If the device has created an effect in one of our blocks, that block was freed before, which only a reset does: a
+/// device gives out no block that is in use. A block that is not ours belongs to another program and is left alone.
 void PidSession::take_look(std::span<const std::uint8_t> answer) noexcept {
   const auto load = decode_block_load(*layout_, answer);
   if (!load || load->status != BlockLoadAnswer::Status::loaded) return;
@@ -30,14 +30,14 @@ bool PidSession::is_ours(std::uint8_t block) const noexcept {
          blocks_.begin() + static_cast<std::ptrdiff_t>(created_);
 }
 
-/// The last of the old states is the one that the device was in when the session began to listen.
+/// The last of the old states is the device's state when the session began to listen.
 void PidSession::take_old_state(const DeviceState& state) noexcept {
   if (state.actuators_enabled) actuators_seen_ = *state.actuators_enabled;
   if (!state.effect_plays || !state.block_index || !is_ours(*state.block_index)) return;
   plays_seen_[*state.block_index == blocks_[0] ? 0 : 1] = *state.effect_plays;
 }
 
-/// Only what was seen to be true before counts when it turns false: firmware that never sets these bits is common.
+/// A bit counts as lost only if it was set before, because much firmware never sets these bits.
 void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept {
   if (!options_.is_shared) return;
   const bool is_about_ours = state.effect_plays && state.block_index && is_ours(*state.block_index);
@@ -67,8 +67,8 @@ void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept
   refresh_at_[i] = now;
 }
 
-/// The session no longer knows the device's state, and its blocks may belong to another program by now. So it sends
-/// nothing more; effects of ours that still play end with their duration.
+/// The session no longer knows the device's state, and its blocks may now belong to another program. So it sends
+/// nothing more; its own effects that still play end with their duration.
 void PidSession::dispossess() noexcept {
   lost_ = true;
   reason_ = "another program has reset it or stopped its effects";
