@@ -17,6 +17,7 @@ struct FileRequest {
   std::string file;  ///< whatever `find_named` finds
   std::string device = default_device;
   std::vector<std::string> roots;                  ///< folders in which imports are looked for at last
+  std::vector<ResolvedFile> devices = {};          ///< as of `Resolver::devices`
   std::vector<std::string>* looked_for = nullptr;  ///< gets the paths of what it imports or shows, found or not
 };
 

@@ -17,6 +17,7 @@
 
 #include "calibration/command/devices_here.hpp"
 #include "calibration/command/interrupt.hpp"
+#include "calibration/command/trusted_here.hpp"
 #include "calibration/feel/asking_person.hpp"
 #include "calibration/feel/felt_device.hpp"
 #include "calibration/feel/material_watch.hpp"
@@ -24,6 +25,7 @@
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
+#include "runtime/device/built_for.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale::command {
@@ -36,10 +38,11 @@ constexpr double measured_seconds = 600;
 struct FeelOptions {
   Choice choice;
   std::vector<std::string> settings;
-  std::string device;               ///< empty: `auto`
-  std::string built_for;            ///< empty: whatever suits the device
-  std::optional<std::string> hand;  ///< how a simulated person moves
-  std::string transport;            ///< of a real device; empty: its driver chooses
+  std::vector<std::string> trusted;  ///< files whose declarations may scale a real device
+  std::string device;                ///< empty: `auto`
+  std::string built_for;             ///< empty: whatever suits the device
+  std::optional<std::string> hand;   ///< how a simulated person moves
+  std::string transport;             ///< of a real device; empty: its driver chooses
   std::string record;
   std::optional<double> seconds, max_force;
   bool virtual_time = false, json = false, watch = false;
@@ -80,12 +83,15 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
 /// nothing when what is wrong has been printed, with the exit `status` for it.
 std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop, int& status) {
   status = refused;
+  auto trusted = trusted_here(options.trusted);
+  if (!trusted) return status = refuse(trusted.error()), std::nullopt;
   Choice built = options.choice;
   built.device.clear();  // it is not known yet
+  built.devices = trusted->files;
   auto opened = open(built);
   if (!opened) return std::nullopt;
   const std::vector<DeclaredDevice> known =
-      opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders);
+      opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known)
     return refuse(is_known.error()), std::nullopt;
   const bool asks = !options.device.empty();
@@ -93,7 +99,7 @@ std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomi
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
                       .only_simulated = options.virtual_time || options.hand},
-                     known, options.seconds, say, stop);
+                     known, trusted->devices, options.seconds, say, stop);
   if (!device) return status = refuse(device.error()), std::nullopt;
   const ChosenDevice& chosen = device->chosen;
   if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
@@ -110,7 +116,9 @@ std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomi
 std::optional<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run,
                                         const std::atomic<bool>& stop) {
   const HandDeclaration* person = declared_everywhere()->declarations.hands.find("normal");
-  FeltOptions how{.virtual_time = options.virtual_time, .transport = options.transport};
+  FeltOptions how{.virtual_time = options.virtual_time,
+                  .transport = options.transport,
+                  .most_newton = options.max_force.value_or(HUGE_VAL)};
   if (options.hand) how.hand = *options.hand;
   auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
   if (!device) return refuse(device.error()), std::nullopt;
@@ -210,13 +218,14 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 
-/// Whether two materials can be compared blindly on this device. Error: W0607.
+/// Whether two materials can be compared blindly on this device. Errors: W0607, W0608.
 Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
   const DeviceProfile& device = run.material.program.description().device;
   const std::string& other = b.program.description().device.name;
   if (other != device.name)
     return Error{Code::other_device, fmt::format("A is built for `{}` and B for `{}`", device.name, other),
                  "build both for one device"};
+  if (auto built = is_built_for(b.program.description(), device); !built) return built;
   if (device.shaker)
     return Error{Code::other_device,
                  fmt::format("`{}` only vibrates, and a blind comparison is one of forces", device.name),
@@ -315,6 +324,7 @@ Run declare_feel(CLI::App& verb) {
                   "auto (default): the best one plugged in, else simulated; simulated; simulated:NAME; NAME, as `wale "
                   "devices` lists them; usb; vendor and product, 1209:ffb0; a port, 1-2")
       ->type_name("NAME");
+  offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
              "how a real device is driven, where its driver knows several ways: hidraw, libusb or evdev; see `wale "
              "devices`");
@@ -325,7 +335,8 @@ Run declare_feel(CLI::App& verb) {
                  "in is waited for at most (default: until Ctrl-C)");
   auto* virtual_time =
       verb.add_flag("--virtual-time", options->virtual_time, "as fast as possible, the same bit for bit each time");
-  offer_force(verb, "--max-force", options->max_force, "the largest force allowed, as in \"3 N\"");
+  offer_force(verb, "--max-force", options->max_force,
+              "the largest force at the handle, as in \"3 N\"; every packet to a real device keeps within it");
   auto* record = verb.add_option("--record", options->record,
                                  "records every tick: NAME.wrec as it happens, for `wale replay`; NAME.csv")
                      ->type_name("FILE");

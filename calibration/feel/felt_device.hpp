@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,17 +25,19 @@ struct DeviceToFeel {
   ChosenDevice chosen;
 };
 
-/// Chooses by `request` among what is plugged in and `known`, and says so, where the person asked or it matters. A real
-/// device that is not plugged in is waited for, `seconds` at most, until `stop` is true. Errors: as `choose_device` and
-/// `wait_for_device` give them.
+/// Chooses by `request` among what is plugged in, by the declarations that are `trusted`, and what is `known`, and says
+/// so, where the person asked or it matters. A real device that is not plugged in is waited for, `seconds` at most,
+/// until `stop` is true. Errors: as `choose_device` and `wait_for_device` give them.
 Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<const DeclaredDevice> known,
-                                    std::optional<double> seconds, const Say& say, const std::atomic<bool>& stop);
+                                    std::span<const TrustedDevice> trusted, std::optional<double> seconds,
+                                    const Say& say, const std::atomic<bool>& stop);
 
 /// How a device is run.
 struct FeltOptions {
   std::string hand = "lateral";  ///< of a simulated person: lateral, circular, rest, or a trace's file
   bool virtual_time = false;
-  std::string transport;  ///< of a real device, as in `DeviceOptions`
+  std::string transport;          ///< of a real device, as in `DeviceOptions`
+  double most_newton = HUGE_VAL;  ///< likewise: what the user allows
 };
 
 /// An open device, real or simulated.
@@ -50,7 +53,8 @@ struct FeltDevice {
 
 /// Opens the chosen device for `program`, or simulates it in a hand of `person` that moves as asked. `stop` outlives
 /// the device. Errors: as `open_device` and `load_trace` give them; `other_device` where the program is built for
-/// another device, or for other figures of this one, by which its forces would come out otherwise.
+/// another device, and `other_figures` where it is built for other figures of a real one than its trusted declaration
+/// has.
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop);
 

@@ -40,8 +40,10 @@ Result<> write_file(const std::string& path, std::string_view bytes);
 struct Choice {
   std::string file, material, device = default_device;
   std::string device_option;  ///< "--device" where that option named the device; empty: it is the default
-  std::vector<std::string> folders;  ///< in which imports are looked for
+  std::vector<std::string> folders;   ///< in which imports are looked for
+  std::vector<ResolvedFile> devices;  ///< files that a person trusts to declare devices; every file knows these
 
+  /// With the owner's devices.wale where the device is none that Wale ships.
   FileRequest request() const;
 };
 

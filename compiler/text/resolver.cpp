@@ -34,8 +34,10 @@ Error unreadable(const std::string& path, std::string sentence) {
 
 class FileResolver final : public Resolver {
  public:
-  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for)
-      : roots_(std::move(roots)), looked_for_(looked_for) {}
+  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for, std::vector<ResolvedFile> devices)
+      : roots_(std::move(roots)), looked_for_(looked_for), devices_(std::move(devices)) {}
+
+  std::vector<ResolvedFile> devices() override { return devices_; }
 
   Result<ResolvedFile> module(const std::string& path, const std::string& from) override {
     std::string relative = path;
@@ -139,14 +141,16 @@ class FileResolver final : public Resolver {
 
   std::vector<std::string> roots_;
   std::vector<std::string>* looked_for_;
+  std::vector<ResolvedFile> devices_;
   std::map<std::string, std::optional<fs::path>> projects_;
   std::set<std::string> modules_;  ///< all that were asked for
 };
 
 }  // namespace
 
-std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for) {
-  return std::make_unique<FileResolver>(std::move(roots), looked_for);
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for,
+                                        std::vector<ResolvedFile> devices) {
+  return std::make_unique<FileResolver>(std::move(roots), looked_for, std::move(devices));
 }
 
 Result<ResolvedFile> read_file(const std::string& path) {

@@ -24,6 +24,9 @@ class Resolver {
   /// Any other file by its name as written, "slate.tif".
   virtual Result<ResolvedFile> file(const std::string& name, const std::string& from) = 0;
 
+  /// Files whose devices every file knows besides, unless it declares or imports others by their names.
+  virtual std::vector<ResolvedFile> devices() { return {}; }
+
   /// A key for the library that `modules` lists: equal keys mean equal lists. Empty: do not remember the list.
   virtual std::string library(const std::string& /*from*/) { return {}; }
   /// The modules that `from` could import, each once: first those of its project, or those beside it if it has none.
@@ -36,8 +39,10 @@ inline constexpr const char* project_marker = "wale.project";
 
 /// Looks beside the file that asks, then in its project (the nearest folder above it with a `wale.project`), then in
 /// each of the roots. Refuses files over 512 MiB, modules over 4 MiB and more than a thousand modules. `looked_for`
-/// receives the paths of all files that it looks for, found or not; it must outlive the resolver.
-std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr);
+/// receives the paths of all files that it looks for, found or not; it must outlive the resolver. `devices` are those
+/// of `Resolver::devices`.
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr,
+                                        std::vector<ResolvedFile> devices = {});
 
 /// Reads a whole file. Errors: W0501 where it is missing, a folder, unreadable or larger than 512 MiB; `place` names
 /// it.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,8 +11,8 @@
 #include <vector>
 
 #include "runtime/device/plugged_device.hpp"
+#include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
-#include "schema/device_profile.hpp"
 #include "schema/result.hpp"
 
 namespace wale {
@@ -55,6 +56,8 @@ struct DeviceOptions {
   /// An open file of the device that a portal or a broker handed over; -1: none. The caller owns it until opening
   /// succeeds, then the device does. It is used once: a device that was lost and comes back is opened by its driver.
   int descriptor = -1;
+  /// N at the handle, the largest force that the user allows: every packet keeps within it, whatever is commanded.
+  double most_newton = HUGE_VAL;
 };
 
 /// One driver: how it finds its devices, and how it opens one. Choosing, listing, identifying and opening go through
@@ -68,7 +71,8 @@ struct Driver {
   /// Takes a few milliseconds for each, and does no more to a device than read its descriptors.
   std::vector<PluggedIn> (*find)(const Connections& connections, const PluggedIn* like);
   /// Opens what `find` found, and sets it up without force: may take a second. An error leaves the device as it was.
-  OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+  /// What it pushes is scaled and bounded by the trusted declaration and the options alone.
+  OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const TrustedDevice& trusted,
                        const DeviceOptions& options);
   /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty where there is one way only.
   std::span<const std::string_view> transports = {};

@@ -8,7 +8,7 @@
 
 namespace wale {
 
-/// Opens a chosen device that is plugged in, by the profile and the wiring of its declaration; `chosen` has both. Its
+/// Opens a chosen device that is plugged in, by the profile and the wiring of its trusted declaration. Its
 /// threads run just below the real-time loop's priority, where that is permitted, unless the options say otherwise. It
 /// pushes nothing until it is commanded. After it was unplugged it is found again at its port, or at another port where
 /// none like it was.

@@ -60,7 +60,7 @@ class FalconDriver : public MockedUsb {
  protected:
   Result<std::unique_ptr<FalconDevice>> open(int port, FalconOptions options) {
     if (options.firmware == falcon_firmware_path()) options.firmware = firmware_;
-    return FalconDevice::open(context(), found(port), falcon_profile(), options);
+    return FalconDevice::open(context(), found(port), trusted(falcon_profile()), options);
   }
 
   std::unique_ptr<FalconDevice> opened(int port, const FalconOptions& options = falcon_in_mock_time()) {

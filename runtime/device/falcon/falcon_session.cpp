@@ -94,7 +94,7 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
           torques_ = {};
           ++counts_.command_silences;
         }
-        command.torques = torques_;
+        command.torques = allowed_torques(now);
         pending_ = false;
       }
       command.light = state_ == State::running ? Light::green : Light::red;
@@ -104,6 +104,12 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
   put(encode(command));
   ++counts_.commands_sent;
   return transfer;
+}
+
+/// The only torques that a packet gets: those commanded, as far as the limits allow them where the handle is now.
+Torques FalconSession::allowed_torques(std::int64_t now) const noexcept {
+  if (!answer_ || now - heard_ > in_microseconds(options_.stale_after)) return {};
+  return options_.gate.within(torques_, answer_->encoders);
 }
 
 /// The answer that the loader should give now; while the firmware is loaded, the echo of it.

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/device/falcon/falcon_packets.hpp"
+#include "runtime/device/falcon/torque_gate.hpp"
 #include "runtime/device/outcome.hpp"
 
 namespace wale::falcon {
@@ -38,9 +38,11 @@ struct Transfer {
 struct FalconSessionOptions {
   /// The user's own file, loaded where the device runs no firmware. Empty: there is none.
   std::vector<std::uint8_t> firmware;
+  TorqueGate gate;               ///< every packet keeps within it; without limits no packet has torque
   double command_silence = 0.1;  ///< s without a command after which the motors are let go
   double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
   int most_silences = 10;        ///< in a row; then the device is lost
+  double stale_after = 0.02;  ///< s after which an answer no longer says where the handle is: then there is no torque
 };
 
 /// What a session has done since it was made.
@@ -122,6 +124,7 @@ class FalconSession {
   bool take_echo(std::span<const std::uint8_t> bytes) noexcept;
   bool take_answers(std::span<const std::uint8_t> bytes, std::int64_t now) noexcept;
   Transfer written(std::int64_t now) noexcept;
+  Torques allowed_torques(std::int64_t now) const noexcept;
   void answered(std::int64_t now) noexcept;
   void unanswered() noexcept;
   void go_to(Step step) noexcept;

@@ -43,7 +43,9 @@ class EvdevNode {
 ///
 /// Two effects, one turned to each axis, where the driver has room for two: a change of level is then one report, Set
 /// Constant Force. With one effect a change of direction takes two, Set Effect as well, and between them the old
-/// magnitude acts along the new direction; that is kept for drivers with room for one.
+/// magnitude acts along the new direction. One effect is for drivers with room for one, and for users who limit the
+/// force: its magnitude is within the limit along every direction, so that no update can exceed it that is late or
+/// lost.
 ///
 /// An update returns before its report has gone, and the driver queues up to 256 of them, old forces before new ones.
 /// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it
@@ -79,8 +81,7 @@ class EvdevTransport final : public PidTransport {
   void write_forces();
   bool write_next(std::int64_t now);
   bool refresh(std::int64_t now);
-  bool turn_and_push();
-  std::int64_t level_of(double magnitude) const noexcept;
+  bool push(const hid::ForceGate::Change& change);
   void read_positions();
   void take(const input_event& event);
   void read_state();
@@ -91,6 +92,7 @@ class EvdevTransport final : public PidTransport {
   EvdevNode node_;
   const MicrosecondClock now_;
   const std::int64_t pace_, refresh_period_, silence_;  // microseconds
+  const ForceLimits limits_;
   Ranges ranges_;
   hid::Arrangement arrangement_ = hid::Arrangement::by_direction;
   OwnedDescriptor ends_reading_;              // an eventfd
@@ -101,7 +103,7 @@ class EvdevTransport final : public PidTransport {
   std::array<std::int64_t, 2> refresh_at_{};
   glm::dvec2 wanted_{0};
   std::int64_t commanded_ = 0;
-  std::size_t turn_ = 0;
+  hid::ForceGate gate_;
   bool pending_ = false, silent_ = false;
 
   // The reader's.

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/device/hid_pid/force_gate.hpp"
 #include "runtime/device/hid_pid/openffboard.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
@@ -24,6 +25,7 @@ struct HidInterface {
 };
 
 struct PidSessionOptions {
+  ForceLimits limits;  ///< of the handle; every packet keeps within them
   /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never.
   /// Playing effects are started again each third of it.
   double effect_duration = 0.25;
@@ -41,7 +43,7 @@ struct PidSessionOptions {
   bool is_shared = false;
   /// Whether setting up begins with a reset of the device, which also ends the effects of other programs.
   bool resets = true;
-  int most_in_flight = 2;   ///< output reports on their way at once, at least 1
+  int most_in_flight = 2;   ///< output reports on their way at once, 1 .. MayHold::most_on_their_way
   int most_bad_inputs = 8;  ///< one after another; then the device is lost
 };
 
@@ -56,6 +58,7 @@ struct Transfer {
   std::uint8_t request_type = 0, request = 0;
   std::uint16_t value = 0, index = 0, length = 0;
   Packet data;
+  std::size_t effect = 0;  ///< of a force: whose it is
 };
 
 using wale::Outcome;
@@ -184,6 +187,7 @@ class PidSession {
   void take_state(const DeviceState& state, std::int64_t now) noexcept;
   void take_look(std::span<const std::uint8_t> answer) noexcept;
   void dispossess() noexcept;
+  void open_gate() noexcept;
   bool is_ours(std::uint8_t block) const noexcept;
   Packet turned_effect(std::size_t effect, double direction) const noexcept;
   Packet effect_packet(std::size_t effect) const noexcept;
@@ -212,10 +216,7 @@ class PidSession {
   double duration_ = 0;  // s; endless, or within the range of the device's field
 
   glm::dvec2 wanted_{0};
-  std::array<std::int64_t, 2> sent_{};  // magnitudes, counts; of the combined effect the first
-  double direction_ = 90;               // degrees, of the combined effect
-  bool turned_ = false;                 // the direction has been sent, its magnitude not yet
-  std::size_t turn_ = 0;                // whose force comes first
+  ForceGate gate_;
   bool pending_ = false;
   std::int64_t commanded_ = 0, heard_ = 0;  // when
   bool silent_ = false;

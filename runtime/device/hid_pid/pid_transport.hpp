@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -36,6 +37,7 @@ int system_ioctl(int descriptor, unsigned long request, void* argument);
 
 struct PidTransportOptions {
   hid::PidSessionOptions session;
+  double most_newton = HUGE_VAL;   ///< N at the handle, what the user allows; `HidPidDevice` limits the session by it
   unsigned timeout = 100;          ///< ms, of each transfer of libusb while running and leaving
   unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
   /// SCHED_FIFO, of the thread that sends forces: best just below that of the loop, where permitted; 0: ordinary.
