@@ -27,7 +27,7 @@ Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person)
     if (std::filesystem::exists(hand, ignored)) return error;
     const std::vector<std::string> motions{"lateral", "circular", "rest"};
     auto near = nearest_spelling(hand, motions);
-    constexpr std::size_t telling = 4;  // "circle" begins as "circular" does, and is too short to be near to it
+    constexpr std::size_t telling = 4;  // letters; "circle" is meant as "circular", but differs by too many letters
     for (const std::string& motion : motions)
       if (!near && hand.size() >= telling && motion.starts_with(hand.substr(0, telling))) near = motion;
     error.sentence = fmt::format("`{}` is neither lateral, circular, rest nor the file of a trace", hand);

@@ -25,7 +25,7 @@ inline std::string text_of(const std::string& path) {
   return std::string{std::istreambuf_iterator<char>(file), {}};
 }
 
-/// `wale` with these words, killed in the end if it has not ended.
+/// A process of `wale` with these arguments. The destructor kills it if it still runs.
 class Running {
  public:
   /// `config_home` is the folder of the person's own settings.
@@ -42,10 +42,10 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  /// On standard error, by now.
+  /// Its standard error so far.
   std::string said() const { return text_of(err_); }
   void interrupt() const { kill(child_, SIGINT); }
-  /// Once it has ended.
+  /// Waits for the end of the process.
   Outcome outcome() {
     int status = 0;
     waitpid(std::exchange(child_, 0), &status, 0);

@@ -8,7 +8,7 @@
 namespace wale::falcon {
 namespace {
 
-constexpr double speed_filter = 0.005;           // s, the time constant: encoder steps are a few cm/s a period
+constexpr double speed_filter = 0.005;           // s, the time constant: one encoder step in a period is a few cm/s
 constexpr std::int64_t longest_pause = 100'000;  // microseconds between pushes before the hold comes in anew
 
 double largest(const glm::dvec3& v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }

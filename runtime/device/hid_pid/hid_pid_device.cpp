@@ -6,7 +6,7 @@
 namespace wale {
 namespace {
 
-constexpr int hid_signs[2] = {1, -1};  // of HID's axes along ours: its y points to the user (HID 1.11 section 5.9)
+constexpr int hid_signs[2] = {1, -1};  // HID's axes relative to ours: its y points to the user (HID 1.11 section 5.9)
 
 int scaled_counts(std::int32_t raw, std::int64_t minimum, std::int64_t maximum, double counts, int sign) noexcept {
   const double length = static_cast<double>(maximum - minimum);
@@ -19,7 +19,7 @@ std::int64_t force_steps(double share, std::int64_t full) noexcept {
   return static_cast<std::int64_t>(share * static_cast<double>(full));
 }
 
-/// Levels of force to each side that the profile tells apart, within what evdev can say.
+/// The profile's number of force levels to each side, at most that of evdev.
 std::int64_t levels_of(const DeviceProfile& profile) noexcept {
   constexpr double most = 32767;
   return static_cast<std::int64_t>(std::clamp(std::round(profile.force_counts), 1.0, most));

@@ -72,14 +72,14 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
       ++in_flight_;
       return transfer;
     }
-    if (auto transfer = telemetry_transfer(now)) {  // nothing else has to go now
+    if (auto transfer = telemetry_transfer(now)) {  // no other transfer is pending
       ++in_flight_;
       return transfer;
     }
   }
   if (now - heard_ > microseconds(options_.input_silence) && !poll_under_way_) {
     poll_under_way_ = true;
-    heard_ = now;  // so that the next poll is another silence later
+    heard_ = now;  // the next poll comes after another silence
     ++counts_.polls;
     return get_report(input_report, layout_->input, Transfer::Purpose::poll);
   }
@@ -118,7 +118,7 @@ std::optional<Transfer> PidSession::force_transfer() noexcept {
   return transfer;
 }
 
-/// The next question of four, x and y of torque and position in turns.
+/// The next of four questions: x and y of torque and position, in turns.
 std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcept {
   if (!telemetry_ || options_.telemetry_period <= 0 || now < telemetry_at_) return std::nullopt;
   telemetry_at_ = now + microseconds(options_.telemetry_period);
@@ -129,7 +129,7 @@ std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcep
   return output(openffboard::encode(question), Transfer::Purpose::telemetry);
 }
 
-/// Whether a report is the vendor's. Keeps the torques and positions in it.
+/// Whether a report is the vendor's; if so, keeps its torques and positions.
 bool PidSession::take_telemetry(std::span<const std::uint8_t> report) noexcept {
   const auto message = openffboard::decode(report);
   if (!message) return false;
