@@ -10,12 +10,12 @@
 
 namespace wale {
 
-/// A declaration that may say what a newton and a metre are on a plugged device. Drivers are opened by nothing else, so
-/// that no file of somebody else, whether a patch program, a material or a project, can scale a real device.
+/// A declaration that may scale the forces and places of a plugged device. Drivers accept nothing else, so a patch
+/// program, a material or a project of another person cannot scale a real device.
 class TrustedDevice {
  public:
-  /// One that the owner of the device vouches for: `file` is theirs, or they have named it for this purpose. Only what
-  /// reads such files calls it (calibration/feel/trusted_declarations.cpp), and tests.
+  /// A declaration that the owner of the device vouches for: `file` is the owner's, or the owner named it for this
+  /// purpose. Called only by the reader of such files (calibration/feel/trusted_declarations.cpp) and by tests.
   static TrustedDevice by_owner(DeclaredDevice declared, std::string file) {
     return {std::move(declared), std::move(file)};
   }
@@ -26,8 +26,7 @@ class TrustedDevice {
   /// The file that declares it; empty for one that Wale ships.
   const std::string& file() const noexcept { return file_; }
 
-  /// The same device along its own axes and motors, as they are before anyone has found out how it lies. Each motor
-  /// keeps its gain.
+  /// The same device with its own axes and motors unturned, for finding out how it lies. Each motor keeps its gain.
   TrustedDevice as_built() const;
 
  private:
@@ -39,8 +38,8 @@ class TrustedDevice {
   std::string file_;
 };
 
-/// Those of the owner in their order, then the shipped ones: of two about one device, the first counts. Refused only
-/// where the build was handed a damaged table.
+/// Those of the owner in their order, then the shipped ones; of two about one device, the first counts. Error:
+/// `damaged_file` if the build was given a damaged table.
 Result<std::vector<TrustedDevice>> trusted_devices(std::vector<TrustedDevice> of_owner = {});
 
 }  // namespace wale

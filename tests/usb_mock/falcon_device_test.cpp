@@ -227,7 +227,7 @@ TEST_F(FalconDriver, IsUnpluggedWhileRunningAndPluggedInAgain) {
 TEST_F(FalconDriver, GivesTheForcesOfAStage) {
   const auto mock = mock_.plug(FalconModel({}, true), 1);
   DeviceProfile profile = sandpaper();
-  auto result = FalconDevice::open(context(), found(1), profile, falcon_in_mock_time());
+  auto result = FalconDevice::open(context(), found(1), trusted(profile), falcon_in_mock_time());
   ASSERT_TRUE(result) << in_words(result.error());
   const auto device = *std::move(result);
   mock->with_model([](FalconModel& model) { model.hand = {0.02, 0, 0.12}; });

@@ -18,7 +18,7 @@ double largest(const glm::dvec3& v) noexcept { return std::max({std::abs(v.x), s
 FalconPlane::FalconPlane(const ForceLimits& limits, const HoldInPlane& hold)
     : steps_per_newton_metre_(steps_per_newton_metre(limits.peak.x)), limits_(limits), hold_(hold) {}
 
-/// What the user's limit leaves across the plane, N, beside a force in it, which is made small enough first.
+/// Reduces a force in the plane to the user's limit. Returns the force across the plane that the limit leaves, N.
 double FalconPlane::room_across(glm::dvec2& force) const noexcept {
   const double size = glm::length(limits_.gain * force), most = limits_.most_newton;
   if (size > most) force *= most / size;

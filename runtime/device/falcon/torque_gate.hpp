@@ -15,9 +15,9 @@ namespace wale::falcon {
 /// declaration.
 double steps_per_newton_metre(double full_newton) noexcept;
 
-/// The last stage before a packet: the torques that it may carry. What is bounded is the force at the handle, with its
-/// part across the plane, at the place where the encoders say that the handle is. Without limits it lets no torque
-/// through. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+/// The last stage before a packet: limits its torques. It bounds the force vector at the handle, including the part
+/// across the plane, for the place of the handle that the encoders report. Without limits it lets no torque through.
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 class TorqueGate {
  public:
   TorqueGate() = default;

@@ -14,8 +14,8 @@ constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
 
 double finite_or_none(double value) noexcept { return std::isnan(value) ? 0 : std::clamp(value, -1.0, 1.0); }
 
-/// What is left of the limit `most` for an effect of `newton` at its full magnitude beside one that holds `other` N.
-/// Their forces are counted as if they pushed as much together as they can.
+/// The share of its full magnitude that an effect may get within the limit `most`, N, beside another effect that holds
+/// `other`. `newton` is its force at full magnitude. The signs are taken as those that add up to the larger force.
 double share_beside(glm::dvec2 newton, glm::dvec2 other, double most) noexcept {
   const double square = glm::dot(newton, newton), cross = std::abs(glm::dot(newton, other));
   const double left = most * most - glm::dot(other, other);

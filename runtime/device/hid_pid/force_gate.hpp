@@ -7,9 +7,9 @@
 
 #include "runtime/device/force_limits.hpp"
 
-// The last stage before a packet: how much force it may carry. All of it is real-time: allocates nothing, takes no
-// lock, makes no system call, does not throw. Shares are of the device's full force; directions are unit vectors along
-// its own axes.
+// The last stage before a packet decides how much force the packet may carry. All of it is real-time: allocates
+// nothing, takes no lock, makes no system call, does not throw. Shares are of the device's full force, in -1 .. 1.
+// Directions are unit vectors along the device's own axes.
 
 namespace wale::hid {
 
@@ -18,7 +18,7 @@ namespace wale::hid {
 glm::dvec2 unit(double degrees) noexcept;
 constexpr double toward_x = 90, toward_y = 180;  // degrees
 
-/// The magnitude of an effect, in counts of the packet's field. Only a `ForceGate` makes one that is not none.
+/// The magnitude of an effect, in counts of the packet's field. Only a `ForceGate` makes one other than zero.
 class Magnitude {
  public:
   Magnitude() = default;
@@ -31,12 +31,12 @@ class Magnitude {
   std::int64_t counts_ = 0;
 };
 
-/// A command along the device's own axes, made as small as the limits ask for: first each axis, then the whole in its
-/// direction. Not-a-number is none.
+/// A command along the device's own axes, reduced to the limits: first each axis, then the whole vector in its
+/// direction. Not-a-number becomes 0.
 glm::dvec2 within(const ForceLimits& limits, glm::dvec2 share) noexcept;
 
-/// Magnitudes of one effect that the device may hold now: the newest that is known to have arrived, and all that are on
-/// their way.
+/// The magnitudes of one effect that the device may hold now: the newest one known to have arrived, and all on their
+/// way.
 class MayHold {
  public:
   static constexpr int most_on_their_way = 8;
@@ -52,9 +52,9 @@ class MayHold {
   int count_ = 1;
 };
 
-/// Says what to send next, so that after each packet the force at the handle is within the limits, whatever the device
-/// may hold by then. A packet carries one effect: what the other one may still hold counts, so an effect that shrinks
-/// goes before one that grows, and one that grows gets as much as is free. Counts are rounded toward zero.
+/// Chooses the next packet so that the force at the handle is within the limits after each packet, for every state that
+/// the device may be in. A packet carries one effect, and the other effect may still hold an old force. So an effect
+/// that shrinks goes first, and an effect that grows gets the rest of the limit. Counts are rounded toward zero.
 class ForceGate {
  public:
   ForceGate() = default;
@@ -73,14 +73,14 @@ class ForceGate {
     double direction = 0;  ///< degrees, as in `ConstantEffect`, of an effect that is turned
   };
 
-  /// What is still to send of a command; nothing where all is sent, or waits for what is on its way. What it gives
-  /// counts as on its way until `arrived`.
+  /// The next part of a command to send; nothing if all is sent, or if the rest has to wait for packets on their way.
+  /// The part counts as on its way until `arrived`.
   std::optional<Change> next(glm::dvec2 wanted) noexcept;
   /// The oldest change of an effect has reached the device.
   void arrived(std::size_t effect) noexcept;
 
-  /// Of one effect, for a queue that nobody can look into: a direction and a magnitude that is within the limits along
-  /// every direction. So it does not matter which of the two arrives first, or at all.
+  /// The same of one effect, for a queue whose state is unknown: a direction, and a magnitude that is within the limits
+  /// along every direction. So each may arrive first, late or never.
   std::optional<Change> next_at_once(glm::dvec2 wanted) noexcept;
 
  private:

@@ -13,10 +13,10 @@
 
 namespace wale {
 
-/// A force-feedback joystick of USB's PID class, whatever its report descriptor makes of it. Positions are scaled from
-/// the descriptor's range to the profile's counts, forces from the trusted peak force to the descriptor's range.
-/// HID's y points to the user, and is turned: here x points to the right and y away. The caller turns the axes further
-/// as the device's `DeviceWiring` says.
+/// A force-feedback joystick of USB's PID class, laid out by its report descriptor. Positions are scaled from the
+/// descriptor's range to the profile's counts, forces from the trusted peak force to the descriptor's range. HID's y
+/// points to the user and is reversed: here x points to the right and y away. The caller turns the axes further by the
+/// device's `DeviceWiring`.
 ///
 /// If each of two axes has an effect, each packet carries one axis: they alternate when both change, which halves the
 /// rate of each. A lost device (`was_lost`) exerts no force and keeps its last position.
