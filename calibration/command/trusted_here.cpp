@@ -9,11 +9,12 @@ namespace wale::command {
 
 void offer_trusted_files(CLI::App& verb, std::vector<std::string>& files) {
   verb.add_option("--devices", files,
-                  "a Wale file whose exported devices you trust to say what a newton is on a real device, besides "
-                  "those of ~/.config/wale/devices.wale; may be repeated")
+                  "a Wale file whose exported devices may scale a real device, like those of "
+                  "~/.config/wale/devices.wale; may be repeated")
       ->type_name("FILE")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false)
+      ->take_all();
 }
 
 std::string owners_file() { return owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME")); }

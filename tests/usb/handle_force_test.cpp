@@ -252,7 +252,7 @@ TEST(HandleForce, NoTorquesExceedTheLimitsWhereverTheFalconsHandleIs) {
 
 TEST(HandleForce, AMovingFalconKeepsWithinTheUsersLimitWithItsHold) {
   for (const double most : {0.5, 3.0}) {
-    const ForceLimits limits{.peak = glm::dvec2(FalconModel::full_newton), .most_newton = most};
+    const ForceLimits limits = for_moving_handle({.peak = glm::dvec2(FalconModel::full_newton), .most_newton = most});
     FalconSessionOptions options;
     options.gate = TorqueGate(limits, HoldInPlane{}.most);
     FalconModel model({}, true);
@@ -276,9 +276,8 @@ TEST(HandleForce, AMovingFalconKeepsWithinTheUsersLimitWithItsHold) {
       fastest = std::max(fastest, glm::length(model.velocity));
     }
     EXPECT_GT(fastest, 0.3);
-    EXPECT_GT(largest, 0.97 * most);
-    // The handle has moved on since its encoders answered, by a millimetre at most.
-    EXPECT_LE(largest, 1.02 * most);
+    EXPECT_GT(largest, 0.95 * most);
+    EXPECT_LE(largest, most) << "also while the handle moves on after its encoders answered";
   }
 }
 

@@ -23,6 +23,10 @@ void wait_for_homing(FalconTransport& transport, const FalconOptions& options) {
   }
 }
 
+ForceLimits limits_of(const TrustedDevice& trusted, const FalconOptions& options) {
+  return falcon::for_moving_handle(force_limits(trusted, options.most_newton));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<FalconDevice>> FalconDevice::open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
@@ -31,7 +35,7 @@ Result<std::unique_ptr<FalconDevice>> FalconDevice::open(std::shared_ptr<UsbCont
   FalconTransport::Options wanted = options.transport;
   auto firmware = read_falcon_firmware(options.firmware);
   if (firmware) wanted.session.firmware = *std::move(firmware);
-  wanted.session.gate = falcon::TorqueGate(force_limits(trusted, options.most_newton), options.hold.most);
+  wanted.session.gate = falcon::TorqueGate(limits_of(trusted, options), options.hold.most);
 
   auto opened = FalconTransport::open(std::move(context), info, std::move(wanted));
   if (!opened) return std::move(opened.error());
@@ -53,7 +57,7 @@ FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, const Tru
                            const FalconOptions& options)
     : transport_(std::move(transport)),
       profile_(trusted.profile()),
-      plane_(force_limits(trusted, options.most_newton), options.hold),
+      plane_(limits_of(trusted, options), options.hold),
       is_held_(options.hold.stiffness > 0),
       now_(options.transport.now),
       stale_after_(static_cast<std::int64_t>(options.transport.session.stale_after * 1e6)) {}

@@ -14,6 +14,12 @@ double steps_per_newton_metre(double full_newton) noexcept {
   return most_torque / (worst * full_newton);
 }
 
+ForceLimits for_moving_handle(ForceLimits limits) noexcept {
+  constexpr double growth = 0.025;
+  limits.most_newton /= 1 + growth;
+  return limits;
+}
+
 TorqueGate::TorqueGate(const ForceLimits& limits, double most_across)
     : steps_per_newton_metre_(steps_per_newton_metre(limits.peak.x)),
       gain_(limits.gain, std::max(limits.gain.x, limits.gain.y)),

@@ -15,6 +15,11 @@ namespace wale::falcon {
 /// declaration.
 double steps_per_newton_metre(double full_newton) noexcept;
 
+/// Stricter limits, which still hold when the handle has moved on before the next packet. In the workspace the force of
+/// fixed torques grows by at most 1.2 % per millimetre, and a hand of 1 m/s moves 2 mm from one answer of the encoders
+/// to the packet after the next.
+ForceLimits for_moving_handle(ForceLimits limits) noexcept;
+
 /// The last stage before a packet: limits its torques. It bounds the force vector at the handle, including the part
 /// across the plane, for the place of the handle that the encoders report. Without limits it lets no torque through.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
