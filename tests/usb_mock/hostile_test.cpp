@@ -15,6 +15,7 @@
 #include <string>
 
 #include "schema/patch_program.hpp"
+#include "tests/usb/falcon_model.hpp"
 #include "tests/usb_mock/run_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
@@ -79,9 +80,9 @@ std::string pick(std::mt19937& random, std::initializer_list<const char*> texts)
 /// A declaration of the device that is plugged in, whose scale is a lie.
 std::string lying_declaration(std::mt19937& random, const std::string& name, const std::string& numbers) {
   return "export device " + name + " {\n  usb " + pick(random, {"any", ("\"" + numbers + "\"").c_str()}) +
-         "\n  class force_plane\n  axes " + pick(random, {"x, y", "y, -x", "-x, -y", "x, x"}) + "\n  motors " +
+         "\n  class force_plane\n  axes " + pick(random, {"x, y", "y, -x", "-x, -y", "-y, x", "x, x"}) + "\n  motors " +
          pick(random, {"x, y", "-y, x", "-x, y"}) + "\n  gain " +
-         pick(random, {"0.1", "0.1, 10", "1e-9", "-1", "10", "0/0", "unknown"}) + "\n  workspace disc(" +
+         pick(random, {"0.1", "0.1", "0.1, 10", "10", "10, 0.1", "unknown", "1e-9", "0/0"}) + "\n  workspace disc(" +
          pick(random, {"200 mm", "1 mm", "10 m", "0 mm"}) + ")\n  position " +
          pick(random, {"4096 counts", "2 counts", "1e9 counts"}) + "\n  force " +
          pick(random, {"0.001 N, 32767 counts", "1 mN, 1 counts", "1e-320 N, 32767 counts", "1e300 N, 1e300 counts",
@@ -129,6 +130,9 @@ void feel_all(unsigned seed, long count, const std::string& profile, const std::
   const Library library;
   const auto honest = library.material(source.write("strong.wale", std::string("wale 1\n") + strong), "", profile);
   ASSERT_TRUE(honest) << in_words(honest.error());
+  const test::Outcome honestly = run_wale("feel " + (source / "strong.wale") + " --seconds 1 --max-force '0.5 N'");
+  ASSERT_EQ(honestly.status, 0) << honestly.err;
+  ASSERT_GT(most_force(), 0.9 * allowed) << "an honest file reaches the limit\n" << honestly.err << honestly.out;
   long felt = 0, refused = 0;
   for (long i = 0; i < count; ++i) {
     const TemporaryFolder folder;
@@ -136,12 +140,11 @@ void feel_all(unsigned seed, long count, const std::string& profile, const std::
     const test::Outcome run = run_wale("feel " + file + " --seconds 0.15 --max-force '0.5 N'");
     ASSERT_LE(most_force(), allowed * (1 + 1e-9)) << i << ": " << file << "\n" << run.err << run.out;
     ASSERT_LE(run.status, 2) << i << ": " << file << "\n" << run.err;
-    if (run.status != 0) ASSERT_TRUE(contains(run.err, "error[W")) << i << ": " << file << "\n" << run.err;
+    ASSERT_TRUE(run.status == 0 || contains(run.err, "error[W")) << i << ": " << file << "\n" << run.err;
     ++(run.status == 0 ? felt : refused);
   }
-  EXPECT_GT(felt, count / 20) << "some are honest enough";
+  EXPECT_GT(felt, count / 50) << "some are honest enough";
   EXPECT_GT(refused, count / 10);
-  EXPECT_GT(most_force(), 0.9 * allowed) << "the limit was reached";
 }
 
 class Hostile : public testing::Test {
