@@ -18,6 +18,7 @@ struct FileRequest {
   std::string device = default_device;
   std::vector<std::string> roots;                  ///< folders in which imports are looked for at last
   std::vector<std::string>* looked_for = nullptr;  ///< gets the paths of what it imports or shows, found or not
+  Sandbox sandbox = Sandbox::required;             ///< of the decoder of its pictures
 };
 
 /// What such a file holds.

@@ -41,6 +41,7 @@ struct Choice {
   std::string file, material, device = default_device;
   std::string device_option;  ///< "--device" where that option named the device; empty: it is the default
   std::vector<std::string> folders;  ///< in which imports are looked for
+  Sandbox sandbox = Sandbox::required;
 
   FileRequest request() const;
 };

@@ -59,6 +59,7 @@ Run declare_compare(CLI::App& verb) {
       ->required();
   offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);
+  offer_sandbox(verb, options->choice.sandbox);
   verb.add_flag("--matrix", options->with_table,
                 "prints how far each is from every other, also of more materials than fit a screen");
   offer_json(verb, options->json,

@@ -54,8 +54,8 @@ Result<> without_empty_words(const CLI::App& verb) {
     if (std::ranges::find(words, "") == words.end()) continue;
     const std::string name = option->get_name();
     return Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("expected {}, found nothing", option->get_positional() ? "a word"
-                                                                       : option->get_type_name()),
+                 .sentence = fmt::format("expected {}, found nothing",
+                                         option->get_positional() ? "a word" : option->get_type_name()),
                  .mend = option->get_required() ? "" : fmt::format("leave out {} where nothing is meant", name),
                  .place = {.name = name}};
   }
@@ -69,10 +69,16 @@ void offer_library(CLI::App& verb, std::vector<std::string>& folders) {
     if (const auto found = are_folders(given); !found) throw CLI::ValidationError(error_text(found.error()), refused);
     folders = given;
   };
-  may_be_repeated(
-      verb.add_option_function<std::vector<std::string>>(
-              "--library", take, "a folder to look for imports in, after the file's own; may be repeated")
-          ->type_name("DIR"));
+  may_be_repeated(verb.add_option_function<std::vector<std::string>>(
+                          "--library", take, "a folder to look for imports in, after the file's own; may be repeated")
+                      ->type_name("DIR"));
+}
+
+void offer_sandbox(CLI::App& verb, Sandbox& sandbox) {
+  const auto take = [&sandbox](std::int64_t) { sandbox = Sandbox::if_possible; };
+  verb.add_flag_function(
+      "--unsandboxed-pictures", take,
+      "decodes pictures also where the system has no sandbox for it; only for pictures that you trust");
 }
 
 void offer_device(CLI::App& verb, std::string& device) {
@@ -94,6 +100,7 @@ void offer_material(CLI::App& verb, Choice& choice, const char* device_option) {
   verb.add_option("--material", choice.material, "which material of the file (default: its first)")->type_name("NAME");
   offer_device(verb, choice, device_option);
   offer_library(verb, choice.folders);
+  offer_sandbox(verb, choice.sandbox);
 }
 
 void offer_settings(CLI::App& verb, std::vector<std::string>& settings) {

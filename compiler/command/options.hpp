@@ -26,12 +26,15 @@ Result<> without_empty_words(const CLI::App& verb);
 /// --library DIR, which may be repeated. A DIR that is no folder ends the command.
 void offer_library(CLI::App& verb, std::vector<std::string>& folders);
 
+/// --unsandboxed-pictures, for a verb that compiles materials.
+void offer_sandbox(CLI::App& verb, Sandbox& sandbox);
+
 /// --device NAME, or the same under another name, for a verb without a material.
 void offer_device(CLI::App& verb, std::string& device);
 /// The same for a material.
 void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device");
 
-/// FILE, --material NAME, --device NAME and --library DIR: what names one material.
+/// FILE, --material NAME, --device NAME, --library DIR and --unsandboxed-pictures: what names one material.
 void offer_material(CLI::App& verb, Choice& choice, const char* device_option = "--device");
 
 /// --set NAME=VALUE, which may be repeated.
