@@ -12,7 +12,7 @@ foreach(file IN LISTS common modules)
   # Read as hexadecimal: a list separator or bracket in the text must not mean anything to CMake.
   file(READ "${ROOT}/${file}" bytes HEX)
   string(LENGTH "${bytes}" size)
-  math(EXPR size "${size} / 2")  # said, since there may be zeros among them
+  math(EXPR size "${size} / 2")  # given, since the bytes may contain zeros
   string(REGEX REPLACE "(..)" "\\\\x\\1" escaped "${bytes}")
   string(REPLACE "\\x0a" "\\x0a\"\n     \"" escaped "${escaped}")  # a line of text, a line of code
   string(APPEND text "    {\"${file}\",\n     {\"${escaped}\", ${size}}, ${is_common}},\n")

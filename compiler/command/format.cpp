@@ -37,7 +37,7 @@ Result<ResolvedFile> standard_input() {
   }
 }
 
-/// One file, "-" from standard input to standard output.
+/// Formats one file; "-" means from standard input to standard output.
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
   auto read = standard ? standard_input() : read_file(file);
@@ -79,6 +79,6 @@ Run declare_format(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb format_verb{"format", "writes Wale files in the language's one style", declare_format};
+extern const Verb format_verb{"format", "formats Wale files in the standard style", declare_format};
 
 }  // namespace wale::command

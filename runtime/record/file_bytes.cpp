@@ -15,7 +15,7 @@ Result<FileBytes> FileBytes::map(const std::string& path) {
   const auto opened = open_regular_file(path);
   if (!opened) {
     Error error = opened.error();
-    error.sentence = "cannot be read: " + error.sentence;
+    error.sentence = "the file cannot be read: " + error.sentence;
     return error;
   }
   const int file = *opened;
@@ -33,7 +33,7 @@ Result<FileBytes> FileBytes::map(const std::string& path) {
   close(file);
   if (error == 0) return bytes;
   return Error{.code = Code::unreadable_file,
-               .sentence = "cannot be read: " + std::generic_category().message(error),
+               .sentence = "the file cannot be read: " + std::generic_category().message(error),
                .place = {.name = path}};
 }
 

@@ -69,7 +69,7 @@ TEST(SuitedDevice, OtherFiguresOfForceAndPlaceAreRefused) {
   for (const auto& [figure, change] : changes) {
     const Error error = on_plugged(program, change);
     EXPECT_EQ(code_name(error.code), "W0607") << figure << ": " << error.sentence;
-    EXPECT_EQ(error.sentence, "`wall` is built for a `openffboard` with other figures than its declaration has");
+    EXPECT_EQ(error.sentence, "`wall` is built for a `openffboard` with other figures than in its declaration");
     EXPECT_FALSE(error.mend.empty()) << figure;
   }
 }

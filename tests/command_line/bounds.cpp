@@ -155,7 +155,7 @@ TEST(Bounds, ImportsThousandsDeepAreOneDiagnostic) {
   for (int i = 0; i < files; ++i)
     folder.write("m" + std::to_string(i) + ".wale", "wale 1\nimport m" + std::to_string(i + 1) + "\n");
   const Outcome outcome = check_within_bounds(folder / "m0.wale");
-  EXPECT_TRUE(contains(outcome.out, "error[W0108]: more than 64 files import one another in a row")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "error[W0108]: imports are nested more than 64 files deep")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "1 file: 1 error,")) << outcome.out;
 }
 

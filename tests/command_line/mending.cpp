@@ -44,7 +44,7 @@ TEST(CheckFix, MendsWhatIsBeyondDoubtAndSaysWhat) {
   EXPECT_EQ(bytes_of(file), right);
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   EXPECT_EQ(outcome.out, "1 file: 0 errors, 0 warnings\n");
-  EXPECT_TRUE(contains(outcome.err, "mended " + file + ":2:25: leave out the `=`")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "mended " + file + ":2:25: remove the `=`")) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, ": write `material`\n")) << outcome.err;
   EXPECT_EQ(entries(folder), 1u) << "no temporary file stays";
 }

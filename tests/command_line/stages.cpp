@@ -58,7 +58,7 @@ TEST(Emit, StopsWhereTheMaterialIsWrong) {
   const Outcome ir = wale({"build", open, "--emit", "ir"});
   EXPECT_EQ(ir.status, 1);
   EXPECT_EQ(ir.out, "");
-  EXPECT_TRUE(contains(ir.err, "nothing says how hard this pushes")) << ir.err;
+  EXPECT_TRUE(contains(ir.err, "the size of this force is not given")) << ir.err;
 }
 
 }  // namespace

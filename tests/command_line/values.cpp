@@ -94,8 +94,8 @@ TEST(Values, EmptyTextsAreRefusedByTheirOption) {
 
 TEST(Values, NamesThatMeanNothingAreRefused) {
   expect_refused(
-      {{{"describe", "brick:"}, 1, "behind its colon"},
-       {{"compare", "denim:", "velvet"}, 1, "behind its colon"},
+      {{{"describe", "brick:"}, 1, "after its colon"},
+       {{"compare", "denim:", "velvet"}, 1, "after its colon"},
        {{"describe", corduroy + ":corduroy", "--material", "other"}, 1, "names `corduroy`, and --material `other`"},
        {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
        {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},

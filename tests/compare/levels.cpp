@@ -106,7 +106,7 @@ TEST(Levels, ThatThereAreNoneIsExplained) {
   EXPECT_TRUE(contains(reason(propose("springiness", 4, 5)),
                        "less than 5 just noticeable differences apart; ask for 3 levels"));
   EXPECT_TRUE(contains(reason(propose("springiness", 2, 50)), "no two levels"));
-  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "expected two levels or more"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "expected at least two levels"));
   EXPECT_TRUE(contains(reason(propose("springiness", 3, 0)), "must be above 0"));
 }
 
@@ -135,7 +135,7 @@ TEST(Levels, OfWhatOnlyShakesAreOfShaking) {
   const auto spring = propose_levels("springiness", "touch_pad", std::nullopt, 1, common_modules()->declarations);
   ASSERT_FALSE(spring);
   EXPECT_EQ(spring.error().code, Code::percept_unrealised);
-  EXPECT_EQ(spring.error().sentence, "`touch_pad` only shakes, and has no realisation of springiness");
+  EXPECT_EQ(spring.error().sentence, "`touch_pad` only vibrates, and has no realisation of springiness");
 }
 
 TEST(CloseLevels, AreJudgedOnTheDeviceAtHand) {

@@ -74,7 +74,7 @@ TEST(WrittenOut, IsNotWhatCountsWhereAnArgumentIsWrong) {
                 std::string::npos)
           << smooth;
     EXPECT_NE(complaint("lateral(grating(x + 1 mm * sin(time / 1 s), period: k), 1 N)")
-                  .find("`peak` takes a height that depends on the place only, and this changes with time"),
+                  .find("`peak` takes a height that depends on the place only, but this changes with time"),
               std::string::npos);
   }
 }

@@ -109,8 +109,8 @@ TEST(Lexing, LookalikesAreReadAsWhatTheyMean) {
       {"1 … 2", "write `..`", {number, range, number, end}},
       {"1 .... 2", "write `..`", {number, range, number, end}},
       {"v’ = 1", "write `'`", {name, prime, equals, number, end}},
-      {"“a”", "texts stand between straight quotes: write `\"`", {text, end}},
-      {"„a“", "texts stand between straight quotes: write `\"`", {text, end}},
+      {"“a”", "write texts in straight quotes: `\"`", {text, end}},
+      {"„a“", "write texts in straight quotes: `\"`", {text, end}},
       {"5 µm", "write `um`", {number, name, end}},  // U+00B5, the micro sign
       {"5 μm", "write `um`", {number, name, end}},  // U+03BC, the Greek letter
       {"90°", "write `deg`", {number, name, end}},

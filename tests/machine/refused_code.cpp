@@ -68,7 +68,7 @@ TEST(RefusedCode, KnowsItsPlaceInTheSource) {
   EXPECT_EQ(refusal.led_to[0].source, "");
   EXPECT_EQ(refusal.led_to[1].source, "bench.wale:7");
   EXPECT_EQ(explained(refusal),
-            "tick 1 `cosine` has 5 for operand b, which it does not use and must be zero\n"
+            "tick 1 `cosine` has 5 for operand b, which it does not use, expected 0\n"
             "  tick 0  r43 = multiply r0 r38\n"
             "  tick 1  r44 = cosine r43 5  (bench.wale:7)\n");
 }

@@ -190,7 +190,7 @@ TEST(LevelsBack, AreRefusedWithTheReason) {
   Felt felt;
   felt.crossings = 49;
   EXPECT_EQ(in_words(levels_back(bank, felt)[0].back.error()),
-            "the hand crossed the texture 49 times, and 50 are needed");
+            "the hand crossed the texture 49 times, expected at least 50");
 
   PatchProgram program = corduroy(1.934f).description();
   program.percepts[0].alone = false;

@@ -179,8 +179,9 @@ TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
     return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
   };
   EXPECT_EQ(reason(""), "the file is empty: nothing was recorded in it");
-  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"), "this is not a recording: the first bytes of one are missing; "
-                                          "make one with `wale feel FILE --record NAME.wrec`");
+  EXPECT_EQ(reason("t (s),x (m)\n0,0\n"),
+            "this is not a recording: its first bytes are not those of a .wrec file; "
+            "make one with `wale feel FILE --record NAME.wrec`");
   EXPECT_EQ(reason("\x89WRC\n\x1a\n"), "a transfer as text has damaged the recording; copy it as binary");
   EXPECT_EQ(reason(std::string("\x89WRC\r\n\x1a\n", 8)),
             "the file is cut short within its header, at byte 8; copy it again");
@@ -190,10 +191,10 @@ TEST(RecordingFile, WhatIsNoneIsRefusedWithAReason) {
   header.version = 2;
   header.check = check_of(header);
   std::memcpy(newer.data(), &header, sizeof header);
-  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 2, and this Wale reads up to 1; update Wale");
+  EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 2, but this Wale reads only up to 1; update Wale");
   const TemporaryFolder folder;
   const auto missing = Recording::open(folder / "none.wrec");
-  EXPECT_EQ(refused(missing), "cannot be read: No such file or directory");
+  EXPECT_EQ(refused(missing), "the file cannot be read: No such file or directory");
   EXPECT_EQ(missing.error().place.name, folder / "none.wrec");
 }
 

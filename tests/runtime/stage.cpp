@@ -373,7 +373,7 @@ TEST(Stage, RefusesParametersThatAreNotThereOrOutOfRange) {
   EXPECT_FALSE(stage.set("wale", std::nanf("")));
   EXPECT_TRUE(stage.set("wale", 0.005f));
   stage.place(oil(1));
-  EXPECT_EQ(in_words(stage.set("wale", 0.002f).error()), "by hand has no parameter wale; it has none at all");
+  EXPECT_EQ(in_words(stage.set("wale", 0.002f).error()), "by hand has no parameter wale; it has no parameters");
 }
 
 TEST(Stage, AFractionOfASecondIsARun) {

@@ -387,7 +387,7 @@ TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
 }
 
 TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
-  EXPECT_TRUE(contains(run_wale("devices").out, "no device that could be felt on"));
+  EXPECT_TRUE(contains(run_wale("devices").out, "no device to feel on"));
   mock_.plug(PidModel(openffboard()), 1);
   PidModel plain(arduino());
   plain.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");

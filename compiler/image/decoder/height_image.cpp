@@ -34,7 +34,7 @@ struct HeightField {
   std::vector<float> heights;
 };
 
-/// OpenImageIO's words on one line, or ours where it has none.
+/// OpenImageIO's message on one line, or `otherwise` if it gives none.
 std::string words_of(std::string error, const std::string& otherwise) {
   const auto lines = OIIO::Strutil::splits(OIIO::Strutil::strip(error), "\n");
   const std::string words = OIIO::Strutil::join(lines, "; ");

@@ -14,7 +14,7 @@ Result<Trace> load_trace(const std::string& path) {
   const auto text = read_regular_file(path, largest_trace);
   if (!text) {
     Error error = text.error();
-    error.sentence = "cannot be read: " + error.sentence;
+    error.sentence = "the file cannot be read: " + error.sentence;
     return error;
   }
   auto trace = read_trace(*text);
