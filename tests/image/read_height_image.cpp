@@ -244,7 +244,7 @@ TEST(Image, DeclaredHugePictureIsRefusedBeforeItIsRead) {
   EXPECT_EQ(error.mend, "resize it to at least 4 x 4 pixels and at most 4096 x 4096");
 }
 
-TEST(Image, WhatIsNoPictureSaysSo) {
+TEST(Image, OtherFilesAreRefused) {
   EXPECT_EQ(problem_of({}, "a.png"), "the file is empty");
   const Bytes words(300, std::byte{'w'});
   EXPECT_EQ(problem_of(words, "a.txt"), "the file is in no picture format that OpenImageIO knows");
@@ -255,7 +255,7 @@ TEST(Image, WhatIsNoPictureSaysSo) {
   EXPECT_EQ(read_height_image(words, "a.dpx", 0).error().place.name, "a.dpx");
 }
 
-TEST(Image, TruncatedFilesAreRefusedWithWords) {
+TEST(Image, TruncatedFilesAreRefusedWithASentence) {
   for (const auto& [name, bytes] : one_of_each()) {
     read(bytes, name);
     for (double part : {0.02, 0.3, 0.6}) {

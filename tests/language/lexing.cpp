@@ -95,7 +95,7 @@ TEST(Lexing, BracketsKnowTheirPartners) {
   EXPECT_EQ(cut.tokens.tokens[4].value, 5u);
 }
 
-TEST(Lexing, LookalikesAreReadAsWhatTheyMean) {
+TEST(Lexing, LookalikesAreReadAsTheCharacterThatIsMeant) {
   const struct {
     const char *text, *mend;
     Kinds kinds;
@@ -149,7 +149,7 @@ TEST(Lexing, NumbersBeyondTheMachineAreRefused) {
   EXPECT_FALSE(Cut("0 0.0 0e5 1e308 1e-300").diagnostics.has_errors());
 }
 
-TEST(Lexing, WhatIsNoTextGivesOneError) {
+TEST(Lexing, InvalidTextGivesOneError) {
   const struct {
     std::string text;
     std::uint32_t at;

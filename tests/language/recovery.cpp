@@ -44,7 +44,7 @@ TEST(Recovery, EveryStatementReportsItsOwnErrorOnce) {
                                   "W0101 18:15 Wale does not use the character `@`",
                                   "W0103 21:1 no declaration begins with `force`",
                               }));
-  // What could be read is there, and what was defined wrongly is still defined.
+  // The tree has everything that could be read, and names with a wrong definition are defined.
   EXPECT_EQ(reading.printed(),
             "(material m\n"
             "  (perceptual\n"
@@ -65,7 +65,7 @@ TEST(Recovery, EveryStatementReportsItsOwnErrorOnce) {
             "    (force (lateral x))))\n");
 }
 
-TEST(Recovery, AMissingBraceIsReportedWhereTheNextThingBeginsAndNamesItsPartner) {
+TEST(Recovery, AMissingBraceIsReportedAtTheNextBlockAndNamesItsPartner) {
   const Reading reading(
       "wale 1\n"
       "material a {\n"
@@ -86,7 +86,7 @@ TEST(Recovery, AMissingBraceIsReportedWhereTheNextThingBeginsAndNamesItsPartner)
   EXPECT_EQ(reading.tree.declarations.size(), 3u);
 }
 
-TEST(Recovery, AMisspeltWordIsReadAsWhatWasMeant) {
+TEST(Recovery, AMisspeltWordIsReadAsTheNearestOne) {
   const Reading reading("wale 1\nmateriall m { physicl { heigt h = x; force = lateral(h) } }\n");
   EXPECT_EQ(reading.errors(),
             (Errors{"W0103 2:1 no declaration begins with `materiall`", "W0103 2:15 a material has no `physicl`",
@@ -165,7 +165,7 @@ TEST(Version, StandsAtTheHead) {
   EXPECT_EQ(Reading("let a = 1\n").diagnostics.all()[0].help, "write `wale 1` in a line above everything else");
 }
 
-TEST(Version, ANewerOneIsNotGuessedAt) {
+TEST(Version, ANewerFileIsNotParsed) {
   const Reading reading("wale 2\nnew ¬ syntax { (\n");
   EXPECT_EQ(reading.errors(), (Errors{"W0105 1:1 this file is written in wale 2"}));
   EXPECT_TRUE(reading.tree.declarations.empty());

@@ -1,4 +1,4 @@
-// One test for every rule of schema/PATCH_PROGRAM.md, "Verification": a program that only this rule refuses.
+// One test for every rule of schema/PATCH_PROGRAM.md, "Verification", with programs that only this rule refuses.
 
 #include <gtest/gtest.h>
 
@@ -77,10 +77,10 @@ TEST(Verification, DefinitionsComeBeforeUse) {
             "setup 0 `divide` reads register 41, which no earlier instruction writes");
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].a = 49; }),
             "tick 0 `multiply` reads register 49, but the program has 49");
-  // What tick wrote is gone when the picture is drawn.
+  // The picture may not read registers that the tick wrote.
   EXPECT_EQ(refusal_after([](auto& p) { p.picture.code[0].a = 47; }),
             "picture 0 `multiply` reads register 47, which no earlier instruction writes");
-  // Nor does a peak leave anything to the tick.
+  // The tick may not read registers that a peak wrote.
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[0].a = 46; }),
             "tick 0 `multiply` reads register 46, which no earlier instruction writes");
 }

@@ -1,4 +1,4 @@
-// The rules of schema/PATCH_PROGRAM.md, "Verification", for what a program remembers and shows, one test each.
+// The rules of schema/PATCH_PROGRAM.md, "Verification", for states, grids and pictures, one test each.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ TEST(VerificationOfMemory, StatesHaveNamesAndRanges) {
   }
 }
 
-/// The least program with so many states.
+/// The smallest program with `count` states.
 PatchProgram with_states(std::size_t count) {
   PatchProgram p = example::least();
   for (std::size_t i = 0; i < count; ++i) p.states.push_back({std::to_string(i), 0, 1, 32, 33});

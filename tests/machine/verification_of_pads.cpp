@@ -1,4 +1,4 @@
-// Programs for devices that only vibrate: what the loader takes, and what it refuses with which reason.
+// Programs for devices that only vibrate: which the loader accepts, and its reasons for refusing the others.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(VerificationOfPads, EachOutputHasItsOwnCeiling) {
   EXPECT_EQ(refusal_after([](auto& p) { p.constants[2] = 200.1f; }),
             "output frequency has register 34 as its ceiling, expected a constant above 0 and up to 200 Hz, "
             "or a register that setup limits by such a constant");
-  // A frequency may be greater than the greatest amplitude, but not the other way round.
+  // The frequency's ceiling of 200 is valid for the frequency and too high for the amplitude.
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[2].b = p.outputs[0].ceiling = 34; }).substr(0, 35),
             "output amplitude has register 34 as");
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[3].operation = static_cast<std::uint8_t>(Operation::minimum); }),
@@ -73,7 +73,7 @@ TEST(VerificationOfPads, TheDeviceMakesSense) {
   EXPECT_NE(refusal_after([](auto& p) { p.device.shaker->exploring_speed = 0; }, none), "");
 }
 
-TEST(VerificationOfPads, FatesAreOnesThatAreKnown) {
+TEST(VerificationOfPads, FatesAreKnownAndWithinTheirRange) {
   EXPECT_EQ(refusal_after([](auto& p) { p.fates[0].name.clear(); }), "fate 0 has no name");
   EXPECT_NE(refusal_after([](auto& p) { p.fates[0].fate = Fate{0}; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.fates[0].asked = 1.5f; }), "");

@@ -21,7 +21,7 @@ std::string refusal_of(const Bytes& bytes) {
   return result ? "" : in_words(result.error());
 }
 
-/// The refusal of the example with one thing changed and the checksum made to match.
+/// The refusal of the example after the `size` bytes at `at` are set to `value` and the checksum is corrected.
 std::string refusal_with(std::size_t at, std::uint64_t value, int size) {
   Bytes bytes = example_bytes();
   wpp::put(bytes, at, value, size);
@@ -89,7 +89,7 @@ TEST(Refusals, EveryTruncation) {
     const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
     ASSERT_NE(refusal_of(cut), "") << size;
     if (size < 32) continue;
-    // Nor does it help to declare the cut file whole.
+    // The file is refused even if its header declares the shorter size and the checksum matches.
     Bytes crafted = cut;
     wpp::put(crafted, 16, size, 8);
     ASSERT_NE(refusal_of(wpp::sealed(crafted)), "") << size;
@@ -172,7 +172,7 @@ TEST(Refusals, Texts) {
             "section NAME has a NUL byte inside the material's name");
 }
 
-TEST(Refusals, FiguresThatAreNone) {
+TEST(Refusals, FiguresThatAreNotFinite) {
   constexpr std::uint64_t nan32 = 0x7fc00000, inf64 = 0x7ff0000000000000;
   EXPECT_EQ(refusal_of_content("PTCH", [](Bytes& b) { wpp::put(b, 4, nan32, 4); }),
             "section PTCH holds nan for the patch's height, expected a finite number");
@@ -219,7 +219,7 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
 }
 
 TEST(Refusals, PlacesThatDoNotFitTheCode) {
-  const std::size_t run = 4 + (4 + 10) + (4 + 9) + 4;  // setup's, after the count of files, both of them, and of runs
+  const std::size_t run = 4 + (4 + 10) + (4 + 9) + 4;  // setup's first run, after the files and the count
   EXPECT_EQ(refusal_of_content("PLAC", [&](Bytes& b) { wpp::put(b, run, 3, 4); }),
             "section PLAC has places for 3 instructions, but the code has 4");
   EXPECT_EQ(refusal_of_content("PLAC", [&](Bytes& b) { wpp::put(b, run, 0, 4); }),
@@ -249,8 +249,8 @@ TEST(Refusals, EmptySectionsThatAreLeftOut) {
             "section PLAC is empty; a file without places leaves it out");
 }
 
-// What a loader accepts it can write again to the same bytes: no two files say the same.
-TEST(Refusals, WhateverIsAcceptedIsCanonical) {
+// An accepted file is written again as the same bytes, so no two files mean the same program.
+TEST(Refusals, AcceptedFilesAreCanonical) {
   const std::size_t sections = wpp::get(example_bytes(), 12, 4);
   int accepted = 0;
   for (const Bytes& whole : {example_bytes(), write_patch_program(example::pad())})
@@ -263,14 +263,14 @@ TEST(Refusals, WhateverIsAcceptedIsCanonical) {
         if (!result) continue;
         ++accepted;
         const bool unknown_section = at >= 32 && at < 32 + 24 * sections;
-        if (unknown_section) continue;  // one that lost its name is skipped
+        if (unknown_section) continue;  // a section with a changed name is skipped
         ASSERT_EQ(write_patch_program(*result), wpp::sealed(bytes)) << "byte " << at;
       }
     }
   EXPECT_GT(accepted, 100);
 }
 
-TEST(Refusals, WhatAPadVibratesWith) {
+TEST(Refusals, VibrationOfAPad) {
   const Bytes pad = write_patch_program(example::pad());
   const auto refusal = [&](const std::function<void(Bytes&)>& change) {
     auto sections = wpp::sections_of(pad);
