@@ -52,7 +52,7 @@ int check(const CheckOptions& options) {
 
 Run declare_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckOptions>();
-  verb.add_option("FILE", options->files, "Wale files")->required();
+  verb.add_option("FILE", options->files, "paths of Wale files; names of materials are not looked for")->required();
   offer_library(verb, options->folders);
   offer_sandbox(verb, options->sandbox);
   offer_json(verb, options->json, "the diagnostics as a JSON array");
