@@ -79,7 +79,7 @@ TEST(Names, YieldToFilesWithANote) {
   fs::current_path(before);
   ASSERT_EQ(file.status, 0) << file.err;
   EXPECT_EQ(file.json().at("material"), "mine");
-  EXPECT_TRUE(contains(file.err, "the material with that name is `library/fabric/denim.wale:denim`")) << file.err;
+  EXPECT_TRUE(contains(file.err, "the material of that name is `library/fabric/denim.wale:denim`")) << file.err;
   EXPECT_EQ(path.err, "");
 }
 
