@@ -106,7 +106,12 @@ Result<> write_file(const std::string& path, std::string_view bytes) {
                .place = {.name = path}};
 }
 
-FileRequest Choice::request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
+FileRequest Choice::request() const {
+  return {.file = file,
+          .device = device,
+          .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
+          .sandbox = sandbox};
+}
 
 void say_taken(const OpenedFile& opened) {
   if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);

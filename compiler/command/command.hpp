@@ -40,6 +40,7 @@ struct Choice {
   std::string file, material, device = default_device;
   std::string device_option;         ///< "--device" if that option named the device; empty for the default device
   std::vector<std::string> folders;  ///< folders to search for imports
+  Sandbox sandbox = Sandbox::required;  ///< of the decoder of its pictures
 
   FileRequest request() const;
 };
