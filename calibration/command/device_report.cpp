@@ -106,6 +106,8 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
                           : "used as " + name);
   }
   if (!device.transport.empty()) line("driven by " + device.transport);
+  if (!device.can.empty() && !device.driver->left_alone.empty())
+    line(fmt::format("if Wale and its keeper are killed together, it {}", device.driver->left_alone));
   if (!device.held_by.empty()) line(fmt::format("in use by {}", fmt::join(device.held_by, ", ")));
   if (!device.can.empty() && device.processes_hidden > 0)
     line(fmt::format("perhaps in use by others: the files of {} processes cannot be seen by this user",
@@ -127,6 +129,7 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Dec
           {"generic", match.is_generic},
           {"can", device.can},
           {"transport", device.transport},
+          {"left_alone", device.driver->left_alone},
           {"held_by", device.held_by},
           {"processes_hidden", device.processes_hidden},
           {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};

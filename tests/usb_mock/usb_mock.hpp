@@ -65,6 +65,7 @@ class MockUsbDevice {
   void set_unserved(UMockdevIoctlClient* client);
   int submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   int discard(UMockdevIoctlData* argument);
+  int transfer_at_once(gulong request, UMockdevIoctlData* argument);
   int reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   void end(const Urb& urb, int status, int length);
   static void release(const Urb& urb);

@@ -47,8 +47,8 @@ class EvdevNode {
 ///
 /// An update returns before its report has gone, and the driver queues up to 256 of them, old forces before new ones.
 /// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it
-/// told when another program resets the device through hidraw. When the node is closed, also by a kill, the kernel
-/// erases the effects.
+/// told when another program resets the device through hidraw. When the last descriptor of the open file is closed, also
+/// by a kill, the kernel erases the effects; the keeper has one too, and erases them itself.
 class EvdevTransport final : public PidTransport {
  public:
   struct Limits {
@@ -75,10 +75,13 @@ class EvdevTransport final : public PidTransport {
   Result<> upload(std::size_t effect);
   bool tell(std::uint16_t code, std::int32_t value);
   void start_threads(int priority);
+  Result<> get_keeper(const std::optional<KeeperOptions>& options);
 
+  bool may_go(bool pushes);
   void write_forces();
   bool write_next(std::int64_t now);
   bool refresh(std::int64_t now);
+  bool is_level() const noexcept;
   bool turn_and_push();
   std::int64_t level_of(double magnitude) const noexcept;
   void read_positions();

@@ -54,14 +54,4 @@ void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept
   }
 }
 
-/// The session no longer knows the device's state, and its blocks may belong to another program by now. So it sends
-/// nothing more; effects of ours that still play end with their duration.
-void PidSession::dispossess() noexcept {
-  lost_ = true;
-  reason_ = "another program has reset it or stopped its effects";
-  why_ = Code::lost_device;
-  step_ = Step::none;
-  state_ = State::over;
-}
-
 }  // namespace wale::hid

@@ -25,6 +25,7 @@ Result<std::unique_ptr<PidTransport>> ReportTransport::open(PidTransportKind kin
                                                             const PidTransportOptions& options) {
   std::unique_ptr<ReportTransport> transport(new ReportTransport(kind, channel, options));
   if (Result<> running = transport->wait_until_running(); !running) return std::move(running).error();
+  if (Result<> kept = transport->get_keeper(options.keeper); !kept) return std::move(kept).error();
   return transport;
 }
 
@@ -55,6 +56,7 @@ ReportTransport::~ReportTransport() {
     closes_ = true;
   }
   channel_->close();
+  end_keeper();  // now that nothing is sent any more
 }
 
 /// Until the device runs and has told where it is, or is lost.
@@ -69,6 +71,41 @@ Result<> ReportTransport::wait_until_running() {
   if (!session_.input()) return Error{Code::unlike_device, "it sends no position"};
   ranges_ = ranges_of(*session_.layout());
   return {};
+}
+
+/// While the device pushes nothing yet.
+Result<> ReportTransport::get_keeper(const std::optional<KeeperOptions>& options) {
+  if (!options) return {};
+  LetGoPlan plan;
+  {
+    const std::lock_guard lock(mutex_);
+    plan = channel_->let_go_plan(session_.leaving());
+  }
+  auto keeper = Keeper::start(plan, channel_->descriptor(), *options);
+  if (!keeper) return std::move(keeper).error();
+  set_keeper(*std::move(keeper));
+  return {};
+}
+
+/// Before packets are made. Under the lock.
+void ReportTransport::heed_keeper() {
+  if (!keeper()) return;
+  const Keeper::Verdict verdict = keeper()->look();
+  switch (verdict) {
+    case Keeper::Verdict::good: break;
+    case Keeper::Verdict::late: session_.hush(); break;
+    case Keeper::Verdict::slept:
+    case Keeper::Verdict::gone: session_.lose(keeper()->why(verdict), Outcome::failed, Code::lost_device); break;
+    case Keeper::Verdict::latched: session_.give_up(keeper()->why(verdict)); break;
+  }
+}
+
+/// The last look before a packet goes; whoever asks is about to make the system call.
+bool ReportTransport::may_go(const hid::Transfer& transfer) const noexcept {
+  if (!keeper()) return true;
+  if (transfer.pushes) keeper()->note_push();
+  const Keeper::Verdict verdict = keeper()->look();
+  return verdict == Keeper::Verdict::good || (verdict != Keeper::Verdict::latched && !transfer.pushes);
 }
 
 /// Packs the session's input for the loop, and says when the device is lost. Under the lock.
@@ -93,10 +130,15 @@ void ReportTransport::write_forces() {
 /// Submits what the session wants. Under the lock.
 void ReportTransport::pump() {
   using State = hid::PidSession::State;
-  while (const auto transfer = session_.next(now_())) {
-    const Outcome outcome = channel_->submit(*transfer, session_.state() == State::setting_up);
+  heed_keeper();
+  while (auto transfer = session_.next(now_())) {
+    transfer->pushes = session_.state() == State::running && session_.holds_force();
+    const bool may_go = this->may_go(*transfer);
+    const Outcome outcome =
+        may_go ? channel_->submit(*transfer, session_.state() == State::setting_up) : Outcome::failed;
     if (outcome != Outcome::done) session_.finish(*transfer, outcome, {}, now_());
   }
+  if (keeper() && session_.is_slack()) keeper()->note_slack();
   if (!listens_ && session_.state() == State::running) {
     listens_ = true;
     if (const Outcome outcome = channel_->listen(); outcome != Outcome::done) {
