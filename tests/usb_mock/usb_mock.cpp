@@ -394,7 +394,7 @@ UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
       next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up
       std::this_thread::sleep_until(next);
       const std::lock_guard lock(mutex_);
-      if (in_step_ == 0 && is_served()) frame();
+      if (in_step_ == 0 && (!waits_for_drivers || is_served())) frame();
     }
   });
 }

@@ -137,6 +137,9 @@ class UsbMock {
   /// not take what has ended.
   void pass_frame();
 
+  /// False: frames that pass by themselves wait for no driver, as those of a real device, also where it is stopped.
+  std::atomic<bool> waits_for_drivers{true};
+
   /// Frames since the beginning.
   long frames() const { return frames_.load(); }
 
