@@ -18,7 +18,7 @@ Error unwritable(const std::string& path, std::string sentence) {
   return {.code = Code::unwritable_file, .sentence = std::move(sentence), .place = {.name = path}};
 }
 
-/// Writes a whole program. Half of one is removed.
+/// Writes a program file. If it cannot be written completely, it is removed.
 Result<> write_program(const std::string& path, const std::vector<std::byte>& bytes) {
   std::ofstream file(path, std::ios::binary);
   if (!file) return unwritable(path, fmt::format("cannot write this file: {}", std::strerror(errno)));

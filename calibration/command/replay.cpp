@@ -47,9 +47,9 @@ std::string verdict(const Replay& replay, double rate) {
   if (!replay.first) return "the same, bit for bit";
   const ReplayDifference& first = *replay.first;
   return fmt::format(
-      "differs on {} of {} ticks, first on tick {} ({:.4f} s without what was skipped): the {} was {:.9g} and is "
+      "differs on {} of {} ticks, first on tick {} ({:.4f} s, skipped periods not counted): the {} was {:.9g} and is "
       "{:.9g}; "
-      "commanded at most {:.3g} apart",
+      "the commands differ by at most {:.3g}",
       replay.differing, replay.ticks, first.tick, static_cast<double>(first.tick) / rate, first.what, first.recorded,
       first.replayed, replay.largest_force);
 }
@@ -64,7 +64,7 @@ std::string replay_text(const std::string& file, const Recording& recording, con
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
                       header.device.rate);
   for (const std::string& material : summary.materials) text += fmt::format("  program      {}\n", material);
-  text += fmt::format("  changes      {} placed, {} moved, {} swapped, {} parameters set\n", summary.placements,
+  text += fmt::format("  changes      {} placed, {} moved, {} replaced, {} parameters set\n", summary.placements,
                       summary.moves, summary.swaps, summary.sets);
   return text + fmt::format("  replay       {}\n", verdict(replay, header.device.rate));
 }
@@ -94,7 +94,7 @@ std::string replay_json(const std::string& file, const Recording& recording, con
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Writes a file by `write`, and removes it again where `write` fails.
+/// Writes a file by `write`, and removes it if `write` fails.
 template <class Write>
 Result<> exported(const std::string& path, Write&& write) {
   std::ofstream out(path, std::ios::binary);
@@ -108,14 +108,14 @@ Result<> exported(const std::string& path, Write&& write) {
   }
   if (!out)
     return Error{.code = Code::unwritable_file,
-                 .sentence = fmt::format("cannot be written: {}", std::strerror(errno)),
+                 .sentence = fmt::format("the file cannot be written: {}", std::strerror(errno)),
                  .place = {.name = path}};
   return {};
 }
 
 struct ReplayOptions {
   std::string file, csv, wav;
-  std::optional<std::uint64_t> ticks;  ///< no more than so many
+  std::optional<std::uint64_t> ticks;  ///< at most this many, from the beginning
   bool json = false;
 };
 
@@ -151,7 +151,7 @@ Run declare_replay(CLI::App& verb) {
                   "writes the force as sound: x left, y right, the device's peak force full scale")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
-              "only so many ticks from the beginning; of a damaged recording, those before the damage");
+              "only this many ticks from the beginning; of a damaged recording, those before the damage");
   offer_json(verb, options->json, "a JSON object");
   verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
   return [options] { return replay(*options); };
@@ -159,7 +159,7 @@ Run declare_replay(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb replay_verb{"replay", "runs a recording's programs again on what its device told, and compares",
+extern const Verb replay_verb{"replay", "runs a recording's programs again on the recorded positions, and compares",
                               declare_replay};
 
 }  // namespace wale::command

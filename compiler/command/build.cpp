@@ -15,7 +15,7 @@ namespace {
 struct BuildOptions {
   Choice choice;
   std::string out;    ///< a file, or with `all` a folder
-  std::string stage;  ///< to show instead of building; empty: build
+  std::string stage;  ///< stage to show instead of building; empty to build
   bool all = false;
 };
 
@@ -60,13 +60,13 @@ int show_stage(const BuildOptions& options) {
   return done;
 }
 
-/// Builds every material to a program of its own, and says of each what became of it.
+/// Builds every material to a program of its own, and reports each.
 int build_collection(const BuildOptions& options) {
   const auto opened = open(options.choice);
   if (!opened) return refused;
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
-                        .sentence = "this is a patch program, and --all builds the materials of a Wale file",
+                        .sentence = "this is a patch program, but --all builds the materials of a Wale file",
                         .place = {.name = opened->name}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   const auto collection = build_all(*opened, options.choice.request(), options.out);
@@ -105,7 +105,7 @@ Run declare_build(CLI::App& verb) {
   verb.add_flag("--all", options->all, "builds every material of the file, each to NAME.wpp in the folder")
       ->excludes("--material");
   verb.add_option("--emit", options->stage,
-                  "writes what a stage makes of the material instead: tree (as parsed), checked, ir (its values), "
+                  "writes the output of a stage instead: tree (as parsed), checked, ir (its values), "
                   "listing (its instructions), cpp (C++)")
       ->type_name("STAGE")
       ->excludes("--all");
@@ -115,7 +115,7 @@ Run declare_build(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb build_verb{"build", "compiles a material to a patch program, or shows what a stage makes of it",
+extern const Verb build_verb{"build", "compiles a material to a patch program, or shows the output of a stage",
                              declare_build};
 
 }  // namespace wale::command

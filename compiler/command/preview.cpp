@@ -43,7 +43,6 @@ Run declare_preview(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb preview_verb{"preview", "draws a material: its relief, its forces and what it feels like",
-                               declare_preview};
+extern const Verb preview_verb{"preview", "draws a material: its relief, its forces and its percepts", declare_preview};
 
 }  // namespace wale::command

@@ -14,20 +14,20 @@ namespace wale {
 
 namespace {
 
-constexpr double largest_literal = 3.4e38;  // what a register can hold
+constexpr double largest_literal = 3.4e38;  // the largest float32, about
 
-/// A name that is also a unit is one mistake, however often it is met.
+/// Reports a name that is also a unit, once for each name.
 Value ambiguous_unit(Reading& reading, const Word& word, Span declared) {
   auto& reported = reading.known.ambiguous;
   if (std::ranges::find(reported, declared) != reported.end()) return failed_value(word.span);
   reported.push_back(declared);
   return reading.calls.report(
-      Code::ambiguous_name, word.span, fmt::format("`{}` is a unit and also a name", word.text), "which of them?",
+      Code::ambiguous_name, word.span, fmt::format("`{}` is a unit and also a name", word.text), "which one?",
       Advice(fmt::format("give the name another spelling, or write `* {}` if you mean the name", word.text))
           .see(declared, "the name is declared here"));
 }
 
-/// Names behind the units of a number multiply or divide it: `0.3 denim`, `5 N / mass`.
+/// Names after the units of a number multiply or divide it: `0.3 denim`, `5 N / mass`.
 Value times_name(Reading& reading, const Value& value, const SuffixFactor& part, Scope& scope) {
   if (!has_value(reading, part.name.text, scope)) {
     if (const auto hidden = private_name(reading, part.name)) return *hidden;

@@ -12,11 +12,11 @@ namespace wale {
 
 namespace {
 
-/// A name that stands for an input of the machine.
+/// A name for an input of the machine.
 struct InputName {
   std::string_view name;
   Input x;
-  std::optional<Input> y;  ///< of a vector
+  std::optional<Input> y;  ///< y part, if it is a vector
   const char* dimension;
   bool condition = false;
 };
@@ -43,7 +43,7 @@ const InputName* input_named(std::string_view name) {
   return found == std::end(input_names) ? nullptr : found;
 }
 
-/// The value of `hand`, `x`, `velocity` and their like, where the scope has a hand.
+/// The value of `hand`, `x`, `velocity` and the like, if the scope has a hand.
 std::optional<Value> input(Reading& reading, const Word& word, const Scope& scope) {
   const InputName* found = scope.hand ? input_named(word.text) : nullptr;
   if (!found) return std::nullopt;
@@ -51,9 +51,10 @@ std::optional<Value> input(Reading& reading, const Word& word, const Scope& scop
     reading.surroundings.diagnostics.report(
         {.code = Code::raw_signal,
          .span = word.span,
-         .message =
-             fmt::format("`{}` is the difference of neighbouring positions: it jumps by whole counts", word.text),
-         .help = fmt::format("use `{}`, which the device's filter has smoothed, unless you want the noise",
+         .message = fmt::format(
+             "`{}` is computed from the difference of successive positions, so it jumps by whole encoder counts",
+             word.text),
+         .help = fmt::format("use `{}`, which the device's filter smooths, unless you want the noise",
                              word.text.substr(4))});
   Value value{.type = found->condition ? Value::Type::boolean : Value::Type::number,
               .x = reading.terms.input(found->x, word.span),
@@ -66,14 +67,14 @@ std::optional<Value> input(Reading& reading, const Word& word, const Scope& scop
   return value;
 }
 
-/// The value of a `let` outside the materials, read once.
+/// The value of a `let` outside the materials. It is evaluated once.
 std::optional<Value> constant_named(Reading& reading, const Word& word) {
   const auto* found = reading.names->constants.find(word.text);
   if (!found) return std::nullopt;
   CallStack& calls = reading.calls;
   if (calls.contains(word.text, true))
     return calls.report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
-                        "a `let` may use only what does not need it");
+                        "a `let` cannot use itself, directly or through others");
   const auto known = reading.known.constants.find(found->node);
   if (known == reading.known.constants.end()) {
     if (calls.depth() >= deepest_call)
@@ -93,7 +94,7 @@ std::optional<Value> constant_named(Reading& reading, const Word& word) {
   return value;
 }
 
-/// `hand.x`, `p.y`: one part of a vector.
+/// The value of `hand.x` or `p.y`: one part of a vector.
 std::optional<Value> part_of_vector(Reading& reading, const Word& word, Scope& scope) {
   const auto dot = word.text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -126,17 +127,17 @@ std::optional<Value> private_name(Reading& reading, const Word& word) {
   return reading.calls.report(
       Code::private_name, word.span,
       fmt::format("`{}` is private to {}", word.text, sources[found->second.source].name), "",
-      Advice(fmt::format("write `export` before its declaration there (line {}), if others may use it",
+      Advice(fmt::format("write `export` before its declaration there (line {}), if other files may use it",
                          sources.place(found->second).line))
           .see(found->second, "declared here, without `export`"));
 }
 
 Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sought sought, Advice otherwise) {
-  // A function's body is read at each of its calls; a misspelt word in it is looked up once.
+  // A function's body is read at each of its calls, but a misspelt word in it is looked up only once.
   const Span place = reading.calls.blame(word.span);
   if (!reading.known.misspelt.emplace(place.source, place.begin).second) return otherwise;
   const Surroundings& surroundings = reading.surroundings;
-  if (surroundings.diagnostics.is_full()) return otherwise;  // it would not be shown
+  if (surroundings.diagnostics.is_full()) return otherwise;  // the advice would not be shown
   std::vector<std::string> candidates;
   if (sought == Sought::function) {
     candidates = reading.names->functions.spellings();
@@ -161,7 +162,7 @@ Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sou
 Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& scope) {
   binding.used = true;
   Value value = binding.value;
-  // A memory's name alone is its value under the hand.
+  // The name of a memory alone means its value under the hand.
   if (value.type == Value::Type::field && value.field->kind == Field::Kind::memory)
     value = value_at(reading.terms, *value.field, *input(reading, {"hand", span}, scope), span);
   value.span = span;
@@ -188,7 +189,7 @@ Value free_value(Reading& reading, const Word& word, Scope& scope) {
     return report(Code::unknown_name, fmt::format("`{}` is a function and needs its arguments", word.text),
                   fmt::format("write `{}(…)`", word.text));
   if (names_hand_or_patch(word.text))
-    return report(Code::not_constant, fmt::format("expected a constant; `{}` changes as the hand moves", word.text),
+    return report(Code::not_constant, fmt::format("expected a constant, but `{}` changes as the hand moves", word.text),
                   "use numbers, units and other constants");
   if (const auto hidden = private_name(reading, word)) return *hidden;
   return report(Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),

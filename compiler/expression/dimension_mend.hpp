@@ -8,7 +8,7 @@ namespace wale {
 [[gnu::cold]] void report_dimension(Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                                     const Dimension& found, const Dimension& expected);
 
-/// How to make a quantity of dimension `expected` of an expression of dimension `found`.
+/// Advice on how to turn an expression of dimension `found` into one of dimension `expected`.
 [[gnu::cold]] Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                                     const Dimension& expected, const Dimension& found);
 

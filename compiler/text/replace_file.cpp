@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file beside another that disappears unless it is renamed.
+/// A temporary file beside another. The destructor removes it unless it was renamed.
 class Temporary {
  public:
   explicit Temporary(const fs::path& beside)
@@ -39,7 +39,7 @@ class Temporary {
     return true;
   }
 
-  /// The owner stays if that is allowed; the permissions must.
+  /// Copies the owner, if that is allowed, and the permissions; false if the permissions cannot be copied.
   bool take_permissions_of(const struct stat& other) {
     if (fchown(descriptor_, other.st_uid, other.st_gid) != 0) errno = 0;
     return fchmod(descriptor_, other.st_mode & 07777) == 0;

@@ -7,10 +7,10 @@
 
 namespace wale {
 
-/// Replaces the content of a file, whole or not at all: a reader meanwhile, or after a crash, finds the old text or
-/// the new one. Its permissions stay; a link stays a link, and what it leads to is replaced.
+/// Replaces the content of a file atomically: a concurrent reader, or one after a crash, finds either the old or the
+/// new content. The permissions are kept. A symbolic link is kept, and the file that it points to is replaced.
 ///
-/// Error: W0505 where the file is missing, not a regular one, or not writable, or its folder is not writable.
+/// Error: W0505 if the file is missing, not a regular file, or not writable, or if its folder is not writable.
 Result<> replace_file(const std::string& path, std::string_view bytes);
 
 }  // namespace wale

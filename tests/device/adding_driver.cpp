@@ -1,10 +1,12 @@
-// A driver is a folder and a row of a table: made_up/ is found, listed, chosen, opened, felt, lost and found again by
-// what serves every driver.
+// A driver is a folder and a row of a table. The code for all drivers finds, lists, chooses, opens, feels, loses and
+// reopens the device of made_up/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "calibration/command/device_report.hpp"
 #include "runtime/device/open_device.hpp"
 #include "runtime/device/shipped_devices.hpp"
+#include "runtime/device/wait_for_device.hpp"
 #include "tests/device/made_up/made_up.hpp"
 #include "tests/runtime/programs.hpp"
 #include "wale/stage.hpp"
@@ -21,14 +24,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The table of drivers with a row more.
+/// The table of drivers with one more row.
 std::vector<const Driver*> table() {
   std::vector<const Driver*> all(drivers().begin(), drivers().end());
   all.push_back(&made_up_driver);
   return all;
 }
 
-/// The declared devices with one more.
+/// The shipped devices with one more.
 std::vector<DeclaredDevice> known() {
   std::vector<DeclaredDevice> all = *shipped_devices();
   DeclaredDevice device;
@@ -97,10 +100,10 @@ TEST_F(AddingADriver, IsFeltAsItsDeclarationSays) {
   ASSERT_TRUE(ran) << ran.error().sentence;
   const auto& ticks = ran->record.ticks;
   ASSERT_FALSE(ticks.empty());
-  EXPECT_LT(ticks.back().force.x, -1) << "the spring pushes back to the middle";
+  EXPECT_LT(ticks.back().force.x, -1) << "the spring pushes towards the centre";
   float most = 0;
   for (const Force& force : made_up::rails().forces) {
-    EXPECT_GE(force.x, 0) << "along a motor that lies the other way round";
+    EXPECT_GE(force.x, 0) << "this motor is declared as reversed";
     most = std::max(most, force.x);
   }
   EXPECT_NEAR(most, -ticks.back().force.x, 1e-3);
@@ -109,7 +112,7 @@ TEST_F(AddingADriver, IsFeltAsItsDeclarationSays) {
   EXPECT_EQ(made_up::rails().open, 0);
 }
 
-TEST_F(AddingADriver, IsOpenedAgainWithoutTheDescriptorThatWasUsedUp) {
+TEST_F(AddingADriver, IsReopenedWithoutTheGivenDescriptor) {
   const auto choice = chosen("made-up");
   ASSERT_TRUE(choice);
   auto opened = open_device(nowhere, *choice, {.descriptor = 17});
@@ -126,6 +129,21 @@ TEST_F(AddingADriver, IsOpenedAgainWithoutTheDescriptorThatWasUsedUp) {
   EXPECT_EQ(made_up::rails().descriptors, (std::vector<int>{17, -1}));
   EXPECT_EQ(device.report().reason, "it came off its rails");
   EXPECT_EQ(device.report().returns, 1);
+}
+
+TEST_F(AddingADriver, IsWaitedForThoughNothingAnnouncesIt) {
+  made_up::rails().is_plugged_in = false;
+  const long looks_before = made_up::rails().looks;
+  const std::atomic<bool> stop{false};
+  auto waiting = std::async(std::launch::async, [&] {
+    return wait_for_device(nowhere, {.spelling = "made-up"}, known_, std::nullopt, stop, drivers_);
+  });
+  // The first look, and two of those that no news has caused.
+  while (made_up::rails().looks < looks_before + 3 && waiting.wait_for(1ms) == std::future_status::timeout) continue;
+  made_up::rails().is_plugged_in = true;
+  const auto choice = waiting.get();
+  ASSERT_TRUE(choice) << choice.error().sentence;
+  EXPECT_EQ(choice->plugged->port, "rails");
 }
 
 TEST_F(AddingADriver, TheTableOfDriversHasEachOnce) {

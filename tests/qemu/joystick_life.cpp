@@ -28,7 +28,7 @@ bool is_hidraw_there() {
 
 std::string hidraw_of(const Found& found) { return kernel_nodes(found.info).hid.at(0).hidraw; }
 
-/// Whether the model has been told a force other than none since its log was cleared.
+/// Whether the model got a force other than zero since its log was cleared.
 bool was_pushed(UsbipPort& port, const PidFamily& family) {
   return port.with<PidModel>([&](PidModel& model) {
     return std::ranges::any_of(model.log, [&](const std::string& line) {
@@ -51,14 +51,14 @@ std::unique_ptr<HidPidDevice> opened(const Found& found, PidTransportKind transp
 void await_force(UsbipPort& port, HidPidDevice& device, Force newton, glm::dvec2 fraction, const std::string& what) {
   await(
       [&] {
-        device.command(newton);  // or it would let go
+        device.command(newton);  // without commands the device ends its force
         const glm::dvec2 force = force_of(port);
         return std::abs(force.x - fraction.x) < near && std::abs(force.y - fraction.y) < near;
       },
       what);
 }
 
-/// The forces that its first effect was told never fall while what is commanded rises.
+/// The forces sent to the first effect never fall while the commanded force rises.
 void demand_order(UsbipPort& port, const PidFamily& family) {
   port.with<PidModel>([&](PidModel& model) {
     double before = 0;
@@ -71,7 +71,7 @@ void demand_order(UsbipPort& port, const PidFamily& family) {
       before = size;
     }
     demand(rises, "no old force comes after a newer one");
-    demand(model.wrong_reports == 0, "every report is as the device wants it");
+    demand(model.wrong_reports == 0, "every report is valid");
   });
 }
 
@@ -79,7 +79,7 @@ void check_whole_life(UsbipPort& port, const PidFamily& family, PidTransportKind
   const Found found = find(family.vendor, family.product);
   const auto listed = plugged_in({found.context});
   demand(listed.size() == 1 && !listed[0].obstacle, "it is listed as usable: " + listed.at(0).can);
-  demand(kernel_pushes(), "looking takes nothing from the kernel's driver");
+  demand(kernel_pushes(), "listing devices leaves the kernel's driver attached");
   clear_log(port);
   auto device = opened(found, transport);
   demand(force_of(port) == glm::dvec2(0) && !was_pushed(port, family), "it does not push when it is opened");
@@ -97,7 +97,7 @@ void check_whole_life(UsbipPort& port, const PidFamily& family, PidTransportKind
   demand(!device->was_lost(), "nothing is lost");
   const auto counts = device->counts();
   demand(counts.forces_sent[0] > 20 && counts.bad_inputs == 0, "packets go out");
-  demand(counts.inputs > 20 || transport == PidTransportKind::evdev, "and come in");
+  demand(counts.inputs > 20 || transport == PidTransportKind::evdev, "packets come in");
   demand_order(port, family);
   device.reset();
   await([&] { return force_of(port) == glm::dvec2(0); }, "it is left without force");
@@ -137,12 +137,12 @@ void check_game_first(UsbipPort& port, const PidFamily& family, PidTransportKind
          "it is seen to hold the stick: " + holder);
   clear_log(port);
   auto device = opened(found, transport);
-  demand(!was_pushed(port, family), "taking it over pushes nothing");
+  demand(!was_pushed(port, family), "the take-over sends no force");
   if (transport == PidTransportKind::libusb) {
-    demand(force_of(port) == glm::dvec2(0), "taken over, it pushes nothing");
+    demand(force_of(port) == glm::dvec2(0), "after the take-over it has no force");
     await_force(port, *device, {0, -2}, {0, 0.2}, "and then what is commanded");
   } else {
-    demand(std::abs(force_of(port).x - game_force) < near, "the game goes on pushing");
+    demand(std::abs(force_of(port).x - game_force) < near, "the game's force continues");
     await_force(port, *device, {0, -2}, {game_force, 0.2}, "beside what is commanded");
   }
   demand(!device->was_lost(), "nothing is lost");
@@ -173,14 +173,21 @@ void check_game_second(UsbipPort& port, const PidFamily& family, PidTransportKin
   std::printf("   set up again %d times\n", losses);
 }
 
+constexpr std::uint8_t enable = 0x97, stop_all = 0x99, reset = 0x9a;  // usages of page 0F
+
 /// Writes a Device Control report as another program does.
-void reset_as_rival(const std::string& node, const PidFamily& family) {
-  const auto at = std::ranges::find(family.control_orders, 0x9a) - family.control_orders.begin();
+void control_as_rival(const std::string& node, const PidFamily& family, std::uint8_t usage, const std::string& what) {
+  const auto at = std::ranges::find(family.control_orders, usage) - family.control_orders.begin();
   const auto order = static_cast<std::uint8_t>(family.control_is_mask ? 1 << at : at + 1);
   const std::uint8_t report[] = {family.control, order};
   const int rival = open(node.c_str(), O_RDWR | O_CLOEXEC);
-  demand(rival >= 0 && write(rival, report, sizeof report) == sizeof report, "a rival resets the device");
+  demand(rival >= 0 && write(rival, report, sizeof report) == sizeof report, what);
   close(rival);
+}
+
+long blocks_of(UsbipPort& port) {
+  return port.with<PidModel>(
+      [](PidModel& model) { return std::ranges::count_if(model.effects, &PidModel::Effect::exists); });
 }
 
 void check_rival(UsbipPort& port, const PidFamily& family) {
@@ -190,14 +197,41 @@ void check_rival(UsbipPort& port, const PidFamily& family) {
     device->command({4, 0});
   });  // its effects have been started again, so that their state is known
   await_force(port, *device, {4, 0}, {0.4, 0}, "it pushes");
-  reset_as_rival(hidraw_of(found), family);
+  control_as_rival(hidraw_of(found), family, reset, "a rival resets the device");
   await([&] { return device->was_lost(); }, "which is noticed: " + device->reason());
-  demand(force_of(port) == glm::dvec2(0), "nothing pushes any more");
+  demand(force_of(port) == glm::dvec2(0), "no force is left");
   clear_log(port);
   device.reset();
   device = opened(found, PidTransportKind::hidraw);
   demand(!was_pushed(port, family) && force_of(port) == glm::dvec2(0), "it is set up again from zero force");
   await_force(port, *device, {4, 0}, {0.4, 0}, "and felt again");
+  tick(300, [&](long) { device->command({4, 0}); });
+  const long blocks = blocks_of(port);
+  await(
+      [&] {
+        device->command({4, 0});
+        if (!device->was_lost()) control_as_rival(hidraw_of(found), family, stop_all, "a rival stops all effects");
+        return device->was_lost();
+      },
+      "which is noticed: " + device->reason());
+  device.reset();
+  await([&] { return blocks_of(port) == blocks - 2; }, "its blocks are given back");
+}
+
+/// What evdev_transport.hpp says of this.
+void check_unnoticed_rival(UsbipPort& port, const PidFamily& family) {
+  const Found found = find(family.vendor, family.product);
+  auto device = opened(found, PidTransportKind::evdev);
+  await_force(port, *device, {4, 0}, {0.4, 0}, "it pushes");
+  control_as_rival(hidraw_of(found), family, reset, "a rival resets the device");
+  constexpr long ticks = 900;
+  tick(ticks, [&](long i) { device->command({i % 2 == 0 ? 4.0f : 3.0f, 1}); });
+  demand(force_of(port) == glm::dvec2(0), "nothing pushes any more");
+  demand(!device->was_lost(), "and nothing on the event node tells why " + device->reason());
+  device.reset();
+  control_as_rival(hidraw_of(found), family, enable, "the rival enables the actuators");
+  device = opened(found, PidTransportKind::evdev);
+  await_force(port, *device, {4, 0}, {0.4, 0}, "opened again, it is felt again");
 }
 
 void check_handed_in(UsbipPort& port, const PidFamily& family, PidTransportKind transport) {
@@ -208,10 +242,10 @@ void check_handed_in(UsbipPort& port, const PidFamily& family, PidTransportKind 
                                                                    : nodes.hid.at(0).pushing.at(0);
   const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
   auto device = taken(HidPidDevice::open(found.context, descriptor, joystick_profile(), patient(transport)));
-  demand(device->transport() == transport, "a descriptor of " + path + " is known for what it is");
+  demand(device->transport() == transport, "a descriptor of " + path + " is recognised");
   await_force(port, *device, {2, -1}, {0.2, 0.1}, "and used");
   device.reset();
-  demand(fcntl(descriptor, F_GETFD) >= 0, "and stays open");
+  demand(fcntl(descriptor, F_GETFD) >= 0, "it stays open");
   close(descriptor);
   await([&] { return force_of(port) == glm::dvec2(0); }, "without force");
 }
@@ -252,7 +286,10 @@ void check_life(const PidFamily& family, PidTransportKind transport) {
   check_game_first(*port, family, transport);
   if (transport != PidTransportKind::libusb) check_game_second(*port, family, transport);
   if (transport == PidTransportKind::hidraw) check_rival(*port, family);
-  if (transport == PidTransportKind::evdev) check_permissions(family);
+  if (transport == PidTransportKind::evdev) {
+    check_unnoticed_rival(*port, family);
+    check_permissions(family);
+  }
   check_killed(*port, family, transport);
   check_unplugged(port, family, transport);
 }

@@ -20,7 +20,7 @@ constexpr std::size_t most_usb_bytes = 64;
 /// The chip's only interface.
 constexpr std::uint8_t first_interface = 0;
 
-/// A transfer that the session wants made.
+/// A transfer that the session asks its caller to make.
 struct Transfer {
   enum class Kind : std::uint8_t {
     control,  ///< request type 0x40 (vendor, out), index 0, no data
@@ -38,7 +38,7 @@ struct Transfer {
 };
 
 struct FalconSessionOptions {
-  /// The user's own file, loaded where the device runs no firmware. Empty: there is none.
+  /// The bytes of the user's own firmware, loaded if the device runs none. Empty: there is none.
   std::vector<std::uint8_t> firmware;
   /// s without a command after which the motors are let go: before a keeper does it for the same reason, after 0.1 s.
   double command_silence = 0.05;
@@ -49,18 +49,18 @@ struct FalconSessionOptions {
 /// What a session has done since it was made.
 struct FalconSessionCounts {
   long commands_sent = 0;     ///< packets with torques, homing included
-  long answers = 0;           ///< valid ones
-  long skipped_bytes = 0;     ///< that belong to no answer
+  long answers = 0;           ///< valid answers
+  long skipped_bytes = 0;     ///< bytes that belong to no answer
   long silences = 0;          ///< times that no answer came
   long overwritten = 0;       ///< commands that a newer one replaced before it was sent
   long command_silences = 0;  ///< times that no command came
-  long firmware_chunks = 0;   ///< sent and echoed
+  long firmware_chunks = 0;   ///< chunks sent and echoed
 };
 
-/// The life of a Novint Falcon, without USB: it gives the next transfers and takes their results. The device runs the
-/// firmware that it has, or gets one. Then its encoders find their zeros, for which a person moves the handle through
-/// the whole workspace. Then torques and encoder counts alternate strictly. There is no torque before all three
-/// encoders are homed, while nobody commands, and in the last packets.
+/// The protocol of a Novint Falcon, without USB: it gives the next transfers and takes their results. If the device
+/// runs no firmware, it loads one. Then the encoders find their zeros, for which a person moves the handle through the
+/// whole workspace. Then torques and encoder counts alternate strictly. There is no torque before all three encoders
+/// are homed, without commands, and in the last packets.
 ///
 /// The protocol knows no durations, so a Falcon whose process and keeper are killed together may keep pushing until it
 /// is opened again or loses its power. The first packet that it gets here is therefore without torque.
@@ -72,8 +72,8 @@ class FalconSession {
     setting_up,
     homing,  ///< it answers, and waits for somebody to move the handle
     running,
-    leaving,  ///< lets the motors go
-    over      ///< nothing more to do: `was_lost` and `reason` say why
+    leaving,  ///< sets the torques to 0
+    over      ///< ended: `was_lost` and `reason` say why
   };
 
   explicit FalconSession(FalconSessionOptions options = {});
@@ -83,7 +83,7 @@ class FalconSession {
   bool was_lost() const noexcept { return lost_; }
   /// Why it was lost, a literal; empty while it is not.
   std::string_view reason() const noexcept { return reason_; }
-  /// It was lost because the device runs no firmware and none was given.
+  /// Whether it was lost because the device runs no firmware and none was given.
   bool wants_firmware() const noexcept { return wants_firmware_; }
 
   const FalconSessionCounts& counts() const noexcept { return counts_; }

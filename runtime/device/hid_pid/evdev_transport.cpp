@@ -19,7 +19,7 @@ namespace wale {
 namespace {
 
 constexpr std::int64_t full_level = 32767;  // linux/input.h: ff_constant_effect
-// Of a turn in 65536 steps. The driver hands them to the device as the PID class means them: a force of level m is
+// Directions in 65536ths of a turn. The driver passes them on with the meaning of the PID class: a force of level m is
 // m sin along x and -m cos along y, which points to the user.
 constexpr std::uint16_t toward_x = 0x4000, toward_y = 0x8000;
 constexpr double steps_per_radian = 65536 / (2 * 3.14159265358979323846);
@@ -126,8 +126,8 @@ Result<> EvdevTransport::set_up() {
   return {};
 }
 
-/// The driver says that a joystick's positions are good to 1/256 of their range, and the input layer passes no smaller
-/// change on; that is no resolution for a hand.
+/// By default the driver declares a fuzz of 1/256 of a joystick's range, and the input layer drops smaller changes.
+/// That is too coarse for a hand, so this sets the fuzz to 0.
 Result<> EvdevTransport::set_up_positions() {
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     const auto axis = static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y);
@@ -135,7 +135,7 @@ Result<> EvdevTransport::set_up_positions() {
     if (positions_[i].minimum >= positions_[i].maximum) return Error{Code::unlike_device, "it sends no position"};
     input_absinfo finest = positions_[i];
     finest.fuzz = 0;
-    node_.call(EVIOCSABS(axis), &finest);  // without it, it is only coarser
+    node_.call(EVIOCSABS(axis), &finest);  // if this fails, positions are only coarser
   }
   ranges_.x_minimum = positions_[0].minimum;
   ranges_.x_maximum = positions_[0].maximum;
@@ -152,7 +152,22 @@ Result<> EvdevTransport::upload(std::size_t effect) {
     return Error{Code::unusable_device, "it has no room for an effect: another program may hold them",
                  "close the programs that use it"};
   }
+  const bool was_ours = effects_[effect].id >= 0;
+  if (was_ours && (errno == EINVAL || errno == EACCES)) {
+    effects_[effect].id = -1;
+    return Error{Code::lost_device, "another program has erased its effects"};
+  }
   return why_not_opened(errno, "its event node");
+}
+
+/// Uploads an effect that the kernel has already; false: it is lost.
+bool EvdevTransport::update(std::size_t effect) {
+  const Result<> taken = upload(effect);
+  if (!taken) {
+    const bool is_telling = taken.error().code == Code::lost_device || taken.error().code == Code::absent_device;
+    lose(is_telling ? taken.error().sentence : "the kernel's driver takes no force any more");
+  }
+  return taken.has_value();
 }
 
 /// Plays an effect, or sets a property such as the gain.
@@ -209,7 +224,7 @@ EvdevTransport::~EvdevTransport() {
     effects_[i].u.constant.level = 0;
     node_.call(EVIOCSFF, &effects_[i]);
     tell(static_cast<std::uint16_t>(effects_[i].id), 0);
-    // By value, as the kernel takes it.
+    // The kernel takes the effect's number by value.
     node_.call(EVIOCRMFF, reinterpret_cast<void*>(static_cast<std::intptr_t>(effects_[i].id)));
   }
   for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -223,7 +238,7 @@ EvdevTransport::~EvdevTransport() {
 void EvdevTransport::write_forces() {
   constexpr std::int64_t patience = 20'000;  // microseconds; the longest wait between checks for refreshes and silence
   while (true) {
-    // While something waits for its turn, only a newer command is taken, and nothing is waited for.
+    // While an update is pending, it takes a newer command but does not wait for one.
     const auto wanted = wait_for_command(pending_ ? 0 : patience);
     if (is_ending()) return;
     const std::int64_t now = now_();
@@ -269,10 +284,7 @@ bool EvdevTransport::write_next(std::int64_t now) {
     if (level == effects_[effect].u.constant.level) continue;
     effects_[effect].u.constant.level = level;
     turn_ = 1 - effect;
-    if (!upload(effect)) {
-      lose("the kernel's driver takes no force any more");
-      return false;
-    }
+    if (!update(effect)) return false;
     const std::lock_guard lock(mutex_);
     ++counts_.forces_sent[effect];
     return true;
@@ -286,13 +298,14 @@ bool EvdevTransport::is_level() const noexcept {
   return effects_[0].u.constant.level == 0 && effects_[1].u.constant.level == 0;
 }
 
-/// Plays an effect again before its time is over.
+/// Plays an effect again before its time is over. The kernel takes this for an effect that was erased too, so the
+/// effect is updated before, which sends nothing to the device.
 bool EvdevTransport::refresh(std::int64_t now) {
   if (refresh_period_ <= 0 || silent_) return false;
   for (std::size_t i = 0; i < effects(); ++i) {
     if (now < refresh_at_[i]) continue;
     refresh_at_[i] = now + refresh_period_;
-    if (!may_go(effects_[i].u.constant.level != 0)) return false;
+    if (!update(i)) return false;
     if (!tell(static_cast<std::uint16_t>(effects_[i].id), 1)) {
       lose("the kernel's driver takes no force any more");
       return false;
@@ -317,19 +330,16 @@ bool EvdevTransport::turn_and_push() {
   const bool is_turned = direction != effects_[0].direction;
   effects_[0].u.constant.level = level;
   effects_[0].direction = direction;
-  if (!upload(0)) {
-    lose("the kernel's driver takes no force any more");
-    return false;
-  }
+  if (!update(0)) return false;
   const std::lock_guard lock(mutex_);
   ++counts_.forces_sent[0];
   if (is_turned) ++counts_.directions_sent;
   return true;
 }
 
-void EvdevTransport::lose(const char* reason) {
+void EvdevTransport::lose(std::string reason) {
   const std::lock_guard lock(mutex_);
-  if (reason_.empty()) reason_ = reason;
+  if (reason_.empty()) reason_ = std::move(reason);
   show_lost();
 }
 
@@ -349,7 +359,7 @@ void EvdevTransport::read_positions() {
 
 void EvdevTransport::take(const input_event& event) {
   if (event.type == EV_SYN && event.code == SYN_DROPPED) {
-    is_dropping_ = true;  // until the next report: what came is incomplete
+    is_dropping_ = true;  // until the next report: the present one is incomplete
     return;
   }
   if (event.type == EV_SYN && event.code == SYN_REPORT) {
@@ -366,7 +376,7 @@ void EvdevTransport::take(const input_event& event) {
   if (event.type == EV_KEY && event.code == BTN_JOYSTICK) button_ = event.value != 0;
 }
 
-/// Positions are told when they change, so that the first ones are asked for.
+/// Asks for the present positions, because the kernel reports them only when they change.
 void EvdevTransport::read_state() {
   for (std::size_t i = 0; i < place_.size(); ++i) {
     input_absinfo now{};

@@ -51,20 +51,24 @@ ReportTransport::~ReportTransport() {
     std::unique_lock lock(mutex_);
     session_.stop();
     pump();
-    // Each of its last transfers ends, if only by its timeout.
-    changed_.wait(lock, [&] { return session_.state() == hid::PidSession::State::over; });
+    // Each of its last transfers ends, at the latest after its timeout. The session waits at most `rival_patience`.
+    constexpr std::chrono::milliseconds between_looks(10);
+    while (session_.state() != hid::PidSession::State::over) {
+      changed_.wait_for(lock, between_looks);
+      pump();
+    }
     closes_ = true;
   }
   channel_->close();
   end_keeper();  // now that nothing is sent any more
 }
 
-/// Until the device runs and has told where it is, or is lost.
+/// Waits until the device runs and has sent a position, or is lost.
 Result<> ReportTransport::wait_until_running() {
   using State = hid::PidSession::State;
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return session_.state() == State::running || session_.state() == State::over; });
-  // One that only tells changes is asked after a while (`input_silence`).
+  // A device that reports only changes is asked after `input_silence`.
   changed_.wait_for(lock, std::chrono::seconds(1),
                     [&] { return session_.state() != State::running || session_.input().has_value(); });
   if (session_.state() != State::running) return Error{session_.why(), std::string(session_.reason())};
@@ -127,7 +131,7 @@ void ReportTransport::write_forces() {
   }
 }
 
-/// Submits what the session wants. Under the lock.
+/// Submits the transfers that the session asks for. Under the lock.
 void ReportTransport::pump() {
   using State = hid::PidSession::State;
   heed_keeper();
@@ -158,10 +162,10 @@ void ReportTransport::ended(const hid::Transfer& transfer, Outcome outcome, std:
   }
 }
 
-void ReportTransport::received(std::span<const std::uint8_t> report) {
+void ReportTransport::received(std::span<const std::uint8_t> report, bool is_old) {
   const std::lock_guard lock(mutex_);
   if (closes_ || session_.state() == hid::PidSession::State::over) return;
-  session_.receive(report, now_());
+  session_.receive(report, now_(), is_old);
   pump();
 }
 

@@ -16,8 +16,8 @@
 namespace wale::pointer {
 namespace {
 
-// Take: another screen, no cursor, every movement of the mouse in SGR's form. Ask: is the form with pixels known, and
-// how many pixels are there?
+// Take: another screen, no cursor, every movement of the mouse in SGR form. Ask: whether the terminal knows the form
+// with pixels, and how many pixels it has.
 constexpr char take_it[] = "\033[?1049h\033[2J\033[?25l\033[?1003h\033[?1006h";
 constexpr char ask[] = "\033[?1016$p\033[14t";
 constexpr char pixels[] = "\033[?1016h";
@@ -47,7 +47,8 @@ void show_picture(int descriptor) noexcept {
 /// May be called in a signal handler.
 void show_text(int descriptor) noexcept {
   shows.store(false);
-  // A picture under way would come after the text. One of this same thread cannot end while the handler runs.
+  // Waits for a picture that another thread is writing, which would otherwise follow the text. A picture of this thread
+  // cannot end while the handler runs, so the wait has a limit.
   constexpr int most_waits = 50;
   for (int i = 0; i < most_waits && is_written.load(); ++i) {
     const timespec millisecond{0, 1'000'000};
@@ -130,7 +131,7 @@ Terminal::~Terminal() {
   int stopped = descriptor_;
   given_back.compare_exchange_strong(stopped, -1);
   int own = descriptor_;
-  if (!taken.compare_exchange_strong(own, -1)) {  // never taken, or given back already
+  if (!taken.compare_exchange_strong(own, -1)) {  // never taken, or already given back
     close(descriptor_);
     return;
   }

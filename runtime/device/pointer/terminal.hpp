@@ -13,7 +13,7 @@ namespace wale::pointer {
 /// `reset` mends it. One at a time in a process.
 class Terminal {
  public:
-  /// `unusable_device` where `path` is no terminal that this process may use, or while another one is taken.
+  /// Error: `unusable_device` if `path` is not a terminal that this process may use, or while another one is taken.
   static Result<Terminal> open(const std::string& path = "/dev/tty");
   ~Terminal();
   Terminal(Terminal&& other) noexcept;
@@ -21,7 +21,7 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
   Terminal& operator=(Terminal&&) = delete;
 
-  /// Shows another screen, and asks for the mouse's places. Call it once.
+  /// Switches to another screen, and asks for the mouse's positions. Call it once.
   void take() const;
 
   int descriptor() const { return descriptor_; }
@@ -34,7 +34,7 @@ class Terminal {
 
   /// Writes all of `text`; false: the terminal is gone.
   bool write(std::string_view text) const;
-  /// Makes the terminal report the mouse's place in pixels from now on.
+  /// Makes the terminal report the mouse's position in pixels from now on.
   void tell_pixels() const;
   /// True once after `take_terminal_again`: the screen and its size may have changed.
   bool was_taken_again() const;
