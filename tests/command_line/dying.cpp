@@ -108,6 +108,7 @@ struct Recording {
   explicit Recording(const std::vector<int>& ignored = {})
       : child({"feel", corduroy, "--device", "simulated", "--seconds", "600", "--record", file}, out, err, {}, ignored) {
     EXPECT_TRUE(eventually([&] { return fs::exists(file) && fs::file_size(file) > 100'000; })) << bytes_of(err);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the file is this large before the first tick
   }
 };
 
