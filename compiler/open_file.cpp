@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "compiler/solve/level_scale.hpp"
-#include "schema/patch_program_format.hpp"
 
 namespace wale {
 
@@ -13,12 +10,9 @@ Result<OpenedFile> open_file(const FileRequest& request) {
   auto named = find_named(request.file, request.roots);
   if (!named) return named.error();
   OpenedFile opened;
-  opened.name = named->name, opened.material = named->material, opened.also = named->also;
+  opened.name = named->name, opened.material = named->material, opened.taken = named->taken;
   std::string& bytes = named->bytes;
-  const bool patch_program =
-      std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
-                         [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
-  if (patch_program || opened.name.ends_with(".wpp")) {
+  if (is_patch_program(opened.name, bytes)) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
     if (!loaded) {
       Error error = loaded.error();
@@ -31,7 +25,7 @@ Result<OpenedFile> open_file(const FileRequest& request) {
     opened.program = *std::move(loaded);
     return opened;
   }
-  const auto resolver = file_resolver(request.roots, request.looked_for, request.devices);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
   opened.source = named->embedded ? *named->embedded : opened.sources.add(opened.name, std::move(bytes));
   opened.module = check_source(opened.sources, opened.source, *resolver, opened.diagnostics);
   if (!opened.diagnostics.has_errors())
@@ -41,7 +35,7 @@ Result<OpenedFile> open_file(const FileRequest& request) {
 
 std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,
                                       Diagnostics& diagnostics) {
-  const auto resolver = file_resolver(request.roots, request.looked_for, request.devices);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
   return compile_material(*opened.module, material.empty() ? opened.material : material, request.device, opened.sources,
                           opened.source, *resolver, diagnostics);
 }

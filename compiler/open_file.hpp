@@ -19,6 +19,7 @@ struct FileRequest {
   std::vector<std::string> roots;                  ///< the last folders that are searched for imports
   std::vector<ResolvedFile> devices = {};          ///< see `Resolver::devices`
   std::vector<std::string>* looked_for = nullptr;  ///< receives the paths of all imports and images, found or not
+  Sandbox sandbox = Sandbox::required;             ///< of the decoder of its pictures
 };
 
 /// The content of such a file.
@@ -28,7 +29,7 @@ struct OpenedFile {
   Diagnostics diagnostics;
   std::string name;                     ///< the path of the file
   std::string material;                 ///< the material that was named; empty if only the file was
-  std::string also;                     ///< FILE:MATERIAL of a material with the file's name; mostly empty
+  std::string taken;                    ///< as in `NamedFile`
   std::optional<Program> program;       ///< for a patch program
   std::optional<CheckedModule> module;  ///< for a Wale file, with or without errors
 };

@@ -108,7 +108,11 @@ Result<> write_file(const std::string& path, std::string_view bytes) {
 }
 
 FileRequest Choice::request() const {
-  FileRequest request{file, device, library_folders(folders, std::getenv("WALE_LIBRARY")), devices};
+  FileRequest request{.file = file,
+                      .device = device,
+                      .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
+                      .devices = devices,
+                      .sandbox = sandbox};
   const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
   if (is_shipped || !devices.empty()) return request;
   if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
@@ -116,9 +120,8 @@ FileRequest Choice::request() const {
   return request;
 }
 
-void say_also(const OpenedFile& opened) {
-  if (!opened.also.empty())
-    fmt::print(stderr, "wale: `{}` is a file here; the material with that name is `{}`\n", opened.name, opened.also);
+void say_taken(const OpenedFile& opened) {
+  if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);
 }
 
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice) {
@@ -152,7 +155,7 @@ std::optional<OpenedFile> open(const Choice& choice) {
   if (!opened) return refuse(opened.error()), std::nullopt;
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error()), std::nullopt;
-  say_also(*opened);
+  say_taken(*opened);
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return std::nullopt;

@@ -30,7 +30,7 @@ int compare(const CompareOptions& options) {
       continue;
     }
     const OpenedFile& opened = *file.opened;
-    say_also(opened);
+    say_taken(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
     if (const auto same = is_as_named(opened, file.name.material, options.choice); !same) {
       refuse(same.error());
@@ -59,6 +59,7 @@ Run declare_compare(CLI::App& verb) {
       ->required();
   offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);
+  offer_sandbox(verb, options->choice.sandbox);
   verb.add_flag("--matrix", options->with_table, "prints all distances, even if the table does not fit a screen");
   offer_json(verb, options->json,
              "an object with every material's cues, all distances, and the nearest pairs cue by cue");

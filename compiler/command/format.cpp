@@ -1,11 +1,15 @@
 #include "compiler/format/format.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/text/other_file.hpp"
 #include "compiler/text/replace_file.hpp"
 
 namespace wale::command {
@@ -16,11 +20,37 @@ struct FormatOptions {
   bool check_only = false;  ///< writes nothing but the names of the files that formatting would change
 };
 
+/// All of standard input, which may be a pipe. Errors: W0501 if it cannot be read, or is larger than a file may be.
+Result<ResolvedFile> standard_input() {
+  const auto unreadable = [](std::string sentence) {
+    return Error{.code = Code::unreadable_file, .sentence = std::move(sentence), .place = {.name = "standard input"}};
+  };
+  ResolvedFile text{"-", {}};
+  std::vector<char> block(1 << 16);
+  while (true) {
+    const ssize_t count = read(STDIN_FILENO, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return unreadable(std::strerror(errno));
+    if (count == 0) return text;
+    text.bytes.append(block.data(), static_cast<std::size_t>(count));
+    if (text.bytes.size() > largest_file)
+      return unreadable(fmt::format("it has more than {} MB, the most that Wale reads", largest_file >> 20));
+  }
+}
+
 /// Formats one file; "-" means from standard input to standard output.
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
-  auto read = read_file(standard ? "/dev/stdin" : file);
-  if (!read) return refuse(read.error());
+  auto read = standard ? standard_input() : read_file(file);
+  if (!read) {
+    if (!standard && read.error().mend.empty()) read.error().mend = mend_of_path(file);
+    return refuse(read.error());
+  }
+  if (const auto other = other_file(file, read->bytes))
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a Wale file, found {}", other->what),
+                        .mend = std::string(other->mend),
+                        .place = {.name = file}});
   SourceSet sources;
   Diagnostics diagnostics;
   const SourceId source = sources.add(file, std::move(read->bytes));
@@ -49,7 +79,7 @@ int format(const FormatOptions& options) {
 
 Run declare_format(CLI::App& verb) {
   const auto options = std::make_shared<FormatOptions>();
-  verb.add_option("FILE", options->files, "Wale files; - for standard input to standard output")->required();
+  verb.add_option("FILE", options->files, "paths of Wale files; - for standard input to standard output")->required();
   verb.add_flag("--check", options->check_only,
                 "changes nothing; lists the files that would change and fails if there are any");
   verb.footer("for example: wale format library/fabric/*.wale");

@@ -13,6 +13,7 @@
 #include "runtime/device/plugged_device.hpp"
 #include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
+#include "runtime/keeper/keeper.hpp"
 #include "schema/result.hpp"
 
 namespace wale {
@@ -59,6 +60,8 @@ struct DeviceOptions {
   int descriptor = -1;
   /// N at the handle, the largest force that the user allows: every packet keeps within it, whatever is commanded.
   double most_newton = HUGE_VAL;
+  /// The program that lets the device go when this process cannot; every driver of a device that can hurt starts one.
+  KeeperOptions keeper = {};
 };
 
 /// One driver: how it finds its devices, and how it opens one. Choosing, listing, identifying and opening go through
@@ -77,6 +80,8 @@ struct Driver {
                        const DeviceOptions& options);
   /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty if there is only one.
   std::span<const std::string_view> transports = {};
+  /// What its devices do when this process and their keepers die together, for a person; empty where nothing pushes.
+  std::string_view left_alone = {};
 };
 
 using Drivers = std::span<const Driver* const>;

@@ -25,7 +25,7 @@
 #include "runtime/device/shipped_devices.hpp"
 #include "runtime/stage/scheduling.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tests/usb_mock/run_wale.hpp"
+#include "tests/usb_mock/running_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
@@ -57,12 +57,12 @@ std::vector<int> pushes_in(const std::vector<std::string>& log, int block) {
 const std::vector<std::string> set_up_of_openffboard{
     "GET 13",          "OUT 0C 08",       "OUT 0C 01",
     "OUT 0D FF",       "SET 11 01 00 00", "GET 12",
-    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
-    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 C8 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 C8 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
     "OUT 05 02 00 00", "OUT 0A 02 01 01"};
 const std::vector<std::string> leave_of_openffboard{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00",
                                                     "OUT 0A 02 03 00", "OUT 0C 04",       "OUT 0B 01",
-                                                    "OUT 0B 02",       "OUT 0C 02"};
+                                                    "OUT 0B 02",       "OUT 0C 08",       "OUT 0C 02"};
 
 std::vector<std::string> first(const std::vector<std::string>& log, std::size_t count) {
   return {log.begin(), log.begin() + static_cast<long>(std::min(count, log.size()))};
@@ -90,7 +90,7 @@ class Feeling : public testing::Test {
     return *library_.material(corduroy, "", device.declared->profile.name);
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
-    auto result = open_device(connections_, device);
+    auto result = open_device(connections_, device, {.priority = loop_priority - 1, .keeper = {WALE_KEEPER}});
     if (!result) throw std::runtime_error(result.error().sentence);
     return *std::move(result);
   }

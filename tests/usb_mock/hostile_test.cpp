@@ -16,7 +16,7 @@
 
 #include "schema/patch_program.hpp"
 #include "tests/usb/falcon_model.hpp"
-#include "tests/usb_mock/run_wale.hpp"
+#include "tests/usb_mock/running_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"

@@ -22,7 +22,15 @@ double share_beside(glm::dvec2 newton, glm::dvec2 other, double most) noexcept {
   return left > 0 ? (std::sqrt(cross * cross + square * left) - cross) / square : 0;
 }
 
+/// Toward zero.
+std::int64_t whole(double counts) noexcept { return static_cast<std::int64_t>(counts); }
+
 }  // namespace
+
+std::int64_t commanded_counts(double share, std::int64_t full) noexcept {
+  constexpr double of_a_float = 1e-6;  // relative, more than its rounding twice
+  return whole(share * static_cast<double>(full) * (1 + of_a_float));
+}
 
 glm::dvec2 unit(double degrees) noexcept {
   const double radians = degrees / degrees_per_radian;
@@ -89,10 +97,8 @@ void ForceGate::arrived(std::size_t effect) noexcept {
   held_[effect].arrived();
 }
 
-/// Toward zero.
-std::int64_t ForceGate::counts_of(double share) const noexcept {
-  return static_cast<std::int64_t>(share * static_cast<double>(full_));
-}
+/// The most counts within a share of the full force.
+std::int64_t ForceGate::counts_of(double share) const noexcept { return whole(share * static_cast<double>(full_)); }
 
 std::int64_t ForceGate::room(std::size_t effect, std::int64_t other) const noexcept {
   const glm::dvec2 newton = newton_[effect];
@@ -109,7 +115,7 @@ std::optional<ForceGate::Change> ForceGate::next_of_two(glm::dvec2 wanted) noexc
     const std::size_t effect = (turn_ + i) % 2;
     MayHold& held = held_[effect];
     const std::int64_t most = room(effect, held_[1 - effect].most());
-    const std::int64_t counts = std::clamp(counts_of(target[static_cast<int>(effect)]), -most, most);
+    const std::int64_t counts = std::clamp(commanded_counts(target[static_cast<int>(effect)], full_), -most, most);
     if (counts == held.newest() || held.is_full()) continue;
     held.submitted(counts);
     turn_ = 1 - effect;
@@ -155,7 +161,7 @@ std::optional<ForceGate::Change> ForceGate::next_of_one(glm::dvec2 wanted) noexc
     on_its_way_ = true;
     return Change{.effect = 0, .magnitude = Magnitude(counts)};
   };
-  if (counts_of(std::min(1.0, glm::length(target))) == 0) return send(0);
+  if (commanded_counts(std::min(1.0, glm::length(target)), full_) == 0) return send(0);
   const Aim aimed = aim(target);
   if (!turned_ && aimed.direction != direction_) {
     if (const std::int64_t most = most_along(aimed.direction); std::abs(held) > most)
@@ -167,13 +173,13 @@ std::optional<ForceGate::Change> ForceGate::next_of_one(glm::dvec2 wanted) noexc
   // Along the direction that was sent, also if the command has moved on.
   const std::int64_t most = most_along(direction_);
   const double along = std::clamp(glm::dot(target, unit(degrees(direction_))), -1.0, 1.0);
-  return send(std::clamp(counts_of(along), -most, most));
+  return send(std::clamp(commanded_counts(along, full_), -most, most));
 }
 
 std::optional<ForceGate::Change> ForceGate::next_at_once(glm::dvec2 wanted) noexcept {
   const glm::dvec2 target = within(limits_, wanted);
   const std::int64_t most = most_along_any(), held = held_[0].newest();
-  const std::int64_t size = std::min(most, counts_of(std::min(1.0, glm::length(target))));
+  const std::int64_t size = std::min(most, commanded_counts(std::min(1.0, glm::length(target)), full_));
   const Aim aimed = size == 0 ? Aim{direction_, 1} : aim(target);
   const std::int64_t counts = aimed.sign < 0 ? -size : size;
   if (counts == held && aimed.direction == direction_) return std::nullopt;

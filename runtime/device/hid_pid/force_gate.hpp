@@ -35,6 +35,10 @@ class Magnitude {
 /// direction. Not-a-number becomes 0.
 glm::dvec2 within(const ForceLimits& limits, glm::dvec2 share) noexcept;
 
+/// A commanded share in counts of `full`, rounded toward zero, but for the rounding of a float: a command of a whole
+/// count is that count. What a packet may carry is bounded apart.
+std::int64_t commanded_counts(double share, std::int64_t full) noexcept;
+
 /// The magnitudes of one effect that the device may hold now: the newest one known to have arrived, and all on their
 /// way.
 class MayHold {
@@ -78,6 +82,8 @@ class ForceGate {
   std::optional<Change> next(glm::dvec2 wanted) noexcept;
   /// The oldest change of an effect has reached the device.
   void arrived(std::size_t effect) noexcept;
+  /// Whether the newest changes, on their way or arrived, let the device push.
+  bool holds_force() const noexcept { return held_[0].newest() != 0 || held_[1].newest() != 0; }
 
   /// The same of one effect, for a queue whose state is unknown: a direction, and a magnitude that is within the limits
   /// along every direction. So each may arrive first, late or never.

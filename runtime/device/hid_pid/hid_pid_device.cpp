@@ -14,12 +14,6 @@ int scaled_counts(std::int32_t raw, std::int64_t minimum, std::int64_t maximum, 
   return sign * static_cast<int>(std::lround((raw - centre) * counts / length));
 }
 
-/// The step of force next to a share of `full` steps, toward zero.
-std::int64_t force_steps(double share, std::int64_t full) noexcept {
-  return static_cast<std::int64_t>(share * static_cast<double>(full));
-}
-
-/// The profile's number of force levels to each side, at most that of evdev.
 std::int64_t levels_of(const DeviceProfile& profile) noexcept {
   constexpr double most = 32767;
   return static_cast<std::int64_t>(std::clamp(std::round(profile.force_counts), 1.0, most));
@@ -77,7 +71,7 @@ Force HidPidDevice::command(Force force) noexcept {
   const glm::dvec2 allowed = hid::within(limits_, share);
   Force exerted(0);
   for (int axis = 0; axis < 2; ++axis)
-    exerted[axis] = static_cast<float>(static_cast<double>(force_steps(allowed[axis], steps)) /
+    exerted[axis] = static_cast<float>(static_cast<double>(hid::commanded_counts(allowed[axis], steps)) /
                                        static_cast<double>(steps) * profile_.force_newton);
   return exerted;
 }

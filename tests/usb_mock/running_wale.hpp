@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -17,6 +18,7 @@ namespace wale::test {
 
 struct Outcome {
   int status = -1;
+  int signal = 0;  ///< that ended it; 0: none
   std::string out, err;
 };
 
@@ -25,31 +27,42 @@ inline std::string text_of(const std::string& path) {
   return std::string{std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A process of `wale` with these arguments. The destructor kills it if it still runs.
+/// `wale` with these words, all signals at their defaults, killed in the end if it has not ended.
 class Running {
  public:
   /// `config_home` is the folder of the person's own settings.
   explicit Running(const std::string& words, const std::string& config_home = "/nonexistent") {
     std::string shell = "/bin/sh", option = "-c";
-    std::string line = "XDG_CONFIG_HOME='" + config_home + "' exec " + WALE_BINARY + " " + words + " </dev/null >" +
-                       out_ + " 2>" + err_;
+    std::string line = "ulimit -c 0; XDG_CONFIG_HOME='" + config_home + "' exec " + WALE_BINARY + " " + words +
+                       " </dev/null >" + out_ + " 2>" + err_;
     char* all[] = {shell.data(), option.data(), line.data(), nullptr};
-    if (posix_spawn(&child_, shell.c_str(), nullptr, nullptr, all, environ) != 0) throw std::runtime_error("no shell");
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t every;
+    sigfillset(&every);
+    posix_spawnattr_setsigdefault(&attributes, &every);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const int error = posix_spawn(&child_, shell.c_str(), nullptr, &attributes, all, environ);
+    posix_spawnattr_destroy(&attributes);
+    if (error != 0) throw std::runtime_error("no shell");
   }
   ~Running() {
-    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
+    if (child_ > 0) ::kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
   }
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  /// Its standard error so far.
+  /// On standard error, by now.
   std::string said() const { return text_of(err_); }
-  void interrupt() const { kill(child_, SIGINT); }
-  /// Waits for the end of the process.
+  void interrupt() const { tell(SIGINT); }
+  void tell(int signal) const { ::kill(child_, signal); }
+  pid_t process() const { return child_; }
+  /// Once it has ended.
   Outcome outcome() {
     int status = 0;
     waitpid(std::exchange(child_, 0), &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text_of(out_), text_of(err_)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, WIFSIGNALED(status) ? WTERMSIG(status) : 0, text_of(out_),
+            text_of(err_)};
   }
 
  private:
