@@ -13,6 +13,7 @@
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/modules/owners_devices_file.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
@@ -107,10 +108,16 @@ Result<> write_file(const std::string& path, std::string_view bytes) {
 }
 
 FileRequest Choice::request() const {
-  return {.file = file,
-          .device = device,
-          .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
-          .sandbox = sandbox};
+  FileRequest request{.file = file,
+                      .device = device,
+                      .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
+                      .devices = devices,
+                      .sandbox = sandbox};
+  const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
+  if (is_shipped || !devices.empty()) return request;
+  if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
+    request.devices.push_back(*std::move(owners));
+  return request;
 }
 
 void say_taken(const OpenedFile& opened) {

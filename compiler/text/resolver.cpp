@@ -29,8 +29,11 @@ Error unreadable(const std::string& path, std::string sentence) {
 
 class FileResolver final : public Resolver {
  public:
-  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for, Sandbox sandbox)
-      : roots_(std::move(roots)), looked_for_(looked_for), sandbox_(sandbox) {}
+  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for, Sandbox sandbox,
+               std::vector<ResolvedFile> devices)
+      : roots_(std::move(roots)), looked_for_(looked_for), sandbox_(sandbox), devices_(std::move(devices)) {}
+
+  std::vector<ResolvedFile> devices() override { return devices_; }
 
   Result<ResolvedFile> module(const std::string& path, const std::string& from) override {
     std::string relative = path;
@@ -136,6 +139,7 @@ class FileResolver final : public Resolver {
   std::vector<std::string> roots_;
   std::vector<std::string>* looked_for_;
   Sandbox sandbox_;
+  std::vector<ResolvedFile> devices_;
   std::map<std::string, std::optional<fs::path>> projects_;
   std::set<std::string> modules_;  ///< all modules requested so far
 };
@@ -143,8 +147,8 @@ class FileResolver final : public Resolver {
 }  // namespace
 
 std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for,
-                                        Sandbox sandbox) {
-  return std::make_unique<FileResolver>(std::move(roots), looked_for, sandbox);
+                                        Sandbox sandbox, std::vector<ResolvedFile> devices) {
+  return std::make_unique<FileResolver>(std::move(roots), looked_for, sandbox, std::move(devices));
 }
 
 Result<ResolvedFile> read_file(const std::string& path, std::size_t largest) {

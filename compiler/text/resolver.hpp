@@ -37,6 +37,9 @@ class Resolver {
   /// How the pictures that `file` supplies may be decoded.
   virtual Sandbox sandbox() const { return Sandbox::required; }
 
+  /// Files whose exported devices every file knows, unless it declares or imports others of the same names.
+  virtual std::vector<ResolvedFile> devices() { return {}; }
+
   /// A key for the library that `modules` lists: equal keys mean equal lists. If it is empty, the list must not be
   /// cached.
   virtual std::string library(const std::string& /*from*/) { return {}; }
@@ -51,9 +54,9 @@ inline constexpr const char* project_marker = "wale.project";
 /// Looks beside the importing file, then in its project (the nearest folder above it with a `wale.project`), then in
 /// each of the roots. Refuses files over `largest_asset`, modules over 4 MiB and more than a thousand modules, and all
 /// that are not regular files. `looked_for` receives the paths of all files that it looks for, found or not; it must
-/// outlive the resolver.
+/// outlive the resolver. `devices` is the result of `Resolver::devices`.
 std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr,
-                                        Sandbox sandbox = Sandbox::required);
+                                        Sandbox sandbox = Sandbox::required, std::vector<ResolvedFile> devices = {});
 
 /// Reads a whole file of at most `largest` bytes. Errors: W0501 if it is missing, unreadable, larger, or no regular
 /// file, such as a folder, a pipe or a device; `place` names it.
