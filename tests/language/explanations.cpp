@@ -1,5 +1,5 @@
-// Every code has an explanation. Its wrong example yields exactly that code, and its mended example compiles without a
-// diagnostic.
+// Every code has an explanation. If the code is about the text of a file, the wrong example yields exactly that code,
+// and the mended example compiles without a diagnostic.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
