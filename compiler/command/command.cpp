@@ -13,6 +13,7 @@
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/modules/owners_devices_file.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
@@ -106,7 +107,18 @@ Result<> write_file(const std::string& path, std::string_view bytes) {
                .place = {.name = path}};
 }
 
-FileRequest Choice::request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
+FileRequest Choice::request() const {
+  FileRequest request{.file = file,
+                      .device = device,
+                      .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
+                      .devices = devices,
+                      .sandbox = sandbox};
+  const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
+  if (is_shipped || !devices.empty()) return request;
+  if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
+    request.devices.push_back(*std::move(owners));
+  return request;
+}
 
 void say_taken(const OpenedFile& opened) {
   if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);

@@ -38,9 +38,12 @@ Result<> write_file(const std::string& path, std::string_view bytes);
 /// The choice of a material on the command line: a Wale file, a patch program, or a material by name.
 struct Choice {
   std::string file, material, device = default_device;
-  std::string device_option;         ///< "--device" if that option named the device; empty for the default device
-  std::vector<std::string> folders;  ///< folders to search for imports
+  std::string device_option;          ///< "--device" if that option named the device; empty for the default device
+  std::vector<std::string> folders;   ///< folders to search for imports
+  std::vector<ResolvedFile> devices;  ///< files with trusted devices, which every file knows
+  Sandbox sandbox = Sandbox::required;  ///< of the decoder of its pictures
 
+  /// Includes the owner's devices.wale if the device is not a shipped one.
   FileRequest request() const;
 };
 

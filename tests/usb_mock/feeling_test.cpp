@@ -25,6 +25,7 @@
 #include "runtime/device/shipped_devices.hpp"
 #include "runtime/stage/scheduling.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/usb_mock/running_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
@@ -56,12 +57,12 @@ std::vector<int> pushes_in(const std::vector<std::string>& log, int block) {
 const std::vector<std::string> set_up_of_openffboard{
     "GET 13",          "OUT 0C 08",       "OUT 0C 01",
     "OUT 0D FF",       "SET 11 01 00 00", "GET 12",
-    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
-    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 C8 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 C8 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
     "OUT 05 02 00 00", "OUT 0A 02 01 01"};
 const std::vector<std::string> leave_of_openffboard{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00",
                                                     "OUT 0A 02 03 00", "OUT 0C 04",       "OUT 0B 01",
-                                                    "OUT 0B 02",       "OUT 0C 02"};
+                                                    "OUT 0B 02",       "OUT 0C 08",       "OUT 0C 02"};
 
 std::vector<std::string> first(const std::vector<std::string>& log, std::size_t count) {
   return {log.begin(), log.begin() + static_cast<long>(std::min(count, log.size()))};
@@ -81,7 +82,7 @@ class Feeling : public testing::Test {
     return all;
   }
   ChosenDevice chosen(const std::string& spelling, std::size_t plugged) const {
-    auto choice = choose_device({.spelling = spelling}, *shipped_devices(), found(plugged));
+    auto choice = choose_device({.spelling = spelling}, *shipped_devices(), *trusted_devices(), found(plugged));
     if (!choice) throw std::runtime_error(choice.error().sentence);
     return *std::move(choice);
   }
@@ -89,7 +90,7 @@ class Feeling : public testing::Test {
     return *library_.material(corduroy, "", device.declared->profile.name);
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
-    auto result = open_device(connections_, device);
+    auto result = open_device(connections_, device, {.priority = loop_priority - 1, .keeper = {WALE_KEEPER}});
     if (!result) throw std::runtime_error(result.error().sentence);
     return *std::move(result);
   }
@@ -239,51 +240,6 @@ TEST_F(Feeling, AnUnknownStickUsesTheGenericProfileWithAWarning) {
 
 // Tests of the `wale` program in its own process.
 
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return std::string{std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A process of `wale` with these arguments. The destructor kills it if it still runs.
-class Running {
- public:
-  explicit Running(const std::string& words) {
-    std::string shell = "/bin/sh", option = "-c";
-    std::string line = std::string("exec ") + WALE_BINARY + " " + words + " </dev/null >" + out_ + " 2>" + err_;
-    char* all[] = {shell.data(), option.data(), line.data(), nullptr};
-    if (posix_spawn(&child_, shell.c_str(), nullptr, nullptr, all, environ) != 0) throw std::runtime_error("no shell");
-  }
-  ~Running() {
-    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
-  /// Its standard error so far.
-  std::string said() const { return text_of(err_); }
-  void interrupt() const { kill(child_, SIGINT); }
-  /// Waits for the end of the process.
-  Outcome outcome() {
-    int status = 0;
-    waitpid(std::exchange(child_, 0), &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text_of(out_), text_of(err_)};
-  }
-
- private:
-  TemporaryFolder folder_;
-  std::string out_ = folder_ / "out", err_ = folder_ / "err";
-  pid_t child_ = 0;
-};
-
-Outcome run_wale(const std::string& words) { return Running(words).outcome(); }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST_F(Feeling, APersonPlugsItInAndFeelsCorduroy) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
@@ -428,13 +384,28 @@ TEST_F(Feeling, IdentifyFindsTheAxesAndLeavesNoForce) {
   // At most a fifth of its force: 6554 of 32767.
   for (const int block : {1, 2})
     for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
-  // A printed declaration in the folder of a material is the device of that material.
+  // What was printed, in the folder of a material, is somebody's: it is named, and not used.
   const TemporaryFolder folder;
   folder.write("devices.wale", identified.out);
   std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
-  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json");
-  EXPECT_TRUE(contains(felt.err, "at port 1-1) as my_openffboard")) << felt.err;
-  EXPECT_EQ(nlohmann::json::parse(felt.out).at("profile"), "my_openffboard");
+  const std::string feel = "feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json";
+  const Outcome others = run_wale(feel);
+  EXPECT_EQ(nlohmann::json::parse(others.out).at("profile"), "openffboard");
+  EXPECT_TRUE(contains(others.err, "`my_openffboard`, which the material or its project declares, is not used"))
+      << others.err;
+  // Where a person names the file, or keeps it as their own, the device is driven by it.
+  const Outcome named = run_wale(feel + " --devices " + (folder / "devices.wale"));
+  EXPECT_TRUE(contains(named.err, "at port 1-1) as my_openffboard")) << named.err;
+  EXPECT_EQ(nlohmann::json::parse(named.out).at("profile"), "my_openffboard");
+  const TemporaryFolder home;
+  const Outcome saved = run_wale("devices --identify 1-1 --save", home / "");
+  EXPECT_EQ(saved.status, 0) << saved.err;
+  const Outcome own = run_wale("feel " + corduroy + " --seconds 0.2 --json", home / "");
+  EXPECT_EQ(nlohmann::json::parse(own.out).at("profile"), "my_openffboard") << own.err;
+  EXPECT_TRUE(contains(run_wale("devices", home / "").out, "used as my_openffboard, which ")) << "and says so";
+  const Outcome twice = run_wale("devices --identify 1-1 --save", home / "");
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_TRUE(contains(twice.err, "it declares `my_openffboard` already")) << twice.err;
 
   const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
   EXPECT_EQ(weak.status, 1);

@@ -89,12 +89,8 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
     case Step::leave: command.keeps_homing = false; break;
     case Step::loop:
       if (state_ == State::running) {
-        if (!silent_ && now - commanded_ > in_microseconds(options_.command_silence)) {
-          silent_ = true;
-          torques_ = {};
-          ++counts_.command_silences;
-        }
-        command.torques = torques_;
+        if (now - commanded_ > in_microseconds(options_.command_silence)) hush();
+        command.torques = allowed_torques(now);
         pending_ = false;
       }
       command.light = state_ == State::running ? Light::green : Light::red;
@@ -102,11 +98,18 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
     default: command.light = Light::red; break;
   }
   put(encode(command));
+  holds_force_ = command.torques != Torques{};
   ++counts_.commands_sent;
   return transfer;
 }
 
-/// The answer that the loader should give now; while the firmware is loaded, its echo.
+/// The only torques that a packet gets: those commanded, as far as the limits allow them where the handle is now.
+Torques FalconSession::allowed_torques(std::int64_t now) const noexcept {
+  if (!answer_ || now - heard_ > in_microseconds(options_.stale_after)) return {};
+  return options_.gate.within(torques_, answer_->encoders);
+}
+
+/// The answer that the loader should give now; while the firmware is loaded, the echo of it.
 std::span<const std::uint8_t> FalconSession::expected() const noexcept {
   switch (step_) {
     case Step::hello: return hello_answer;
@@ -292,6 +295,21 @@ void FalconSession::stop() noexcept {
   const bool may_push = step_ == Step::probe || step_ == Step::probe_again || step_ == Step::loop;
   go_to(may_push && !wants_firmware_ ? Step::leave : Step::none);
   state_ = may_push && !wants_firmware_ ? State::leaving : State::over;
+}
+
+void FalconSession::give_up(std::string_view reason) noexcept {
+  if (state_ == State::over) return;
+  lost_ = true;
+  reason_ = reason;
+  go_to(Step::none);
+  state_ = State::over;
+}
+
+void FalconSession::hush() noexcept {
+  if (silent_) return;
+  silent_ = true;
+  torques_ = {};
+  ++counts_.command_silences;
 }
 
 void FalconSession::command(const Torques& torques, std::int64_t now) noexcept {

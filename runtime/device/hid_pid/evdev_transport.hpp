@@ -42,12 +42,14 @@ class EvdevNode {
 /// A joystick through effects of the kernel's driver, which writes the reports of the PID class itself.
 ///
 /// If the driver has room for two effects, each is turned to one axis, and a change of level is one report, Set
-/// Constant Force. With room for one effect only, a change of direction takes a second report, Set Effect, and between
-/// the two the old magnitude acts along the new direction.
+/// Constant Force. With one effect, a change of direction takes a second report, Set Effect, and between the two the old
+/// magnitude acts along the new direction. One effect is used if the driver has room for one only, and if the user
+/// limits the force: its magnitude is within the limit along every direction, so late or lost updates cannot exceed it.
 ///
 /// An update returns before its report has been sent, and the driver queues up to 256 reports, old forces before new
 /// ones. It does not report when one has been sent, so updates are paced below the rate at which the device takes
-/// reports. When the node is closed, also by a kill, the kernel erases the effects.
+/// reports. When the last descriptor of the open file is closed, also by a kill, the kernel erases the effects; the
+/// keeper has one too, and erases them itself.
 ///
 /// The kernel tells little about other programs:
 /// - It refuses the next update of an effect that was erased through another descriptor of the same open file. Each
@@ -87,12 +89,14 @@ class EvdevTransport final : public PidTransport {
   bool update(std::size_t effect);
   bool tell(std::uint16_t code, std::int32_t value);
   void start_threads(int priority);
+  Result<> get_keeper(const std::optional<KeeperOptions>& options);
 
+  bool may_go(bool pushes);
   void write_forces();
   bool write_next(std::int64_t now);
   bool refresh(std::int64_t now);
-  bool turn_and_push();
-  std::int64_t level_of(double magnitude) const noexcept;
+  bool push(const hid::ForceGate::Change& change);
+  bool is_level() const noexcept;
   void read_positions();
   void take(const input_event& event);
   void read_state();
@@ -103,6 +107,7 @@ class EvdevTransport final : public PidTransport {
   EvdevNode node_;
   const MicrosecondClock now_;
   const std::int64_t pace_, refresh_period_, silence_;  // microseconds
+  const ForceLimits limits_;
   Ranges ranges_;
   hid::Arrangement arrangement_ = hid::Arrangement::by_direction;
   OwnedDescriptor ends_reading_;              // an eventfd
@@ -113,7 +118,7 @@ class EvdevTransport final : public PidTransport {
   std::array<std::int64_t, 2> refresh_at_{};
   glm::dvec2 wanted_{0};
   std::int64_t commanded_ = 0;
-  std::size_t turn_ = 0;
+  hid::ForceGate gate_;
   bool pending_ = false, silent_ = false;
 
   // The reader's.

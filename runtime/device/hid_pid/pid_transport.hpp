@@ -4,8 +4,10 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +15,7 @@
 
 #include "runtime/device/hid_pid/pid_session.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
+#include "runtime/keeper/keeper.hpp"
 
 namespace wale {
 
@@ -36,12 +39,15 @@ int system_ioctl(int descriptor, unsigned long request, void* argument);
 
 struct PidTransportOptions {
   hid::PidSessionOptions session;
+  double most_newton = HUGE_VAL;   ///< N at the handle, the user's limit; `HidPidDevice` sets the session's limits
   unsigned timeout = 100;          ///< ms, of each libusb transfer while running and leaving
   unsigned set_up_timeout = 1000;  ///< ms, of each libusb transfer while setting up: a reset may take long
   /// SCHED_FIFO priority of the thread that sends forces, if permitted: best just below the loop's. 0: ordinary.
   int priority = 0;
   MicrosecondClock now = microseconds_now;  ///< the clock that times refreshes and silence
   IoctlCall ioctl = system_ioctl;           ///< of hidraw and evdev
+  /// The keeper that watches; none: nobody does, as for models of devices. A device that can hurt has one.
+  std::optional<KeeperOptions> keeper = {};
 };
 
 /// The loop's view of a device that is set up and running: one thread of the transport sends the newest command,
@@ -53,8 +59,9 @@ class PidTransport {
   PidTransport(const PidTransport&) = delete;
   PidTransport& operator=(const PidTransport&) = delete;
 
-  /// The force to exert from now on, as shares -1 .. 1 of the device's full force along its own axes (y to the user). A
-  /// newer command replaces it. Real-time: allocates nothing, takes no lock, does not throw; posts a semaphore.
+  /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user). A
+  /// newer command replaces it. Tells the keeper that the loop ticks. Real-time: allocates nothing, takes no lock, does
+  /// not throw; reads the clock and posts a semaphore.
   void command(glm::vec2 force) noexcept;
 
   struct Seen {
@@ -99,10 +106,17 @@ class PidTransport {
   void show(std::int64_t x, std::int64_t y, bool button) noexcept;
   void show_lost() noexcept { lost_.store(true, std::memory_order_release); }
 
+  /// Set once, before the loop commands anything; null: nobody watches. Any thread.
+  Keeper* keeper() const noexcept { return keeper_.load(std::memory_order_acquire); }
+  void set_keeper(std::unique_ptr<Keeper> keeper) noexcept;
+  /// For the end of a derived class, when nothing is sent any more.
+  void end_keeper() noexcept { delete keeper_.exchange(nullptr); }
+
  private:
   std::atomic<std::uint64_t> wanted_{0};  // two floats
   std::atomic<std::uint64_t> seen_{0};    // two numbers of 28 bits and the button
   std::atomic<bool> lost_{false}, ends_{false};
+  std::atomic<Keeper*> keeper_{nullptr};
   sem_t commanded_;
 };
 
