@@ -5,11 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iostream>
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
@@ -92,21 +88,9 @@ void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const 
     fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
 }
 
-Result<> write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-") {
-    std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-    if (std::cout) return {};
-    return Error{.code = Code::unwritable_file, .sentence = "cannot write to standard output"};
-  }
-  std::ofstream file(path, std::ios::binary);
-  if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (file) return {};
-  return Error{.code = Code::unwritable_file,
-               .sentence = fmt::format("cannot write this file: {}", std::strerror(errno)),
-               .place = {.name = path}};
+FileRequest Choice::request() const {
+  return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY")), inputs.get()};
 }
-
-FileRequest Choice::request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
 
 void say_also(const OpenedFile& opened) {
   if (!opened.also.empty())
@@ -140,6 +124,7 @@ std::optional<OpenedFile> open(const Choice& choice) {
   }
   auto opened = open_file(choice.request());
   if (!opened) return refuse(opened.error()), std::nullopt;
+  choice.inputs->push_back(opened->name);
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error()), std::nullopt;
   say_also(*opened);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compiler/open_file.hpp"
+#include "compiler/text/output_file.hpp"
 #include "schema/result.hpp"
 
 /// What a person's command does: the verbs of the command line, which read files, print, and give an exit status. They
@@ -33,14 +35,13 @@ std::string error_text(const Error& error);
 /// With carets in colour where a person reads them.
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);
 
-/// Writes a whole file; "-" is standard output. Error: W0505.
-Result<> write_file(const std::string& path, std::string_view bytes);
-
 /// What was named on the command line: a Wale file to compile, a patch program to load, or a material by name.
 struct Choice {
   std::string file, material, device = default_device;
   std::string device_option;  ///< "--device" where that option named the device; empty: it is the default
   std::vector<std::string> folders;  ///< in which imports are looked for
+  /// All files that were read for it, and for its copies.
+  std::shared_ptr<InputFiles> inputs = std::make_shared<InputFiles>();
 
   FileRequest request() const;
 };
