@@ -41,7 +41,8 @@ constexpr const char* about =
 
 Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";
 
-/// A misspelt verb, which CLI11 would take for a missing one; nothing where the first word is a verb or an option.
+/// The message for a misspelt verb, which CLI11 would report as a missing one; nothing if the first word is a verb or
+/// an option.
 std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first) {
   std::vector<std::string> verbs;
   for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
@@ -52,7 +53,7 @@ std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string&
                           : fmt::format("the verbs are {}; `wale --help` says what they do", fmt::join(verbs, ", ")));
 }
 
-/// What is wrong with the words of a command, and where its options are listed.
+/// The error in the words of a command, and where its options are listed.
 std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
   const auto verbs = app->get_subcommands();
   const std::string verb = verbs.empty() ? "wale" : "wale " + verbs.front()->get_name();

@@ -9,12 +9,12 @@
 
 namespace wale {
 
-/// What became of one material of a collection.
+/// The result for one material of a collection.
 struct BuiltMaterial {
   std::string material;
-  std::string path;         ///< of the program that was written; empty when there is none
-  std::size_t bytes = 0;    ///< of it
-  Result<> written;         ///< the error (W0505, W0508) if the program could not be written; done also if it did not compile
+  std::string path;       ///< path of the program; empty if none was written
+  std::size_t bytes = 0;  ///< size of the program
+  Result<> written;  ///< the error (W0505, W0508) if the program could not be written; no error if it did not compile
   Diagnostics diagnostics;  ///< of this material alone
 };
 
@@ -24,10 +24,9 @@ struct BuiltCollection {
   std::size_t built() const;
 };
 
-/// Builds every material of an opened Wale file that has no errors to FOLDER/NAME.wpp, one after the other; one that
-/// fails does not keep the others from being built. Makes the folder where there is none. Files that are there already
-/// are replaced, unless they are among the `inputs` that were read. Errors, before anything is built: W0602 for a file without materials, W0505 for a folder that cannot
-/// be made.
+/// Builds every material of an opened Wale file without errors to FOLDER/NAME.wpp. If one fails, the others are still
+/// built. Makes the folder if it does not exist, and replaces existing files other than `inputs`. Errors, before
+/// anything is built: W0602 for a file without materials, W0505 for a folder that cannot be made.
 Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder,
                                   const InputFiles& inputs);
 

@@ -17,7 +17,7 @@ namespace wale {
 
 namespace {
 
-/// With what is proved of each result.
+/// The listing, with the proved range of each result.
 std::string listing_of(const Program& program) {
   const Proof proof = prove(program);
   const auto ranges_of = [&](CodeSection section, std::size_t index) -> const Proof::Ranges& {
@@ -51,7 +51,7 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
                  .mend = "show its listing or cpp, or name the Wale file that it was built from",
                  .place = {.name = opened.name}};
   if (stage == BuildStage::tree) {
-    Diagnostics known;  // the file has been parsed before, and what is wrong with it has been said
+    Diagnostics known;  // discarded: the file has been parsed before, and its errors have been reported
     return Text(print_tree(parse(opened.sources, opened.source, known)));
   }
   if (!of_source) {

@@ -9,7 +9,7 @@
 
 namespace wale {
 
-/// What `wale build --emit` can show, in the order in which a material becomes it.
+/// The stages that `wale build --emit` can show, in their order.
 enum class BuildStage { tree, checked, ir, listing, cpp };
 
 struct StageName {
@@ -23,8 +23,8 @@ inline constexpr std::array<StageName, 5> stage_names = {{{"tree", BuildStage::t
                                                           {"listing", BuildStage::listing},
                                                           {"cpp", BuildStage::cpp}}};
 
-/// A material as it is after a stage, as text; of `tree`, the whole file. Nothing where it does not come that far,
-/// which `diagnostics` say. Error: W0801 for a patch program, which has no stage before the listing.
+/// A material after a stage, as text; for `tree`, the whole file. Nothing if an earlier stage fails, which is reported
+/// to `diagnostics`. Error: W0801 for a patch program and a stage before the listing.
 Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const FileRequest& request,
                                                const std::string& material, BuildStage stage, Diagnostics& diagnostics);
 

@@ -15,13 +15,13 @@
 namespace wale {
 namespace {
 
-/// A fix may uncover another, and a file tells its first hundred errors at a time; no file that people write needs half
-/// of this.
+/// Rounds of fixes for one file: a fix may uncover another error, and a round reports at most a hundred errors. Files
+/// that people write need fewer than half of this.
 constexpr int most_rounds = 20;
-/// A file that imports another has more to say once the other is mended.
+/// Passes over all files: mending one file may uncover errors in a file that imports it.
 constexpr int most_passes = 3;
 
-/// All that is wrong with one text.
+/// All errors and warnings of one text.
 Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<std::string>& roots) {
   Diagnostics diagnostics;
   const auto resolver = file_resolver(roots);
@@ -36,7 +36,7 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
   return diagnostics;
 }
 
-/// Mends a text as far as it goes; adds what was done to `mends`.
+/// Applies fixes to a text until none are left; adds them to `mends`.
 std::string mended(const std::string& file, std::string text, const std::vector<std::string>& roots,
                    std::vector<Mend>& mends) {
   std::set<std::string> seen = {text};
@@ -45,7 +45,7 @@ std::string mended(const std::string& file, std::string text, const std::vector<
     const SourceId source = sources.add(file, text);
     const Diagnostics diagnostics = check_text(sources, source, roots);
     FixedText fixed = apply_fixes(text, source, safe_fixes(diagnostics.all()));
-    // Fixes that lead back to where they began mend nothing.
+    // Stop if the fixes lead back to an earlier text.
     if (fixed.applied.empty() || !seen.insert(fixed.text).second) break;
     for (const Fix& fix : fixed.applied) mends.push_back({sources.place(fix.edits.front().span), fix.title});
     text = std::move(fixed.text);
@@ -56,7 +56,7 @@ std::string mended(const std::string& file, std::string text, const std::vector<
 /// Whether the file was changed.
 bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
   auto read = read_file(result.file);
-  if (!read || !result.written) return false;  // that it cannot be read, the check says
+  if (!read || !result.written) return false;  // the check reports that the file cannot be read
   std::vector<Mend> mends;
   const std::string text = mended(result.file, read->bytes, roots, mends);
   if (text == read->bytes) return false;

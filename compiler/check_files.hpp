@@ -8,30 +8,30 @@
 
 namespace wale {
 
-/// What there is to say about some files, all stages and all of their materials.
+/// The diagnostics of some files, from all stages and for all of their materials.
 struct CheckedFiles {
   SourceSet sources;
   Diagnostics diagnostics;
 };
 
-/// Reads and checks files; one that cannot be read is a diagnostic (W0501). What is wrong with a file that several of
-/// them import is said once. Imports are looked for in `roots` at last.
+/// Reads and checks files; a file that cannot be read gives a diagnostic (W0501). Errors in a file that several of them
+/// import are reported once. `roots` are the last folders that are searched for imports.
 CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {});
 
 /// A change that was made to a file.
 struct Mend {
-  LineColumn place;  ///< where it was when it was made
+  LineColumn place;  ///< its place in the text at that time
   std::string title;
 };
 
 struct MendedFile {
   std::string file;
   std::vector<Mend> mends;
-  Result<> written = {};  ///< the error (W0505) where the mends could not be written
+  Result<> written = {};  ///< the error (W0505) if the mends could not be written
 };
 
-/// Applies the safe fixes of the files, checks again, and so on until nothing more can be mended. Writes only files
-/// that are named here, never those that they import, each whole or not at all, and only if it changed.
+/// Applies the safe fixes of the files and checks again, until nothing more can be mended. Writes only the named files
+/// and never those that they import, each atomically, and only if it changed.
 std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {});
 
 }  // namespace wale

@@ -19,9 +19,9 @@ namespace wale {
 
 namespace {
 
-constexpr double least_declared_watt = 0.01;  // below, rounding up would say nothing
+constexpr double least_declared_watt = 0.01;  // W; the resolution of the proposed `active`
 
-/// A program that gives energy says how much.
+/// Warns of a program that gives more energy than its material declares.
 void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material, const GradingHand& hand,
                                Diagnostics& diagnostics) {
   const Energy energy = energy_of(bank, hand);
@@ -34,18 +34,18 @@ void warn_of_undeclared_energy(const Bank& bank, const SolvedMaterial& material,
                                              material.name, energy.watt(), energy.reasons.front()),
                       .help = material.active_watt > 0
                                   ? fmt::format("it declares {:.2g} W; write `{}`", material.active_watt, mend)
-                                  : fmt::format("say so: `{}` in its physical block", mend)});
+                                  : fmt::format("write `{}` in its physical block", mend)});
 }
 
-/// What a device does not give, a program does not get: it is felt with less.
+/// Warns of a material that declares more active power than the device allows, so that it feels weaker.
 void warn_of_a_device_that_gives_less(const SolvedMaterial& material, Diagnostics& diagnostics) {
   const DeviceProfile& device = material.device;
   if (device.active_watt == 0 || material.active_watt <= device.active_watt) return;
   diagnostics.report({.code = Code::more_than_device_gives,
                       .span = material.force_span,
-                      .message = fmt::format("`{}` declares {:.2g} W, and `{}` gives a program {:.2g} W at most",
+                      .message = fmt::format("`{}` declares {:.2g} W, but `{}` gives a program at most {:.2g} W",
                                              material.name, material.active_watt, device.name, device.active_watt),
-                      .help = "what is more is held back while it is felt; declare less, or take another device"});
+                      .help = "the runtime holds back the rest; declare less, or choose another device"});
 }
 
 /// "`a`, `b` and 3 more": at most eight names.
@@ -107,15 +107,15 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
         {.code = Code::program_too_large,
          .span = solved.span,
          .message = fmt::format("the machine refuses `{}`: {}", solved.name, in_words(loaded.error())),
-         .help = "make it smaller if it is large; if it is not, the fault is the compiler's, not yours"});
+         .help = "if the material is large, make it smaller; if it is not, this is an error in the compiler"});
     return std::nullopt;
   }
-  if (solved.device.shaker) return *std::move(loaded);  // no height pushes, and nobody is pushed
+  if (solved.device.shaker) return *std::move(loaded);  // there is no force
   const Bank bank(*loaded);
   if (measure(bank).flat) {
     diagnostics.report({.code = Code::flat_height,
                         .span = solved.force_span,
-                        .message = "this height is flat, and a flat height pushes nothing",
+                        .message = "this height is flat, and a flat height gives no force",
                         .help = "let it change with `x` or `y` inside the patch, as in `grating(x, period: 2.5 mm)`"});
     return std::nullopt;
   }

@@ -10,24 +10,24 @@
 
 namespace wale {
 
-/// The device that a program is built for unless another is named.
+/// The device for which a program is built unless another is named.
 inline constexpr const char* default_device = "sandpaper";
 
-/// Text to checked module: everything that can be known without choosing a material and a device.
+/// Checks a text: all stages that do not depend on a material and a device. Errors are reported to `diagnostics`.
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics);
 
-/// The material of that name, or without a name the file's only or first one; nothing when there is none, which is
+/// The material with that name, or with an empty name the first one of the file. Null if there is none, which is
 /// reported.
 const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
                                        Diagnostics& diagnostics);
 
-/// One material of a checked module to a program that runs: solve, lower, emit, verify, measure. None when there were
-/// errors. Without a name, the file's only or first material.
+/// Compiles one material of a checked module to a loaded program: solve, lower, emit, verify, measure. Nothing after
+/// errors, which are reported. An empty name means the first material of the file.
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& material,
                                         const std::string& device, const SourceSet& sources, SourceId source,
                                         Resolver& resolver, Diagnostics& diagnostics);
 
-/// A program from a text, all stages.
+/// Compiles a text, all stages.
 std::optional<Program> compile(SourceSet& sources, SourceId source, const std::string& material,
                                const std::string& device, Resolver& resolver, Diagnostics& diagnostics);
 

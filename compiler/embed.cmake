@@ -9,10 +9,10 @@ foreach(file IN LISTS common modules)
   if(file IN_LIST common)
     set(is_common true)
   endif()
-  # Read as hexadecimal: a list separator or bracket in the text must not mean anything to CMake.
+  # The text is read as hexadecimal, because list separators and brackets have a meaning for CMake.
   file(READ "${ROOT}/${file}" bytes HEX)
   string(LENGTH "${bytes}" size)
-  math(EXPR size "${size} / 2")  # said, since there may be zeros among them
+  math(EXPR size "${size} / 2")  # explicit, since the text may contain zeros
   string(REGEX REPLACE "(..)" "\\\\x\\1" escaped "${bytes}")
   string(REPLACE "\\x0a" "\\x0a\"\n     \"" escaped "${escaped}")  # a line of text, a line of code
   string(APPEND text "    {\"${file}\",\n     {\"${escaped}\", ${size}}, ${is_common}},\n")

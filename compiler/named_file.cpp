@@ -27,12 +27,12 @@ bool is_folder(const std::string& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// Whether a text can only be meant as a path.
+/// Whether a text can only mean a path.
 bool is_path(const std::string& text) {
   return text.empty() || text.find('/') != std::string::npos || text.ends_with(".wale") || text.ends_with(".wpp");
 }
 
-/// A module of the library that is part of the binary, by its path in the source tree; nothing for any other path.
+/// An embedded module of the library, by its path in the source tree; nothing for other paths.
 std::optional<NamedFile> shipped_file(const std::string& path) {
   const std::string name = fs::path(path).lexically_normal().generic_string();
   const auto files = embedded_files();
@@ -46,15 +46,15 @@ std::optional<NamedFile> shipped_file(const std::string& path) {
                    .also = {}};
 }
 
-/// A file of another sort, by the bytes that it begins with.
+/// The error for a file of another kind, which is recognised by its first bytes.
 Error no_material(const std::string& path, const std::string& what, const std::string& mend) {
   return {.code = Code::malformed_value,
-          .sentence = fmt::format("this is {}, and neither a Wale file nor a patch program", what),
+          .sentence = fmt::format("this is {}, not a Wale file or a patch program", what),
           .mend = mend,
           .place = {.name = path}};
 }
 
-/// Reads a file. One on the disk goes before a shipped one of the same path: in a checkout it is the newer.
+/// Reads a file. A file on disk takes precedence over a shipped one with the same path: in a checkout it is newer.
 Result<NamedFile> read_named(const std::string& path, const std::string& material) {
   if (!exists(path))
     if (auto shipped = shipped_file(path)) {
@@ -64,7 +64,7 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
   auto read = read_file(path);
   if (read && read->bytes.starts_with("\x89WRC")) return no_material(path, "a recording", "`wale replay` reads it");
   if (read && read->bytes.starts_with("\x89PNG"))
-    return no_material(path, "a picture", "a Wale file shows it by `image(\"FILE.png\", …)`");
+    return no_material(path, "a picture", "a Wale file uses it with `image(\"FILE.png\", …)`");
   if (read)
     return NamedFile{.name = path, .bytes = std::move(read->bytes), .embedded = {}, .material = material, .also = {}};
   Error error = read.error();
@@ -74,7 +74,7 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
   return error;
 }
 
-/// What a file in the present folder could import. The file itself need not be there.
+/// The index of what a file in the current folder could import.
 std::shared_ptr<const LibraryIndex> index_here(const std::vector<std::string>& roots) {
   return library_index(*file_resolver(roots), "here");
 }
@@ -95,7 +95,7 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
     const auto kinds = kinds_in(*index);
     const bool is_kind = std::ranges::find(kinds, name) != kinds.end();
     if (is_kind) {
-      error.sentence = fmt::format("`{}` is a kind of material, and no material", name);
+      error.sentence = fmt::format("`{}` is a kind of material, not a material", name);
       error.mend = fmt::format("`wale find --kind {}` lists its materials", name);
     } else if (const auto near = nearest_materials(*index, name); !near.empty())
       error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed(near));
@@ -117,7 +117,7 @@ Result<NamedFile> find_named(const std::string& argument, const std::vector<std:
   const auto [file, material] = named_material(argument);
   if (file.ends_with(':') && !exists(file))
     return Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("`{}` names no material behind its colon", argument),
+                 .sentence = fmt::format("`{}` names no material after its colon", argument),
                  .mend = "write FILE:MATERIAL, or leave out the colon",
                  .place = {.text = argument}};
   const bool is_file = exists(file) && !is_folder(file);

@@ -25,7 +25,7 @@ Result<OpenedFile> open_file(const FileRequest& request) {
       error.sentence = "this program is refused: " + in_words(error);
       error.mend = "build it again from its Wale file";
       error.place = {.name = opened.name};
-      error.led_to.clear();  // the sentence has it
+      error.led_to.clear();  // the sentence contains it
       return error;
     }
     opened.program = *std::move(loaded);

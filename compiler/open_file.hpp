@@ -12,36 +12,36 @@
 
 namespace wale {
 
-/// What a person names: a Wale file, a patch program (.wpp), or a material by name.
+/// A request for a Wale file, a patch program (.wpp), or a material by name.
 struct FileRequest {
-  std::string file;  ///< whatever `find_named` finds
+  std::string file;  ///< an argument of `find_named`
   std::string device = default_device;
-  std::vector<std::string> roots;                  ///< folders in which imports are looked for at last
-  std::vector<std::string>* looked_for = nullptr;  ///< gets the paths of what it imports or shows, found or not
+  std::vector<std::string> roots;                  ///< the last folders that are searched for imports
+  std::vector<std::string>* looked_for = nullptr;  ///< receives the paths of all imports and images, found or not
 };
 
-/// What such a file holds.
+/// The content of such a file.
 struct OpenedFile {
   SourceSet sources;
   SourceId source = 0;
   Diagnostics diagnostics;
   std::string name;                     ///< the path of the file
-  std::string material;                 ///< the one that was named; empty where only the file was
-  std::string also;                     ///< FILE:MATERIAL of the material that has the file's name; mostly empty
-  std::optional<Program> program;       ///< of a patch program
-  std::optional<CheckedModule> module;  ///< of a Wale file, with or without errors
+  std::string material;                 ///< the material that was named; empty if only the file was
+  std::string also;                     ///< FILE:MATERIAL of a material with the file's name; mostly empty
+  std::optional<Program> program;       ///< for a patch program
+  std::optional<CheckedModule> module;  ///< for a Wale file, with or without errors
 };
 
-/// Finds and reads a file and, if it is a Wale file, checks it: what is wrong in its text is in `diagnostics`. No
-/// material is compiled yet. Errors: those of `find_named`, and W0606 for a patch program that does not load.
+/// Finds and reads a file and, if it is a Wale file, checks it: errors in its text are in `diagnostics`. No material is
+/// compiled yet. Errors: those of `find_named`, and W0606 for a patch program that does not load.
 Result<OpenedFile> open_file(const FileRequest& request);
 
-/// Compiles one material of an opened Wale file; its errors and warnings go to `diagnostics`. Without a name the
-/// material that was named with the file, or else the file's only or first one.
+/// Compiles one material of an opened Wale file; its errors and warnings go to `diagnostics`. An empty name means the
+/// material that was named with the file, or else the first one of the file.
 std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,
                                       Diagnostics& diagnostics);
 
-/// The names of an opened Wale file's materials, in the order written; only the one that was named with it, if any.
+/// The names of an opened Wale file's materials, in the order written. If one was named with the file, only that one.
 std::vector<std::string> materials_of(const OpenedFile& opened);
 
 }  // namespace wale

@@ -11,7 +11,7 @@
 namespace wale {
 namespace {
 
-/// What an option is typed for, as its errors say it.
+/// The value that an option expects, in the words of its errors.
 struct Expected {
   std::string what;     ///< "a force"
   std::string example;  ///< `--max-force "3 N"`
@@ -26,8 +26,7 @@ Error unexpected(Code code, const std::string& option, const std::string& text, 
           .place = {.name = option, .text = text}};
 }
 
-/// The first thing that is wrong with a text. What the language says of names and characters speaks of files, and is
-/// left out here.
+/// The first error in a text. Messages about names and characters are for files, and are left out here.
 Error unexpected(const Diagnostics& diagnostics, const std::string& option, const std::string& text,
                  const Expected& expected) {
   const Diagnostic& first = diagnostics.all().front();
@@ -37,7 +36,7 @@ Error unexpected(const Diagnostics& diagnostics, const std::string& option, cons
                           : unexpected(Code::malformed_value, option, text, expected);
 }
 
-/// Reads quantities separated by commas: so many as there are dimensions, or only the first `needed`.
+/// Reads quantities separated by commas: one for each dimension, or only the first `needed`.
 Result<std::vector<double>> read_list(const Declarations& known, const std::string& option, const std::string& text,
                                       const std::vector<Dimension>& dimensions, std::size_t needed,
                                       const Expected& expected) {
@@ -63,7 +62,7 @@ Result<std::vector<double>> read_list(const Declarations& known, const std::stri
   return values;
 }
 
-/// The dimension of a parameter; nothing where its SI unit is no unit of the language.
+/// The dimension of a parameter; nothing if its SI unit is not a unit of the language.
 std::optional<Dimension> dimension_of(const Declarations& known, const Parameter& parameter) {
   if (parameter.si_unit.empty()) return Dimension{};
   SourceSet sources;
@@ -79,7 +78,7 @@ std::optional<Dimension> dimension_of(const Declarations& known, const Parameter
   return unit.failed() ? std::nullopt : std::optional(unit.dimension);
 }
 
-/// "from 1 mm to 5 mm": of bounds in SI, in the parameter's own unit.
+/// "from 1 mm to 5 mm": bounds in SI as text in the parameter's own unit.
 std::string range_text(const Parameter& parameter, double low, double high) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   return fmt::format("from {:.6g}{} to {:.6g}{}", low / parameter.unit_in_si, unit, high / parameter.unit_in_si, unit);
@@ -118,7 +117,7 @@ Result<ParameterValue> read_parameter(const Declarations& known, const std::stri
     return Error{.code = Code::unknown_unit,
                  .sentence = fmt::format("nothing declares the unit `{}` of `{}`", parameter.si_unit, parameter.name),
                  .place = {.name = where, .text = text}};
-  // A unit that only the material's own file declares travels with the parameter.
+  // The parameter's own unit may be declared only in the material's file, so it is added here.
   Declarations names(known);
   if (!names.units.contains(parameter.unit))
     names.units.add(parameter.unit, {.what = {parameter.unit_in_si, *dimension}, .declared = {}});

@@ -9,11 +9,11 @@
 #include "wale/program.hpp"
 
 /// Reads quantities as people type them for an option, "5mm" or "10 mm, 5 mm", with the units of `known`. `option` is
-/// its name, "--at". An error says what was typed, what was expected, and an example; its code is that of the same
-/// mistake in a Wale file where the dimension, the unit or the size is wrong, and W0801 otherwise.
+/// its name, "--at". An error has the text, the expected value, and an example. If the dimension, the unit or the size
+/// is wrong, its code is that of the same error in a Wale file; otherwise it is W0801.
 namespace wale {
 
-/// A hand: position, and velocity where it is given: "10 mm, 5 mm[, 0.1 m/s, 0 m/s]".
+/// A hand: its position and optionally its velocity: "10 mm, 5 mm[, 0.1 m/s, 0 m/s]".
 Result<Hand> read_hand(const Declarations& known, const std::string& option, const std::string& text);
 
 /// A largest force in N, above 0: "3 N".
@@ -22,10 +22,10 @@ Result<double> read_force(const Declarations& known, const std::string& option, 
 /// A value for a parameter, in SI and in its range.
 struct ParameterValue {
   float value = 0;
-  std::optional<Error> unusual;  ///< a warning (W0308) where it is outside its usual (soft) range
+  std::optional<Error> unusual;  ///< a warning (W0308) if it is outside its usual (soft) range
 };
-/// "5mm" for a parameter in mm, typed for an option NAME=VALUE, "--set". The parameter's own unit is known even where
-/// nothing else declares it.
+/// The value of a parameter, "5mm", typed for an option NAME=VALUE, "--set". The parameter's own unit is known even if
+/// `known` does not declare it.
 Result<ParameterValue> read_parameter(const Declarations& known, const std::string& option, const Parameter& parameter,
                                       const std::string& text);
 

@@ -10,7 +10,7 @@
 namespace wale {
 namespace {
 
-/// A number at the beginning of a text, and what stands behind it.
+/// A number at the beginning of a text, and the text after it.
 template <class Number>
 struct Leading {
   Number number;
@@ -39,7 +39,7 @@ Error unexpected(const std::string& option, const std::string& text, const std::
           .place = {.name = option, .text = text}};
 }
 
-/// Seconds in a unit of time; nothing for any other word. Without a unit it is seconds.
+/// Seconds in a unit of time, 1 for no unit; nothing for other words.
 std::optional<double> seconds_in(std::string_view unit) {
   if (unit.empty() || unit == "s") return 1;
   if (unit == "ms") return 1e-3;

@@ -15,8 +15,8 @@
 
 namespace wale::patch_program_format {
 
-/// Little-endian values out of one part of a file. Never reads past its end: it fails, naming the
-/// part and the byte in it (`damaged_file`, thrown as `Error`).
+/// Reads little-endian values from one part of a file. Never reads past its end. Every function fails with
+/// `damaged_file`, thrown as `Error`; its place is the part and the byte in it.
 class ByteReader {
  public:
   ByteReader(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -34,7 +34,7 @@ class ByteReader {
 
   bool boolean(std::string_view what) {
     const std::uint8_t value = u8();
-    if (value > 1) damaged(" holds ", int{value}, " for ", what, ", which is 0 or 1");
+    if (value > 1) damaged(" holds ", int{value}, " for ", what, ", expected 0 or 1");
     return value == 1;
   }
 
@@ -51,11 +51,11 @@ class ByteReader {
     return text;
   }
 
-  /// A number of things that take at least `least_bytes` each, so that no count outgrows the file.
+  /// A number of things, each at least `least_bytes` long. Fails if the rest of the part is too short for them.
   std::uint32_t count(std::size_t least_bytes, std::string_view what) {
     const std::uint32_t count = u32();
     if (count > remaining() / least_bytes) {
-      damaged(" claims ", count, " ", what, " and has ", remaining(), " bytes left for them");
+      damaged(" claims ", count, " ", what, " but has only ", remaining(), " bytes for them");
     }
     return count;
   }
@@ -68,7 +68,7 @@ class ByteReader {
 
   std::size_t remaining() const { return bytes_.size() - position_; }
 
-  /// Fails here: the sentence is the part's name and what `parts` say of it.
+  /// Fails at the present byte. The sentence is the part's name, then `parts`.
   template <typename... Parts>
   [[noreturn]] void damaged(const Parts&... parts) const {
     throw Error{.code = Code::damaged_file,
@@ -82,7 +82,7 @@ class ByteReader {
 
  private:
   void need(std::size_t size) const {
-    if (size > remaining()) damaged(" ends early: ", size, " bytes are needed and ", remaining(), " are left");
+    if (size > remaining()) damaged(" ends early: it needs ", size, " more bytes and has ", remaining());
   }
 
   template <typename Unsigned>
@@ -98,7 +98,7 @@ class ByteReader {
 
   template <typename Float>
   Float finite(Float value, std::string_view what) const {
-    if (!std::isfinite(value)) damaged(" holds ", value, " for ", what, ", which is not a finite number");
+    if (!std::isfinite(value)) damaged(" holds ", value, " for ", what, ", expected a finite number");
     return value;
   }
 

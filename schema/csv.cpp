@@ -20,8 +20,8 @@ std::string quoted(std::string_view text) {
   return '"' + std::string(text.substr(0, longest)) + (text.size() > longest ? "…\"" : "\"");
 }
 
-/// Takes one cell and the comma behind it from the front of `line`; `more` says whether there was one. None for a quote
-/// that does not end.
+/// Takes one cell and the comma behind it from the front of `line`; `more` becomes whether there was a comma. Nothing
+/// for a quote that does not end.
 std::optional<std::string_view> take_cell(std::string_view& line, bool& more) {
   line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
   std::size_t from = 0;

@@ -23,7 +23,7 @@ class CsvReader {
   /// The text must outlive the rows.
   explicit CsvReader(std::string_view text);
 
-  /// The next row; none at the end. Errors: W0504 for a quote that does not end.
+  /// The next row; nothing after the last one. Errors: W0504 for a quote that does not end.
   Result<std::optional<CsvRow>> next();
 
  private:
@@ -31,21 +31,21 @@ class CsvReader {
   std::size_t line_ = 0;
 };
 
-/// The first row, which names the columns. Errors: W0504 where there is none (the sentence says what was `expected`),
-/// and where the columns are separated by semicolons or tabs.
+/// The first row, which names the columns. Errors: W0504 if there is no row (the sentence names what was `expected`),
+/// or if semicolons or tabs separate the columns.
 Result<CsvRow> read_headings(CsvReader& reader, const std::string& expected);
 
-/// "x (mm)", "x [mm]" or "x" as a name and a unit, which may be empty.
+/// A column's name and its unit, which may be empty: "x (mm)", "x [mm]" or "x".
 struct CsvHeading {
   std::string_view name, unit;
 };
 CsvHeading heading_of(std::string_view cell);
 
-/// The finite number in a column, counted from 0, whose name is `name`. Errors: W0504 where the row has no such column
-/// or the cell is not a finite number.
+/// The finite number in a column, counted from 0; `name` is the column's name for errors. Errors: W0504 if the row has
+/// no such column, or if the cell is not a finite number.
 Result<double> number_in(const CsvRow& row, std::size_t column, std::string_view name);
 
-/// W0504: "expected …, found …", at a line or, with 0, in the text as a whole.
+/// W0504: "expected …, found …". `line` counts from 1; 0 means the text as a whole.
 Error unlike_csv(std::size_t line, const std::string& expected, const std::string& found, std::string mend = {});
 
 }  // namespace wale

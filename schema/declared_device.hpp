@@ -8,7 +8,7 @@
 
 namespace wale {
 
-/// A device as its `device` declaration describes it: what programs are built for, and which hardware it is about.
+/// A device as its `device` declaration describes it: the profile that programs are built for, and its hardware.
 struct DeclaredDevice {
   DeviceProfile profile;
   DeviceWiring wiring;

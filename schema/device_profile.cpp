@@ -5,7 +5,7 @@
 namespace wale {
 namespace {
 
-/// On the straight line from (x0, y0) to (x1, y1), x1 > x0.
+/// The y at `x` on the straight line from (x0, y0) to (x1, y1), x1 > x0.
 double between_points(double x, double x0, double y0, double x1, double y1) {
   return y0 + (y1 - y0) * ((x - x0) / (x1 - x0));
 }
@@ -19,7 +19,7 @@ double acceleration_at(const Shaker::Response& response, double command) {
   return y;
 }
 
-/// `at` of the two responses on either side of a frequency, in proportion.
+/// Interpolates `at` linearly between the responses on either side of a frequency.
 template <typename At>
 double at_frequency(const std::vector<Shaker::Response>& response, double frequency, At at) {
   if (response.empty()) return 0;
@@ -45,7 +45,8 @@ double Shaker::acceleration(double command, double frequency) const noexcept {
 }
 
 double Shaker::command(double acceleration, double frequency) const noexcept {
-  // A mean of two piecewise linear curves bends at the commands of both: find those on either side of the request.
+  // Between two frequencies the curve is a mean of two piecewise linear ones, which bends at the commands of both. Find
+  // the bends on either side of the request.
   double below = 0, above = 1, least = 0, most = this->acceleration(1, frequency);
   if (!(acceleration < most)) return 1;
   for (const Response& each : response)

@@ -12,7 +12,7 @@ namespace {
 
 using namespace patch_program_format;
 
-/// As in PNG: a byte that no text has, the name, and the line ends that a text-mode transfer mangles.
+/// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which text transfers change.
 constexpr std::array<std::uint8_t, 8> table_magic = {0x89, 'W', 'D', 'T', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint16_t table_version = 1;
 
@@ -72,7 +72,7 @@ DeviceWiring read_wiring(ByteReader& in) {
   return wiring;
 }
 
-/// What drivers and the loop divide by, or count with.
+/// Refuses figures that drivers and the loop could not divide by or count with.
 void require_usable(const DeviceProfile& profile) {
   const auto require = [&](bool holds, const char* what) {
     if (!holds) damaged("the device `", profile.name, "` has ", what);

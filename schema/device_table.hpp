@@ -16,17 +16,17 @@ namespace wale {
 ///     u16      version: 1
 ///     u32      number of devices, each:
 ///       DEVI     the profile
-///       u8       1 where VIBR follows, the shaker of a pad; else 0
-///       u32      number of USB devices that it is about, each u16 vendor, u16 product
-///       u8       1 where it stands for all USB devices that no other declaration is about; else 0
+///       u8       1 if VIBR, the shaker of a pad, follows; else 0
+///       u32      number of its USB devices, each u16 vendor, u16 product
+///       u8       1 if it stands for all USB devices that no other declaration names; else 0
 ///       4 u8     its axes to the right and away, then its motors: 0 x, 1 -x, 2 y, 3 -y
 ///       2 f64    gain of both motors, 0.1 .. 10
 ///       text     class, then source
-///       texts    u32 and so many texts: the settings that are assumed, then those that are unknown
+///       texts    u32 and that many texts, twice: the settings that are assumed, then those that are unknown
 std::vector<std::byte> write_device_table(std::span<const DeclaredDevice> devices);
 
-/// The same devices in the same order. Refuses, as `damaged_file`, all bytes that `write_device_table` does not write,
-/// and figures that no device can have; reads nothing beyond the end and allocates no more than the bytes account for.
+/// The same devices in the same order. Error: `damaged_file` for bytes that `write_device_table` does not write, and
+/// for figures that no device can have. Never reads beyond the end, and allocates in proportion to the bytes.
 Result<std::vector<DeclaredDevice>> read_device_table(std::span<const std::byte> bytes);
 
 }  // namespace wale

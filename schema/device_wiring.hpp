@@ -31,17 +31,17 @@ struct SignedAxis {
 /// "x", "-y"
 std::string in_words(const SignedAxis& axis);
 
-/// Which hardware a declaration is about, and how it lies on the desk. A device's own axes are those that its driver
-/// reports: x to the right and y away from the user, as its standard says. A declaration turns them where a device was
-/// built or stands differently. No program depends on any of it.
+/// The hardware of a declaration, and how it stands on the desk. A device's own axes are those that its driver reports;
+/// by its standard x is to the right and y away from the user. A declaration turns them if a device was built
+/// differently or stands differently. No program depends on any of this.
 struct DeviceWiring {
   static constexpr double least_gain = 0.1, most_gain = 10;
 
   std::vector<UsbNumbers> usb;
-  bool is_generic = false;                       ///< stands for every USB device that no other declaration is about
+  bool is_generic = false;                       ///< stands for every USB device that no other declaration names
   std::array<SignedAxis, 2> axes{{{0}, {1}}};    ///< of its positions: those that grow to the right, and away
   std::array<SignedAxis, 2> motors{{{0}, {1}}};  ///< of its forces: those that push to the right, and away
-  /// N at the handle for each N that is commanded, to the right and away; least_gain .. most_gain.
+  /// N at the handle for each commanded N, to the right and away; least_gain .. most_gain.
   std::array<double, 2> gain{1, 1};
 
   friend bool operator==(const DeviceWiring&, const DeviceWiring&) = default;

@@ -14,16 +14,16 @@ enum class Operation : std::uint8_t {
 #include "schema/instruction.def"
 };
 
-/// What one row of `instruction.def` says of an operation.
+/// One row of `instruction.def`.
 struct OperationFacts {
   std::string_view name;
   std::string_view fields;  ///< of a, b, c: r register, t table, g grid, p peak, - must be zero
   int results;              ///< consecutive registers written
   int cost;                 ///< in units of one addition
-  int operands = 0;         ///< how many of a, b, c are registers; those come first
+  int operands = 0;         ///< how many of a, b, c are registers; they come first
 };
 
-/// The facts of all operations, by number; a number that no instruction has is without a name.
+/// The facts of all operations, by number. An unused number has an empty name.
 inline constexpr auto operation_table = [] {
   std::array<OperationFacts, 256> table{};
   // clang-format off
@@ -38,7 +38,7 @@ inline constexpr auto operation_table = [] {
   return table;
 }();
 
-/// The facts of an operation number, or null when no instruction has that number.
+/// The facts of an operation number, or null if no operation has that number.
 constexpr const OperationFacts* operation_facts(unsigned number) {
   const bool known = number < operation_table.size() && !operation_table[number].name.empty();
   return known ? &operation_table[number] : nullptr;
@@ -48,13 +48,13 @@ constexpr const OperationFacts& facts(Operation operation) {
   return operation_table[static_cast<std::uint8_t>(operation)];
 }
 
-/// Registers, tables and peaks are named by 14-bit numbers.
+/// A register, table, grid or peak is named by a 14-bit number.
 using RegisterNumber = std::uint16_t;
 inline constexpr unsigned register_limit = 1u << 14;
 
 /// One instruction: an operation, the first register it writes and three operands.
 ///
-/// `operation` is the number as it stands in the file: only a verified program is known to hold legal ones.
+/// `operation` is the number from the file, which may be unknown; in a verified program it is known.
 struct Instruction {
   std::uint8_t operation = 0;
   RegisterNumber destination = 0, a = 0, b = 0, c = 0;
@@ -77,11 +77,11 @@ constexpr Instruction decode(std::uint64_t word) {
 
 /// The registers that the runtime fills before a section runs; numbers never change.
 ///
-/// Position, velocity and acceleration are the hand's, from the patch's centre, in m, m/s and m/s^2, through the
-/// device's filter; the raw ones are plain differences of positions. `workspace_x` and `workspace_y` are the hand's
-/// position from the workspace's centre. `time` is in s since the stage began to run, `seconds_per_tick` the device's
-/// period, `button` 1 while it is pressed and else 0. `probe` is what a percept's prediction is asked about (for
-/// roughness, a lateral amplitude in N).
+/// Position (m), velocity (m/s) and acceleration (m/s^2) are the hand's, from the patch's centre. Velocity and
+/// acceleration are filtered as the device declares; the raw ones are plain differences of positions. `workspace_x` and
+/// `workspace_y` are the hand's position from the workspace's centre, m. `time` is in s since the stage began to run,
+/// `seconds_per_tick` is the device's period, `button` is 1 while it is pressed and else 0. `probe` is the size of the
+/// carrier whose feel a percept's prediction is asked for (for roughness, a lateral amplitude in N).
 enum class Input : RegisterNumber {
   x = 0,
   y = 1,
@@ -107,16 +107,16 @@ enum class Input : RegisterNumber {
 /// Registers 0 .. 31 are inputs, named or reserved; constants begin at 32.
 inline constexpr RegisterNumber first_constant = 32;
 
-/// What is to be known of an input besides its meaning: who sets it, and which code may read it.
+/// When an input changes, and which code may read it.
 struct InputFacts {
-  bool changes = false;     ///< from tick to tick, with the hand; else it stays as the bank, or who predicts, has it
+  bool changes = false;     ///< it changes from tick to tick; otherwise the bank or a prediction sets it once
   bool setup = false;       ///< setup and the extents of peaks may read it
-  bool picture = false;     ///< picture code and peaks may
-  bool tick = false;        ///< tick, enter and frame code may
-  bool prediction = false;  ///< a percept's prediction may
+  bool picture = false;     ///< picture code and peaks may read it
+  bool tick = false;        ///< tick, enter and frame code may read it
+  bool prediction = false;  ///< a percept's prediction may read it
 };
 
-/// The facts of all inputs, by number; of those that are reserved nothing is true.
+/// The facts of all inputs, by number. No code may read a reserved one.
 inline constexpr auto input_table = [] {
   std::array<InputFacts, first_constant> table{};
   const auto at = [&table](Input input) -> InputFacts& { return table[static_cast<RegisterNumber>(input)]; };

@@ -25,7 +25,7 @@ const std::vector<Instruction>& PatchProgram::code(CodeSection section, std::siz
 
 std::optional<SourceLine> PatchProgram::place_of(CodeSection section, std::size_t index,
                                                  std::size_t instruction) const {
-  // One section each but for peaks, which come second, and predictions, which come last.
+  // Each kind of section occurs once, except peaks, which come second, and predictions, which come last.
   std::size_t number = static_cast<std::size_t>(section) + index;
   if (section > CodeSection::peak) number += peaks.size() - 1;
   if (number >= places.sections.size()) return std::nullopt;

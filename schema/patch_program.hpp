@@ -16,8 +16,8 @@
 
 namespace wale {
 
-/// A quantity that stays adjustable while the program runs. Values are in SI units; `unit` and `unit_in_si` are for
-/// showing and typing them: shown = value / unit_in_si.
+/// A quantity that can be changed while the program runs. Values are in SI units; `unit` and `unit_in_si` are for
+/// display and input: shown = value / unit_in_si.
 struct Parameter {
   std::string name;
   std::string unit;  ///< as the author wrote it, "mm"; empty for a plain number
@@ -26,16 +26,16 @@ struct Parameter {
   float low = 0, high = 0;            ///< hard range, low <= value <= high
   float soft_low = 0, soft_high = 0;  ///< the usual range, for a slider; low <= soft_low <= soft_high <= high
   std::string description;
-  std::string si_unit;  ///< the coherent unit of its dimension, "m": what `unit` measures, for those who do not know it
+  std::string si_unit;  ///< the coherent unit of its dimension, "m", for readers that do not know `unit`
 
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 
-/// A pure subprogram whose value's percentile over the patch is a setup register (the `peak` instruction).
+/// A pure subprogram. The `peak` instruction writes a percentile of its value over the patch to a setup register.
 ///
-/// It is run at `points` positions x = (2 u - 1) X, y = (2 v - 1) Y, where X and Y are the values of the two extent
-/// registers (constants, inputs or setup) and (u, v) the i-th point of the Kronecker lattice of the plastic number:
-/// u = i * 3242174889 mod 2^32, v = i * 2447445414 mod 2^32, both over 2^32. Velocities read as zero.
+/// It runs at `points` positions x = (2 u - 1) X, y = (2 v - 1) Y. X and Y are the values of the two extent registers
+/// (constants, inputs or setup); (u, v) is the i-th point of the Kronecker lattice of the plastic number:
+/// u = i * 3242174889 mod 2^32, v = i * 2447445414 mod 2^32, both divided by 2^32. Velocities read as zero.
 struct Peak {
   std::vector<Instruction> code;
   RegisterNumber value = 0;
@@ -56,52 +56,52 @@ struct HeightTable {
 
 enum class OutputQuantity : std::uint8_t {
   force = 1,      ///< N along `axis`
-  amplitude = 2,  ///< m/s^2: of a pad's vibration
-  frequency = 3,  ///< Hz: of the same
+  amplitude = 2,  ///< m/s^2, of a pad's vibration
+  frequency = 3,  ///< Hz, of a pad's vibration
 };
 
-/// Where a tick leaves a result. `value` is written by the section's `limit` whose ceiling is the register `ceiling`.
+/// A result of a tick. The tick's last write to the register `value` is a `limit` to the register `ceiling`.
 /// A program has either force x and force y, or amplitude and frequency.
 struct Output {
   OutputQuantity quantity = OutputQuantity::force;
-  std::uint8_t axis = 0;  ///< of a force 0 x, 1 y; of the others 0
+  std::uint8_t axis = 0;  ///< of a force: 0 x, 1 y; otherwise 0
   RegisterNumber value = 0;
   RegisterNumber ceiling = 0;
 
-  /// Which of a tick's two numbers it is: 0 force x or amplitude, 1 force y or frequency.
+  /// Its index in a tick's two numbers: 0 force x or amplitude, 1 force y or frequency.
   std::size_t component() const { return quantity == OutputQuantity::frequency ? 1 : axis; }
 
   friend bool operator==(const Output&, const Output&) = default;
 };
 
-/// A quantity that a program remembers from tick to tick: one register, read by tick, frame and picture code as it was
-/// when the tick began.
+/// A quantity that a program remembers from tick to tick, in one register. Tick, frame and picture code read its value
+/// from the beginning of the tick.
 ///
-/// It begins at `initial` (a register of the `enter` section) when the hand enters the patch, becomes `next` (a
-/// register of the tick) at the end of each tick, and is held in low .. high; not-a-number gives the initial value
+/// When the hand enters the patch it becomes `initial` (a register of the `enter` section), and at the end of each tick
+/// `next` (a register of the tick), clamped to low .. high. If `next` is not a number, it becomes the initial value
 /// again.
 struct State {
   std::string name;
   float low = 0, high = 0;
   RegisterNumber initial = 0, next = 0;
-  std::string si_unit;  ///< the coherent unit of its dimension, by which a state of another program is the same one
+  std::string si_unit;  ///< the coherent unit of its dimension; a replacing program keeps states by name and unit
 
   friend bool operator==(const State&, const State&) = default;
 };
 
 /// A field over the patch that a program remembers: `columns` by `rows` cells, the first at the lower left. Every cell
-/// begins at `initial` when the program is placed and is held in low .. high.
+/// begins at `initial` when the program is placed; writes are clamped to low .. high.
 struct Grid {
   std::string name;
   std::uint32_t columns = 0, rows = 0;
   float initial = 0, low = 0, high = 0;
-  std::string si_unit;  ///< as a state's
+  std::string si_unit;  ///< as for a state
 
   friend bool operator==(const Grid&, const Grid&) = default;
 };
 
-/// At the end of a tick the cell nearest to (u, v), in cells from the centre of the first one, becomes `value`; nothing
-/// is written when one of the three is not a number. Registers of the tick.
+/// At the end of a tick the cell nearest to (u, v), in cells from the centre of the first one, becomes `value`, unless
+/// one of the three is not a number. All three are registers of the tick.
 struct GridWrite {
   std::uint16_t grid = 0;
   RegisterNumber u = 0, v = 0, value = 0;
@@ -119,7 +119,7 @@ enum class MarkKind : std::uint8_t {
   trajectory = 6,  ///< place x y, seconds for which its path stays visible
 };
 
-/// How many registers a mark of a kind has.
+/// How many registers a mark of this kind has; 0 for an unknown kind.
 constexpr std::size_t mark_operands(MarkKind kind) {
   switch (kind) {
     case MarkKind::point:
@@ -132,22 +132,22 @@ constexpr std::size_t mark_operands(MarkKind kind) {
   return 0;
 }
 
-/// One shape: what `MarkKind` says of its registers, which the frame section leaves.
+/// One shape. The frame section writes its registers; `MarkKind` gives their meaning.
 struct Mark {
   MarkKind kind = MarkKind::point;
-  std::array<RegisterNumber, 5> operands{};  ///< those beyond the kind's own are 0
+  std::array<RegisterNumber, 5> operands{};  ///< those that the kind does not use are 0
   std::uint32_t colour = 0;                  ///< 0xRRGGBB
 
   friend bool operator==(const Mark&, const Mark&) = default;
 };
 
-/// How a program looks. `code` runs for each point that is drawn and reads place, patch and states; `frame` runs once a
-/// picture and reads what the tick reads.
+/// How a program looks. `code` runs for each drawn point and reads place, patch, states and grids; `frame` runs once a
+/// picture and may read the same inputs as the tick.
 struct Picture {
   std::vector<Instruction> code;
   RegisterNumber relief = 0;                            ///< the surface's height
   bool relief_is_length = false;                        ///< in m; otherwise a plain number
-  std::optional<std::array<RegisterNumber, 3>> colour;  ///< red, green, blue in 0 .. 1, where the author says
+  std::optional<std::array<RegisterNumber, 3>> colour;  ///< red, green, blue in 0 .. 1, if the author declares them
   std::vector<Instruction> frame;
   std::vector<Mark> marks;  ///< in the order of drawing
 
@@ -157,33 +157,33 @@ struct Picture {
 /// How a figure came to be known, best first.
 enum class Evidence : std::uint8_t { measured = 1, published = 2, estimated = 3, recalled = 4, transferred = 5 };
 
-/// What reads a percept's carrier from a program, or from the force at the handle. Each looks at something of its own,
-/// so that no percept's carrier is taken for another's.
+/// How a percept's carrier is read from a program, or from the force at the handle. Each extractor reads a different
+/// feature, so that one percept's carrier is not taken for another's.
 enum class Extractor : std::uint8_t {
-  none = 0,            ///< nothing does
+  none = 0,            ///< the carrier cannot be read
   lateral_force = 1,   ///< N: 99th percentile of the static force, its periods within a band
-  opposing_force = 2,  ///< N: what opposes a moving hand whatever its speed
-  damping = 3,         ///< N s/m: what opposes it in proportion to its speed
-  stiffness = 4,       ///< N/m: slope of the static force over distances that no texture has
-  wall_stiffness = 5,  ///< N/m: the steepest slope of a force on one side of a place, none on the other
-  wall_damping = 6,    ///< N s/m: what opposes a hand as it comes in there
-  inertia = 7,         ///< kg: what opposes its acceleration
+  opposing_force = 2,  ///< N: the force against a moving hand that does not depend on its speed
+  damping = 3,         ///< N s/m: the force against a moving hand in proportion to its speed
+  stiffness = 4,       ///< N/m: slope of the static force over distances longer than any texture's period
+  wall_stiffness = 5,  ///< N/m: the steepest slope of a force that exists on one side of a place only
+  wall_damping = 6,    ///< N s/m: the force against a hand that moves into that side, in proportion to its speed
+  inertia = 7,         ///< kg: the force against acceleration, in proportion to it
   vibration = 8,       ///< N: amplitude of the force on a hand at rest
   steepness = 9,       ///< 1/m: the lateral force's steepest change over its amplitude
-  periodicity = 10,    ///< share of the lateral force that comes back after a period, 0 .. 1
+  periodicity = 10,    ///< share of the lateral force that repeats after a period, 0 .. 1
   acceleration = 11,   ///< m/s^2: amplitude of a pad's vibration under a moving hand
 };
 
-/// One percept of the program: what was asked, through which map it is realised, and how to read it back.
+/// One percept of the program: the level asked for, the map that realises it, and how to read it back.
 ///
-/// `prediction` is pure code that turns the carrier's size in the `probe` input into magnitude and level.
+/// `prediction` is pure code that computes magnitude and level from the carrier's size, which is the `probe` input.
 struct PerceptRecord {
   std::string name;                        ///< "roughness"
   std::string carrier;                     ///< "lateral amplitude"
-  std::optional<std::uint16_t> parameter;  ///< the live level, when the percept was asked for
-  bool blended = false;                    ///< asked for by a blend's components, whose levels are parameters
+  std::optional<std::uint16_t> parameter;  ///< the parameter that is its level, if the author asked for the percept
+  bool blended = false;                    ///< the components of a blend asked for it, and their levels are parameters
   RegisterNumber amplitude = 0;            ///< constant or setup register: the carrier's size, SI
-  bool alone = false;                      ///< nothing but this carrier pushes, so total force reads it
+  bool alone = false;                      ///< this carrier is the only force, so the total force measures it
   std::vector<Instruction> prediction;
   RegisterNumber magnitude = 0, level = 0;
   float valid_low = 0, valid_high = 0;  ///< of the carrier's size
@@ -195,25 +195,25 @@ struct PerceptRecord {
   Extractor extractor = Extractor::none;
   float period_low = 0, period_high = 0;  ///< m: the band that the extractor reads; 0, 0 for any
   float one = 0;                          ///< the carrier's size at level 1
-  float near_threshold = 0;               ///< level below which it is near or below threshold
+  float near_threshold = 0;               ///< below this level it is near or below the threshold of perception
   float spread = 0;                       ///< standard deviation of the observers' own exponents; 0: not known
   std::uint16_t observers = 0;            ///< 0: not known
-  /// How small a difference of the carrier's size is noticed, at d' = 1: as a share of it, and no less than `floor`.
-  /// 0: not known.
+  /// The smallest difference of the carrier's size that people notice, at d' = 1: this share of the size, and at least
+  /// `floor` (in `unit`). 0: not known.
   float weber = 0, floor = 0;
   Evidence weber_evidence = Evidence::estimated;
   std::string weber_source;
-  std::string realisation;  ///< the device's own force for it, as written; empty where the author's physics carries it
+  std::string realisation;  ///< the device's own force for it, in Wale; empty if the author's physics carries it
 
   friend bool operator==(const PerceptRecord&, const PerceptRecord&) = default;
 };
 
-/// What becomes on a device of something that the author asked for or wrote.
+/// How well a device renders something that the author asked for or wrote.
 enum class Fate : std::uint8_t {
-  kept = 1,          ///< it is there as it was meant
-  approximated = 2,  ///< something else stands for it, or a figure from another handle
-  saturated = 3,     ///< less of it than asked for, since the device gives no more
-  lost = 4,          ///< it is not there
+  kept = 1,          ///< as it was meant
+  approximated = 2,  ///< by a substitute, or with a figure from another handle
+  saturated = 3,     ///< weaker than asked for, because the device gives no more
+  lost = 4,          ///< not at all
 };
 
 /// The fate of one percept, or of one thing in the physics.
@@ -221,8 +221,8 @@ struct FateRecord {
   std::string name;      ///< "roughness"; "lateral amplitude", "place of features"
   bool percept = false;  ///< otherwise physics
   Fate fate = Fate::kept;
-  float asked = 0, given = 0;  ///< levels of a percept; given 0 where it is lost; both 0 for physics
-  std::string reason;          ///< how it is realised, or why it is not there; empty where nothing need be said
+  float asked = 0, given = 0;  ///< levels of a percept, 0 .. 1; given is 0 if it is lost; both are 0 for physics
+  std::string reason;          ///< how it is realised, or why it is lost; empty if it is kept and needs no remark
 
   friend bool operator==(const FateRecord&, const FateRecord&) = default;
 };
@@ -237,26 +237,26 @@ struct Layers {
   friend bool operator==(const Layers&, const Layers&) = default;
 };
 
-/// The sections of code, in the order in which the format lists their places. There is one of each, but as many peaks
-/// and predictions as the program has peaks and percepts.
+/// The sections of code, in the order in which the format lists their places. There is one of each, except that each
+/// peak and each percept has its own `peak` or `prediction`.
 enum class CodeSection : std::uint8_t { setup, peak, enter, tick, picture, frame, prediction };
 
 /// A line of Wale.
 struct SourceLine {
-  std::string file;        ///< the name under which it was imported, "fabric.denim", else its own without its folder
+  std::string file;        ///< the name under which it was imported, "fabric.denim", else its file name without folder
   std::uint32_t line = 0;  ///< from 1
 
   friend bool operator==(const SourceLine&, const SourceLine&) = default;
 };
 
-/// Which lines of Wale the instructions come from: kept for listings and for what is said of a program, never executed.
+/// The lines of Wale that the instructions come from: for listings and messages, never executed.
 ///
-/// What a function of another file does is placed where the material's own file calls it.
+/// Code of a function in another file has the line where the material's own file calls it.
 struct SourcePlaces {
-  /// So many instructions in a row come from one line.
+  /// Consecutive instructions that come from one line.
   struct Run {
     std::uint32_t instructions = 0;
-    std::uint16_t file = 0;  ///< of `files`
+    std::uint16_t file = 0;  ///< index into `files`
     std::uint32_t line = 0;  ///< from 1
 
     friend bool operator==(const Run&, const Run&) = default;
@@ -268,7 +268,7 @@ struct SourcePlaces {
   friend bool operator==(const SourcePlaces&, const SourcePlaces&) = default;
 };
 
-/// A program may give no more than this by itself, W.
+/// W, the greatest power that a program may declare to give by itself.
 inline constexpr float most_active_watt = 100;
 
 /// A compiled material: everything a `.wpp` file holds. Plain data; `verify` says whether it may be run.
@@ -284,7 +284,7 @@ struct PatchProgram {
   std::vector<Instruction> setup;
   std::vector<Peak> peaks;
   std::vector<State> states;
-  std::vector<Instruction> enter;  ///< what the states begin with: reads what the tick reads, besides states and grids
+  std::vector<Instruction> enter;  ///< computes the states' first values; may read the tick's inputs
   std::vector<Grid> grids;
   std::vector<Instruction> tick;
   std::vector<Output> outputs;
@@ -292,19 +292,19 @@ struct PatchProgram {
   Picture picture;
   std::vector<HeightTable> tables;
   float patch_width = 0, patch_height = 0, patch_rim = 0;  ///< m; default size of the patch
-  float active_watt = 0;  ///< W, 0 .. most_active_watt: what the author lets the program give to the hand by itself
+  float active_watt = 0;  ///< W, 0 .. most_active_watt: the power that the author lets the program give by itself
   DeviceProfile device;
   std::vector<PerceptRecord> percepts;
-  std::vector<FateRecord> fates;  ///< of what was asked for, in that order, then of the physics; never executed
+  std::vector<FateRecord> fates;  ///< of the percepts in the order asked for, then of the physics; never executed
   Layers layers;
-  SourcePlaces places;  ///< empty where nobody recorded them
+  SourcePlaces places;  ///< empty if the compiler did not record them
 
-  /// Whether it vibrates a pad instead of pushing: what the two numbers of a tick are.
+  /// Whether it vibrates a pad instead of pushing, so that a tick gives an amplitude and a frequency.
   bool vibrates() const { return device.shaker.has_value(); }
-  /// The code of a section; peaks and predictions have the `index` of their peak or percept, the others 0.
+  /// The code of a section. `index` is the number of the peak or percept; it is 0 for all other sections.
   const std::vector<Instruction>& code(CodeSection section, std::size_t index = 0) const;
-  /// The line that an instruction comes from, where it is known; also when code has been changed since, if there is
-  /// such an instruction.
+  /// The line that an instruction comes from, if it is known. The numbers may be beyond the code that `places` covers:
+  /// then nothing.
   std::optional<SourceLine> place_of(CodeSection section, std::size_t index, std::size_t instruction) const;
 
   RegisterNumber first_parameter() const { return static_cast<RegisterNumber>(first_constant + constants.size()); }
@@ -318,14 +318,14 @@ struct PatchProgram {
   friend bool operator==(const PatchProgram&, const PatchProgram&) = default;
 };
 
-/// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md): the same program gives the same bytes everywhere.
+/// The canonical bytes of a `.wpp` file (schema/PATCH_PROGRAM.md). Equal programs give equal bytes on every machine.
 std::vector<std::byte> write_patch_program(const PatchProgram& program);
 
-/// Reads a `.wpp` file's bytes. Checks structure, sizes and checksum, not what the code does: that is `verify`'s.
-/// Never reads outside `bytes`, never allocates more than a small multiple of their size, whatever they hold.
+/// Reads a `.wpp` file's bytes and checks structure, sizes and checksum; `verify` checks the code. Never reads outside
+/// `bytes`, and allocates at most a small multiple of their size. Errors: `damaged_file`, `newer_file`.
 Result<PatchProgram> read_patch_program(std::span<const std::byte> bytes);
 
-/// The code of a section or subprogram costs the sum over its instructions, in units of one addition.
+/// The cost of a section or subprogram, in units of one addition: the sum over its instructions.
 long cost_of(std::span<const Instruction> code);
 
 }  // namespace wale

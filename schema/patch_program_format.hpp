@@ -12,7 +12,7 @@
 /// What the reader and the writer of `.wpp` files agree on; the prose is schema/PATCH_PROGRAM.md.
 namespace wale::patch_program_format {
 
-/// As in PNG: a byte no text has, the name, and the line ends and end-of-file marks that a text-mode transfer mangles.
+/// As in PNG: a byte that no text has, the name, then line ends and an end-of-file mark, which text transfers change.
 inline constexpr std::array<std::uint8_t, 8> magic = {0x89, 'W', 'P', 'P', '\r', '\n', 0x1a, '\n'};
 inline constexpr std::uint16_t major_version = 1;
 inline constexpr std::uint16_t minor_version = 0;
@@ -24,15 +24,15 @@ inline constexpr std::size_t alignment = 8;
 
 inline constexpr std::uint32_t required_flag = 1;
 
-/// More sections than any program has, few enough that the table costs nothing to walk.
+/// More than any program has; the table stays short.
 inline constexpr std::uint32_t most_sections = 256;
 /// Bytes; the longest text of a file, a layer's source included.
 inline constexpr std::uint32_t longest_text = 1u << 20;
 
 struct SectionKind {
   std::string_view name;  ///< four characters
-  bool required;          ///< its flag: without knowing it nobody may run the program
-  bool always;            ///< always there; the others are left out when they would be empty
+  bool required;          ///< its flag: a reader that does not know the section must not run the program
+  bool always;            ///< every file has it; other sections are left out if they would be empty
 };
 
 /// Known sections in the order in which they stand in a file.
@@ -54,11 +54,11 @@ struct CodeAt {
 /// All sections of a program's code in the order in which their places are listed.
 std::vector<CodeAt> code_of(const PatchProgram& program);
 
-/// CRC-32 (IEEE 802.3, as in PNG and zlib) of a whole file, its checksum field taken as zero.
-/// `file` holds at least a header.
+/// CRC-32 (IEEE 802.3, as in PNG and zlib) of a whole file; its checksum field counts as zero.
+/// `file` is at least as long as a header.
 std::uint32_t checksum(std::span<const std::byte> file);
 
-/// FNV-1a, 64 bits, over width, height and the codes as they stand in the file.
+/// FNV-1a, 64 bits, over the width, the height and the codes, in the bytes of the file.
 std::uint64_t content_hash(const HeightTable& table);
 
 }  // namespace wale::patch_program_format

@@ -15,7 +15,7 @@ DeviceProfile read_device(ByteReader& in) {
   figure(device.slew, "the slew");
   figure(device.continuous_newton, "the continuous force");
   figure(device.heating_seconds, "the time constant of heating");
-  figure(device.active_watt, "the power of what is active");
+  figure(device.active_watt, "the power of active programs");
   figure(device.velocity_window, "the velocity window");
   figure(device.velocity_noise_counts, "the velocity's noise");
   figure(device.patch_width, "the patch's width");
@@ -37,7 +37,7 @@ Shaker read_shaker(ByteReader& in) {
   Shaker vibration;
   const std::uint8_t position = in.u8();
   if (position > static_cast<std::uint8_t>(PositionSource::touch)) {
-    in.damaged(" says that the position comes from source ", int{position}, ", which this Wale does not know");
+    in.damaged(" has position source ", int{position}, ", which this Wale does not know");
   }
   vibration.position = static_cast<PositionSource>(position);
   for (double* figure : {&vibration.frequency_low, &vibration.frequency_high, &vibration.command_steps,

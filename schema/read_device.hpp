@@ -5,9 +5,9 @@
 
 namespace wale::patch_program_format {
 
-/// The section DEVI: everything but the vibration.
+/// Reads the section DEVI: the profile without the shaker. Throws `Error` with `damaged_file`.
 DeviceProfile read_device(ByteReader& in);
-/// The section VIBR.
+/// Reads the section VIBR: the shaker. Throws `Error` with `damaged_file`.
 Shaker read_shaker(ByteReader& in);
 
 }  // namespace wale::patch_program_format

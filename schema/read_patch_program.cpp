@@ -93,7 +93,7 @@ void read_picture(ByteReader& in, Picture& picture) {
   for (RegisterNumber& number : colour) number = in.u16();
   if (coloured) picture.colour = colour;
   if (!coloured && colour != std::array<RegisterNumber, 3>{}) {
-    in.damaged(" names registers for a colour, and the surface has no colour");
+    in.damaged(" names registers for a colour, but says that the surface has none");
   }
   picture.code = in.code();
 }
@@ -140,8 +140,8 @@ std::vector<HeightTable> read_tables(ByteReader& in) {
     const std::uint64_t hash = in.u64();
     const std::uint64_t samples = std::uint64_t{table.width} * table.height;
     if (samples > in.remaining() / 2) {
-      in.damaged(" claims ", table.width, " x ", table.height, " heights for table ", number, " and has ",
-                 in.remaining(), " bytes left for them");
+      in.damaged(" claims ", table.width, " x ", table.height, " heights for table ", number, " but has only ",
+                 in.remaining(), " bytes for them");
     }
     table.heights.resize(samples);
     for (std::uint16_t& code : table.heights) code = in.u16();
@@ -154,7 +154,7 @@ Evidence read_evidence(ByteReader& in, std::string_view what) {
   const std::uint8_t value = in.u8();
   if (value < static_cast<std::uint8_t>(Evidence::measured) ||
       value > static_cast<std::uint8_t>(Evidence::transferred)) {
-    in.damaged(" gives the evidence of ", what, " grade ", int{value}, ", which this Wale does not know");
+    in.damaged(" has evidence grade ", int{value}, " for ", what, ", which this Wale does not know");
   }
   return static_cast<Evidence>(value);
 }
@@ -165,7 +165,7 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.name = in.text("a percept's name");
     percept.carrier = in.text("a percept's carrier");
     const std::uint8_t live = in.u8();
-    if (live > 2) in.damaged(" holds ", int{live}, " for whether a percept is live, which is 0, 1 or 2");
+    if (live > 2) in.damaged(" holds ", int{live}, " for how a percept's level is set, expected 0, 1 or 2");
     const std::uint16_t parameter = in.u16();
     if (live == 1) percept.parameter = parameter;
     percept.blended = live == 2;
@@ -187,7 +187,7 @@ std::vector<PerceptRecord> read_percepts(ByteReader& in) {
     percept.unit = in.text("a carrier's unit");
     const std::uint8_t extractor = in.u8();
     if (extractor > static_cast<std::uint8_t>(Extractor::acceleration)) {
-      in.damaged(" reads a percept by extractor ", int{extractor}, ", which this Wale does not know");
+      in.damaged(" has extractor ", int{extractor}, ", which this Wale does not know");
     }
     percept.extractor = static_cast<Extractor>(extractor);
     for (float* figure : {&percept.period_low, &percept.period_high, &percept.one, &percept.near_threshold,
@@ -210,7 +210,7 @@ std::vector<FateRecord> read_fates(ByteReader& in) {
     fate.percept = in.boolean("whether a fate is of a percept");
     const std::uint8_t word = in.u8();
     if (word < static_cast<std::uint8_t>(Fate::kept) || word > static_cast<std::uint8_t>(Fate::lost)) {
-      in.damaged(" holds fate ", int{word}, ", which this Wale does not know");
+      in.damaged(" has fate ", int{word}, ", which this Wale does not know");
     }
     fate.fate = static_cast<Fate>(word);
     fate.asked = in.finite_f32("the level asked for");
@@ -236,7 +236,7 @@ Layers read_layers(ByteReader& in) {
   return layers;
 }
 
-/// The places of code that has been read: this section stands after all others.
+/// Reads the places of the program's code, which has been read before: this section stands after all others.
 SourcePlaces read_places(ByteReader& in, const PatchProgram& program) {
   SourcePlaces places;
   places.files.resize(in.count(4, "files"));
@@ -251,14 +251,14 @@ SourcePlaces read_places(ByteReader& in, const PatchProgram& program) {
       run.line = in.u32();
       if (run.instructions == 0) in.damaged(" has a run of no instructions");
       if (run.file >= places.files.size()) {
-        in.damaged(" names file ", run.file, " and has ", places.files.size(), " of them");
+        in.damaged(" names file ", run.file, " but has only ", places.files.size());
       }
-      if (run.line == 0) in.damaged(" names line 0, and lines begin at 1");
+      if (run.line == 0) in.damaged(" names line 0; lines are numbered from 1");
       placed += run.instructions;
     }
     const std::size_t written = program.code(section, index).size();
     if (placed != written) {
-      in.damaged(" places ", placed, " instructions where the code has ", written);
+      in.damaged(" has places for ", placed, " instructions, but the code has ", written);
     }
   }
   return places;
@@ -285,7 +285,7 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
     program.patch_width = in.finite_f32("the patch's width");
     program.patch_height = in.finite_f32("the patch's height");
     program.patch_rim = in.finite_f32("the patch's rim");
-    program.active_watt = in.finite_f32("the power of what is active");
+    program.active_watt = in.finite_f32("the power of active programs");
   }
   if (kind == "DEVI") program.device = read_device(in);
   if (kind == "VIBR") program.device.shaker = read_shaker(in);
@@ -296,20 +296,20 @@ void read_section(std::string_view kind, ByteReader& in, PatchProgram& program) 
   in.finish();
 }
 
-/// The file is no patch program at all, or one that a transfer as text changed.
+/// Fails for a file that is no patch program, or one that a transfer as text changed.
 [[noreturn]] void fail_at_magic(std::span<const std::byte> bytes) {
   const bool named = bytes.size() >= 4 && std::to_integer<int>(bytes[1]) == 'W' &&
                      std::to_integer<int>(bytes[2]) == 'P' && std::to_integer<int>(bytes[3]) == 'P';
-  if (!named) damaged("this is not a patch program: it does not begin as a .wpp file does");
+  if (!named) damaged("this is not a patch program: its first bytes are not those of a .wpp file");
   throw Error{.code = Code::damaged_file,
-              .sentence = "this was a patch program, and a transfer as text has damaged it",
+              .sentence = "a transfer as text has damaged this patch program",
               .mend = "copy it as binary"};
 }
 
 [[noreturn]] void fail_as_newer(std::uint16_t major, std::uint16_t minor) {
   throw Error{.code = Code::newer_file,
               .sentence = sentence("this patch program has format version ", major, ".", minor,
-                                   ", and this Wale reads up to ", major_version),
+                                   ", but this Wale reads only up to ", major_version),
               .mend = "update Wale, or build the material again with this one"};
 }
 
@@ -328,7 +328,7 @@ std::uint32_t read_header(ByteReader& in, std::span<const std::byte> bytes) {
   const std::uint32_t sections = in.u32();
   const std::uint64_t total = in.u64();
   if (total > bytes.size()) {
-    damaged("the file is cut short: it should have ", total, " bytes and has ", bytes.size());
+    damaged("the file is cut short: expected ", total, " bytes, found ", bytes.size());
   }
   if (total < bytes.size()) {
     damaged("the file has ", bytes.size() - total, " bytes after its end at ", total);
@@ -342,7 +342,7 @@ std::uint32_t read_header(ByteReader& in, std::span<const std::byte> bytes) {
   return sections;
 }
 
-/// A kind as it can be shown: bytes that do not print become question marks.
+/// A section's kind as text, with question marks for bytes that cannot be printed.
 std::string shown_kind(std::uint32_t fourcc) {
   std::string kind;
   for (int i = 0; i < 4; ++i) {
@@ -359,8 +359,8 @@ struct SectionEntry {
   std::uint64_t offset = 0, size = 0;
 };
 
-/// Reads the next row. Its section must lie right after the one before, which ends at `expected_offset`; this moves to
-/// the end of the new one.
+/// Reads the next row. Its section must begin at `expected_offset`, where the previous one ends; `expected_offset` then
+/// moves to the end of this one.
 SectionEntry read_entry(ByteReader& table, std::span<const std::byte> bytes, std::size_t& expected_offset) {
   SectionEntry entry;
   entry.kind = shown_kind(table.u32());
@@ -369,9 +369,9 @@ SectionEntry read_entry(ByteReader& table, std::span<const std::byte> bytes, std
   entry.size = table.u64();
   const auto& [kind, flags, offset, size] = entry;
   if (offset > bytes.size() || size > bytes.size() - offset) {
-    damaged("section ", kind, " claims ", size, " bytes at ", offset, ", and the file has ", bytes.size());
+    damaged("section ", kind, " claims ", size, " bytes at ", offset, ", but the file has only ", bytes.size());
   }
-  if (offset < expected_offset) damaged("section ", kind, " at ", offset, " overlaps what is before it");
+  if (offset < expected_offset) damaged("section ", kind, " at ", offset, " overlaps the bytes before it");
   if (offset > expected_offset) {
     damaged("section ", kind, " at ", offset, " leaves a gap of ", offset - expected_offset, " bytes before it");
   }
@@ -384,10 +384,11 @@ SectionEntry read_entry(ByteReader& table, std::span<const std::byte> bytes, std
   return entry;
 }
 
-/// Which sections have come, to check that each comes once, in order, and marked as the format says.
+/// Remembers which sections have been read, and checks that each comes once, in order and with the right flag.
 class SectionOrder {
  public:
-  /// Whether this Wale knows the section; one that it does not know is skipped, unless the file requires it.
+  /// Whether this Wale knows the section. A section that it does not know can be skipped; if the file requires it, this
+  /// fails with `newer_file`.
   bool accept(const SectionEntry& entry) {
     const std::string& kind = entry.kind;
     const bool required = (entry.flags & required_flag) != 0;
@@ -396,16 +397,18 @@ class SectionOrder {
     if (known == section_kinds.end()) {
       if (required) {
         throw Error{.code = Code::newer_file,
-                    .sentence = "section " + kind + " is required to run this program, and this Wale does not know it",
+                    .sentence = "this program needs section " + kind + ", which this Wale does not know",
                     .mend = "update Wale"};
       }
       return false;
     }
     const auto index = static_cast<std::size_t>(known - section_kinds.begin());
-    if (seen_[index]) damaged("section ", kind, " is there twice");
-    if (index < next_) damaged("section ", kind, " stands after ", section_kinds[next_ - 1].name);
+    if (seen_[index]) damaged("section ", kind, " occurs twice");
+    if (index < next_)
+      damaged("section ", kind, " comes after ", section_kinds[next_ - 1].name, ", expected before it");
     if (required != known->required) {
-      damaged("section ", kind, " is marked as ", required ? "required" : "skippable", " and must not be");
+      damaged("section ", kind, " is marked as ",
+              required ? "required, expected skippable" : "skippable, expected required");
     }
     seen_[index] = true;
     next_ = index + 1;

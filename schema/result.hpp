@@ -13,15 +13,14 @@ namespace wale {
 
 /// Where something is wrong outside the text of a Wale file, or on the way to it.
 struct Place {
-  std::string name =
-      {};  ///< of a file, an option, a packet's field, a section of a program; empty: nowhere in particular
-  std::optional<std::size_t> number = {};  ///< of the row, byte or instruction in it, as people count it there
-  std::string text = {};                   ///< what stands there; may be empty
-  std::string source = {};                 ///< what it was made from, "corduroy.wale:9:13"; may be empty
+  std::string name = {};  ///< of a file, an option, a packet's field or a section of a program; empty if there is none
+  std::optional<std::size_t> number = {};  ///< of its row (from 1), byte or instruction (both from 0)
+  std::string text = {};                   ///< the text at that place; may be empty
+  std::string source = {};                 ///< the line that it was compiled from, "corduroy.wale:9"; may be empty
 };
 
-/// An error, as a value. Programs decide by `code`; the sentence is for people and is never searched. It makes sense
-/// without the place, and does not repeat the place's name.
+/// An error, as a value. Programs decide by `code`; `sentence` is for people and is never searched. It makes sense
+/// without `place`, and does not repeat its name.
 struct Error {
   Code code = {};
   std::string sentence = {};       ///< what is wrong: "expected a number, found a vector"
@@ -33,7 +32,7 @@ struct Error {
 /// The error in one line for a person: "the disk is full; make room or record elsewhere".
 std::string in_words(const Error& error);
 
-/// The error for a person in several lines: that of `in_words`, then its causes, one per line.
+/// The error for a person in several lines: the line of `in_words`, then the causes, one per line.
 std::string explained(const Error& error);
 
 /// A value or an error: every function of this project that can fail returns one.

@@ -7,7 +7,7 @@
 
 namespace wale {
 
-/// One sentence of all `parts`, each as a stream prints it.
+/// Joins all `parts`, each as a stream prints it.
 template <typename... Parts>
 std::string sentence(const Parts&... parts) {
   std::ostringstream text;
@@ -22,7 +22,7 @@ template <typename... Parts>
   throw Error{.code = code, .sentence = sentence(parts...)};
 }
 
-/// The same for bytes that are not what their kind of file holds.
+/// As `fail` with `damaged_file`.
 template <typename... Parts>
 [[noreturn]] void damaged(const Parts&... parts) {
   fail(Code::damaged_file, parts...);

@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// The codes of a height table: a vector whose copies share their memory until one of them is changed, so that ten
-/// thousand programs with one map hold it once. Reading from several threads is safe as it is of a vector.
+/// The codes of a height table: a vector whose copies share memory until one of them changes, so that ten thousand
+/// programs with one map hold it once. As with a vector, several threads may read it at once.
 class SharedHeights {
  public:
   using Codes = std::vector<std::uint16_t>;
@@ -29,7 +29,7 @@ class SharedHeights {
   const_iterator end() const { return codes().end(); }
   std::uint16_t operator[](std::size_t i) const { return codes()[i]; }
 
-  // What changes codes first makes them this vector's own, in time that is linear in their number if they are not.
+  // Functions that change codes first copy them if they are shared, in time proportional to their number.
   iterator begin() { return own().begin(); }
   iterator end() { return own().end(); }
   std::uint16_t& operator[](std::size_t i) { return own()[i]; }
@@ -38,7 +38,7 @@ class SharedHeights {
   void reserve(std::size_t count) { own().reserve(count); }
   void resize(std::size_t count) { own().resize(count); }
 
-  /// Both are one in memory.
+  /// Whether both share their memory.
   bool shares(const SharedHeights& other) const { return codes_ == other.codes_; }
   friend bool operator==(const SharedHeights& one, const SharedHeights& other) {
     return one.shares(other) || one.codes() == other.codes();

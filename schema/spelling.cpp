@@ -31,7 +31,7 @@ std::size_t letters_changed(std::string_view a, std::string_view b) {
 
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest_compared = 64;
-  // Of thousands of names one is always near, and looking through them for each of a thousand errors takes minutes.
+  // Among thousands of names one is always near, and searching them for each of a thousand errors takes minutes.
   constexpr std::size_t most_compared = 2000;
   if (word.size() > longest_compared || candidates.size() > most_compared) return std::nullopt;
   std::optional<NearSpelling> nearest;
@@ -39,7 +39,7 @@ std::optional<NearSpelling> near_spelling(std::string_view word, const std::vect
   for (const auto& candidate : candidates) {
     if (candidate.size() > longest_compared || candidate == word) continue;
     const std::size_t changed = letters_changed(word, candidate);
-    // With one or two letters every other name is near: only their order and their capitals can be a slip.
+    // Every name of one or two letters is near to every other: only their order and their capitals count as slips.
     const bool short_word = std::max(word.size(), candidate.size()) <= 2;
     const bool turned = word.size() == 2 && candidate.size() == 2 && word[0] == candidate[1] && word[1] == candidate[0];
     if (short_word && changed != 0 && !turned) continue;
@@ -47,7 +47,7 @@ std::optional<NearSpelling> near_spelling(std::string_view word, const std::vect
       fewest = changed, as_near = 0;
       nearest = NearSpelling{candidate, false};
     }
-    // A name may be declared in two places; that does not make it two.
+    // A name that is declared in two places counts once.
     if (nearest && changed == fewest && candidate != nearest->text) ++as_near;
   }
   if (nearest) nearest->certain = fewest <= 1 && as_near == 0;

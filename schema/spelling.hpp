@@ -8,22 +8,22 @@
 
 namespace wale {
 
-/// The number of slips that turn `a` into `b`, ignoring case: a letter inserted, dropped or replaced, or two neighbours
-/// swapped, each letter touched once (the optimal string alignment distance).
+/// The number of slips that turn `a` into `b`, ignoring case. A slip inserts, drops or replaces a letter, or swaps two
+/// neighbours; each letter takes part in one slip at most (the optimal string alignment distance).
 std::size_t letters_changed(std::string_view a, std::string_view b);
 
-/// The candidate that a reader would take `word` for: the fewest letters changed, and at most a third of them;
-/// capitals and two neighbours that changed places count little.
+/// The candidate other than `word` with the fewest slips: at most one, or a third of the word's letters. Nothing for
+/// words of more than 64 bytes and for more than 2000 candidates.
 std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
 /// A candidate near to a word.
 struct NearSpelling {
   std::string text;
-  /// One slip at most, capitals counted, and no other candidate is as near: there is no doubt what was meant.
+  /// It is at most one slip away (capitals do not count), and no other candidate is as near.
   bool certain = false;
 };
 
-/// As `nearest_spelling`, and whether it is the only candidate.
+/// As `nearest_spelling`, with its certainty.
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace wale

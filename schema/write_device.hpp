@@ -5,9 +5,9 @@
 
 namespace wale::patch_program_format {
 
-/// The section DEVI: everything but the vibration.
+/// Writes the section DEVI: the profile without the shaker.
 void write_device(ByteWriter& out, const DeviceProfile& device);
-/// The section VIBR.
+/// Writes the section VIBR: the shaker.
 void write_shaker(ByteWriter& out, const Shaker& vibration);
 
 }  // namespace wale::patch_program_format

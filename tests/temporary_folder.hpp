@@ -9,10 +9,10 @@
 
 namespace wale {
 
-/// A folder of its own for one test, gone with it.
+/// A new folder for one test. The destructor removes it.
 class TemporaryFolder {
  public:
-  /// Throws std::runtime_error where none can be made.
+  /// Throws std::runtime_error if no folder can be made.
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "wale-test-XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
@@ -28,7 +28,7 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
 
-  /// Writes a file, in place, and the folders that it is in; gives its path.
+  /// Writes a file at `name` within the folder, and makes the folders on the way. Returns the file's path.
   std::string write(const std::string& name, const std::string& bytes) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream(path_ / name, std::ios::binary) << bytes;

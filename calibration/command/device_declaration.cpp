@@ -7,13 +7,13 @@
 namespace wale::command {
 namespace {
 
-/// The settings of a declaration, in the order and the units that a person would choose.
+/// Writes the settings of a declaration, in the usual order and units.
 class DeclarationWriter {
  public:
   explicit DeclarationWriter(const DeclaredDevice& device) : device_(device) {}
 
   void add(const std::string& key, const std::string& value) { text_ += fmt::format("  {} {}\n", key, value); }
-  /// A figure, or that it is unknown.
+  /// Adds a figure, or `unknown`.
   void figure(const std::string& key, const std::string& value) {
     const auto among = [&](const std::vector<std::string>& keys) { return std::ranges::find(keys, key) != keys.end(); };
     add(key, among(device_.unknown) ? "unknown" : (among(device_.assumed) ? "assumed " : "") + value);
@@ -42,15 +42,16 @@ std::string identified_text(const Identified& found) {
     const MotorAnswer& answer = found.motors[motor];
     const char* name = motor == 0 ? "x" : "y";
     if (answer.moves)
-      text += fmt::format("its {} motor moves its axis {}, from {:.2g} N on\n", name, in_words(*answer.moves),
+      text += fmt::format("the {} motor moves the axis {}, from {:.2g} N on\n", name, in_words(*answer.moves),
                           answer.newton);
     else
-      text += fmt::format("its {} motor: {}\n", name, answer.problem);
+      text += fmt::format("the {} motor: {}\n", name, answer.problem);
   }
   for (std::size_t i = 0; i < 2; ++i)
     if (found.shown[i])
-      text += fmt::format("{} is its axis {}\n", i == 0 ? "to the right" : "away from you", in_words(*found.shown[i]));
-  if (!found.problem.empty()) text += "it is not known how it lies: " + found.problem + "\n";
+      text += fmt::format("{} is the device's axis {}\n", i == 0 ? "to the right" : "away from you",
+                          in_words(*found.shown[i]));
+  if (!found.problem.empty()) text += "the axes and motors are not known: " + found.problem + "\n";
   return text;
 }
 

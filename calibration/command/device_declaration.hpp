@@ -8,10 +8,11 @@
 
 namespace wale::command {
 
-/// What identifying found out, for a person: what each motor moves, from which force on, and what the person showed.
+/// The results of identifying, for a person: the axis that each motor moves, from which force on, and the axes that the
+/// person showed.
 std::string identified_text(const Identified& found);
 
-/// A file that declares `device`, to build for it. Its figures that are assumed or unknown stay so. `comments` are
+/// A Wale file that declares `device`, to build for it. Assumed and unknown figures stay marked as such. `comments` are
 /// lines without `//`.
 std::string device_declaration(const DeclaredDevice& device, const std::vector<std::string>& comments);
 

@@ -53,7 +53,7 @@ nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
   return json;
 }
 
-/// What a device pushes with, or how it shakes, in two lines.
+/// The figures of a device's force or vibration, in two lines.
 std::string figures_text(const DeviceProfile& profile) {
   if (!profile.shaker)
     return fmt::format("  {:<12} 2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz\n",
@@ -85,7 +85,7 @@ std::string declared_text(const DeclaredDevice& device) {
   return text;
 }
 
-/// Indents the lines after the first below it.
+/// Indents all lines but the first.
 std::string indented(std::string text) {
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
     text.insert(at + 1, "               ");
@@ -100,7 +100,7 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
   if (!device.can.empty()) line(device.can);
   if (match.device != nullptr && !device.can.empty()) {
     const std::string& name = match.device->profile.name;
-    line(match.is_generic ? fmt::format("no declaration is about it: used as {}, all of whose figures are assumed;\n"
+    line(match.is_generic ? fmt::format("no declaration names it: used as {}, whose figures are all assumed;\n"
                                         "`wale devices --identify {}` prints a declaration to begin with",
                                         name, device.port)
                           : "used as " + name);
@@ -108,7 +108,7 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
   if (!device.transport.empty()) line("driven by " + device.transport);
   if (!device.held_by.empty()) line(fmt::format("in use by {}", fmt::join(device.held_by, ", ")));
   if (!device.can.empty() && device.processes_hidden > 0)
-    line(fmt::format("perhaps in use by others: the files of {} processes cannot be seen by this user",
+    line(fmt::format("perhaps in use by others: this user may not see the files of {} processes",
                      device.processes_hidden));
   if (device.obstacle) line("cannot be used: " + in_words(*device.obstacle));
   return text;
@@ -132,7 +132,7 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Dec
           {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};
 }
 
-/// Zero stands for a figure that nobody knows.
+/// A figure; null for zero, which means unknown.
 nlohmann::ordered_json known_or_null(double figure) {
   return figure > 0 ? nlohmann::ordered_json(figure) : nlohmann::ordered_json(nullptr);
 }
@@ -166,15 +166,18 @@ constexpr const char* spellings =
     "to feel on (wale feel --device NAME)\n"
     "  auto         the best one plugged in, else simulated; the default\n"
     "  simulated    a simulation of the joystick that the program was built for, in a simulated hand\n"
-    "  simulated:NAME, a simulation of the device of that name, from the list below\n"
+    "  simulated:NAME\n"
+    "               a simulation of the device of that name, from the list below\n"
     "  NAME         the real device of that name; a simulation if it cannot be plugged in, as sandpaper\n"
-    "  usb, vendor and product (1209:ffb0), a port (1-2): the device that is plugged in there\n"
-    "  If a real device is named and not plugged in, wale feel waits for it.\n"
+    "  usb          the best device on USB\n"
+    "  1209:ffb0    the device with these numbers of vendor and product\n"
+    "  1-2          the device at this port\n"
+    "  If a real device is named but not plugged in, wale feel waits for it.\n"
     "\nto build for (wale build --device NAME)\n";
 
 constexpr const char* nothing_plugged =
-    "  no device that could be felt on\n"
-    "               a joystick that is connected and not listed may need its own power, or a cable that carries\n"
+    "  no device to feel on\n"
+    "               a joystick that is connected but not listed may need its own power, or a cable that carries\n"
     "               data; `lsusb` lists every device that the computer sees\n";
 
 }  // namespace

@@ -8,13 +8,13 @@
 
 namespace wale::command {
 
-/// What `wale devices` prints: the joysticks that can be felt on, those that can be built for, with the evidence for
-/// their figures, and what is plugged in: what each device is used as, what it can do, and what is in the way.
+/// The text of `wale devices`: the joysticks to feel on, those to build for with the evidence for their figures, and
+/// the plugged devices with the declaration used, abilities and obstacles.
 std::string devices_text(std::span<const DeclaredDevice> known, const Connections& connections,
                          std::span<const PluggedIn> plugged);
 
-/// An array: of each declared device its name, whether it can be felt on, its figures in SI units, those that are
-/// assumed, and their source; then an element for each device that is plugged in.
+/// An array with an element for each declared device (its name, whether it can be felt on, its figures in SI units, the
+/// assumed ones, their source), then one for each plugged device.
 std::string devices_json(std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged);
 
 }  // namespace wale::command

@@ -35,17 +35,17 @@ struct DevicesOptions {
   std::optional<double> max_force;  ///< N
 };
 
-/// The name of a person's own declaration: ours with `my_` before it. One that is made anew keeps its name.
+/// The name of a person's own declaration: the shipped one's with `my_` before it, unless it already has that.
 std::string own_name(const std::string& profile) { return profile.starts_with("my_") ? profile : "my_" + profile; }
 
-// Why pushing does not tell how strong a motor is: the force at which the handle begins to move shows its friction, and
-// how fast it moves shows the force beside its mass. Neither gives the force while mass and friction are assumed.
+// Pushing does not show how strong a motor is: the force at which the handle begins to move depends on friction, and
+// its acceleration depends on mass. Neither gives the force while mass and friction are assumed.
 constexpr std::array how_gain_is_measured{
-    "gain is the force at the handle for each newton that is commanded. Pushing does not show it while mass and",
+    "gain is the force at the handle for each commanded newton. Pushing does not show it while mass and",
     "friction are assumed: hold a force gauge, or a luggage scale, against the handle while `wale feel` runs a",
     "material with `force = vector(2 N, 0 N)`, and divide its reading by 2; then the same for y."};
 
-/// Adds why the device was lost, which is known a moment after the loss.
+/// Adds the reason of a loss, which is known only a moment after the loss.
 Error with_reason(Error error, const HotPluggedDevice& joystick) {
   constexpr auto a_moment = std::chrono::milliseconds(50);
   constexpr int most_looks = 20;
@@ -87,7 +87,7 @@ Result<ChosenDevice> device_to_identify(const std::string& asked, const Connecti
   return chosen;
 }
 
-/// What the declaration of an identified device says first.
+/// The comment at the top of an identified device's declaration.
 std::vector<std::string> comments_on(const ChosenDevice& chosen, const DeviceWiring& wiring) {
   std::vector<std::string> comments{
       in_words(*chosen.plugged) + ", as `wale devices --identify` found it; its other figures are",
@@ -138,13 +138,13 @@ Run declare_devices(CLI::App& verb) {
   const auto options = std::make_shared<DevicesOptions>();
   offer_json(verb, options->json, "a JSON array");
   auto* identifies = verb.add_option("--identify", options->device,
-                                     "pushes one gently, to find out how its axes and motors lie, and prints a "
-                                     "declaration of it (default: the best one plugged in)")
+                                     "pushes a device gently, to find the directions of its axes and motors, and "
+                                     "prints a declaration of it (default: the best one plugged in)")
                          ->expected(0, 1)
                          ->type_name("[DEVICE]")
                          ->excludes("--json");
   offer_force(verb, "--max-force", options->max_force,
-              "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of its own)")
+              "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of the device's)")
       ->needs(identifies);
   offer_name(verb, "--transport", options->transport, transport_names(),
              "how --identify drives it, where its driver knows several ways: hidraw, libusb or evdev")

@@ -7,8 +7,8 @@
 
 namespace wale::command {
 
-/// The devices that a file in this folder would know, with imports looked for in `folders` and WALE_LIBRARY. Problems
-/// in their declarations are printed on standard error.
+/// The devices that a file in the current folder knows, with imports from `folders` and WALE_LIBRARY. Prints errors in
+/// their declarations on standard error.
 std::vector<DeclaredDevice> devices_here(const std::vector<std::string>& folders = {});
 
 }  // namespace wale::command

@@ -29,14 +29,14 @@ namespace wale::command {
 namespace {
 
 constexpr double usual_seconds = 5;
-/// The last part of a watched or recorded run, which may be long, is measured: so many seconds.
+/// s; of a watched or recorded run, which may be long, only the last part is measured.
 constexpr double measured_seconds = 600;
 
 struct FeelOptions {
   Choice choice;
   std::vector<std::string> settings;
   std::string device;               ///< empty: `auto`
-  std::string built_for;            ///< empty: whatever suits the device
+  std::string built_for;            ///< empty: the device that is felt on
   std::optional<std::string> hand;  ///< how a simulated person moves
   std::string transport;            ///< of a real device; empty: its driver chooses
   std::string record;
@@ -63,7 +63,7 @@ struct PreparedRun {
   BlindMaterial material;
 };
 
-/// Whether `name`, where it is given, is a device to build for. Error: W0601.
+/// Checks that `name`, if it is not empty, is a device to build for. Error: W0601.
 Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDevice>& known) {
   std::vector<std::string> names;
   for (const DeclaredDevice& each : known) names.push_back(each.profile.name);
@@ -75,8 +75,8 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
                {.name = "--built-for", .text = name}};
 }
 
-/// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it;
-/// nothing when what is wrong has been printed, with the exit `status` for it.
+/// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it.
+/// After an error, which it prints, it gives nothing and sets the exit `status`.
 std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop, int& status) {
   status = refused;
   Choice built = options.choice;
@@ -116,7 +116,7 @@ std::optional<FeltDevice> open_prepared(const FeelOptions& options, const Prepar
   return *std::move(device);
 }
 
-/// Whether a largest force can be kept; what is wrong has been printed where not.
+/// Whether the device has a force to limit; if not, prints the error.
 bool can_limit(const FeelOptions& options, const PatchProgram& program) {
   if (!options.max_force || !program.vibrates()) return true;
   refuse(Error{Code::other_device,
@@ -126,13 +126,13 @@ bool can_limit(const FeelOptions& options, const PatchProgram& program) {
   return false;
 }
 
-/// How the run is recorded as it happens, if it is.
+/// The recording to make of the run, if the person asked for one.
 std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner& manner) {
   if (!options.record.ends_with(".wrec")) return std::nullopt;
   return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
 }
 
-/// Keeps the stage to what the file says until the run is over, on a thread of its own.
+/// Keeps the stage up to date with the file until the run is over, on a thread of its own.
 class Watching {
  public:
   Watching(const FeelOptions& options, const Choice& built, Stage& stage, const Program& felt, bool live)
@@ -164,7 +164,7 @@ RunOptions run_options(const FeelOptions& options, const RunManner& manner, cons
           .kept_seconds = !is_table && (is_recording || options.watch) ? measured_seconds : HUGE_VAL};
 }
 
-/// What a run that is over leaves: a table, the report, and the exit status.
+/// Writes the table and the report of a finished run. Returns the exit status.
 int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt) {
   if (!options.record.empty() && !options.record.ends_with(".wrec")) {
     auto table = OutputFile::open(options.record, *options.choice.inputs);
@@ -175,7 +175,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));
   const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
-  felt.device.reset();  // one that draws gives the terminal back
+  felt.device.reset();  // the pointer restores the terminal
   fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
   return result.record_problem ? refuse(*result.record_problem) : done;
 }
@@ -210,7 +210,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 
-/// Whether two materials can be compared blindly on this device. Error: W0607.
+/// Checks that two materials can be compared blindly on this device. Error: W0607.
 Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
   const DeviceProfile& device = run.material.program.description().device;
   const std::string& other = b.program.description().device.name;
@@ -219,16 +219,16 @@ Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
                  "build both for one device"};
   if (device.shaker)
     return Error{Code::other_device,
-                 fmt::format("`{}` only vibrates, and a blind comparison is one of forces", device.name),
+                 fmt::format("`{}` only vibrates, but a blind comparison needs forces", device.name),
                  "choose a joystick"};
   const auto& plugged = run.device.chosen.plugged;
   if (plugged && !plugged->driver->is_felt)
-    return Error{Code::other_device, fmt::format("the {} shows forces and does not exert them", device.name),
+    return Error{Code::other_device, fmt::format("the {} only shows forces", device.name),
                  "choose a joystick, or `--device simulated`"};
   return {};
 }
 
-/// Which of two was A?
+/// Runs a blind comparison and reports it. Returns the exit status.
 int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
   int status = done;
   const auto run = prepared(options, stop, status);
@@ -285,7 +285,7 @@ int feel(const FeelOptions& options) {
                         {.name = "--record"}});
   if (options.virtual_time && options.seconds && std::isinf(*options.seconds))
     return refuse(Error{Code::malformed_value,
-                        "a run in virtual time has an end, found \"inf\"",
+                        "a run in virtual time needs an end, found \"inf\"",
                         "give its length, as in `--seconds \"5 s\"`, or leave out --virtual-time",
                         {.name = "--seconds"}});
   const std::atomic<bool>& stop = stop_on_signals();
@@ -294,7 +294,7 @@ int feel(const FeelOptions& options) {
 
 void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
   auto* against = verb.add_option("--against", options.against,
-                                  "another to tell it from: a file, FILE:MATERIAL, or a material by name");
+                                  "the other material (B): a file, FILE:MATERIAL, or a material by name");
   auto* blind = verb.add_flag("--blind", options.blind,
                               "feels FILE (A) and the other (B) in random order and asks which of two was A")
                     ->needs(against)
@@ -302,7 +302,8 @@ void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
   against->needs(blind);
   offer_count(verb, "--trials", options.trials, {.least = 1, .most = 1000}, "how often it asks (default: 12)")
       ->needs(blind);
-  offer_count(verb, "--seed", options.seed, {}, "of the random order (default: another each time)")->needs(blind);
+  offer_count(verb, "--seed", options.seed, {}, "the seed of the random order (default: a new one each time)")
+      ->needs(blind);
 }
 
 Run declare_feel(CLI::App& verb) {
@@ -321,17 +322,17 @@ Run declare_feel(CLI::App& verb) {
   verb.add_option("--hand", options->hand,
                   "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   offer_duration(verb, "--seconds", options->seconds, {.endless = true},
-                 "how long (default: 5; with --blind 3 for each of the two), and how long a device that is not plugged "
-                 "in is waited for at most (default: until Ctrl-C)");
+                 "the length of the run (default: 5; with --blind 3 for each of the two), and the longest wait for a "
+                 "device that is not plugged in (default: until Ctrl-C)");
   auto* virtual_time =
-      verb.add_flag("--virtual-time", options->virtual_time, "as fast as possible, the same bit for bit each time");
+      verb.add_flag("--virtual-time", options->virtual_time, "as fast as possible, with the same bits each time");
   offer_force(verb, "--max-force", options->max_force, "the largest force allowed, as in \"3 N\"");
   auto* record = verb.add_option("--record", options->record,
-                                 "records every tick: NAME.wrec as it happens, for `wale replay`; NAME.csv")
+                                 "records every tick: NAME.wrec during the run, for `wale replay`; NAME.csv after it")
                      ->type_name("FILE");
   offer_blind(verb, *options, record);
   verb.add_flag("--watch", options->watch,
-                "feels the file anew whenever it is saved; until Ctrl-C unless --seconds says so")
+                "runs the new version whenever the file is saved; until Ctrl-C, or for --seconds")
       ->excludes("--blind")
       ->excludes(virtual_time);
   offer_json(verb, options->json, "the report as a JSON object");

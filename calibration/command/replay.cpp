@@ -45,9 +45,9 @@ std::string verdict(const Replay& replay, double rate) {
   if (!replay.first) return "the same, bit for bit";
   const ReplayDifference& first = *replay.first;
   return fmt::format(
-      "differs on {} of {} ticks, first on tick {} ({:.4f} s without what was skipped): the {} was {:.9g} and is "
+      "differs on {} of {} ticks, first on tick {} ({:.4f} s, skipped periods not counted): the {} was {:.9g} and is "
       "{:.9g}; "
-      "commanded at most {:.3g} apart",
+      "the commands differ by at most {:.3g}",
       replay.differing, replay.ticks, first.tick, static_cast<double>(first.tick) / rate, first.what, first.recorded,
       first.replayed, replay.largest_force);
 }
@@ -62,7 +62,7 @@ std::string replay_text(const std::string& file, const Recording& recording, con
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
                       header.device.rate);
   for (const std::string& material : summary.materials) text += fmt::format("  program      {}\n", material);
-  text += fmt::format("  changes      {} placed, {} moved, {} swapped, {} parameters set\n", summary.placements,
+  text += fmt::format("  changes      {} placed, {} moved, {} replaced, {} parameters set\n", summary.placements,
                       summary.moves, summary.swaps, summary.sets);
   return text + fmt::format("  replay       {}\n", verdict(replay, header.device.rate));
 }
@@ -104,7 +104,7 @@ Result<> exported(const std::string& path, const InputFiles& inputs, Write&& wri
 
 struct ReplayOptions {
   std::string file, csv, wav;
-  std::optional<std::uint64_t> ticks;  ///< no more than so many
+  std::optional<std::uint64_t> ticks;  ///< at most this many, from the beginning
   bool json = false;
 };
 
@@ -117,8 +117,8 @@ int replay(const ReplayOptions& options) {
     return Result<>();
   });
   if (!table) return refuse(table.error());
-  const auto sound = exported(options.wav, {options.file, options.csv},
-                              [&](std::ostream& out) { return write_wav(out, recording); });
+  const auto sound =
+      exported(options.wav, {options.file, options.csv}, [&](std::ostream& out) { return write_wav(out, recording); });
   if (!sound) return refuse(sound.error());
   const auto replayed = wale::replay(recording);
   if (!replayed) return refuse(replayed.error());
@@ -136,7 +136,7 @@ Run declare_replay(CLI::App& verb) {
                   "writes the force as sound: x left, y right, the device's peak force full scale")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
-              "only so many ticks from the beginning; of a damaged recording, those before the damage");
+              "only this many ticks from the beginning; of a damaged recording, those before the damage");
   offer_json(verb, options->json, "a JSON object");
   verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
   return [options] { return replay(*options); };
@@ -144,7 +144,7 @@ Run declare_replay(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb replay_verb{"replay", "runs a recording's programs again on what its device told, and compares",
+extern const Verb replay_verb{"replay", "runs a recording's programs again on the recorded positions, and compares",
                               declare_replay};
 
 }  // namespace wale::command

@@ -17,7 +17,7 @@ namespace {
 struct SampleOptions {
   Choice choice;
   std::vector<std::string> settings;
-  std::optional<Hand> at;  ///< either this or `trace` is given
+  std::optional<Hand> at;  ///< set if `trace` is empty
   std::string trace;
   std::string out = "-";
   bool json = false;
@@ -48,7 +48,8 @@ int sample(const SampleOptions& options) {
   const auto samples = wale::sample(Bank(program, *parameters, program.default_size()), *hands);
   const bool vibrates = program.description().vibrates();
   const std::string text = options.json ? samples_json(samples, vibrates) : samples_csv(samples, vibrates);
-  if (const auto written = write_file(options.out, text, *options.choice.inputs); !written) return refuse(written.error());
+  if (const auto written = write_file(options.out, text, *options.choice.inputs); !written)
+    return refuse(written.error());
   return done;
 }
 
@@ -60,7 +61,7 @@ Run declare_sample(CLI::App& verb) {
   offer_hand(*places, "--at", options->at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
   places
       ->add_option("--trace", options->trace,
-                   "a CSV file with t, x, y in s and m, and vx, vy in m/s if it has them; a line is a tick")
+                   "a CSV file with t (s), x, y (m), and optionally vx, vy (m/s); each line is a tick")
       ->type_name("FILE");
   offer_output(verb, options->out, "where to write (default: standard output)");
   offer_json(verb, options->json, "a JSON array instead of CSV");
@@ -70,7 +71,8 @@ Run declare_sample(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb sample_verb{"sample", "prints a program's force at given hands, open loop; outside the patch it is 0",
-                              declare_sample};
+extern const Verb sample_verb{
+    "sample", "prints a program's force at given positions of the hand, open loop; outside the patch it is 0",
+    declare_sample};
 
 }  // namespace wale::command

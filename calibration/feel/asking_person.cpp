@@ -8,7 +8,7 @@
 namespace wale {
 
 void AskingPerson::introduce(bool is_a) {
-  out_ << fmt::format("{} is {}: feel it\n", is_a ? 'A' : 'B', is_a ? a_ : b_) << std::flush;
+  out_ << fmt::format("{} is {}; feel it now\n", is_a ? 'A' : 'B', is_a ? a_ : b_) << std::flush;
 }
 
 void AskingPerson::begin(int trial, int interval) {

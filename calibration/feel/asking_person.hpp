@@ -7,11 +7,11 @@
 
 namespace wale {
 
-/// Asks in lines of text. Answers are 1 or 2; `q` and the end of the input end the session. After anything else it asks
-/// again.
+/// Asks in lines of text. Answers are 1 or 2; `q` and the end of the input end the session. After any other line it
+/// asks again.
 class AskingPerson final : public BlindPerson {
  public:
-  /// `typed`: a person types the answers, so that their line ends are on the screen; otherwise `out` gets them.
+  /// `typed`: a person types the answers, so the screen already shows the line ends; otherwise `out` gets line ends.
   AskingPerson(std::istream& in, std::ostream& out, std::string a, std::string b, int trials, bool typed)
       : in_(in), out_(out), a_(std::move(a)), b_(std::move(b)), trials_(trials), typed_(typed) {}
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double two_sided_95 = 0.975;
 
-/// Lets one material be felt for some seconds.
+/// Runs one material for some seconds.
 class Interval {
  public:
   Interval(Device& device, const BlindOptions& options) : stage_(device), options_(options) {}
@@ -30,7 +30,7 @@ class Interval {
     if (options_.stop && *options_.stop) return Error{Code::stopped, "interrupted"};
     const auto& run = *result;
     const double felt = static_cast<double>(run.ticks_run + run.ticks_missed) * run.record.seconds_per_tick;
-    constexpr double enough = 0.5;  // of an interval: its end may be cut, but a lost device stops earlier
+    constexpr double enough = 0.5;  // share of an interval: a shorter one counts as a lost device
     if (felt < enough * options_.seconds)
       return Error{Code::lost_device, fmt::format("the device stopped after {:.1f} s", felt)};
     return {};

@@ -28,21 +28,21 @@ struct BlindTrial {
 
 struct BlindOptions {
   int trials = 12;
-  std::uint64_t seed = 0;         ///< of the order, which is drawn for each trial; both orders are equally likely
+  std::uint64_t seed = 0;         ///< of the random order of each trial; both orders are equally likely
   double seconds = 3;             ///< of an interval
   double most_newton = HUGE_VAL;  ///< the largest force that the user allows
   bool virtual_time = false;
   const std::atomic<bool>* stop = nullptr;  ///< as in `RunOptions`
 };
 
-/// The person who feels: is told what comes next, and is asked. Nothing that the person is told before an answer
-/// depends on the order.
+/// The person who feels. The calls say what comes next, and ask. Before an answer, no call depends on the order, except
+/// `introduce`.
 class BlindPerson {
  public:
   virtual ~BlindPerson() = default;
-  /// A or B comes next, by its name, before the first trial.
+  /// Before the first trial: A or B comes next, and is named.
   virtual void introduce(bool is_a) = 0;
-  /// Interval 1 or 2 of a trial, counted from 1.
+  /// Interval 1 or 2 of a trial comes next; trials are counted from 1.
   virtual void begin(int trial, int interval) = 0;
   /// The interval in which A was, 1 or 2; nothing: the person ends the session.
   virtual std::optional<int> answer(int trial) = 0;
@@ -51,27 +51,27 @@ class BlindPerson {
 
 struct BlindSession {
   std::vector<BlindTrial> trials;  ///< the answered ones
-  std::optional<Error> ended;      ///< why it ended before the last trial; nothing where it did not
+  std::optional<Error> ended;      ///< why it ended before the last trial; nothing if it did not
 };
 
-/// Two-interval forced choice: which of two was A? A and B are felt once by name, then in pairs in random order, on one
-/// device, until the trials are over, the person or `stop` ends the session, or the device is lost.
+/// Two-interval forced choice: which of two was A? The person feels A and B once by name, then pairs in random order,
+/// on one device, until the trials are over, the person or `stop` ends the session, or the device is lost.
 BlindSession feel_blind(Device& device, const BlindMaterial& a, const BlindMaterial& b, const BlindOptions& options,
                         BlindPerson& person);
 
-/// The statistics of so many right answers.
+/// The statistics of a number of right answers.
 struct BlindScore {
   int right = 0, trials = 0;
   double proportion = 0;     ///< of right answers
   double low = 0, high = 1;  ///< its 95 % interval (Wilson 1927)
-  /// sqrt(2) z(proportion), as thresholds of forced choice are normalised (Macmillan and Creelman 2005, chapter 7).
-  /// When all answers are right, half an answer counts as wrong, and the reverse (the same, chapter 1).
+  /// d' = sqrt(2) z(proportion), as for all thresholds of forced choice (Macmillan and Creelman 2005, chapter 7). If
+  /// all answers are right, half an answer counts as wrong, and the reverse (chapter 1).
   double sensitivity = 0;
-  std::optional<double> sensitivity_low, sensitivity_high;  ///< of the interval's ends; nothing where it is open
+  std::optional<double> sensitivity_low, sensitivity_high;  ///< of the interval's ends; nothing for an open end
   double by_chance = 1;                                     ///< the probability of as many or more by guessing
 };
 
-/// `trials` above 0, `right` of them from 0 on.
+/// `trials` is above 0, `right` in 0 .. `trials`.
 BlindScore blind_score(int right, int trials);
 
 /// The share of right answers at a sensitivity d': Phi(d' / sqrt(2)).

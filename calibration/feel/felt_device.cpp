@@ -26,7 +26,7 @@ Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person)
     if (std::filesystem::exists(hand, ignored)) return error;
     const std::vector<std::string> motions{"lateral", "circular", "rest"};
     auto near = nearest_spelling(hand, motions);
-    constexpr std::size_t telling = 4;  // "circle" begins as "circular" does, and is too short to be near to it
+    constexpr std::size_t telling = 4;  // letters; "circle" is meant as "circular", but differs by too many letters
     for (const std::string& motion : motions)
       if (!near && hand.size() >= telling && motion.starts_with(hand.substr(0, telling))) near = motion;
     error.sentence = fmt::format("`{}` is neither lateral, circular, rest nor the file of a trace", hand);
@@ -50,13 +50,13 @@ Result<std::unique_ptr<Device>> simulated(const PatchProgram& program, const Han
   return device;
 }
 
-/// Whether forces and places of a program for `a` mean the same on `b`.
+/// Whether a program's forces and positions are the same on `a` and `b`.
 bool has_same_scale(const DeviceProfile& a, const DeviceProfile& b) {
   return a.rate == b.rate && a.workspace_diameter == b.workspace_diameter && a.position_counts == b.position_counts &&
          a.force_newton == b.force_newton && a.force_counts == b.force_counts && a.shaker == b.shaker;
 }
 
-/// Whether a program suits the device that was chosen by its declaration. Error: W0607.
+/// Checks that a program is built for the declaration of the chosen device. Error: W0607.
 Result<> suits(const PatchProgram& program, const DeviceProfile& declared, bool is_real) {
   const std::string& built_for = program.device.name;
   if (built_for != declared.name)
@@ -65,7 +65,7 @@ Result<> suits(const PatchProgram& program, const DeviceProfile& declared, bool 
                  fmt::format("feel it on `{}`, or build it for `{}`", built_for, declared.name)};
   if (is_real && !has_same_scale(program.device, declared))
     return Error{Code::other_device,
-                 fmt::format("`{}` is built for a `{}` with other figures than its declaration has", program.material,
+                 fmt::format("`{}` is built for a `{}` with other figures than in its declaration", program.material,
                              declared.name),
                  "build it again, so that its forces suit the device"};
   return {};

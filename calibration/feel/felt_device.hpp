@@ -15,18 +15,18 @@
 
 namespace wale {
 
-/// Tells the person something, in a line or more.
+/// Shows the person a message of one or more lines.
 using Say = std::function<void(const std::string&)>;
 
-/// A device that was chosen for a run, and the connections that it is opened by.
+/// A device that was chosen for a run, and the connections through which it is opened.
 struct DeviceToFeel {
-  std::optional<Connections> connections;  ///< none where only simulated devices were asked for
+  std::optional<Connections> connections;  ///< none if only simulated devices were requested
   ChosenDevice chosen;
 };
 
-/// Chooses by `request` among what is plugged in and `known`, and says so, where the person asked or it matters. A real
-/// device that is not plugged in is waited for, `seconds` at most, until `stop` is true. Errors: as `choose_device` and
-/// `wait_for_device` give them.
+/// Chooses by `request` among plugged and `known` devices, and tells the choice if the person asked or it matters.
+/// Waits for a real device that is not plugged in, for at most `seconds`, until `stop` is true. Errors: those of
+/// `choose_device` and `wait_for_device`.
 Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<const DeclaredDevice> known,
                                     std::optional<double> seconds, const Say& say, const std::atomic<bool>& stop);
 
@@ -40,17 +40,17 @@ struct FeltOptions {
 /// An open device, real or simulated.
 struct FeltDevice {
   std::unique_ptr<Device> device;
-  const HotPluggedDevice* plugged = nullptr;  ///< the same device, where it is a real one
+  const HotPluggedDevice* plugged = nullptr;  ///< the same device if it is a real one; else null
   std::string name, hand;                     ///< "simulated", "lateral"
   bool virtual_time = false;
 
-  /// How a run on it was made, for the report. While nobody else uses the device.
+  /// The conditions of a run on it, for the report. Call it while no other thread uses the device.
   RunManner manner() const;
 };
 
-/// Opens the chosen device for `program`, or simulates it in a hand of `person` that moves as asked. `stop` outlives
-/// the device. Errors: as `open_device` and `load_trace` give them; `other_device` where the program is built for
-/// another device, or for other figures of this one, by which its forces would come out otherwise.
+/// Opens the chosen device for `program`, or simulates it in a hand of `person` that moves as `FeltOptions::hand` says.
+/// `stop` must outlive the device. Errors: those of `open_device` and `load_trace`; `other_device` if the program is
+/// built for another device, or for other figures of this one that would change its forces.
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop);
 

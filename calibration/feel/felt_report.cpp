@@ -11,7 +11,8 @@ namespace wale {
 
 namespace {
 
-constexpr double settling_seconds = 0.5;  // forces slew in and the hand comes up to speed; half a run at most
+/// s, at most half a run, in which forces slew in and the hand comes up to speed.
+constexpr double settling_seconds = 0.5;
 
 std::string force_text(const ForceSize& size) {
   return fmt::format("P99 {:.3f} N, maximum {:.3f} N, RMS {:.3f} N", size.p99, size.maximum, size.rms);
@@ -83,13 +84,13 @@ nlohmann::ordered_json force_json(const ForceSize& size) {
   return {{"p99_newton", size.p99}, {"max_newton", size.maximum}, {"rms_newton", size.rms}};
 }
 
-/// "forces_sent_x" as a person reads it.
+/// "forces sent x" for "forces_sent_x".
 std::string spaced(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
 }
 
-/// What happened to a real device, with its counts as rates per second.
+/// The losses and counts of a real device, with counts also per second.
 std::string plugged_text(const HotPlugReport& plugged, double seconds) {
   std::string text = "  driven       " + plugged.manner + "\n", counts;
   for (const auto& [name, count] : plugged.tally)
@@ -172,7 +173,7 @@ std::string felt_text(const FeltReport& report) {
         "  interaction  {} (hand on handle, with inertia and friction)\n",
         force_text(felt.interaction_rubbing && felt.ticks_rubbing > 0 ? *felt.interaction_rubbing : *felt.interaction));
   if (!report.device.has_position())
-    text += fmt::format("  place        lost: `{}` does not know where the hand is\n", report.device.name);
+    text += fmt::format("  place        none: `{}` does not measure the hand's position\n", report.device.name);
   else if (felt.vibration)
     text += fmt::format("  place        the hand ranged over {:.1f} mm\n", 1e3 * felt.position_range);
   else
@@ -191,8 +192,8 @@ std::string felt_text(const FeltReport& report) {
                            : "  percepts     none to read back: its force has no texture\n";
   text += "  guards       " + shown(report.guards) + "\n";
   if (report.guards.restored > 0)
-    text += fmt::format("  memory       {} time{} a state was not a number and was reset\n", report.guards.restored,
-                        report.guards.restored == 1 ? "" : "s");
+    text += fmt::format("  memory       {} time{} a state was not a number and got its first value again\n",
+                        report.guards.restored, report.guards.restored == 1 ? "" : "s");
   return text;
 }
 

@@ -10,7 +10,7 @@
 
 namespace wale {
 
-/// How a run was made, for the report.
+/// The conditions of a run, for the report.
 struct RunManner {
   std::string device;  ///< "simulated"
   std::string hand;    ///< "lateral", or the trace's file
@@ -18,7 +18,7 @@ struct RunManner {
   std::optional<HotPlugReport> plugged;  ///< of a real device
 };
 
-/// The force at the handle, beside the force that the program aims at.
+/// The measured force at the handle, and the force that the program aims at.
 struct FeltReport {
   std::string material;
   RunManner manner;
@@ -32,10 +32,10 @@ struct FeltReport {
   Felt felt;
   float predicted_amplitude = 0;  ///< N, of a pad m/s^2; 0 when no percept of the program predicts one
   std::vector<LevelBack> levels;
-  std::vector<double> asked;  ///< for each of `levels`: the level asked for; negative: none
+  std::vector<double> asked;  ///< for each of `levels` the level asked for; negative if none was
 };
 
-/// The least number of crossings from which a texture is read back.
+/// The least number of crossings that a texture needs to be read back.
 inline constexpr long least_crossings = 50;
 
 /// Measures a run, without its first part, in which forces slew in and the hand comes up to speed.

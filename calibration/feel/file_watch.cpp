@@ -14,12 +14,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Creating or opening a file is not a change yet; closing it after writing is.
+/// Closing a file after writing counts as a change; creating or opening it does not.
 constexpr std::uint32_t telling = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE;
 
 /// The longest time between events of one save: an editor writes, renames and deletes within it.
 constexpr std::chrono::milliseconds moment{30};
-/// After so many moments a file that is written without a pause is reported all the same.
+/// A file that is written without a pause is reported after this many moments.
 constexpr int most_moments = 30;
 
 }  // namespace
@@ -42,7 +42,7 @@ bool FileWatch::follow(const std::vector<std::string>& files) {
   std::map<std::string, int> folders;
   for (const fs::path& path : paths) {
     const std::string folder = path.parent_path().string();
-    // For a folder that is watched already the system gives the same watch again; for one that was made again, another.
+    // The system returns the same watch for a folder that is already watched, and a new one for a folder made again.
     const int watch = inotify_add_watch(events_, folder.c_str(), telling | IN_ONLYDIR);
     if (watch < 0) continue;  // there is no such folder
     const auto known = folders_.find(folder);

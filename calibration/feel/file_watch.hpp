@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// Reports changes of files, however an editor writes them: in place, as a new file of the same name, or deleted and
-/// made again. It watches their folders, so a file need not exist yet. One thread at a time.
+/// Reports changes of files, whether an editor writes them in place, as a new file of the same name, or deletes them
+/// and makes them again. It watches their folders, so a file need not exist yet. One thread at a time.
 class FileWatch {
  public:
   FileWatch();
@@ -21,12 +21,12 @@ class FileWatch {
   /// watched before; then a change there may have been missed.
   bool follow(const std::vector<std::string>& files);
 
-  /// Whether one of them was written, renamed or deleted since the last call. Waits for that, at most `wait`; after a
-  /// change it waits until nothing more happens for a moment, so that one save is reported once.
+  /// Whether one of them was written, renamed or deleted since the last call. Waits for a change for at most `wait`;
+  /// after a change it waits until no more changes come for a moment, so that one save is reported once.
   bool changed(std::chrono::milliseconds wait);
 
  private:
-  /// Takes the events that are there or come within `wait`: whether there were any, and any of followed files.
+  /// Takes the events that have come or come within `wait`. Returns whether there were any, and any of followed files.
   struct Taken {
     bool any = false, ours = false;
   };

@@ -37,7 +37,7 @@ MaterialWatch::Outcome MaterialWatch::look() {
     if (opened && opened->module && !opened->diagnostics.has_errors())
       program = compile_opened(*opened, request, choice_.material, opened->diagnostics);
     looked_for.push_back(opened ? opened->name : choice_.file);
-  } while (files_.follow(looked_for));  // again, while a folder turns up that was not watched during reading
+  } while (files_.follow(looked_for));  // again if a folder was not watched while its file was read
 
   if (!opened) return refuse(fmt::format("wale: {}\n", command::error_text(opened.error())));
   std::string said;
@@ -46,7 +46,7 @@ MaterialWatch::Outcome MaterialWatch::look() {
   if (!program || opened->diagnostics.has_errors()) return refuse(said);
   const PatchProgram& now = program->description();
   if (now.vibrates() != vibrates_ || now.device.name != device_)
-    return refuse(fmt::format("wale: `{}` is now built for `{}`, and the device is a `{}`\n", now.material,
+    return refuse(fmt::format("wale: `{}` is now built for `{}`, but the device is a `{}`\n", now.material,
                               now.device.name, device_));
   auto bytes = write_patch_program(now);
   const bool was_refused = !std::exchange(refused_, {}).empty();

@@ -21,7 +21,7 @@ class MaterialWatch {
   enum class Outcome {
     nothing,   ///< no file changed, or the program did not
     replaced,  ///< the new program is active from the next tick on
-    refused    ///< the errors were told, and the previous version stays active
+    refused    ///< it has errors, which were shown, and the previous version stays active
   };
   /// Waits for a change, at most `wait`. The first call does not wait, since the file may have changed after it was
   /// read.

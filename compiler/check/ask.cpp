@@ -9,7 +9,7 @@ namespace wale {
 
 namespace {
 
-/// `60` written as a level was meant in percent.
+/// The fix for a level such as `60`, which was meant in percent.
 std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const PerceptStatement& node, double level) {
   if (!node.value || !(level > 1 && level <= 100)) return {};
   const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
@@ -73,18 +73,19 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
     asked.span = node.level_name->span;
     const auto named = named_level(declarations, meant.percept->name, *node.level_name, surroundings.diagnostics);
     if (!named) return;
-    asked.level =
-        meant.reversed ? 1 - *named : *named;  // a name is a place on the scale, from whichever end it is seen
+    asked.level = meant.reversed
+                      ? 1 - *named
+                      : *named;  // a name means the same place on the scale for the percept and for its antonym
   } else if (node.value) {
     asked.span = declared.tree->span(*node.value);
     const auto known = plain_constant(declared, *node.value, surroundings);
     if (!known) return;
     asked.level = *known;
   } else {
-    return;  // reported by the parser
+    return;  // the parser has reported it
   }
   if (!(asked.level >= 0 && asked.level <= 1))
-    return report(Code::level_out_of_range, asked.span, fmt::format("a level of {:.4g} is outside 0 .. 1", asked.level),
+    return report(Code::level_out_of_range, asked.span, fmt::format("the level {:.4g} is outside 0 .. 1", asked.level),
                   Advice(asked.level > 1 && asked.level <= 100
                              ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`",
                                            node.name.text, asked.level, asked.level / 100)

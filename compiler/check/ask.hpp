@@ -7,12 +7,13 @@
 
 namespace wale {
 
-/// Adds what a line of a material's perceptual block asks for; it replaces what was taken over for the same percept.
-/// A percept that makes no sense is reported and not added.
+/// Adds the percept of one line of a material's perceptual block. It replaces one that another material gave for the
+/// same percept. Errors in the line are reported, and the percept is then not added.
 void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, const Surroundings& surroundings,
          std::vector<AskedPercept>& percepts);
 
-/// The plain number that an expression of a declaration comes to; nothing when it is none, which has been reported.
+/// The value of an expression that must be a plain number known at compile time. Nothing after an error, which is
+/// reported.
 std::optional<double> plain_constant(const Declared<MaterialDecl>& declared, ExprId expr,
                                      const Surroundings& surroundings);
 

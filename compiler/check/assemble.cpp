@@ -15,7 +15,7 @@ namespace wale {
 
 namespace {
 
-/// A material of more statements than this, all that it takes over included, is beyond what a patch program holds.
+/// The most statements of a material, including those from other materials; more do not fit into a patch program.
 constexpr std::size_t most_statements = 20'000;
 constexpr std::size_t deepest_derivation = 64;
 
@@ -66,12 +66,12 @@ class Assembler {
  private:
   // ---- what a material is made from -------------------------------------------------------------------------------
 
-  /// `like denim`: everything of `denim` that the material does not say itself.
+  /// `like denim`: takes everything from `denim` that the material does not state itself.
   bool take_over(const Declared<MaterialDecl>& declared, const Setting& setting, AssembledMaterial& result) {
     const auto liked = liked_by(setting, *declared.tree);
     if (!liked || result.derived) {
       report(liked ? Code::declared_twice : Code::wrong_type, setting.span,
-             liked ? "a material is made from one other" : "`like` takes the name of one material",
+             liked ? "a material is made from one other" : "`like` needs the name of one material",
              liked ? first_origin(*declared.node, setting) : "write, for example, `like denim`");
       return false;
     }
@@ -105,7 +105,7 @@ class Assembler {
     return blend(from, expr);
   }
 
-  /// A material that the file declares, imports, or names of the library; null where there is none.
+  /// The material of that name that the file declares or imports, or that the library has; null if there is none.
   static const Declared<MaterialDecl>* known(const Word& word, const Declarations& home) {
     if (const auto* found = home.materials.find(word.text)) return found;
     const auto found = home.library_materials.find(word.span.begin);
@@ -114,14 +114,14 @@ class Assembler {
 
   const Declared<MaterialDecl>* find(const Word& word, const Declarations& home) {
     if (const auto* found = known(word, home)) return found;
-    if (home.library_materials.contains(word.span.begin)) return nullptr;  // reported
+    if (home.library_materials.contains(word.span.begin)) return nullptr;  // already reported
     report(Code::unknown_name, word.span, fmt::format("no material is called `{}`", word.text),
            did_you_mean(word.span, word.text, home.materials.spellings(),
                         "declare it in this file, or `import` the file that does, as in `import fabric.denim`"));
     return nullptr;
   }
 
-  /// `corduroy(wale: 1.2 mm)`: the same with other defaults.
+  /// `corduroy(wale: 1.2 mm)`: the same material with other defaults.
   std::shared_ptr<const AssembledMaterial> instance(const Declared<MaterialDecl>& from, const Call& call) {
     const auto* other = find(call.callee, *from.home);
     const auto base = other ? assemble(*other) : nullptr;
@@ -193,7 +193,7 @@ class Assembler {
     return known.empty() ? "" : known.front() + ": …";
   }
 
-  /// Gives a parameter another default, in a blend in every component that has it.
+  /// Gives a parameter another default; in a blend, in every component that has the parameter.
   static bool set(AssembledMaterial& material, std::string_view name, const Mixture& value) {
     bool found = false;
     for (auto& assembled : material.statements)
@@ -207,7 +207,7 @@ class Assembler {
     return found;
   }
 
-  /// What turns a blend: the weight of a component, or the level of a percept that a component asks for.
+  /// The arguments that change a blend: the weight of a component, or the level of a percept that a component asks for.
   enum class Dial { none, weight, level };
 
   static Dial dial_named(const AssembledMaterial& material, std::string_view name) {
@@ -234,25 +234,26 @@ class Assembler {
 
   bool good_weight(double weight, Span span) {
     if (weight > 0 && std::isfinite(weight)) return true;
-    report(Code::value_out_of_range, span, "a component has a weight above zero", "leave out what is not in the blend");
+    report(Code::value_out_of_range, span, "the weight of a component must be greater than zero",
+           "leave out components that are not in the blend");
     return false;
   }
 
   bool good_level(double level, Span span, const std::string& one) {
     if (level >= 0 && level <= 1) return true;
-    report(Code::level_out_of_range, span, fmt::format("a level of {:.4g} is outside 0 .. 1", level),
+    report(Code::level_out_of_range, span, fmt::format("the level {:.4g} is outside 0 .. 1", level),
            fmt::format("0 is none of it, 1 is {}", one));
     return false;
   }
 
   // ---- mixtures ---------------------------------------------------------------------------------------------------
 
-  /// `between(fine, wide, 0.3)`: one structure, every parameter and every level on the way from one to the other.
+  /// `between(fine, wide, 0.3)`: one structure, with every parameter and every level between those of the two.
   std::shared_ptr<const AssembledMaterial> between(const Declared<MaterialDecl>& from, ExprId expr, const Call& call) {
     const Span span = from.tree->span(expr);
     const auto arguments = from.tree->arguments(call);
     if (arguments.size() != 3 || std::ranges::any_of(arguments, [](auto& each) { return bool(each.name); })) {
-      report(Code::missing_argument, span, "`between` takes two materials and how far the way from one to the other is",
+      report(Code::missing_argument, span, "`between` takes two materials and a position between them, from 0 to 1",
              "write, for example, `between(fine_corduroy, wide_corduroy, 0.3)`");
       return nullptr;
     }
@@ -261,7 +262,7 @@ class Assembler {
     if (!first || !second || !way) return nullptr;
     if (!(*way >= 0 && *way <= 1)) {
       report(Code::value_out_of_range, from.tree->span(arguments[2].value),
-             fmt::format("{:.4g} of the way is not between the two", *way), "give a number from 0 to 1");
+             fmt::format("the position {:.4g} is not between the two materials", *way), "give a number from 0 to 1");
       return nullptr;
     }
     if (!same_structure(*first, *second, span)) return nullptr;
@@ -273,24 +274,24 @@ class Assembler {
   bool same_structure(const AssembledMaterial& a, const AssembledMaterial& b, Span span) {
     const auto differ = [&](const std::string& how, std::vector<SecondarySpan> where = {}) {
       Advice advice =
-          "`between` leads from one setting of a material's parameters to another of the same material; to mix "
-          "materials write `0.7 a + 0.3 b`";
+          "`between` needs two variants of one material, with different parameters; to mix materials, write "
+          "`0.7 a + 0.3 b`";
       for (const auto& [place, label] : where) advice = std::move(advice).see(place, label);
-      report(Code::different_structures, span, "these two have different structures: " + how, std::move(advice));
+      report(Code::different_structures, span, "these two materials have different structures: " + how,
+             std::move(advice));
       return false;
     };
-    if (a.components.size() != b.components.size()) return differ("one is a blend of more than the other");
+    if (a.components.size() != b.components.size()) return differ("their blends have different numbers of components");
     for (std::size_t i = 0; i < a.components.size(); ++i)
       if (!same_structure(*a.components[i].material, *b.components[i].material, span)) return false;
     if (a.statements.size() != b.statements.size())
-      return differ(fmt::format("one has {} statements, the other {}", a.statements.size(), b.statements.size()));
+      return differ(fmt::format("one has {} statements, the other has {}", a.statements.size(), b.statements.size()));
     for (std::size_t i = 0; i < a.statements.size(); ++i)
       if (a.statements[i].statement != b.statements[i].statement)
-        return differ(
-            fmt::format("`{}` in the one, `{}` in the other",
-                        first_line(surroundings_.sources.text(a.statements[i].statement->span)),
-                        first_line(surroundings_.sources.text(b.statements[i].statement->span))),
-            {{a.statements[i].statement->span, "in the one"}, {b.statements[i].statement->span, "in the other"}});
+        return differ(fmt::format("`{}` in one, `{}` in the other",
+                                  first_line(surroundings_.sources.text(a.statements[i].statement->span)),
+                                  first_line(surroundings_.sources.text(b.statements[i].statement->span))),
+                      {{a.statements[i].statement->span, "in one"}, {b.statements[i].statement->span, "in the other"}});
     for (const auto& percept : a.percepts)
       if (std::ranges::find(b.percepts, percept.name, &AskedPercept::name) == b.percepts.end())
         return differ(fmt::format("only one asks for {}", percept.name), {{percept.span, "asked for here"}});
@@ -331,7 +332,7 @@ class Assembler {
     blend_levels(a);
   }
 
-  /// `0.7 corduroy + 0.3 denim`: forces and textures side by side.
+  /// `0.7 corduroy + 0.3 denim`: the forces and textures of both at once.
   std::shared_ptr<const AssembledMaterial> blend(const Declared<MaterialDecl>& from, ExprId expr) {
     auto result = std::make_shared<AssembledMaterial>();
     if (!add_components(from, expr, result->components)) return nullptr;
@@ -356,7 +357,7 @@ class Assembler {
     return result;
   }
 
-  /// The levels that the components' come to, of all percepts that the blend itself does not ask for.
+  /// Computes the levels of a blend from those of its components, for all percepts that the blend does not ask for.
   static void blend_levels(AssembledMaterial& material) {
     double whole = 0;
     for (const auto& component : material.components) whole += component.weight;
@@ -420,12 +421,12 @@ class Assembler {
     if (const auto* use = std::get_if<NameUse>(&node)) word.text = use->name;
     if (const auto* text = std::get_if<TextLiteral>(&node)) word.text = text->text;
     if (const auto* call = std::get_if<Call>(&node)) word = call->callee;
-    const auto* material = known(word, *from.home);  // by its own name, whatever else people call it
+    const auto* material = known(word, *from.home);  // by its own name, not by a title
     return std::string(material ? material->node->name.text : word.text);
   }
 
   bool no_component(Span span) {
-    report(Code::wrong_type, span, "this is no material and no mixture of materials",
+    report(Code::wrong_type, span, "this is neither a material nor a mixture of materials",
            "write `corduroy(wale: 1 mm)`, `0.7 corduroy + 0.3 denim` or `between(a, b, 0.5)`");
     return false;
   }

@@ -9,7 +9,7 @@
 
 namespace wale {
 
-/// A number as a weighted sum of expressions: one of weight 1, unless materials were mixed by `between`.
+/// A number as a weighted sum of expressions: a single one of weight 1, unless `between` mixed two materials.
 struct Mixture {
   struct Part {
     double weight = 1;
@@ -20,33 +20,33 @@ struct Mixture {
   std::vector<Part> parts;
 };
 
-/// A statement of a material's physics and where it is read.
+/// A statement of a material's physics, with the declaration whose names it uses.
 struct AssembledStatement {
   const PhysicalStatement* statement = nullptr;
   const SyntaxTree* tree = nullptr;
   const Declarations* home = nullptr;
-  std::optional<Mixture> value;  ///< instead of a parameter's own default
+  std::optional<Mixture> value;  ///< replaces a parameter's own default
 };
 
-/// All parts of a material: its own statements and those it takes over, or the materials that it blends.
+/// All parts of a material: its own statements and those from other materials, or the materials that it blends.
 struct AssembledMaterial {
   struct Component {
-    double weight = 1;  ///< the default of the parameter that it is
+    double weight = 1;  ///< default of the weight's parameter
     std::string name;
-    std::string weight_name;  ///< of that parameter; no other component beside this one has it
+    std::string weight_name;  ///< name of that parameter; unique among the components
     Span span;
     std::shared_ptr<const AssembledMaterial> material;
   };
   std::vector<AssembledStatement> statements;
   std::vector<AskedPercept> percepts;
-  std::vector<Component> components;  ///< of a blend; its own statements come on top
-  const Setting* kind = nullptr;      ///< `kind fabric.woven`, its own or taken over
+  std::vector<Component> components;  ///< of a blend; the blend's own statements are added to theirs
+  const Setting* kind = nullptr;      ///< `kind fabric.woven`, its own or that of the material after `like`
   const SyntaxTree* kind_tree = nullptr;
-  bool derived = false;  ///< something is taken over
+  bool derived = false;  ///< some parts come from other materials
 };
 
 /// Assembles a material from its own statements and from others: `like`, `= other(parameter: value)`, `= 0.7 a + 0.3
-/// b`, `= between(a, b, t)`. Null where that makes no sense, which is reported.
+/// b`, `= between(a, b, t)`. Null if there was an error, which is reported.
 std::shared_ptr<const AssembledMaterial> assemble(const Declared<MaterialDecl>& material,
                                                   const Surroundings& surroundings);
 

@@ -8,7 +8,7 @@ namespace wale {
 
 namespace {
 
-/// Weights that come to less than this are nothing, and have no proportions.
+/// If the sum of the weights is less than this, all components are absent; dividing by the sum would be meaningless.
 constexpr double least_whole = 1e-6;
 
 }  // namespace
@@ -26,7 +26,7 @@ std::optional<Value> Blender::compose(const AssembledMaterial& assembled, Statem
   return sum.force;
 }
 
-/// The weight as a parameter, so that a blend can be turned from one of its components to another.
+/// Makes the weight a parameter, so that a slider can move a blend from one component to another.
 TermId Blender::add_weight(const AssembledMaterial::Component& component) {
   std::string name = component.weight_name;
   for (int count = 2; std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
@@ -47,7 +47,7 @@ TermId Blender::add_weight(const AssembledMaterial::Component& component) {
   return material_.terms.parameter(index, component.span);
 }
 
-/// A weight over their sum; nothing where all are nothing.
+/// A weight divided by the sum of all; 0 if all are 0.
 TermId Blender::share_of(TermId weight, const std::vector<TermId>& weights) {
   Terms& terms = material_.terms;
   TermId whole = weights.front();
@@ -68,12 +68,11 @@ void Blender::superpose(const AssembledMaterial::Component& component, TermId we
       surroundings_.diagnostics.report(
           {.code = Code::different_structures,
            .span = span_,
-           .message =
-               fmt::format("`{}` says how it feels and not how it pushes, so it has nothing to blend", component.name),
+           .message = fmt::format("`{}` has percepts but no force, so there is nothing to blend", component.name),
            .help = "give it a `physical` block, or leave it out and ask for its percepts in the blend"});
     return;
   }
-  // The force is a sum; its textures are told apart from the rest.
+  // The force is a sum. Separate its open textures from the other terms.
   std::vector<Value> waiting{*force};
   while (!waiting.empty()) {
     const Value leaf = waiting.back();
@@ -98,7 +97,7 @@ void Blender::superpose(const AssembledMaterial::Component& component, TermId we
   }
 }
 
-/// What a component asks for, or what its own components do, by its share. Follows its `compose`.
+/// Adds the levels that a component or its own components ask for, each weighted by the component's share.
 void Blender::add_levels(const AssembledMaterial::Component& component, TermId share, Superposition& sum) {
   for (const auto& asked : component.material->percepts) {
     auto& all = sum.levels[asked.name];
@@ -128,8 +127,8 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
     surroundings_.diagnostics.report(
         {.code = Code::different_structures,
          .span = span_,
-         .message = fmt::format("the open texture of `{}` is not a term of its own in its force", name),
-         .help = "let its force be a sum with the texture as one term, or give the texture an amplitude"});
+         .message = fmt::format("the open texture of `{}` is not a separate term of its force", name),
+         .help = "write its force as a sum with the texture as one term, or give the texture an amplitude"});
     return;
   }
   const Value weighed = scaled(leaf, weight);
@@ -141,7 +140,7 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
   sum.force = add(sum.force, weighed);
 }
 
-/// One texture in place of several: the same force function over the blended height, its size open again.
+/// Replaces several textures by one: the same force function of the blended height, with its size open again.
 void Blender::add_textures(Superposition& sum) {
   const auto textures = sum.textures;
   const std::string function_name = textures.front().carrier.name.substr(0, textures.front().carrier.name.find(' '));
@@ -152,7 +151,8 @@ void Blender::add_textures(Superposition& sum) {
          .span = span_,
          .message = fmt::format("`{}` is left open in one material and `{}` in another", textures.front().carrier.name,
                                 texture.carrier.name),
-         .help = "only textures over heights blend while they are open; give the others their sizes"});
+         .help =
+             "only textures of heights can be blended while their sizes are open; give the other forces their sizes"});
     return;
   }
   for (const auto& texture : textures) material_.blended_opens.insert(material_.terms[texture.carrier.size].index);
@@ -169,8 +169,8 @@ void Blender::add_textures(Superposition& sum) {
   if (!force.failed()) sum.force = add(sum.force, force);
 }
 
-/// Each height over its own steepest slope (the 99th percentile, as for its amplitude) is a length; those add by
-/// weight.
+/// Each height divided by its own steepest slope (the 99th percentile, as for its amplitude) is a length. The result is
+/// the sum of these lengths by weight.
 std::optional<Value> Blender::blended_height(const std::vector<Texture>& textures) {
   Terms& terms = material_.terms;
   std::vector<TermId> weights;

@@ -9,17 +9,17 @@
 
 namespace wale {
 
-/// Superposes materials: forces add by weight, and the textures whose amplitude is open become one texture, each
-/// weighed by its own steepest slope, whose amplitude is solved for the blend.
+/// Superposes materials. Forces add by weight. Textures with an open amplitude become one texture, each
+/// scaled by its own steepest slope, and the amplitude is solved for the blend.
 class Blender {
  public:
   Blender(CheckedMaterial& material, ExpressionChecker& checker, const Surroundings& surroundings, Span span)
       : material_(material), checker_(checker), surroundings_(surroundings), span_(span) {}
 
-  /// The levels of which the blended percepts consist, by the percept's name.
+  /// The components' levels that make up the level of each blended percept, by the percept's name.
   using Levels = std::map<std::string, std::vector<LevelShare>>;
 
-  /// The force of a material with all its components, none when nothing pushes. `own` checks its own statements. Each
+  /// The force of a material with all its components; none if it has no force. `own` checks its own statements. Each
   /// weight becomes a parameter of the material.
   std::optional<Value> compose(const AssembledMaterial& assembled, StatementChecker& own);
 

@@ -8,7 +8,8 @@ namespace wale {
 
 namespace {
 
-/// Constants are otherwise read only where they are used: an unused one must not hide an error.
+/// Checks all constants of the file. Elsewhere a constant is read only where it is used, which would hide errors in
+/// unused ones.
 void check_constants(const SyntaxTree& tree, const Surroundings& surroundings) {
   Terms terms;
   std::vector<HeightTable> tables;
@@ -21,7 +22,7 @@ void check_constants(const SyntaxTree& tree, const Surroundings& surroundings) {
     }
 }
 
-/// Looks names up among the exports of the library. The library is listed once, when the first name is unknown.
+/// Looks up unknown names among the exports of the library. The library is listed once, at the first unknown name.
 FindExporter exporters_for(Resolver& resolver, const std::string& file) {
   return [&resolver, file,
           index = std::shared_ptr<const LibraryIndex>()](std::string_view name) mutable -> std::optional<Exporter> {

@@ -23,7 +23,7 @@ class MaterialChecker {
         errors_before_(surroundings.diagnostics.error_count()) {}
 
   CheckedMaterial check() {
-    constexpr std::size_t terms_of_a_statement = 16;  // or thereabouts
+    constexpr std::size_t terms_of_a_statement = 16;  // about; only for reserving memory
     material_.terms.reserve(terms_of_a_statement * node_.physical.size());
     material_.name = node_.name.text;
     material_.span = node_.name.span;
@@ -59,14 +59,14 @@ class MaterialChecker {
       material_.force = {force->x, force->y};
       material_.force_span = own.layers().empty() ? node_.name.span : own.layers().front().span;
     }
-    // An expression that could not be read or checked may hold the use that seems to be missing.
+    // After an error, a name may only seem unused: the erroneous expression may use it.
     if (whole_ && surroundings_.diagnostics.error_count() == errors_before_) own.warn_of_unused_names(node_.span);
     if (!material_.relief) find_relief(own);
     if (force) warn_of_scaled_textures();
   }
 
-  /// `2 * lateral(h)`: the percept is solved for `lateral(h)`, so the handle would give twice as much. What changes
-  /// from tick to tick may scale a texture; that is a matter of the moment.
+  /// Warns of `2 * lateral(h)`: the percept is solved for `lateral(h)`, so the handle would give twice as much. A
+  /// factor that changes from tick to tick is fine: it modulates the texture in time.
   void warn_of_scaled_textures() {
     const Terms& terms = material_.terms;
     for (const auto& carrier : checker_.record().carriers) {
@@ -80,13 +80,13 @@ class MaterialChecker {
         surroundings_.diagnostics.report(
             {.code = Code::scaled_texture,
              .span = term.span,
-             .message = "the amplitude is solved from what the material feels like, and then changed by a factor",
+             .message = "the amplitude is solved from the percept, and then changed by a factor",
              .help = "leave the factor out and ask for more or less of the percept"});
       }
     }
   }
 
-  /// The surface as it looks where the author does not say: what the textures push by, or else the last height of the
+  /// Sets the look of the surface if the author does not: the heights of the textures, or else the last height in the
   /// text.
   void find_relief(const StatementChecker& own) {
     const Dimension length = surroundings_.declarations.dimension("length");
@@ -105,7 +105,7 @@ class MaterialChecker {
     bool has_kind = false;
     for (const auto& setting : node_.representative) {
       const auto& key = setting.key.text;
-      if (key == "like") continue;  // `assemble` has read it
+      if (key == "like") continue;  // `assemble` reads it
       if (key != "title" && key != "called" && key != "kind" && key != "feels") {
         report(Code::unknown_setting, setting.key.span, fmt::format("a representative block has no setting `{}`", key),
                did_you_mean(setting.key.span, key, {"title", "called", "kind", "feels", "like"},
@@ -116,7 +116,7 @@ class MaterialChecker {
       const auto first = std::ranges::find(node_.representative, key, [](const auto& each) { return each.key.text; });
       if (&*first != &setting)
         report(Code::declared_twice, setting.key.span, fmt::format("`{}` is set twice", key),
-               Advice("put all into one").see(first->key.span, "set here first"));
+               Advice("put everything into one").see(first->key.span, "set here first"));
       material_.layers.representative.emplace_back(key, texts_of(setting, tree_));
     }
     if (!has_kind && assembled && assembled->kind)

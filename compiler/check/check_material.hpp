@@ -4,8 +4,8 @@
 
 namespace wale {
 
-/// Checks one material, with all that it is made from. `whole`: its file has been read and declared without errors, so
-/// that nothing of the material is missing and what seems unused is.
+/// Checks one material with all materials that it is made from. `whole` means that its file was parsed and declared
+/// without errors; only then are warnings of unused names reliable. Errors are reported to `surroundings.diagnostics`.
 CheckedMaterial check_material(const Declared<MaterialDecl>& declared, const Surroundings& surroundings, bool whole);
 
 }  // namespace wale

@@ -14,7 +14,7 @@ namespace {
 
 std::string_view before_dot(std::string_view name) { return name.substr(0, name.find('.')); }
 
-/// Follows one function's body and holds each name against what it may see.
+/// Reads one function's body and checks that each name is known there.
 class BodyReader {
  public:
   BodyReader(const SyntaxTree& tree, const FunctionDecl& function, const Surroundings& surroundings)
@@ -62,7 +62,8 @@ class BodyReader {
     return is_argument(whole) || names_.constants.contains(whole) || names_hand_or_patch(whole);
   }
 
-  // In the words of `ExpressionChecker`, so that the same mistake met at a call is not said twice.
+  // With the same messages as `ExpressionChecker`, so that the same error found at a call is a duplicate and shown
+  // once.
   void unknown_name(const Word& word) {
     if (names_.private_names.contains(word.text)) return;  // reported where the function is called
     if (names_.units.contains(word.text))
@@ -77,7 +78,7 @@ class BodyReader {
     known.insert(known.end(), {"hand", "velocity", "acceleration", "time", "button"});
     report(word, Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),
            did_you_mean(word.span, word.text, known,
-                        "a function sees its arguments, constants and the hand; make it an argument"));
+                        "a function can use its arguments, constants and the hand; make this an argument"));
   }
   void unknown_unit(const Word& word) {
     if (surroundings_.diagnostics.is_full()) return;
@@ -102,7 +103,7 @@ class BodyReader {
   const Declarations& names_;
 };
 
-/// Every word of a file that may be the use of a name, wherever it stands; what a declaration itself is called is none.
+/// Collects every word of a file that may use a name. The name that a declaration gives is not a use.
 class UsedNames {
  public:
   explicit UsedNames(const SyntaxTree& tree) {
@@ -157,10 +158,10 @@ class UsedNames {
       for (const auto& word : item.words) add(word.text);
   }
 
-  std::set<std::string_view> names_;  ///< parts of the tree
+  std::set<std::string_view> names_;  ///< views into the tree
 };
 
-/// Whether a file has anything that could go unused: most have materials only.
+/// Whether a file has declarations that could be unused: most files have only materials.
 bool may_leave_unused(const SyntaxTree& tree) {
   return std::ranges::any_of(tree.declarations, [](const Declaration& each) {
     return std::holds_alternative<Import>(each) || std::holds_alternative<UnitDecl>(each) ||
@@ -191,11 +192,11 @@ void warn_of_unused(const Names<T>& names, SourceId source, const UsedNames& use
     if (!entry.exported && !entry.imported && entry.declared.source == source && !used.contains(name))
       diagnostics.report({.code = Code::unused_name,
                           .span = entry.declared,
-                          .message = fmt::format("nothing uses the {} `{}`", kind, name),
-                          .help = fmt::format("use it, leave it out, or write `export` before it for other files")});
+                          .message = fmt::format("the {} `{}` is never used", kind, name),
+                          .help = fmt::format("use it, remove it, or write `export` before it for other files")});
 }
 
-/// Takes out the import of that module, and its line where nothing else stands there.
+/// Removes the import of that module, and its line if nothing else is on it.
 std::vector<Fix> leave_out(Span module, const SourceSet& sources) {
   constexpr std::string_view keyword = "import", blanks = " \t\r";
   const std::string_view text = sources[module.source].text;
@@ -208,7 +209,7 @@ std::vector<Fix> leave_out(Span module, const SourceSet& sources) {
   const bool begins_line = begin == 0 || text[begin - 1] == '\n';
   const std::size_t end = ends_line && begins_line ? std::min(rest + 1, text.size()) : module.end;
   return {replace({module.source, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)}, "",
-                  "leave out the import", false)};
+                  "remove the import", false)};
 }
 
 }  // namespace
@@ -232,10 +233,11 @@ void warn_of_unused_declarations(const ModuleSet& modules, const Surroundings& s
     if (const auto* import = std::get_if<Import>(&declaration))
       if (const auto found = modules.imports.find(import); found != modules.imports.end())
         if (!uses_any(found->second->declarations, used))
-          surroundings.diagnostics.report(Advice("leave the import out")
-                                              .fix(leave_out(import->module.span, surroundings.sources))
-                                              .about(Code::unused_import, import->module.span,
-                                                     fmt::format("nothing of `{}` is used here", import->module.text)));
+          surroundings.diagnostics.report(
+              Advice("remove the import")
+                  .fix(leave_out(import->module.span, surroundings.sources))
+                  .about(Code::unused_import, import->module.span,
+                         fmt::format("nothing from `{}` is used here", import->module.text)));
 }
 
 }  // namespace wale

@@ -13,12 +13,12 @@ constexpr std::uint32_t ink = 0x202020;
 
 }  // namespace
 
-/// One argument of a shape: what it is called, what it is, and what stands there when it is left out.
+/// One argument of a shape: its name, its dimension, and its default.
 struct ShapeArgument {
   std::string_view name;
   const char* dimension;
-  bool place;                         ///< a vector
-  std::optional<double> otherwise{};  ///< SI
+  bool place;                         ///< a vector rather than a number
+  std::optional<double> otherwise{};  ///< default, SI; none if the argument is required
 };
 
 struct ShowChecker::Shape {
@@ -60,7 +60,7 @@ void ShowChecker::check(const SyntaxTree& tree, ExprId expr) {
   std::vector<std::string> known{"relief", "colour"};
   for (const auto& shape : shapes()) known.emplace_back(shape.name);
   if (!call)
-    return report(Code::wrong_type, tree.span(expr), "this is nothing that can be shown",
+    return report(Code::wrong_type, tree.span(expr), "this cannot be shown",
                   "write, for example, `show box(p, 20 mm, 10 mm)` or `show relief(height)`");
   if (call->callee.text == "relief") return relief(tree, *call);
   if (call->callee.text == "colour") return colour(tree, *call);
@@ -89,7 +89,7 @@ void ShowChecker::mark(const SyntaxTree& tree, ExprId expr, const Call& call, co
       report(Code::unknown_argument, argument.name ? argument.name->span : tree.span(argument.value),
              argument.name
                  ? fmt::format("a {} has no `{}`", shape.name, argument.name->text)
-                 : fmt::format("a {} takes {} arguments, and this is one more", shape.name, shape.arguments.size()),
+                 : fmt::format("a {} takes {} arguments, and this is one too many", shape.name, shape.arguments.size()),
              argument.name ? did_you_mean(argument.name->span, argument.name->text, names, taken) : Advice(taken));
       good = false;
     } else if (index == shape.arguments.size()) {
@@ -122,18 +122,18 @@ void ShowChecker::mark(const SyntaxTree& tree, ExprId expr, const Call& call, co
   if (good) material_.marks.push_back(std::move(mark));
 }
 
-/// `show relief(height)`: the surface as it looks, whatever pushes.
+/// `show relief(height)`: the look of the surface, independent of the force.
 void ShowChecker::relief(const SyntaxTree& tree, const Call& call) {
   if (tree.arguments(call).size() != 1)
-    return report(Code::missing_argument, call.callee.span, "`relief` shows one height",
+    return report(Code::missing_argument, call.callee.span, "`relief` takes one height",
                   "write, for example, `show relief(ribs)`");
   const ExprId expr = tree.arguments(call)[0].value;
   const Value value = checker_.check(tree, expr, scope_);
   if (value.failed()) return;
   const bool length = value.dimension == checker_.declarations().dimension("length");
   if (value.type != Value::Type::number || (!length && !value.dimension.plain()))
-    return report(Code::wrong_type, value.span, "a height is a length or a plain number at each place",
-                  "give it by `x` and `y`, as in `grating(x, period: 2.5 mm)`");
+    return report(Code::wrong_type, value.span, "a height must be a length or a plain number at each place",
+                  "write it in terms of `x` and `y`, as in `grating(x, period: 2.5 mm)`");
   if (!is_of_place(value)) return;
   material_.relief = value.x;
   material_.relief_is_length = length;
@@ -143,7 +143,7 @@ void ShowChecker::relief(const SyntaxTree& tree, const Call& call) {
 void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
   const auto arguments = tree.arguments(call);
   if (arguments.size() != 3)
-    return report(Code::missing_argument, call.callee.span, "a colour is red, green and blue, each from 0 to 1",
+    return report(Code::missing_argument, call.callee.span, "a colour needs red, green and blue, each from 0 to 1",
                   "write, for example, `show colour(0.8, 0.5, 0.2)`");
   std::array<TermId, 3> parts{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -154,24 +154,24 @@ void ShowChecker::colour(const SyntaxTree& tree, const Call& call) {
   material_.colour = parts;
 }
 
-/// A surface is drawn all at once, wherever the hand is: it may change from place to place and with what is remembered.
+/// A surface is drawn as a whole, wherever the hand is, so it may not depend on time or motion.
 bool ShowChecker::is_of_place(const Value& value) {
   const auto dependence = material_.terms.dependence(value.x);
   if (!dependence.on(Dependence::velocity | Dependence::moment)) return true;
   report(Code::wrong_rate, value.span,
-         fmt::format("the surface is drawn at every place at once, and this changes with {}", what_changes(dependence)),
-         "let it depend on `x`, `y`, parameters and states; show the motion by a mark");
+         fmt::format("the surface is drawn at every place at once, but this depends on {}", what_changes(dependence)),
+         "use only `x`, `y`, parameters and states; show motion with a mark");
   return false;
 }
 
-/// "#c04020".
+/// The colour of a text such as "#c04020".
 std::optional<std::uint32_t> ShowChecker::colour_code(const SyntaxTree& tree, ExprId expr) {
   const auto* literal = std::get_if<TextLiteral>(&tree.expr(expr));
   const auto digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); };
   if (literal && literal->text.size() == 7 && literal->text[0] == '#' &&
       std::ranges::all_of(literal->text.substr(1), digit))
     return static_cast<std::uint32_t>(std::stoul(std::string(literal->text.substr(1)), nullptr, 16));
-  report(Code::wrong_type, tree.span(expr), "a shape's colour is a text of a # and six digits from 0 to f",
+  report(Code::wrong_type, tree.span(expr), "a shape's colour must be a text of a # and six hexadecimal digits",
          "write, for example, `colour: \"#c04020\"`");
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// States and memories, and how they change.
+// Checks the declarations and updates of states and memories.
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ std::optional<Dimension> StatementChecker::declared_dimension(const std::optiona
   return known ? std::optional(*known) : std::nullopt;
 }
 
-/// The bounds written, or else those of the dimension.
+/// The bounds that the author wrote, or else those of the dimension.
 std::optional<StatementChecker::Bounds> StatementChecker::bounds(const Word& name, const std::optional<Word>& declared,
                                                                  const std::optional<Range>& range,
                                                                  const Dimension& dimension) {
@@ -35,7 +35,7 @@ std::optional<StatementChecker::Bounds> StatementChecker::bounds(const Word& nam
     const auto high = checker_.constant(tree, written.high, scope, dimension);
     if (!low || !high) return std::nullopt;
     if (*low <= *high) return Bounds{*low, *high};
-    report(Code::value_out_of_range, tree.span(written.low), "the range runs from high to low", "exchange its ends");
+    report(Code::value_out_of_range, tree.span(written.low), "the range runs from high to low", "swap its ends");
     return std::nullopt;
   };
   if (range) return read(tree(), *range, scope_);
@@ -51,14 +51,14 @@ std::optional<StatementChecker::Bounds> StatementChecker::bounds(const Word& nam
       if (!found && other == dimension) take(*declarations().dimension_bounds.find(known));
     });
   if (!found)
-    report(Code::missing_setting, name.span, fmt::format("nothing says how far `{}` may go", name.text),
+    report(Code::missing_setting, name.span, fmt::format("`{}` has no bounds", name.text),
            fmt::format("give it bounds, as in `state {} = … in LOW .. HIGH`", name.text));
   return found;
 }
 
 bool StatementChecker::fits(const Value& value, ExprId expr, const Dimension& dimension) {
   if (value.dimension == dimension) return true;
-  // The checker's own words for it.
+  // `check_as` reports it, with its usual message.
   return !checker_.check_as(tree(), expr, scope_, value.type, dimension).failed();
 }
 
@@ -68,14 +68,15 @@ void StatementChecker::operator()(const StateStatement& node) {
   if (initial.failed() || (node.dimension && !dimension)) return declare_failed(node.name);
   if (initial.type != Value::Type::number && initial.type != Value::Type::vector) {
     report(Code::wrong_type, initial.span,
-           fmt::format("a state is a number or a vector, not {}", type_words(initial.type)),
-           "for a condition use a number that is 0 or 1");
+           fmt::format("a state must be a number or a vector, not {}", type_words(initial.type)),
+           "for a condition, use a number that is 0 or 1");
     return declare_failed(node.name);
   }
   if (dimension && !fits(initial, node.value, *dimension)) return declare_failed(node.name);
   if (material_.terms.dependence(initial.x).on(Dependence::state)) {
-    report(Code::wrong_rate, initial.span, "a state begins with what is known as the hand enters, and this is a state",
-           "use the hand, parameters and constants; write the other state's own beginning here");
+    report(Code::wrong_rate, initial.span,
+           "the initial value of a state must be known when the hand enters, but this depends on a state",
+           "use the hand, parameters and constants; write the other state's initial value here");
     return declare_failed(node.name);
   }
   const auto range = bounds(node.name, node.dimension, node.range, initial.dimension);
@@ -83,8 +84,9 @@ void StatementChecker::operator()(const StateStatement& node) {
   for (const TermId part : {initial.x, initial.type == Value::Type::vector ? initial.y : initial.x})
     if (const auto known = constant_value(material_.terms, part);
         known && !(*known >= range->low && *known <= range->high)) {
-      report(Code::value_out_of_range, initial.span, fmt::format("`{}` begins outside its range", node.name.text),
-             "widen the range or begin elsewhere");
+      report(Code::value_out_of_range, initial.span,
+             fmt::format("the initial value of `{}` is outside its range", node.name.text),
+             "widen the range or change the initial value");
       return declare_failed(node.name);
     }
   Value value = initial;
@@ -123,18 +125,19 @@ void StatementChecker::operator()(const MemoryStatement& node) {
   const auto range = bounds(node.name, node.dimension, node.range, initial.dimension);
   if (!start || !cell || !range) return declare_failed(node.name);
   if (!(*cell > 0)) {
-    report(Code::value_out_of_range, tree().span(node.cell), "a cell is wider than nothing",
+    report(Code::value_out_of_range, tree().span(node.cell), "the width of a cell must be greater than zero",
            "write, for example, `cell 1 mm`");
     return declare_failed(node.name);
   }
   if (!(*start >= range->low && *start <= range->high)) {
-    report(Code::value_out_of_range, initial.span, fmt::format("`{}` begins outside its range", node.name.text),
-           "widen the range or begin elsewhere");
+    report(Code::value_out_of_range, initial.span,
+           fmt::format("the initial value of `{}` is outside its range", node.name.text),
+           "widen the range or change the initial value");
     return declare_failed(node.name);
   }
   if (material_.memories.size() == most_memories) {
     report(Code::unbounded_memory, node.name.span, fmt::format("more than {} memories", most_memories),
-           "keep what changes together in one");
+           "use one memory for quantities that change together");
     return declare_failed(node.name);
   }
   const auto index = static_cast<std::uint32_t>(material_.memories.size());
@@ -161,22 +164,22 @@ void StatementChecker::operator()(const MemoryStatement& node) {
 
 void StatementChecker::operator()(const UpdateStatement& node) {
   auto* binding = scope_.find(node.name.text);
-  if (binding && binding->value.failed()) return;  // reported
+  if (binding && binding->value.failed()) return;  // already reported
   const auto memory = memories_.find(node.name.text);
   if (memory != memories_.end() && !node.derivative) return update_memory(node, memory->second);
   if (states_.contains(node.name.text)) return update_state(node);
   if (memory != memories_.end())
     return report(Code::wrong_type, node.name.span,
-                  fmt::format("`{}` is a memory and has no rate of change", node.name.text),
-                  fmt::format("write `next {} = …`: what the cell under the hand becomes", node.name.text));
+                  fmt::format("`{}` is a memory, which has no rate of change", node.name.text),
+                  fmt::format("write `next {} = …`, the new value of the cell under the hand", node.name.text));
   report(binding ? Code::wrong_type : Code::unknown_name, node.name.span,
-         binding ? fmt::format("`{}` is no state", node.name.text)
+         binding ? fmt::format("`{}` is not a state", node.name.text)
                  : fmt::format("no state is called `{}`", node.name.text),
          did_you_mean(node.name.span, node.name.text, remembered(),
                       fmt::format("declare it above, as in `state {} = 0 mm in -10 mm .. 10 mm`", node.name.text)));
 }
 
-/// The names of what changes from tick to tick.
+/// The names of all states and memories.
 std::vector<std::string> StatementChecker::remembered() const {
   std::vector<std::string> names;
   for (const auto& [name, state] : states_) names.emplace_back(name);
@@ -184,7 +187,7 @@ std::vector<std::string> StatementChecker::remembered() const {
   return names;
 }
 
-/// The value of an update: a state that was updated above reads as its new value here, and nowhere else.
+/// The value of an update. Only here, a state that was updated above has its new value.
 Value StatementChecker::check_update(const UpdateStatement& node, Value::Type type, const Dimension& dimension) {
   std::vector<std::pair<std::string_view, Value>> before;
   for (const auto& [name, known] : states_)
@@ -203,7 +206,8 @@ void StatementChecker::update_state(const UpdateStatement& node) {
     return report(Code::declared_twice, node.name.span,
                   fmt::format("`{}` is updated already, on line {}", node.name.text,
                               surroundings_.sources.place(*state.next).line),
-                  Advice("a state changes once a tick; put both into one").see(*state.next, "updated here first"));
+                  Advice("a state can be updated only once per tick; combine both into one")
+                      .see(*state.next, "updated here first"));
   state.next = node.name.span;
   const Value now = scope_.at(node.name.text).value;
   const Dimension due = node.derivative ? now.dimension / declarations().dimension("time") : now.dimension;
@@ -234,7 +238,8 @@ void StatementChecker::update_memory(const UpdateStatement& node, KnownMemory& k
   CheckedMemory& memory = material_.memories[index];
   if (known.next)
     return report(Code::declared_twice, node.name.span, fmt::format("`{}` is written already", node.name.text),
-                  Advice("a memory is written once a tick; put both into one").see(*known.next, "written here first"));
+                  Advice("a memory can be written only once per tick; combine both into one")
+                      .see(*known.next, "written here first"));
   known.next = node.name.span;
   auto& terms = material_.terms;
   const Span span = tree().span(node.value);
@@ -244,7 +249,7 @@ void StatementChecker::update_memory(const UpdateStatement& node, KnownMemory& k
                    .dimension = declarations().dimension("length"),
                    .span = span};
   const auto [u, v] = memory_place(material_.terms, index, hand, span);
-  // Here its name is the one cell that is written, not what lies between cells: nothing blurs by being read.
+  // Here the name means the one cell that is written, not an interpolation between cells, which would blur the memory.
   auto& binding = scope_.at(node.name.text);
   const Value whole = binding.value;
   binding.used = true;

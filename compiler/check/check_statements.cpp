@@ -39,9 +39,9 @@ void StatementChecker::operator()(const HeightStatement& node) {
   if (value.failed()) return declare_failed(node.name);
   if (value.type != Value::Type::number) {
     report(Code::wrong_type, value.span,
-           fmt::format("a height is a number at each place, not {}", type_words(value.type)),
-           value.type == Value::Type::field ? "ask it at a place, as in `relief(…)(hand)` by way of a `let`"
-                                            : "give it by `x` and `y`, as in `grating(x, period: 2.5 mm)`");
+           fmt::format("a height must be a number at each place, not {}", type_words(value.type)),
+           value.type == Value::Type::field ? "take its value at a place: name it with `let`, then write `name(hand)`"
+                                            : "write it in terms of `x` and `y`, as in `grating(x, period: 2.5 mm)`");
     return declare_failed(node.name);
   }
   const Dimension length = declarations().dimension("length");
@@ -51,19 +51,19 @@ void StatementChecker::operator()(const HeightStatement& node) {
     surroundings_.diagnostics.report(
         {.code = Code::wrong_dimension,
          .span = value.span,
-         .message = fmt::format("a height is a length or a plain number, found {}", names.words(value.dimension)),
+         .message = fmt::format("a height must be a length or a plain number, found {}", names.words(value.dimension)),
          .label = names.unit(value.dimension),
          .expected = sides[0],
          .found = sides[1],
-         .help = fmt::format("only its shape matters to `lateral`: make it plain, as in `/ 1 {}`",
+         .help = fmt::format("`lateral` uses only its shape: make it a plain number, as in `/ 1 {}`",
                              customary_unit(declarations(), value.dimension)),
          .facts = {{"expected", names.words(length)}, {"found", names.words(value.dimension)}}});
     return declare_failed(node.name);
   }
   if (const auto dependence = material_.terms.dependence(value.x); dependence.changing()) {
     report(Code::wrong_rate, value.span,
-           fmt::format("a height is a matter of place, and this changes with {}", what_changes(dependence)),
-           "use `x` and `y` only; let what changes multiply the force");
+           fmt::format("a height must depend on the place only, but this changes with {}", what_changes(dependence)),
+           "use `x` and `y` only; multiply the force by whatever changes");
     return declare_failed(node.name);
   }
   last_height_ = value;
@@ -73,7 +73,7 @@ void StatementChecker::operator()(const HeightStatement& node) {
 void StatementChecker::operator()(const ForceStatement& node) {
   const Span span = statement_->statement->span;
   if (!node.name && whole_force_)
-    report(Code::declared_twice, span, "a material has one `force = …`",
+    report(Code::declared_twice, span, "a material can have only one `force = …`",
            Advice("add the terms up, or give each a name: `force texture = …`, `force drag = …`")
                .see(*whole_force_, "the first one"));
   if (!node.name && !whole_force_) whole_force_ = span;
@@ -88,24 +88,24 @@ void StatementChecker::operator()(const ForceStatement& node) {
   if (auto* binding = scope_.find(node.name->text)) binding->used = true;
 }
 
-/// `limit 3 N`: nothing when it is no force that stays as it is from tick to tick, which is reported.
+/// The limit of `limit 3 N`. Nothing if it is not a force, or not constant from tick to tick, which is reported.
 std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
   const Value limit = checker_.check_as(tree(), expr, scope_, Value::Type::number, declarations().dimension("force"));
   if (limit.failed()) return std::nullopt;
   const Terms& terms = material_.terms;
   if (const auto dependence = terms.dependence(limit.x); dependence.in_tick()) {
     report(Code::wrong_rate, limit.span,
-           fmt::format("a force's limit stays as it is, and this changes with {}",
+           fmt::format("a force's limit must be constant, but this changes with {}",
                        dependence.changing() ? what_changes(dependence) : "place"),
-           "use numbers and parameters; for a limit that moves write `hold(force, ceiling)`");
+           "use numbers and parameters; for a changing limit, write `hold(force, ceiling)`");
     return std::nullopt;
   }
-  // The range of a value is known only where the value is a parameter itself.
+  // The range of a value is known only if the value is a parameter itself.
   const auto known = constant_value(terms, limit.x, &material_.parameters);
   const bool moves = terms[limit.x].kind == TermKind::parameter;
   if ((known && !(*known > 0)) || (moves && material_.parameters[terms[limit.x].index].low < 0)) {
     report(Code::value_out_of_range, limit.span, "a force's limit must be greater than zero",
-           known && *known < 0 && !moves ? "it holds the force's size, whatever its direction: leave out the `-`"
+           known && *known < 0 && !moves ? "it limits the force's size in every direction: leave out the `-`"
                                          : "write, for example, `limit 3 N`");
     return std::nullopt;
   }
@@ -115,21 +115,21 @@ std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
 void StatementChecker::operator()(const PatchStatement& node) {
   const Span span = statement_->statement->span;
   if (node.sizes.size() != 2)
-    return report(Code::wrong_type, span, "a patch has a width and a height",
+    return report(Code::wrong_type, span, "a patch needs a width and a height",
                   "write, for example, `patch 95 mm, 95 mm`");
   std::array<double, 2> sizes{};
   for (std::size_t side = 0; side < 2; ++side) {
     const auto size = checker_.constant(tree(), node.sizes[side], scope_, declarations().dimension("length"));
     if (!size) return;
     if (!(*size > 0))
-      return report(Code::value_out_of_range, tree().span(node.sizes[side]), "a patch must be larger than nothing",
-                    "write, for example, `patch 95 mm, 95 mm`");
+      return report(Code::value_out_of_range, tree().span(node.sizes[side]),
+                    "the sides of a patch must be greater than zero", "write, for example, `patch 95 mm, 95 mm`");
     sizes[side] = *size;
   }
   if (std::exchange(patch_seen_, true))
-    return report(Code::declared_twice, span, "a material has one patch",
+    return report(Code::declared_twice, span, "a material can have only one patch",
                   Advice("keep one of them").see(material_.patch_span, "the first one"));
-  // A blend is as large as its largest component, unless it says itself.
+  // A blend is as large as its largest component, unless it has a patch of its own.
   for (std::size_t side = 0; side < 2 && !prefix_.empty(); ++side)
     sizes[side] = material_.patch ? std::max(sizes[side], (*material_.patch)[side]) : sizes[side];
   material_.patch = sizes;
@@ -145,7 +145,7 @@ void StatementChecker::operator()(const ActiveStatement& node) {
                   fmt::format("the active power must be greater than zero and at most {} W", most_active_watt),
                   "write, for example, `active 0.3 W`");
   if (std::exchange(active_seen_, true))
-    return report(Code::declared_twice, span, "a material says once how active it is",
+    return report(Code::declared_twice, span, "a material can have only one `active`",
                   Advice("keep one of them").see(material_.active_span, "the first one"));
   // The powers of a blend's components add up.
   material_.active_watt = prefix_.empty() ? *power : std::min(double{most_active_watt}, material_.active_watt + *power);
@@ -162,7 +162,7 @@ void StatementChecker::operator()(const ParamStatement& node) {
   const Value value = checker_.check(tree(), node.value, scope_);
   if (value.failed() || lacks_its_unit(node, value)) return declare_failed(node.name);
   if (value.type != Value::Type::number) {
-    report(Code::wrong_type, value.span, fmt::format("a parameter is a number, not {}", type_words(value.type)),
+    report(Code::wrong_type, value.span, fmt::format("a parameter must be a number, not {}", type_words(value.type)),
            "use one `param` for each part");
     return declare_failed(node.name);
   }
@@ -182,13 +182,13 @@ void StatementChecker::operator()(const ParamStatement& node) {
     low = *from, high = *to;
     if (low > high)
       report(Code::value_out_of_range, tree().span(node.range->low), "the range runs from high to low",
-             "exchange its ends");
+             "swap its ends");
     else if (!(*number >= low && *number <= high)) {
       const Span range = {tree().source, tree().span(node.range->low).begin, tree().span(node.range->high).end};
       const auto [unit, size] = written_unit(node, value.dimension);
       report(Code::value_out_of_range, default_span,
-             statement_->value ? fmt::format("this lies outside the range of `{}`", node.name.text)
-                               : fmt::format("the default of `{}` lies outside its range", node.name.text),
+             statement_->value ? fmt::format("this is outside the range of `{}`", node.name.text)
+                               : fmt::format("the default of `{}` is outside its range", node.name.text),
              Advice(statement_->value ? fmt::format("its range is {}", surroundings_.sources.text(range))
                                       : "widen the range or change the default")
                  .see(range, "the range")
@@ -216,7 +216,8 @@ void StatementChecker::operator()(const ParamStatement& node) {
   material_.parameter_spans.push_back(node.name.span);
 }
 
-/// The name, in a component of a blend with the component's before it where another has taken it.
+/// A name that is still free. In a blend, a name that another component has taken gets the component's name as a
+/// prefix.
 std::string StatementChecker::free_name(const std::string& name,
                                         const std::function<bool(const std::string&)>& taken) const {
   if (prefix_.empty() || !taken(name)) return name;
@@ -226,7 +227,7 @@ std::string StatementChecker::free_name(const std::string& name,
   return numbered;
 }
 
-/// The default: the parameter's own, or what an instance or a mixture says instead.
+/// The default: the parameter's own, or that of an instance or a mixture.
 std::optional<double> StatementChecker::parameter_value(const ParamStatement& node, const Value& own_value) {
   if (!statement_->value) return checker_.constant(own_value);
   double sum = 0;
@@ -242,7 +243,7 @@ std::optional<double> StatementChecker::parameter_value(const ParamStatement& no
   return sum;
 }
 
-/// The usual range, for a slider: the hard one where the author gives none.
+/// Sets the usual range, for sliders: the soft range, or the hard one if the author gives no soft one.
 void StatementChecker::check_soft_range(const ParamStatement& node, const Dimension& dimension, double value,
                                         Parameter& parameter) {
   parameter.soft_low = parameter.low;
@@ -255,7 +256,7 @@ void StatementChecker::check_soft_range(const ParamStatement& node, const Dimens
   if (!(*from <= *to) || static_cast<float>(*from) < parameter.low || static_cast<float>(*to) > parameter.high)
     return report(Code::value_out_of_range, span,
                   *from <= *to ? "the soft range reaches beyond the hard one" : "the range runs from high to low",
-                  *from <= *to ? "widen the range behind `in`, or narrow this one" : "exchange its ends");
+                  *from <= *to ? "widen the range after `in`, or narrow this one" : "swap its ends");
   parameter.soft_low = static_cast<float>(*from);
   parameter.soft_high = static_cast<float>(*to);
   if (!(value >= *from && value <= *to)) {
@@ -264,14 +265,14 @@ void StatementChecker::check_soft_range(const ParamStatement& node, const Dimens
                         : tree().span(node.value);
     const auto [unit, size] = written_unit(node, dimension);
     report(Code::beyond_soft_range, at, fmt::format("`{}` is outside its usual range here", node.name.text),
-           Advice(fmt::format("usual is {}", surroundings_.sources.text(span)))
+           Advice(fmt::format("the usual range is {}", surroundings_.sources.text(span)))
                .see(span, "the usual range")
                .fact("low", *from / size, unit)
                .fact("high", *to / size, unit));
   }
 }
 
-/// A default without a unit in a range that has one is one mistake, and not two of the range's.
+/// Whether the default lacks the unit that the range has. That is one error, and not one for each end of the range.
 bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& value) {
   if (!node.range || value.type != Value::Type::number || !value.dimension.plain()) return false;
   const Value low = checker_.check(tree(), node.range->low, scope_);
@@ -287,7 +288,7 @@ bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& v
                               .fact("expected", names.words(low.dimension))
                               .fact("found", names.words(value.dimension))
                               .about(Code::wrong_dimension, value.span,
-                                     fmt::format("`{}` is {}, and its default has no unit", node.name.text,
+                                     fmt::format("`{}` is {}, but its default has no unit", node.name.text,
                                                  with_article(names.words(low.dimension))));
   diagnostic.expected = sides[0];
   diagnostic.found = sides[1];
@@ -295,7 +296,7 @@ bool StatementChecker::lacks_its_unit(const ParamStatement& node, const Value& v
   return true;
 }
 
-/// The unit that the author wrote for a parameter, and its size in SI.
+/// The unit that the author wrote for a parameter, and its factor to SI.
 std::pair<std::string, double> StatementChecker::written_unit(const ParamStatement& node,
                                                               const Dimension& dimension) const {
   const Range range = node.range.value_or(Range{node.value, node.value});
@@ -327,11 +328,11 @@ std::pair<std::string, double> StatementChecker::written_unit(const ParamStateme
 
 void StatementChecker::declare(const Word& name, const Value& value) {
   if (name.text == "open")
-    return report(Code::declared_twice, name.span, "`open` is the word for what is left to be solved",
+    return report(Code::declared_twice, name.span, "`open` is reserved for quantities that the compiler solves",
                   "give it another name");
   if (names_hand_or_patch(name.text))
     return report(Code::declared_twice, name.span,
-                  fmt::format("`{}` already means the hand's or the patch's own", name.text), "give it another name");
+                  fmt::format("`{}` is already a name of the hand or the patch", name.text), "give it another name");
   if (const auto* other = scope_.find(name.text)) {
     const unsigned line = surroundings_.sources.place(other->declared).line;
     return report(Code::declared_twice, name.span, fmt::format("`{}` is declared already, on line {}", name.text, line),
@@ -339,7 +340,7 @@ void StatementChecker::declare(const Word& name, const Value& value) {
   }
   if (const auto* hidden = declarations().constants.entry(name.text)) {
     const bool here = hidden->declared.source == name.span.source;
-    report(Code::shadowed_name, name.span, fmt::format("`{}` hides the constant of that name", name.text),
+    report(Code::shadowed_name, name.span, fmt::format("`{}` hides the constant of the same name", name.text),
            Advice(fmt::format("give it another name; the constant is {}",
                               here ? fmt::format("on line {}", surroundings_.sources.place(hidden->declared).line)
                                    : fmt::format("in {}", surroundings_.sources[hidden->declared.source].name)))
@@ -348,7 +349,7 @@ void StatementChecker::declare(const Word& name, const Value& value) {
   scope_.declare(name.text, value, name.span);
 }
 
-/// Keeps a name whose value is in error, so that its uses are not errors too.
+/// Declares a name whose value has an error, so that its uses are not reported as unknown.
 void StatementChecker::declare_failed(const Word& name) {
   declare(name, {});
   if (auto* binding = scope_.find(name.text)) binding->used = true;
@@ -359,8 +360,7 @@ void StatementChecker::warn_of_unused_names(Span own) const {
   for (const auto& binding : scope_.bindings()) {
     const bool written_here =
         binding.declared.source == own.source && binding.declared.begin >= own.begin && binding.declared.end <= own.end;
-    if (written_here && !binding.used && !binding.value.failed())
-      unused.emplace_back(binding.name, binding.declared);
+    if (written_here && !binding.used && !binding.value.failed()) unused.emplace_back(binding.name, binding.declared);
   }
   std::ranges::sort(unused, {}, [](const auto& entry) { return entry.second.begin; });
   for (const auto& [name, span] : unused) {
@@ -370,9 +370,9 @@ void StatementChecker::warn_of_unused_names(Span own) const {
         {.code = Code::unused_name,
          .span = span,
          .message = parameter
-                        ? fmt::format("the parameter `{}` does nothing: no height and no force depends on it", name)
-                        : fmt::format("nothing uses `{}`", name),
-         .help = "use it or leave it out"});
+                        ? fmt::format("the parameter `{}` has no effect: no height and no force depends on it", name)
+                        : fmt::format("`{}` is never used", name),
+         .help = "use it or remove it"});
   }
 }
 

@@ -9,16 +9,16 @@
 
 namespace wale {
 
-/// Checks the statements of one assembled material in their order, each read with the names of its own file.
+/// Checks the statements of one assembled material in order, each with the names of its own file.
 ///
-/// Several may fill one `CheckedMaterial`: the components of a blend do, each with names of its own.
+/// Several checkers may fill one `CheckedMaterial`: each component of a blend has one, with names of its own.
 class StatementChecker {
  public:
-  /// `prefix` stands before parameters whose names are taken.
+  /// `prefix` goes before parameters whose names are taken.
   StatementChecker(CheckedMaterial& material, ExpressionChecker& checker, const Surroundings& surroundings,
                    std::string prefix);
 
-  /// One force, or one layer of it, and where it stands.
+  /// One force, or one layer of it, with its place in the source.
   struct Layer {
     Value force;
     Span span;
@@ -27,7 +27,7 @@ class StatementChecker {
   void check(const std::vector<AssembledStatement>& statements);
   const std::vector<Layer>& layers() const { return layers_; }
   std::optional<Value> last_height() const { return last_height_; }
-  /// Warns of names, declared in `own`, that nothing uses.
+  /// Warns of names declared within the span `own` that are never used.
   void warn_of_unused_names(Span own) const;
 
   void operator()(const ParamStatement& node);
@@ -47,7 +47,7 @@ class StatementChecker {
   };
   struct KnownMemory {
     std::uint32_t index = 0;
-    std::optional<Span> next;  ///< where it is written
+    std::optional<Span> next;  ///< the place of its update, once seen
   };
 
   const Declarations& declarations() const { return *statement_->home; }
@@ -82,18 +82,18 @@ class StatementChecker {
   const AssembledStatement* statement_ = nullptr;
   std::vector<Layer> layers_;
   std::optional<Value> last_height_;
-  std::optional<Span> whole_force_;  ///< where it stands
+  std::optional<Span> whole_force_;  ///< place of `force = …`, once seen
   bool patch_seen_ = false, active_seen_ = false;
   struct KnownState {
     std::uint32_t first = 0;   ///< index of the state, or of a vector's x
-    Value updated;             ///< what later updates read; failed before the first
-    std::optional<Span> next;  ///< where its update stands
+    Value updated;             ///< new value, for later updates; `failed` before the first update
+    std::optional<Span> next;  ///< place of its update
   };
   std::map<std::string_view, KnownState> states_;
   std::map<std::string_view, KnownMemory> memories_;
 };
 
-/// What `show` shows: a shape or the look of the surface. Fills in the material's picture.
+/// Checks `show` statements (shapes and the look of the surface) and fills in the material's picture.
 class ShowChecker {
  public:
   ShowChecker(CheckedMaterial& material, ExpressionChecker& checker, const Surroundings& surroundings, Scope& scope)

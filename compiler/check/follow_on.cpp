@@ -12,10 +12,10 @@
 namespace wale {
 namespace {
 
-/// W01xx: what lexer and parser report.
+/// W01xx are the codes of the lexer and the parser.
 bool is_unread(const Diagnostic& diagnostic) { return static_cast<unsigned>(diagnostic.code) < 200; }
 
-/// Where errors are, for asking whether a span holds one.
+/// The places of errors, to ask whether a span contains one.
 class Places {
  public:
   void add(Span span) { begins_[span.source].insert(span.begin); }
@@ -30,15 +30,15 @@ class Places {
   std::map<SourceId, std::set<std::uint32_t>> begins_;
 };
 
-/// A declaration by its name and the text that it takes.
+/// A declaration: its name and its span.
 struct Stretch {
   Word name;
   Span span;
   bool is_record = false;
-  bool declares = true;  ///< rather than saying more of what another declares, as a map and levels do
+  bool declares = true;  ///< false for maps and levels, which are about a percept that is declared elsewhere
 };
 
-/// The declarations whose failure leaves a name unknown; what a constant or function fails to be is known to `check`.
+/// The declarations whose errors leave a name unknown. Failed constants and functions are known to `check` already.
 std::vector<Stretch> stretches(const SyntaxTree& tree) {
   std::vector<Stretch> result;
   for (const Declaration& declaration : tree.declarations) {
@@ -59,12 +59,13 @@ std::vector<Stretch> stretches(const SyntaxTree& tree) {
   return result;
 }
 
-/// The words of the line up to and with the place that could not be read: one of them may be what the line declares.
+/// Adds the words of the line up to the end of the unreadable place: one of them may be the name that the line
+/// declares.
 void add_words(Span span, const SourceSet& sources, std::set<std::string>& words) {
   const std::string_view line = sources.line(span);
   const auto begin = static_cast<std::size_t>(line.data() - sources[span.source].text.data());
   const std::size_t end = std::min(line.size(), std::max<std::size_t>(span.end, begin) - begin);
-  constexpr std::size_t longest_line = 256;  // that people write; of others only what is near
+  constexpr std::size_t longest_line = 256;  // in bytes; of longer lines only the nearest part is searched
   for (std::size_t at = end > longest_line ? end - longest_line : 0; at < end;) {
     std::size_t after = at;
     if (begins_name(line[at]))
@@ -79,7 +80,7 @@ bool is_embedded(SourceId source, const SourceSet& sources) {
          std::ranges::find(embedded_files(), sources[source].name, &EmbeddedFile::name) != embedded_files().end();
 }
 
-/// The same again at another place: said there, and mended there with the first.
+/// Adds another place of the same error to the first, with its fixes.
 void add_repetition(Diagnostic& first, const Diagnostic& again) {
   if (again.span.begin < first.span.begin) {
     Diagnostic earlier = again;
@@ -94,7 +95,7 @@ void add_repetition(Diagnostic& first, const Diagnostic& again) {
       if (other.title == fix.title) fix.edits.insert(fix.edits.end(), other.edits.begin(), other.edits.end());
 }
 
-/// The name that the message is about: what stands between its first backticks.
+/// The name that the message is about: the text between its first backticks.
 std::string subject(const Diagnostic& diagnostic) {
   const std::size_t begin = diagnostic.message.find('`');
   const std::size_t end = diagnostic.message.find('`', begin + 1);
@@ -138,7 +139,7 @@ Diagnostics without_follow_ons(const Diagnostics& diagnostics, const std::vector
     if (unread_words.contains(name)) return true;
     const auto [first, last] = failed.equal_range(name);
     return std::any_of(first, last, [&](const auto& declared) {
-      // A name that is used above its declaration is unknown, whether the declaration is right or not.
+      // A name that is used above its declaration is unknown even if the declaration is correct.
       return declared.second.source != each.span.source || declared.second.end < each.span.begin;
     });
   };

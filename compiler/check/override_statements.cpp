@@ -10,8 +10,8 @@ namespace wale {
 
 namespace {
 
-/// What a statement declares, by which a later one replaces it: the name of a parameter, a value or a layer of force;
-/// "x'" for the update of x; "force", "patch" and "active" for those themselves; empty for a mark of the picture.
+/// The key by which a later statement replaces this one: the name of a parameter, a value or a layer of force;
+/// "x'" for the update of x; "force =", "patch =" and "active =" for those statements; empty for a mark of the picture.
 std::string replaced_by(const PhysicalStatement& statement) {
   return std::visit(
       Overloaded{
@@ -38,7 +38,7 @@ void erase(std::vector<AssembledStatement>& all, std::vector<bool>& own, std::si
 }  // namespace
 
 void override_statements(const Declared<MaterialDecl>& declared, std::vector<AssembledStatement>& all) {
-  if (all.empty()) {  // as nearly always: there is nothing to take the place of
+  if (all.empty()) {  // as nearly always: there is nothing to replace
     all.reserve(declared.node->physical.size());
     for (const auto& statement : declared.node->physical) all.push_back({&statement, declared.tree, declared.home, {}});
     return;
@@ -49,7 +49,7 @@ void override_statements(const Declared<MaterialDecl>& declared, std::vector<Ass
   for (const auto& statement : declared.node->physical) {
     const AssembledStatement assembled{&statement, declared.tree, declared.home, {}};
     const std::string key = replaced_by(statement);
-    if (key.empty() && !shows_cleared) {  // a picture of one's own replaces the one taken over
+    if (key.empty() && !shows_cleared) {  // the material's own picture replaces the other one
       shows_cleared = true;
       for (std::size_t i = all.size(); i-- > 0;)
         if (is<ShowStatement>(all[i]) && i < own.size() && !own[i]) erase(all, own, i);

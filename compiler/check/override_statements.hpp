@@ -6,8 +6,8 @@
 
 namespace wale {
 
-/// Adds a material's own statements to those that it takes over: they take the place of those of the same name; what is
-/// new stands before the next that replaces something, so that the replacement may use it, or else at the end.
+/// Adds a material's own statements to those from another material. An own statement replaces one of the same name. A
+/// new one goes before the next replacement, so that the replacement may use it, or else at the end.
 void override_statements(const Declared<MaterialDecl>& declared, std::vector<AssembledStatement>& all);
 
 }  // namespace wale

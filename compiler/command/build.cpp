@@ -15,7 +15,7 @@ namespace {
 struct BuildOptions {
   Choice choice;
   std::string out;    ///< a file, or with `all` a folder
-  std::string stage;  ///< to show instead of building; empty: build
+  std::string stage;  ///< stage to show instead of building; empty to build
   bool all = false;
 };
 
@@ -31,8 +31,8 @@ int build_one(const BuildOptions& options) {
   const auto programs = programs_of(*opened, options.choice, false);
   if (programs.empty()) return refused;
   const auto bytes = write_patch_program(programs.front().description());
-  if (const auto written = write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                                     *options.choice.inputs);
+  if (const auto written =
+          write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *options.choice.inputs);
       !written)
     return refuse(written.error());
   return done;
@@ -62,13 +62,13 @@ int show_stage(const BuildOptions& options) {
   return done;
 }
 
-/// Builds every material to a program of its own, and says of each what became of it.
+/// Builds every material to a program of its own, and reports each.
 int build_collection(const BuildOptions& options) {
   const auto opened = open(options.choice);
   if (!opened) return refused;
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
-                        .sentence = "this is a patch program, and --all builds the materials of a Wale file",
+                        .sentence = "this is a patch program, but --all builds the materials of a Wale file",
                         .place = {.name = opened->name}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   const auto collection = build_all(*opened, options.choice.request(), options.out, *options.choice.inputs);
@@ -107,7 +107,7 @@ Run declare_build(CLI::App& verb) {
   verb.add_flag("--all", options->all, "builds every material of the file, each to NAME.wpp in the folder")
       ->excludes("--material");
   verb.add_option("--emit", options->stage,
-                  "writes what a stage makes of the material instead: tree (as parsed), checked, ir (its values), "
+                  "writes the output of a stage instead: tree (as parsed), checked, ir (its values), "
                   "listing (its instructions), cpp (C++)")
       ->type_name("STAGE")
       ->excludes("--all");
@@ -117,7 +117,7 @@ Run declare_build(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb build_verb{"build", "compiles a material to a patch program, or shows what a stage makes of it",
+extern const Verb build_verb{"build", "compiles a material to a patch program, or shows the output of a stage",
                              declare_build};
 
 }  // namespace wale::command

@@ -18,7 +18,7 @@ struct CheckOptions {
   bool json = false, fix = false;
 };
 
-/// Mends files before they are checked. What was done is said on standard error, since standard output is the check's.
+/// Mends files before they are checked. Reports the mends on standard error, since standard output is for diagnostics.
 bool mend(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
   bool written = true;
   for (const auto& file : mend_files(files, roots)) {
@@ -54,14 +54,13 @@ Run declare_check(CLI::App& verb) {
   verb.add_option("FILE", options->files, "Wale files")->required();
   offer_library(verb, options->folders);
   offer_json(verb, options->json, "the diagnostics as a JSON array");
-  verb.add_flag("--fix", options->fix, "first writes the mends that are beyond doubt into these files");
+  verb.add_flag("--fix", options->fix, "first applies the safe mends to these files");
   verb.footer("for example: wale check --fix my.wale");
   return [options] { return check(*options); };
 }
 
 }  // namespace
 
-extern const Verb check_verb{"check", "says what is wrong with Wale files, and where, and how to mend it",
-                             declare_check};
+extern const Verb check_verb{"check", "finds errors in Wale files, and says how to mend them", declare_check};
 
 }  // namespace wale::command

@@ -17,7 +17,7 @@
 namespace wale::command {
 namespace {
 
-/// Carets in colour where a person reads them.
+/// Whether to print in colour: the stream is a terminal and NO_COLOR is not set.
 bool colour(FILE* stream) { return isatty(fileno(stream)) && !std::getenv("NO_COLOR"); }
 
 Error not_a_setting(const std::string& text) {
@@ -27,7 +27,7 @@ Error not_a_setting(const std::string& text) {
           .place = {.name = "--set", .text = text}};
 }
 
-/// Whether the value of an option cannot be read: it is nonsense, of another dimension, or outside its range.
+/// Whether an error means that an option's value cannot be read: malformed, of the wrong dimension, or out of range.
 bool is_misuse(const Error& error) {
   if (!error.place.name.starts_with('-')) return false;
   switch (error.code) {
@@ -94,7 +94,7 @@ FileRequest Choice::request() const {
 
 void say_also(const OpenedFile& opened) {
   if (!opened.also.empty())
-    fmt::print(stderr, "wale: `{}` is a file here; the material of that name is `{}`\n", opened.name, opened.also);
+    fmt::print(stderr, "wale: `{}` is a file here; the material with that name is `{}`\n", opened.name, opened.also);
 }
 
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice) {
@@ -102,24 +102,26 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   const PatchProgram& program = opened.program->description();
   if (!material.empty() && material != program.material)
     return Error{.code = Code::unknown_material,
-                 .sentence = fmt::format("this patch program holds `{}` alone, and no `{}`", program.material, material),
-                 .mend = "name no material, or the Wale file that it was built from",
+                 .sentence = fmt::format("this patch program holds only `{}`, not `{}`", program.material, material),
+                 .mend = "leave out the material, or name the Wale file that it was built from",
                  .place = {.name = opened.name}};
   if (!choice.device_option.empty() && choice.device != program.device.name)
-    return Error{.code = Code::other_device,
-                 .sentence = fmt::format("this patch program is built for `{}`", program.device.name),
-                 .mend = fmt::format("leave out {}, or name the Wale file that it was built from", choice.device_option),
-                 .place = {.name = opened.name}};
+    return Error{
+        .code = Code::other_device,
+        .sentence = fmt::format("this patch program is built for `{}`", program.device.name),
+        .mend = fmt::format("leave out {}, or name the Wale file that it was built from", choice.device_option),
+        .place = {.name = opened.name}};
   return {};
 }
 
 std::optional<OpenedFile> open(const Choice& choice) {
   const std::string named = named_material(choice.file).material;
   if (!named.empty() && !choice.material.empty() && named != choice.material) {
-    refuse(Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("`{}` names `{}`, and --material `{}`", choice.file, named, choice.material),
-                 .mend = "name one of the two",
-                 .place = {.text = choice.material}});
+    refuse(Error{
+        .code = Code::malformed_value,
+        .sentence = fmt::format("`{}` names `{}`, but --material names `{}`", choice.file, named, choice.material),
+        .mend = "name only one of the two",
+        .place = {.text = choice.material}});
     return std::nullopt;
   }
   auto opened = open_file(choice.request());

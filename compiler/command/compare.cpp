@@ -14,7 +14,7 @@ namespace wale::command {
 namespace {
 
 struct CompareOptions {
-  Choice choice;  ///< without a file
+  Choice choice;  ///< device and folders; no file
   std::vector<std::string> names;
   bool with_table = false, json = false;
 };
@@ -37,7 +37,7 @@ int compare(const CompareOptions& options) {
       all_read = false;
     }
     all_read = all_read && !opened.diagnostics.has_errors();
-    // Among many files are some that only lend functions to others.
+    // Some files only have functions for others.
     if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
   }
   if (!all_read) return refused;
@@ -59,8 +59,7 @@ Run declare_compare(CLI::App& verb) {
       ->required();
   offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);
-  verb.add_flag("--matrix", options->with_table,
-                "prints how far each is from every other, also of more materials than fit a screen");
+  verb.add_flag("--matrix", options->with_table, "prints all distances, even if the table does not fit a screen");
   offer_json(verb, options->json,
              "an object with every material's cues, all distances, and the nearest pairs cue by cue");
   verb.footer("for example: wale compare velvet denim;  wale compare my.wale:old my.wale:new");
@@ -69,7 +68,7 @@ Run declare_compare(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb compare_verb{"compare", "tells how people would tell materials apart, and how plainly",
+extern const Verb compare_verb{"compare", "says by which cues people would tell materials apart, and how easily",
                                declare_compare};
 
 }  // namespace wale::command

@@ -22,11 +22,11 @@ struct DescribeOptions {
   bool exports = false, json = false;
 };
 
-/// What one device makes of a material. Settings that its program has a parameter for are added to `used`: a percept
-/// that is lost on a device has none there. Nothing where a setting is wrong.
+/// The fates of a material on one device. Settings of parameters that its program has are added to `used`, since a
+/// percept that is lost on a device has no parameter there. Errors: those of a wrong setting.
 Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& request, const std::string& material,
-                                    const std::vector<std::string>& settings, const Declarations& declarations,
-                                    std::set<std::string>& used) {
+                             const std::vector<std::string>& settings, const Declarations& declarations,
+                             std::set<std::string>& used) {
   DeviceFates fates{.material = material, .device = request.device, .fates = {}, .refusal = {}};
   Diagnostics diagnostics;
   const auto program = compile_opened(opened, request, material, diagnostics);
@@ -46,14 +46,14 @@ Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& reques
   return fates;
 }
 
-/// What every device makes of a file's materials.
+/// Prints the fates of a file's materials on all devices.
 int describe_fates(const DescribeOptions& options) {
   const Choice& choice = options.choice;
   const auto opened = open(choice);
   if (!opened) return refused;
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
-                        .sentence = "this patch program is built for one device already",
+                        .sentence = "this patch program is already built for one device",
                         .mend = "name the Wale file that it was built from",
                         .place = {.name = choice.file}});
   const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
@@ -75,13 +75,13 @@ int describe_fates(const DescribeOptions& options) {
   for (const std::string& setting : options.settings)
     if (!used.contains(setting))
       return refuse(Error{.code = Code::unknown_setting,
-                          .sentence = fmt::format("`{}` sets a parameter of no material on any device", setting),
+                          .sentence = fmt::format("`{}` sets a parameter that no material has on any device", setting),
                           .place = {.name = "--set", .text = setting}});
   fmt::print("{}", options.json ? fates_json(all) : fates_text(all));
   return done;
 }
 
-/// What a file offers to those that import it; nothing where that is nothing and nobody asked.
+/// Prints the exports of a file; nothing if it has none and they were not asked for.
 std::optional<int> describe_exports(const OpenedFile& opened, const DescribeOptions& options) {
   const bool is_asked = options.exports || (opened.module && opened.module->materials.empty());
   if (!opened.module || !options.choice.material.empty() || !is_asked) return std::nullopt;
@@ -129,7 +129,7 @@ Run declare_describe(CLI::App& verb) {
       ->description("the device to build for, or `all` (default: sandpaper; see `wale devices`)");
   offer_settings(verb, options->settings);
   verb.add_flag("--exports", options->exports,
-                "what the file offers to those that import it (the default for a file without a material)")
+                "lists what the file exports (the default for a file without a material)")
       ->excludes("--material");
   offer_json(verb, options->json, "an object for one material, an array for several");
   verb.footer("for example: wale describe corduroy --set wale=4mm;  wale describe my.wale --device all");
@@ -138,7 +138,7 @@ Run declare_describe(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb describe_verb{
-    "describe", "tells what materials will feel like, on what evidence, and how hard they push", declare_describe};
+extern const Verb describe_verb{"describe", "says what materials feel like, on what evidence, and how hard they push",
+                                declare_describe};
 
 }  // namespace wale::command

@@ -11,7 +11,7 @@ namespace wale::command {
 namespace {
 
 struct ExplainOptions {
-  std::string code;  ///< empty: list them all
+  std::string code;  ///< empty to list all
 };
 
 int explain(const ExplainOptions& options) {
@@ -34,7 +34,7 @@ Run declare_explain(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb explain_verb{"explain", "tells what a diagnostic's code means, with an example and its mend",
+extern const Verb explain_verb{"explain", "explains the code of a diagnostic, with an example and its mend",
                                declare_explain};
 
 }  // namespace wale::command

@@ -16,7 +16,7 @@ struct FormatOptions {
   bool check_only = false;  ///< writes nothing but the names of the files that formatting would change
 };
 
-/// One file, "-" from standard input to standard output.
+/// Formats one file; "-" means from standard input to standard output.
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
   auto read = read_file(standard ? "/dev/stdin" : file);
@@ -58,6 +58,6 @@ Run declare_format(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb format_verb{"format", "writes Wale files in the language's one style", declare_format};
+extern const Verb format_verb{"format", "formats Wale files in the standard style", declare_format};
 
 }  // namespace wale::command

@@ -13,8 +13,8 @@ namespace {
 
 struct LevelsOptions {
   std::string percept, device = default_device;
-  std::optional<std::uint64_t> steps;  ///< as many as can be told apart, unless given
-  std::optional<double> apart;         ///< in just noticeable differences; 1 unless given
+  std::optional<std::uint64_t> steps;  ///< number of levels; by default as many as can be told apart
+  std::optional<double> apart;         ///< in just noticeable differences; 1 by default
   bool json = false;
 };
 

@@ -14,10 +14,10 @@
 namespace wale::command {
 namespace {
 
-/// One value each time, as often as it is given: without this CLI11 would take the words that follow for more values.
+/// Lets an option be repeated, with one value each time. Otherwise CLI11 would read the words after it as more values.
 void may_be_repeated(CLI::Option* option) { option->expected(1)->allow_extra_args(false)->take_all(); }
 
-/// An option whose words `read` turns into a value.
+/// Adds an option whose text `read` turns into a value.
 template <class Value, class Read>
 CLI::Option* offer_value(CLI::App& verb, const char* option, const char* type, std::optional<Value>& into,
                          const char* about, Read read) {
@@ -31,14 +31,14 @@ CLI::Option* offer_value(CLI::App& verb, const char* option, const char* type, s
 
 constexpr const char* device_about = "the device to build for (default: sandpaper; see `wale devices`)";
 
-/// Whether each is a folder, or empty, which `without_empty_words` refuses. Error: W0501.
+/// Checks that each is a folder. Empty names pass, since `without_empty_words` refuses them. Error: W0501.
 Result<> are_folders(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     std::error_code ignored;
     if (folder.empty() || std::filesystem::is_directory(folder, ignored)) continue;
     const bool exists = std::filesystem::exists(folder, ignored);
     return Error{.code = Code::unreadable_file,
-                 .sentence = fmt::format("`{}` {}", folder, exists ? "is no folder" : "does not exist"),
+                 .sentence = fmt::format("`{}` {}", folder, exists ? "is not a folder" : "does not exist"),
                  .mend = "name a folder that holds Wale files",
                  .place = {.name = "--library", .text = folder}};
   }
@@ -49,14 +49,14 @@ Result<> are_folders(const std::vector<std::string>& folders) {
 
 Result<> without_empty_words(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
-    if (option->get_expected_min() == 0) continue;  // a flag, or an option that may stand alone
+    if (option->get_expected_min() == 0) continue;  // a flag, or an option whose value is optional
     const auto& words = option->results();
     if (std::ranges::find(words, "") == words.end()) continue;
     const std::string name = option->get_name();
     return Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("expected {}, found nothing", option->get_positional() ? "a word"
-                                                                       : option->get_type_name()),
-                 .mend = option->get_required() ? "" : fmt::format("leave out {} where nothing is meant", name),
+                 .sentence = fmt::format("expected {}, found nothing",
+                                         option->get_positional() ? "a word" : option->get_type_name()),
+                 .mend = option->get_required() ? "" : fmt::format("leave out {} if nothing is meant", name),
                  .place = {.name = name}};
   }
   for (const CLI::App* group : verb.get_subcommands({}))
@@ -69,10 +69,9 @@ void offer_library(CLI::App& verb, std::vector<std::string>& folders) {
     if (const auto found = are_folders(given); !found) throw CLI::ValidationError(error_text(found.error()), refused);
     folders = given;
   };
-  may_be_repeated(
-      verb.add_option_function<std::vector<std::string>>(
-              "--library", take, "a folder to look for imports in, after the file's own; may be repeated")
-          ->type_name("DIR"));
+  may_be_repeated(verb.add_option_function<std::vector<std::string>>(
+                          "--library", take, "a folder to search for imports, after the file's own; may be repeated")
+                      ->type_name("DIR"));
 }
 
 void offer_device(CLI::App& verb, std::string& device) {

@@ -10,43 +10,43 @@
 #include "compiler/typed_number.hpp"
 #include "wale/program.hpp"
 
-/// Options that several verbs take, and options for values. What is read is written to `into` and its like once the
-/// command line is read, so that must live as long as the verb.
+/// Options that several verbs share, and options with values. Values are written to `into` and the like when the
+/// command line is parsed, so these must live as long as the verb.
 namespace CLI {
 class App;
 class Option;
-}
+}  // namespace CLI
 
 namespace wale::command {
 
-/// Whether nothing was given as an empty text: "" is no name, no file and no word to look for, and is not "not given".
-/// Called before a verb runs, of all its options. Error: W0801.
+/// Checks that no option or argument is an empty text: "" is neither a name nor a file, nor the same as leaving the
+/// option out. Called before a verb runs. Error: W0801.
 Result<> without_empty_words(const CLI::App& verb);
 
-/// --library DIR, which may be repeated. A DIR that is no folder ends the command.
+/// --library DIR, which may be repeated. If DIR is not a folder, the command ends.
 void offer_library(CLI::App& verb, std::vector<std::string>& folders);
 
-/// --device NAME, or the same under another name, for a verb without a material.
+/// --device NAME, for a verb without a material.
 void offer_device(CLI::App& verb, std::string& device);
-/// The same for a material.
+/// The same for a material; `option` may give it another name.
 void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device");
 
-/// FILE, --material NAME, --device NAME and --library DIR: what names one material.
+/// FILE, --material NAME, --device NAME and --library DIR, which together name one material.
 void offer_material(CLI::App& verb, Choice& choice, const char* device_option = "--device");
 
 /// --set NAME=VALUE, which may be repeated.
 void offer_settings(CLI::App& verb, std::vector<std::string>& settings);
 
-/// --json; `about` says what the output is then.
+/// --json; `about` describes the JSON output.
 void offer_json(CLI::App& verb, bool& json, const char* about);
 
 /// -o, --output FILE.
 CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);
 
-// Values of options are read here and never by CLI11, which takes "" for 0. Words that make no sense end the command
-// before the verb runs, with `misused`. `into` stays empty where the option is not given.
+// Values of options are read here and never by CLI11, which reads "" as 0. Malformed values end the command with
+// `misused` before the verb runs. `into` stays empty if the option is not given.
 
-/// One of a few names. Another is refused, with the nearest or with all of them.
+/// One of a few names. Other names are refused; the message has the nearest name or all of them.
 CLI::Option* offer_name(CLI::App& verb, const char* option, std::string& into, const std::vector<std::string>& names,
                         const char* about);
 

@@ -30,8 +30,8 @@ int preview(const PreviewOptions& options) {
     fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
   const auto bytes = encode_drawing(*drawing, options.out);
   if (!bytes) return refuse(bytes.error());
-  const auto written = write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()},
-                                  *options.choice.inputs);
+  const auto written =
+      write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *options.choice.inputs);
   if (!written) return refuse(written.error());
   return done;
 }
@@ -47,7 +47,6 @@ Run declare_preview(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb preview_verb{"preview", "draws a material: its relief, its forces and what it feels like",
-                               declare_preview};
+extern const Verb preview_verb{"preview", "draws a material: its relief, its forces and its percepts", declare_preview};
 
 }  // namespace wale::command

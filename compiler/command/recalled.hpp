@@ -6,8 +6,8 @@
 
 namespace wale::command {
 
-/// Warns of thresholds whose publications nobody has looked up, on standard error and in the order of their cues. They
-/// have no place in the person's own files.
+/// Warns of recalled thresholds, whose publications nobody has looked up, on standard error, sorted by their cues. The
+/// warnings have no place in the user's own files.
 void print_recalled(const std::set<const Threshold*>& thresholds);
 
 }  // namespace wale::command

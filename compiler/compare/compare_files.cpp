@@ -20,7 +20,7 @@ void for_each_in_parallel(std::size_t count, const std::function<void(std::size_
   });
 }
 
-/// One material of a file, and what compiling it gave.
+/// One material of a file, with its cues and diagnostics.
 struct MaterialReading {
   std::size_t file = 0;
   std::string name;

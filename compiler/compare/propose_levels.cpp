@@ -88,7 +88,8 @@ Error no_map(const Percept& percept, const MapChoice& choice, const std::string&
 Error too_many(std::size_t steps, std::size_t most, double apart, const std::string& name) {
   const std::string far =
       apart == 1 ? "one just noticeable difference" : fmt::format("{:.3g} just noticeable differences", apart);
-  if (most < 2) return {Code::value_out_of_range, fmt::format("no two levels of {} are {} apart on this device", name, far)};
+  if (most < 2)
+    return {Code::value_out_of_range, fmt::format("no two levels of {} are {} apart on this device", name, far)};
   return {Code::value_out_of_range, fmt::format("{} levels of {} would be less than {} apart", steps, name, far),
           fmt::format("ask for {} levels at most", most)};
 }
@@ -106,10 +107,10 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
     return Error{Code::unknown_device, fmt::format("no device is called `{}`", device),
                  candidates(device, declarations.devices.spellings())};
   if (!(apart > 0)) return Error{Code::malformed_value, "the distance of levels must be above 0", {}, {"--jnd"}};
-  if (steps && *steps < 2) return Error{Code::malformed_value, "expected two levels or more", {}, {"--steps"}};
+  if (steps && *steps < 2) return Error{Code::malformed_value, "expected at least two levels", {}, {"--steps"}};
   if (on->profile.shaker && !on->realise.contains(meant.percept->name))
     return Error{Code::percept_unrealised,
-                 fmt::format("`{}` only shakes, and has no realisation of {}", device, meant.percept->name)};
+                 fmt::format("`{}` only vibrates, and has no realisation of {}", device, meant.percept->name)};
   const Percept percept = carried_on(*on, *meant.percept, declarations);
   const MapChoice choice = percept.has_reference ? choose_map(percept, *on, declarations) : MapChoice{};
   if (!choice.map) return no_map(percept, choice, device);

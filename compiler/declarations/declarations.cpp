@@ -18,7 +18,7 @@ Declarations::Declarations(const Declarations& beneath, std::shared_ptr<SharedNa
 
 namespace {
 
-/// The names beneath first, then a file's own.
+/// The entries that every file knows first, then the file's own.
 template <typename T>
 std::vector<const T*> gathered(std::vector<const T*> all, const std::vector<T>& own) {
   for (const auto& each : own) all.push_back(&each);

@@ -22,7 +22,7 @@ namespace wale {
 
 struct Declarations;
 
-/// Where a declaration's syntax stands: its expressions are read in `tree`, with the names of `home`.
+/// A declaration's syntax: its expressions are in `tree` and use the names of `home`.
 template <typename Node>
 struct Declared {
   const SyntaxTree* tree = nullptr;
@@ -30,22 +30,22 @@ struct Declared {
   const Declarations* home = nullptr;
 };
 
-/// The names of one kind that a file may use: its own and those it imports, and beneath them what every file knows.
+/// The names of one kind that a file may use: its own and imported ones, and below them those that every file knows.
 template <typename T>
 class Names {
  public:
   struct Entry {
     T what;
-    Span declared;          ///< the name where it was declared
-    bool exported = false;  ///< files that import this one may use it
-    bool imported = false;  ///< it came with an import
+    Span declared;          ///< the name in its declaration
+    bool exported = false;  ///< importing files may use it
+    bool imported = false;  ///< it comes from an import
   };
 
   Names() = default;
   Names(const Names&) = delete;
   Names& operator=(const Names&) = delete;
 
-  /// Names that are looked up where this has none.
+  /// Sets the names that are looked up next if a name is not found here.
   void stand_on(const Names& common) { common_ = &common; }
 
   const Entry* entry(std::string_view name) const {
@@ -59,16 +59,16 @@ class Names {
   }
   bool contains(std::string_view name) const { return entry(name) != nullptr; }
 
-  /// Enters a name that is not there yet.
+  /// Adds a name, which must be new.
   void add(std::string_view name, Entry entry) {
     const auto [added, is_new] = own_.emplace(name, std::move(entry));
     if (is_new) index_.emplace(added->first, &added->second);
   }
 
-  /// Names that the file itself declares or imports.
+  /// The names that the file itself declares or imports.
   const std::map<std::string, Entry>& own() const { return own_; }
 
-  /// Everything, what every file knows first.
+  /// Visits all names, those that every file knows first.
   template <typename Visit>
   void each(const Visit& visit) const {
     if (common_) common_->each(visit);
@@ -82,25 +82,26 @@ class Names {
 
  private:
   std::map<std::string, Entry> own_;
-  std::unordered_map<std::string_view, const Entry*> index_;  ///< into `own_`: every word of a text is looked up
+  std::unordered_map<std::string_view, const Entry*>
+      index_;  ///< into `own_`; a hash table, since every word of a file is looked up
   const Names* common_ = nullptr;
 };
 
-/// The bounds of a dimension's states, where its declaration gives them.
+/// The default bounds of states of a dimension, from its declaration.
 struct DimensionBounds {
   const SyntaxTree* tree = nullptr;
   std::optional<Range> range;
 };
 
 struct Unit {
-  double factor = 1;  ///< in SI
+  double factor = 1;  ///< size in SI
   Dimension dimension;
 };
 
-/// A device, and what only the compiler needs of its declaration.
+/// A device, with the parts of its declaration that only the compiler needs.
 struct DeviceDeclaration : DeclaredDevice {
   std::string documentation;
-  std::map<std::string, Realisation> realise;  ///< by percept: its own, and what its class says besides
+  std::map<std::string, Realisation> realise;  ///< by percept: the device's own, and those of its class for the others
   Span span;
 };
 
@@ -123,24 +124,24 @@ struct HandDeclaration {
   double mass = 0, damping = 0, stiffness = 0;
   double lateral_amplitude = 0, lateral_frequency = 0;
   double circular_radius = 0, circular_frequency = 0;
-  double fewest_counts = 0, faithful_counts = 0;  ///< encoder counts in a period
-  double fewest_levels = 0;                       ///< command steps of the largest force
+  double fewest_counts = 0, faithful_counts = 0;  ///< encoder counts per period
+  double fewest_levels = 0;                       ///< command steps in the largest force
   std::string source;
   Span span;
 };
 
-/// The names of dimensions and units in one compilation: those that every file knows, until a file declares some of its
-/// own.
+/// The names of dimensions and units in one compilation: those that every file knows. They are copied when a file
+/// declares its own.
 class SharedNames {
  public:
   SharedNames() = default;
-  /// `beneath` lives as long.
+  /// `beneath` must outlive it.
   explicit SharedNames(const DimensionNames& beneath) : known_(&beneath) {}
   SharedNames(const SharedNames&) = delete;
   SharedNames& operator=(const SharedNames&) = delete;
 
   const DimensionNames& known() const { return *known_; }
-  /// For who adds to them.
+  /// The names to add to.
   DimensionNames& own() {
     if (known_ != &own_) own_ = *known_;
     known_ = &own_;
@@ -152,9 +153,9 @@ class SharedNames {
   const DimensionNames* known_ = &own_;
 };
 
-/// Everything that one file may refer to by name. What every file knows (the embedded files) lies beneath, in `common`.
+/// Everything that one file may refer to by name. The embedded declarations, which every file knows, are in `common`.
 struct Declarations {
-  /// Of the whole compilation, so that a base dimension has one place in every file.
+  /// Shared by the whole compilation, so that a base dimension has the same index in every file.
   std::shared_ptr<SharedNames> shared_names = std::make_shared<SharedNames>();
   const Declarations* common = nullptr;
   Names<Dimension> dimensions;
@@ -167,10 +168,10 @@ struct Declarations {
   Names<DeviceDeclaration> devices;
   Names<HandDeclaration> hands;
   Names<Declared<MaterialDecl>> materials;
-  /// Materials of the library that this file names without declaring or importing them, by the byte where the name
-  /// begins. Null where nothing was found, which has been reported.
+  /// Materials of the library that this file names without declaring or importing them, by the byte at which the name
+  /// begins. Null if none was found, which has been reported.
   std::map<std::uint32_t, const Declared<MaterialDecl>*> library_materials;
-  /// Names that imported files declare without `export`, and where, to tell them from unknown ones.
+  /// Names that imported files declare without `export`, with their places, to tell them from unknown ones.
   std::map<std::string, Span, std::less<>> private_names;
   std::vector<Map> own_maps;
   std::vector<Threshold> own_thresholds;
@@ -178,7 +179,7 @@ struct Declarations {
   std::vector<Levels> own_levels;
 
   Declarations() = default;
-  /// A file's own names over those that every file knows. `names` are those of the compilation, on the same ground.
+  /// The declarations of one file on top of those that every file knows.
   explicit Declarations(const Declarations& beneath)
       : Declarations(beneath, std::make_shared<SharedNames>(beneath.names())) {}
   Declarations(const Declarations& beneath, std::shared_ptr<SharedNames> names);
@@ -186,7 +187,7 @@ struct Declarations {
 
   const DimensionNames& names() const { return shared_names->known(); }
 
-  /// Maps, thresholds, rules and levels need no names of their own; what every file knows comes first.
+  /// All maps; those that every file knows come first. Likewise for thresholds, rules and levels.
   std::vector<const Map*> maps() const;
   template <typename Visit>
   void each_map(const Visit& visit) const {
@@ -197,23 +198,23 @@ struct Declarations {
   std::vector<const Rule*> rules() const;
   std::vector<const Levels*> levels() const;
 
-  /// The percept of that name, or the one whose antonym it is; a null percept where there is none.
+  /// The percept with that name or antonym; a null percept if there is none.
   PerceptName percept_named(std::string_view name) const;
   /// All names of percepts, antonyms included.
   std::vector<std::string> percept_spellings() const;
 
-  /// The dimension of that name; a plain number if a broken schema/units.wale lacks it.
+  /// The dimension with that name; a plain number if a broken schema/units.wale lacks it.
   Dimension dimension(std::string_view name) const {
     const auto* found = dimensions.find(name);
     return found ? *found : Dimension{};
   }
 };
 
-/// A file and what it declares and imports.
+/// A file with everything that it declares and imports.
 struct Module {
   SyntaxTree tree;
   Declarations declarations;
-  std::string name;  ///< as diagnostics show it
+  std::string name;  ///< the file's name as diagnostics show it
 
   Module(SyntaxTree syntax, const Declarations& common, std::shared_ptr<SharedNames> names)
       : tree(std::move(syntax)), declarations(common, std::move(names)) {}
@@ -223,19 +224,19 @@ struct Module {
 struct CommonModules {
   std::vector<std::unique_ptr<SyntaxTree>> trees;
   Declarations declarations;
-  Diagnostics problems;  ///< errors in the files themselves, which are errors of this build
+  Diagnostics problems;  ///< errors in these files, which are errors of this build
 };
 
-/// A parsed file, what every file knows, and all that it imports, everything declared.
+/// A parsed file with all files that it imports and the embedded files, everything declared.
 ///
-/// Declarations point into it, so it neither moves its parts nor is it copied.
+/// Declarations point into it, so it keeps the addresses of its parts and is not copied.
 struct ModuleSet {
-  SourceId source = 0;  ///< of the file itself
+  SourceId source = 0;  ///< source of the file itself
   std::shared_ptr<const CommonModules> common;
   std::vector<std::shared_ptr<const Module>> modules;  ///< each after those it imports; the file itself is the last,
                                                        ///< unless it is one of the common ones
-  std::map<const Import*, std::shared_ptr<const Module>> imports;  ///< of all modules: what each import brought
-  /// The names that the file itself may use.
+  std::map<const Import*, std::shared_ptr<const Module>> imports;  ///< the module of each import, for all modules
+  /// The declarations that the file itself may use.
   const Declarations& declarations() const {
     return modules.empty() ? common->declarations : modules.back()->declarations;
   }

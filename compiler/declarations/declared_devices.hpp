@@ -7,8 +7,8 @@
 
 namespace wale {
 
-/// The devices that a file may name: first its own and those that it imports, then those that every file knows, each by
-/// name.
+/// The devices that a file may name: first its own and imported ones, then those that every file knows; each group
+/// sorted by name.
 std::vector<DeclaredDevice> declared_devices(const Declarations& declarations);
 
 }  // namespace wale

@@ -39,17 +39,17 @@ std::vector<std::size_t> writing_order(const std::vector<std::string>& base_unit
   return order;
 }
 
-/// Of one base dimension at most.
+/// Whether at most one base dimension has an exponent.
 bool is_single(const Dimension& dimension) {
   return std::ranges::count(dimension.twelfths, 0) >= std::ptrdiff_t{Dimension::capacity} - 1;
 }
 
-/// The base units, at most one of each, by which one dimension is multiplied and divided to come to another.
+/// The base units by which a dimension must be multiplied and divided to get another one; at most one each.
 struct BaseSteps {
   std::optional<std::size_t> times, over;
 };
 
-/// Nothing where it takes more, or none.
+/// Nothing if more are needed, or none.
 std::optional<BaseSteps> steps_between(const Dimension& from, const Dimension& to) {
   BaseSteps steps;
   for (std::size_t i = 0; i < Dimension::capacity; ++i) {
@@ -88,8 +88,9 @@ std::string DimensionNames::unit(const Dimension& dimension) const {
   if (dimension.plain()) return {};
   if (const auto found = std::ranges::find(units, dimension, &Named::dimension); found != units.end())
     return found->name;
-  // N/m, N s/m and their like read better than their base units: one named unit times or over a base unit or two. Units
-  // made of several come first, N s/m before kg/s, and nothing is told per kg, m/s^2 least of all.
+  // N/m, N s/m and the like are easier to read than their base units: a named unit, multiplied or divided by one or two
+  // base units. Units of several base dimensions come first, N s/m before kg/s. Nothing is written per kg, so that
+  // m/s^2 does not become N/kg.
   const auto may_be_told = [&](std::optional<std::size_t> base) { return !base || base_units[*base] != "kg"; };
   const auto is_base = [](const Dimension& unit, std::size_t i) {
     return is_single(unit) && unit.twelfths[i] == Dimension::unit_exponent;
@@ -120,7 +121,7 @@ std::string DimensionNames::unit_beside(const Dimension& expected, const Dimensi
   const std::string known = unit(expected);
   const bool derived =
       std::ranges::find(base_units, known) == base_units.end() && known.find_first_of(" /") == std::string::npos;
-  if (expected.plain() || found.plain() || !derived) return unit(found);  // "m m" and "N/m m" would say less
+  if (expected.plain() || found.plain() || !derived) return unit(found);  // "m m" and "N/m m" would be less clear
   for (std::size_t i = 0; i < base_units.size(); ++i) {
     Dimension base;
     base.twelfths[i] = Dimension::unit_exponent;

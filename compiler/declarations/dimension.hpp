@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// The exponents of a quantity's base dimensions, in the order in which they are declared; in twelfths, so that square,
-/// cube and fourth roots of whole exponents are exact. All zero: a plain number.
+/// The exponents of a quantity's base dimensions, in the order of declaration. They are in twelfths, so that square,
+/// cube and fourth roots of whole exponents are exact. A plain number has only zeros.
 struct Dimension {
   static constexpr std::size_t capacity = 8;
   static constexpr int unit_exponent = 12;
@@ -23,7 +23,7 @@ struct Dimension {
   }
 
  private:
-  /// All exponents in two words, since they are compared all the time.
+  /// All exponents in two words, for fast comparison.
   using Words = std::array<std::uint64_t, 2>;
   Words words() const { return std::bit_cast<Words>(twelfths); }
 };
@@ -36,13 +36,13 @@ inline Dimension operator/(Dimension a, const Dimension& b) {
   for (std::size_t i = 0; i < Dimension::capacity; ++i) a.twelfths[i] -= b.twelfths[i];
   return a;
 }
-/// `a` to the power numerator / denominator, or nothing when an exponent is no whole number of twelfths.
+/// `a` to the power numerator / denominator; nothing if an exponent is not a whole number of twelfths.
 std::optional<Dimension> power(Dimension a, int numerator, int denominator = 1);
 
 /// "a length", "an energy".
 std::string with_article(const std::string& word);
 
-/// What the declarations call dimensions and their coherent units, to speak of a dimension in words.
+/// The declared names of dimensions and their coherent units, to describe a dimension in words.
 struct DimensionNames {
   struct Named {
     std::string name;
@@ -50,9 +50,9 @@ struct DimensionNames {
   };
   std::vector<std::string> base_units;  ///< "m", "kg", "s": one for each base dimension, in order
   std::vector<Named> dimensions;        ///< in the order of declaration; the first that fits names it
-  std::vector<Named> units;             ///< units of factor 1, likewise
+  std::vector<Named> units;             ///< units with factor 1, likewise
 
-  /// "force", or the unit when it has no name; "a plain number" for none.
+  /// "force", or the unit if it has no name; "a plain number" if it has no dimension.
   std::string words(const Dimension& dimension) const;
   /// The name of the dimension, if one was declared.
   std::optional<std::string> name(const Dimension& dimension) const;
@@ -61,10 +61,11 @@ struct DimensionNames {
   /// "kg m^2 s^-2"; "1" for a plain number.
   std::string factors(const Dimension& dimension) const;
 
-  /// The unit of `found` in terms of that of `expected` where they differ by one factor: "N m" beside N, else `unit`.
+  /// The unit of `found` in terms of that of `expected` if they differ by one factor ("N m" beside N), otherwise
+  /// `unit`.
   std::string unit_beside(const Dimension& expected, const Dimension& found) const;
 
-  /// "N    = kg m   s^-2" and "N m  = kg m^2 s^-2": two dimensions, factor under factor.
+  /// "N    = kg m   s^-2" and "N m  = kg m^2 s^-2": two dimensions with their factors aligned.
   std::array<std::string, 2> side_by_side(const Dimension& expected, const Dimension& found) const;
 };
 

@@ -7,10 +7,10 @@
 namespace wale {
 namespace {
 
-/// The `threshold` declarations of this cue tell of forces, in newtons.
+/// The `threshold` declarations for this cue are about forces, in newtons.
 constexpr std::string_view force_cue = "amplitude";
 
-/// Every threshold, what every file knows first.
+/// Visits every threshold, those that every file knows first.
 template <typename Visit>
 void each_threshold(const Declarations& declarations, const Visit& visit) {
   if (declarations.common) each_threshold(*declarations.common, visit);
@@ -23,7 +23,7 @@ Discrimination::Discrimination(const Declarations& declarations, std::string_vie
                                double exerts)
     : device_(std::move(device)) {
   double least_force = 0;
-  thresholds_.reserve(8);  // there may be more
+  thresholds_.reserve(8);  // usually enough
   each_threshold(declarations, [&](const Threshold& each) {
     if (each.cue == cue) thresholds_.push_back(&each);
     if (each.cue == force_cue) least_force = std::max(least_force, each.floor);
@@ -58,7 +58,7 @@ std::optional<double> Discrimination::distance(double a, double b) const {
   if (a == b) return 0;
   const Threshold* found = threshold(a, b);
   if (!found) return std::nullopt;
-  // What pushes on and what holds back are no matter of ratio.
+  // Sizes of opposite signs, one pushing and one resisting, have no meaningful ratio.
   const double by_ratio =
       a * b > 0 ? found->distance(std::abs(a), std::abs(b)) : std::numeric_limits<double>::infinity();
   const double least = floor(*found);

@@ -9,7 +9,7 @@ struct UnitName {
   std::string_view name, symbol;
 };
 
-/// In the singular.
+/// Names in the singular.
 constexpr UnitName names[] = {
     {"meter", "m"},    {"metre", "m"},   {"gram", "g"},   {"gramme", "g"},  {"newton", "N"},    {"second", "s"},
     {"sec", "s"},      {"hertz", "Hz"},  {"joule", "J"},  {"watt", "W"},    {"pascal", "Pa"},   {"radian", "rad"},

@@ -6,8 +6,8 @@
 
 namespace wale {
 
-/// The symbol of a unit that someone wrote out or abbreviated in another way: "mm" for `millimetres`, "s" for `sec`.
-/// Capitals do not count. Where the symbol is declared is not asked; schema/units.wale has them all.
+/// The symbol of a unit that is spelled out or abbreviated differently: "mm" for `millimetres`, "s" for `sec`. Capitals
+/// do not matter. Whether a unit with this symbol is declared is not checked; schema/units.wale declares them all.
 std::optional<std::string> symbol_of_unit(std::string_view name);
 
 }  // namespace wale

@@ -60,7 +60,7 @@ struct Description {
   std::vector<DescribedPercept> percepts;
   std::optional<DescribedTexture> texture;  ///< if declarations were given
   std::string no_percept;                   ///< why no percept is of a texture, in a line; empty if one is
-  std::vector<DescribedFate> fates;         ///< what the device makes of each percept and of the physics
+  std::vector<DescribedFate> fates;         ///< fate of each percept and of the physics on the device
   std::optional<MeasuredShaking>
       shaking;                        ///< of a program that vibrates; its force, bound, grade and texture are empty
   Measured force;                     ///< `max_newton` includes a rehearsal if the program has memory

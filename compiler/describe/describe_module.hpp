@@ -40,7 +40,7 @@ struct DescribedDimension {
   std::string factors;  ///< "kg m^2 s^-2"
 };
 
-/// What a file exports, each kind in the order written.
+/// The exports of a file, each kind in the order written.
 struct ModuleDescription {
   std::string file;
   std::vector<DescribedFunction> functions;
@@ -51,7 +51,7 @@ struct ModuleDescription {
   bool empty() const { return functions.empty() && constants.empty() && units.empty() && dimensions.empty(); }
 };
 
-/// Describes what a file exports; for a file that every file knows, all that it declares. Materials are described by
+/// Describes the exports of a file; for a file that every file knows, all its declarations. Materials are described by
 /// `describe`. The module must have been checked without errors.
 ModuleDescription describe_module(const CheckedModule& module, const SourceSet& sources);
 

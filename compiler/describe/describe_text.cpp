@@ -78,7 +78,7 @@ void write_parameters(std::string& text, const std::vector<Parameter>& parameter
 /// A direction in [0, pi) in whole degrees below 180.
 long degrees(double radians) { return std::lround(radians * 180 / std::numbers::pi) % 180; }
 
-/// What the device makes of the percepts, then of the physics.
+/// Writes the fates of the percepts on the device, then those of the physics.
 void write_fates(std::string& text, const Description& description) {
   if (description.fates.empty()) return;
   text += fmt::format("\non {}\n", description.device.name);

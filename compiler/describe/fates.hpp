@@ -7,14 +7,14 @@
 
 namespace wale {
 
-/// What one device makes of one material.
+/// The fates of one material's percepts and physics on one device.
 struct DeviceFates {
   std::string material, device;
   std::vector<DescribedFate> fates;
   std::string refusal;  ///< why it cannot be built for the device, in a line; empty if it can
 };
 
-/// A table for each material: what becomes of each percept and of the physics, with a column for each device.
+/// A table for each material: a row for each percept and part of the physics, and a column for each device.
 std::string fates_text(const std::vector<DeviceFates>& all);
 /// JSON: an object by material, then by device, with `fates` as in `wale describe --json`.
 std::string fates_json(const std::vector<DeviceFates>& all);

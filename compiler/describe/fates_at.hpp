@@ -9,7 +9,7 @@ namespace wale {
 
 struct Declarations;
 
-/// A value of a parameter from which on a percept's fate changes, the other parameters being as they are.
+/// A value of a parameter at which a percept's fate changes while the other parameters keep their values.
 struct FateChange {
   std::string parameter;
   double value = 0;  ///< in the parameter's own unit
@@ -18,15 +18,15 @@ struct FateChange {
   Fate fate = Fate::kept;
 };
 
-/// What the device makes of a percept or of the physics at given parameters.
+/// The fate of a percept, or of a part of the physics, at given parameters.
 struct DescribedFate {
   /// the program's record, with `fate`, `asked`, `given` and `reason` at these parameters
   FateRecord record;
   std::vector<FateChange> changes;  ///< in the order of the parameters, `below` before `above`
 };
 
-/// What the device makes of each percept and of the physics at a bank's parameters. The program's record holds it for
-/// the defaults. For a solved percept, its setup code gives its size at other parameters, and its map the level.
+/// The fates of all percepts and of the physics at a bank's parameters. The program's records hold the fates for
+/// the defaults. At other parameters, the setup code gives the size of a solved percept, and its map the level.
 /// Whether the device limits a carrier that is not a force follows from the declaration of its percept.
 std::vector<DescribedFate> fates_at(const Bank& bank, const Declarations& declarations);
 

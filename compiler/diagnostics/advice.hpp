@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// What a diagnostic says beyond the error itself: the proposal with the fixes that carry it out, other places, facts,
-/// and the rule behind it. A text alone is enough for a proposal without them.
+/// The parts of a diagnostic besides the error itself: the proposal, the fixes that carry it out, other places, facts,
+/// and the rule that was broken. A text alone makes a proposal without the other parts.
 class Advice {
  public:
   [[gnu::cold]] Advice(std::string help) : about_{.help = std::move(help)} {}

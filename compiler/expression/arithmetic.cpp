@@ -34,7 +34,7 @@ bool is_measurable(const Value& value) {
   return value.type == Value::Type::number || value.type == Value::Type::vector;
 }
 
-void report_mismatch(Reading& reading, const OperatorUse& use) {
+void report_mismatch(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   const SourceSet& sources = reading.surroundings.sources;
   const DimensionNames& names = reading.dimension_names();
@@ -53,7 +53,7 @@ void report_mismatch(Reading& reading, const OperatorUse& use) {
   Diagnostic diagnostic = std::move(advice)
                               .fact("expected", of_left)
                               .fact("found", of_right)
-                              .because(fmt::format("both sides of `{}` have one dimension", sign(node.op)))
+                              .because(fmt::format("both sides of `{}` must have the same dimension", sign(node.op)))
                               .about(Code::mismatched_dimensions, span,
                                      fmt::format("{} and {} cannot be {}", of_left, of_right, verb(node.op)));
   const auto sides = names.side_by_side(left.dimension, right.dimension);
@@ -62,7 +62,7 @@ void report_mismatch(Reading& reading, const OperatorUse& use) {
   reading.calls.say(std::move(diagnostic));
 }
 
-Value compared(Reading& reading, const OperatorUse& use) {
+Value compared(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.type == Value::Type::vector)
     return reading.calls.report(Code::wrong_type, span, "vectors cannot be compared", "", "compare their `length(…)`");
@@ -78,7 +78,7 @@ Value compared(Reading& reading, const OperatorUse& use) {
   return result;
 }
 
-Value added_or_compared(Reading& reading, const OperatorUse& use) {
+Value added_or_compared(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.type != right.type)
     return reading.calls.report(
@@ -97,8 +97,8 @@ Value added_or_compared(Reading& reading, const OperatorUse& use) {
   return result;
 }
 
-/// `and` and `or` of conditions, which are 1 or 0.
-Value combined(Reading& reading, const OperatorUse& use) {
+/// `and` or `or` of two conditions, whose values are 1 or 0.
+Value combined(ExpressionReading& reading, const OperatorUse& use) {
   for (const auto* side : {&use.left, &use.right})
     if (side->type != Value::Type::boolean)
       return reading.calls.report(Code::wrong_type, side->span,
@@ -110,7 +110,7 @@ Value combined(Reading& reading, const OperatorUse& use) {
           .span = use.span};
 }
 
-/// A whole power by multiplications, which are exact where exp2 and log2 are not, and take negative bases.
+/// A whole power by repeated multiplication, which unlike exp2 and log2 is exact for small numbers and negative bases.
 TermId whole_power(Terms& terms, TermId base, int exponent, Span span) {
   const TermId one = terms.literal(1, span);
   std::optional<TermId> result;
@@ -139,7 +139,7 @@ TermId power_by_logarithm(Terms& terms, TermId base, TermId exponent, Span span)
   return terms.apply(Operation::exp2, terms.apply(Operation::multiply, exponent, logarithm, span), span);
 }
 
-/// A power whose exponent is known; none where that power of the base has no dimension.
+/// A power with a known exponent; nothing if that power of the base's dimension does not exist.
 std::optional<Value> known_power(Terms& terms, const Value& base, const Value& exponent, double value, Span span) {
   constexpr int largest_whole = 16;
   for (const int denominator : {1, 2, 3, 4, 6, 12}) {
@@ -161,12 +161,12 @@ std::optional<Value> known_power(Terms& terms, const Value& base, const Value& e
 }  // namespace
 
 std::string make_calculable(Value::Type type) {
-  if (type == Value::Type::boolean) return "make a number of it, as in `if x < 5 mm then 1 else 0`";
-  if (type == Value::Type::text) return "texts name files and titles; write numbers without quotes";
+  if (type == Value::Type::boolean) return "turn it into a number, as in `if x < 5 mm then 1 else 0`";
+  if (type == Value::Type::text) return "texts are for files and titles; write numbers without quotes";
   return "use numbers and vectors";
 }
 
-Value negated(Reading& reading, Value value) {
+Value negated(ExpressionReading& reading, Value value) {
   if (value.failed()) return value;
   if (!is_measurable(value))
     return reading.calls.report(Code::wrong_type, value.span,
@@ -177,7 +177,7 @@ Value negated(Reading& reading, Value value) {
   return value;
 }
 
-Value complement(Reading& reading, Value condition) {
+Value complement(ExpressionReading& reading, Value condition) {
   if (condition.failed()) return condition;
   if (condition.type != Value::Type::boolean)
     return reading.calls.report(Code::wrong_type, condition.span,
@@ -188,7 +188,7 @@ Value complement(Reading& reading, Value condition) {
   return condition;
 }
 
-Value product(Reading& reading, const Value& left, const Value& right, Span span) {
+Value product(ExpressionReading& reading, const Value& left, const Value& right, Span span) {
   if (left.failed() || right.failed()) return failed_value(span);
   if (left.type == Value::Type::vector && right.type == Value::Type::vector)
     return reading.calls.report(Code::wrong_type, span, "two vectors cannot be multiplied", "",
@@ -207,7 +207,7 @@ Value product(Reading& reading, const Value& left, const Value& right, Span span
   return result;
 }
 
-Value quotient(Reading& reading, const Value& left, const Value& right, Span span) {
+Value quotient(ExpressionReading& reading, const Value& left, const Value& right, Span span) {
   if (left.failed() || right.failed()) return failed_value(span);
   if (right.type == Value::Type::vector)
     return reading.calls.report(Code::wrong_type, span, "cannot divide by a vector", "", "divide by its `length(…)`");
@@ -217,7 +217,7 @@ Value quotient(Reading& reading, const Value& left, const Value& right, Span spa
   return result;
 }
 
-Value raised(Reading& reading, const Value& base, const Value& exponent, Span span) {
+Value raised(ExpressionReading& reading, const Value& base, const Value& exponent, Span span) {
   if (base.failed() || exponent.failed()) return failed_value(span);
   const DimensionNames& names = reading.dimension_names();
   if (base.type != Value::Type::number || exponent.type != Value::Type::number)
@@ -236,14 +236,14 @@ Value raised(Reading& reading, const Value& base, const Value& exponent, Span sp
     const std::string of_base = names.words(base.dimension);
     return reading.calls.report(Code::wrong_dimension, base.span,
                                 value ? fmt::format("this power of {} has no dimension", of_base)
-                                      : fmt::format("{} to a power that may change has no dimension", of_base),
+                                      : fmt::format("{} to a power that may change has no fixed dimension", of_base),
                                 names.unit(base.dimension),
                                 "divide the base by a quantity of its own dimension, as in `(x / 1 mm)^1.3`");
   }
   return {.type = Value::Type::number, .x = power_by_logarithm(reading.terms, base.x, exponent.x, span), .span = span};
 }
 
-Value applied(Reading& reading, const OperatorUse& use) {
+Value applied(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.failed() || right.failed()) return failed_value(span);
   if (node.op == BinaryOperator::conjunction || node.op == BinaryOperator::disjunction) return combined(reading, use);
@@ -260,7 +260,7 @@ Value applied(Reading& reading, const OperatorUse& use) {
   }
 }
 
-Value chosen(Reading& reading, const Value& condition, const Value& yes, const Value& no, Span span) {
+Value chosen(ExpressionReading& reading, const Value& condition, const Value& yes, const Value& no, Span span) {
   if (condition.failed() || yes.failed() || no.failed()) return failed_value(span);
   Terms& terms = reading.terms;
   if (condition.type != Value::Type::boolean)
@@ -272,8 +272,8 @@ Value chosen(Reading& reading, const Value& condition, const Value& yes, const V
     reading.surroundings.diagnostics.report(
         {.code = Code::unreachable,
          .span = *known != 0 ? no.span : yes.span,
-         .message = fmt::format("this is never reached: the condition is always {}", *known != 0 ? "true" : "false"),
-         .help = "leave the `if` out, or let its condition depend on the hand or on a parameter"});
+         .message = fmt::format("this is never used: the condition is always {}", *known != 0 ? "true" : "false"),
+         .help = "remove the `if`, or let its condition depend on the hand or on a parameter"});
   if (yes.type == Value::Type::boolean && no.type == Value::Type::boolean)
     return {.type = Value::Type::boolean,
             .x = terms.apply(Operation::select, condition.x, yes.x, no.x, span),
@@ -288,10 +288,10 @@ Value chosen(Reading& reading, const Value& condition, const Value& yes, const V
     const auto sides = names.side_by_side(yes.dimension, no.dimension);
     const std::string of_yes = names.words(yes.dimension), of_no = names.words(no.dimension);
     Diagnostic diagnostic =
-        Advice("both must have one dimension")
+        Advice("both must have the same dimension")
             .see(yes.span, of_yes)
             .see(no.span, of_no)
-            .because("the value has one dimension, whichever side is chosen")
+            .because("the value must have the same dimension in both cases")
             .fact("expected", of_yes)
             .fact("found", of_no)
             .about(Code::mismatched_dimensions, span, fmt::format("`then` gives {}, `else` gives {}", of_yes, of_no));

@@ -4,17 +4,17 @@
 
 namespace wale {
 
-// Operators on checked values. Errors are reported, and the value then is `failed`.
+// Operators on checked values. After an error, which is reported, the value is `failed`.
 
-Value negated(Reading& reading, Value value);
-Value complement(Reading& reading, Value condition);
-Value product(Reading& reading, const Value& left, const Value& right, Span span);
-Value quotient(Reading& reading, const Value& left, const Value& right, Span span);
-/// The exponent decides the dimension, so a base with a dimension needs one that is known at compile time and comes to
-/// whole twelfths.
-Value raised(Reading& reading, const Value& base, const Value& exponent, Span span);
+Value negated(ExpressionReading& reading, Value value);
+Value complement(ExpressionReading& reading, Value condition);
+Value product(ExpressionReading& reading, const Value& left, const Value& right, Span span);
+Value quotient(ExpressionReading& reading, const Value& left, const Value& right, Span span);
+/// A power. A base with a dimension needs an exponent that is known at compile time and gives whole twelfths of the
+/// base dimensions, since the exponent decides the dimension of the result.
+Value raised(ExpressionReading& reading, const Value& base, const Value& exponent, Span span);
 
-/// An operator with both its sides, which have been checked.
+/// An operator with its two checked operands.
 struct OperatorUse {
   const SyntaxTree& tree;
   const Binary& node;
@@ -22,12 +22,12 @@ struct OperatorUse {
   Scope& scope;
   Span span;
 };
-Value applied(Reading& reading, const OperatorUse& use);
+Value applied(ExpressionReading& reading, const OperatorUse& use);
 
-/// `if condition then yes else no`, all checked.
-Value chosen(Reading& reading, const Value& condition, const Value& yes, const Value& no, Span span);
+/// `if condition then yes else no`, with checked operands.
+Value chosen(ExpressionReading& reading, const Value& condition, const Value& yes, const Value& no, Span span);
 
-/// The mend for a value that is neither number nor vector.
+/// The advice for a value that is neither a number nor a vector.
 std::string make_calculable(Value::Type type);
 
 }  // namespace wale

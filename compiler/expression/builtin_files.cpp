@@ -13,7 +13,7 @@ namespace wale {
 
 namespace {
 
-/// A file that a module of the binary brings with it: `slate.png` beside library/stone/slate.wale.
+/// An embedded file beside an embedded module: `slate.png` beside library/stone/slate.wale. Null if there is none.
 const EmbeddedFile* embedded_asset(std::string_view module, std::string_view written) {
   const std::string_view folder = module.substr(0, module.rfind('/') + 1);
   for (const EmbeddedFile& asset : embedded_assets())
@@ -21,13 +21,13 @@ const EmbeddedFile* embedded_asset(std::string_view module, std::string_view wri
   return nullptr;
 }
 
-/// The file that the first argument names, from the folder of the Wale file; none where it cannot be read, which is
-/// reported.
+/// The file that the first argument names, relative to the folder of the Wale file. Nothing if it cannot be read, which
+/// is reported.
 std::optional<ResolvedFile> file_argument(const BuiltinCall& call) {
   const Surroundings& surroundings = call.reading.surroundings;
   if (!surroundings.resolver) {
     call.reading.calls.report(Code::not_constant, call.span, "no file can be read here", "",
-                              "use files in a material's physical block or in a `let` that it uses");
+                              "read files in a material's physical block or in a `let` that it uses");
     return std::nullopt;
   }
   const std::string& from = surroundings.sources[call.span.source].name;
@@ -38,11 +38,11 @@ std::optional<ResolvedFile> file_argument(const BuiltinCall& call) {
   if (resolved) return *std::move(resolved);
   call.reading.calls.report(Code::unreadable_file, call.actuals[0].span,
                             fmt::format("`{}` cannot be read: {}", call.value(0).text, resolved.error().sentence), "",
-                            "give the path from the folder of this file");
+                            "give the path relative to the folder of this file");
   return std::nullopt;
 }
 
-/// The place of a table among those of the material; equal ones share it.
+/// The index of a table among those of the material. Equal tables are stored once.
 std::uint32_t add_table(std::vector<HeightTable>& tables, HeightTable table) {
   const auto existing = std::ranges::find(tables, table);
   const auto index = static_cast<std::uint32_t>(existing - tables.begin());
@@ -52,7 +52,8 @@ std::uint32_t add_table(std::vector<HeightTable>& tables, HeightTable table) {
 
 }  // namespace
 
-/// A sampled height map, centred on the patch, mirrored at its edges; its top row lies at the largest y.
+/// `relief(…)`: a sampled height map, centred on the patch and mirrored at its edges, with its top row at the largest
+/// y.
 Value relief(const BuiltinCall& call) {
   const auto& declarations = *call.reading.names;
   if (!call.text(0, "relief(\"slate.tif\", …)")) return call.failed();
@@ -88,7 +89,7 @@ Value relief(const BuiltinCall& call) {
       .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
 }
 
-/// A measured relation from a file of comma-separated values.
+/// `table(…)`: a measured relation from a file of comma-separated values.
 Value table(const BuiltinCall& call) {
   if (!call.text(0, "table(\"detent.csv\")")) return call.failed();
   for (const std::size_t column : {1, 2})
@@ -118,7 +119,7 @@ Value table(const BuiltinCall& call) {
       .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
 }
 
-/// The value of a relief under the hand.
+/// `image(…)`: the value of a relief under the hand.
 Value image(const BuiltinCall& call) {
   const Value field = relief(call);
   if (field.failed()) return field;

@@ -38,7 +38,7 @@ Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
        .label = reading.dimension_names().unit_beside(value(a).dimension, value(b).dimension),
        .expected = sides[0],
        .found = sides[1],
-       .help = "the arguments must have one dimension"});
+       .help = "the arguments must have the same dimension"});
   return failed();
 }
 
@@ -68,7 +68,7 @@ std::optional<double> BuiltinCall::constant_argument(std::size_t i, const Dimens
   const auto known = constant_value(terms(), value(i).x);
   if (!known)
     reading.calls.report(Code::not_constant, actuals[i].span, "expected a value known at compile time", "it may change",
-                         "use numbers, units and constants; no parameters and no places");
+                         "use numbers, units and constants, but no parameters and no places");
   return known;
 }
 
@@ -146,11 +146,11 @@ Value length(const BuiltinCall& call) {
       call.value(0).dimension);
 }
 
-/// A vector's direction. The squares of a vector shorter than about 1e-19 flush to zero: its length would come out too
-/// small and its direction too long, so it has none.
+/// `normalise(v)`: a vector's direction; zero for a very short vector. For lengths below about 1e-19 the squares flush
+/// to zero in float32, so the computed length would be too small and the direction too long.
 Value normalise(const BuiltinCall& call) {
   if (!call.is_vector(0)) return call.failed();
-  constexpr double shortest = 1e-15;  // in units of SI, whatever the dimension
+  constexpr double shortest = 1e-15;  // in SI units of any dimension
   const auto apply = [&](Operation operation, TermId a, TermId b) {
     return call.terms().apply(operation, a, b, call.span);
   };
@@ -164,7 +164,7 @@ Value normalise(const BuiltinCall& call) {
   return {.type = Value::Type::vector, .x = share(call.value(0).x), .y = share(call.value(0).y), .span = call.span};
 }
 
-/// A number held between two constants; a constant outside them is an error.
+/// `within(…)`: a number limited to the range between two constants; a constant outside it is an error.
 Value within(const BuiltinCall& call) {
   if (!call.number(0) || !call.number(1) || !call.number(2)) return call.failed();
   for (const std::size_t bound : {1, 2})
@@ -204,9 +204,9 @@ Value peak(const BuiltinCall& call) {
   if (const auto dependence = call.terms().dependence(call.value(0).x); dependence.changing())
     return call.reading.calls.report(
         Code::wrong_rate, call.actuals[0].span,
-        fmt::format("`peak` takes a height that depends on the place only, and this changes with {}",
+        fmt::format("`peak` takes a height that depends on the place only, but this changes with {}",
                     what_changes(dependence)),
-        "", "let the height depend on `x` and `y` only; what changes may multiply the force");
+        "", "let the height depend on `x` and `y` only; multiply the force by whatever changes");
   return call.scalar(call.terms().add({.kind = TermKind::peak, .a = call.value(0).x, .span = call.span}),
                      call.value(0).dimension);
 }
@@ -224,7 +224,7 @@ Value arctangent(const BuiltinCall& call) {
   return call.scalar(call.terms().apply(Operation::arctangent, call.value(0).x, call.value(1).x, call.span));
 }
 
-/// A fixed random number for a point of the lattice of whole numbers; coordinates that are not given are 0.
+/// `lattice(…)`: a fixed random number for a point with whole coordinates; missing coordinates are 0.
 Value lattice(const BuiltinCall& call) {
   TermId place[3];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -234,7 +234,7 @@ Value lattice(const BuiltinCall& call) {
   return call.scalar(call.terms().apply(Operation::hash, place[0], place[1], place[2], call.span));
 }
 
-/// An accumulator of its own that runs from 0 to 1 `frequency` times a second.
+/// `phase(frequency)`: a new state that runs from 0 to 1 `frequency` times per second.
 Value phase(const BuiltinCall& call) {
   if (!call.number(0)) return call.failed();
   const auto frequency = call.reading.names->dimension("frequency");

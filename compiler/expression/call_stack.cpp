@@ -14,7 +14,7 @@ bool CallStack::contains(std::string_view name, bool constant) const {
 void CallStack::enter(std::string_view name, bool constant, Span site) {
   if (open_.empty()) outside_ = terms_.attributed();
   open_.push_back({name, constant, site});
-  // All that this stack reads may be attributed to some place already.
+  // If an outer place is already attributed, it stays.
   if (!outside_) terms_.attribute(open_.front().site);
 }
 
@@ -23,7 +23,7 @@ void CallStack::leave() {
   if (open_.empty()) terms_.attribute(outside_);
 }
 
-/// " (inside `grating`)", where the place does not say so.
+/// " (inside `grating`)", if the place itself is outside that function.
 std::string CallStack::inside(Span span) const {
   if (open_.empty() || at_home(span)) return {};
   return fmt::format(" (inside `{}{}`)", open_.back().constant ? "let " : "", open_.back().name);
@@ -47,7 +47,7 @@ void CallStack::say(Diagnostic diagnostic) {
   diagnostic.span = blame(span);
   diagnostic.message += inside(span);
   if (diagnostic.label.empty()) diagnostic.label = called_from(span);
-  if (diagnostic.span != span) diagnostic.fixes.clear();  // they are of the other file
+  if (diagnostic.span != span) diagnostic.fixes.clear();  // they are for the other file
   diagnostics_.report(std::move(diagnostic));
 }
 

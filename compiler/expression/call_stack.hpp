@@ -10,11 +10,11 @@
 
 namespace wale {
 
-/// Functions, and constants of a file, may be nested this deep.
+/// How deep functions and constants of a file may be nested.
 inline constexpr std::size_t deepest_call = 64;
 
-/// The definitions that are being read within one another. It knows where to point: an error inside a function of
-/// another file is reported at the call that led there, and terms that it adds are attributed to that call.
+/// The definitions that are being read, one inside another. An error inside a function of another file is reported at
+/// the call that led there, and the function's terms are attributed to that call.
 class CallStack {
  public:
   CallStack(const SourceSet& sources, Diagnostics& diagnostics, Terms& terms)
@@ -22,25 +22,25 @@ class CallStack {
 
   bool empty() const { return open_.empty(); }
   std::size_t depth() const { return open_.size(); }
-  /// Whether the definition is being read already, so that it leads back to itself.
+  /// Whether the definition is being read already; using it again would be recursion.
   bool contains(std::string_view name, bool constant) const;
-  /// A definition is read because it is used at `site`, until `leave`.
+  /// Begins reading a definition that is used at `site`; `leave` ends it.
   void enter(std::string_view name, bool constant, Span site);
   void leave();
 
-  /// Where the outermost definition is used; there must be one.
+  /// The place where the outermost definition is used; there must be one.
   Span outermost() const { return open_.front().site; }
-  /// Where to point for a place inside the definitions that are open.
+  /// The place to report for a place inside the open definitions.
   Span blame(Span span) const { return open_.empty() || at_home(span) ? span : open_.front().site; }
 
-  /// Reports something at the place that `blame` gives. The value is `failed`.
+  /// Reports an error at the place given by `blame` and returns the failed value.
   [[gnu::cold]] Value report(Code code, Span span, std::string message, std::string label = {}, Advice advice = "");
   [[gnu::cold]] void say(Diagnostic diagnostic);
 
  private:
   struct Open {
     std::string_view name;
-    bool constant;  ///< a `let` outside the materials, and not a function
+    bool constant;  ///< it is a `let` outside the materials, not a function
     Span site;      ///< where it is used
   };
 
@@ -52,7 +52,7 @@ class CallStack {
   Diagnostics& diagnostics_;
   Terms& terms_;
   std::vector<Open> open_;
-  std::optional<Span> outside_;  ///< what terms were attributed to before the outermost definition
+  std::optional<Span> outside_;  ///< the place to which terms were attributed before the outermost definition
 };
 
 }  // namespace wale

@@ -29,8 +29,8 @@ std::string takes(const FormalNames& formals) {
   return formals.empty() ? "write it without arguments" : fmt::format("it takes: {}", fmt::join(formals, ", "));
 }
 
-/// Which formal an argument is for; the number of formals where there is none, which is reported.
-std::size_t formal_of(Reading& reading, const Argument& argument, Span span, std::string_view callee,
+/// The index of the formal for an argument; the number of formals if there is none, which is reported.
+std::size_t formal_of(ExpressionReading& reading, const Argument& argument, Span span, std::string_view callee,
                       const FormalNames& formals, std::size_t position) {
   if (argument.name) {
     const Word& name = *argument.name;
@@ -44,19 +44,19 @@ std::size_t formal_of(Reading& reading, const Argument& argument, Span span, std
   }
   if (position >= formals.size())
     reading.calls.report(Code::unknown_argument, span,
-                         fmt::format("`{}` takes {} argument{}, and this is one more", callee, formals.size(),
+                         fmt::format("`{}` takes {} argument{}, and this is one too many", callee, formals.size(),
                                      formals.size() == 1 ? "" : "s"),
                          "", takes(formals));
   return std::min(position, formals.size());
 }
 
-/// The values of a call's arguments in the order of the formals; none where one is wrong, which is reported.
+/// The values of a call's arguments in the order of the formals; nothing after an error, which is reported.
 struct BoundArguments {
   std::vector<Actual> actuals;
   bool good = true;
 };
-BoundArguments bind_arguments(Reading& reading, const SyntaxTree& tree, const Call& call, const FormalNames& formals,
-                              Scope& scope) {
+BoundArguments bind_arguments(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
+                              const FormalNames& formals, Scope& scope) {
   BoundArguments bound{.actuals = std::vector<Actual>(formals.size())};
   std::size_t position = 0;
   for (const Argument& argument : tree.arguments(call)) {
@@ -81,15 +81,15 @@ BoundArguments bind_arguments(Reading& reading, const SyntaxTree& tree, const Ca
   return bound;
 }
 
-Value missing_argument(Reading& reading, const Call& call, Span span, std::string_view formal,
+Value missing_argument(ExpressionReading& reading, const Call& call, Span span, std::string_view formal,
                        const FormalNames& formals) {
   return reading.calls.report(Code::missing_argument, span,
                               fmt::format("`{}` needs its argument `{}`", call.callee.text, formal), "",
                               fmt::format("it takes: {}", fmt::join(formals, ", ")));
 }
 
-Value call_builtin(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, const Builtin& builtin,
-                   Scope& scope) {
+Value call_builtin(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
+                   const Builtin& builtin, Scope& scope) {
   const Span span = tree.span(expr);
   const auto [actuals, good] = bind_arguments(reading, tree, call, builtin.formals, scope);
   if (!good) return failed_value(span);
@@ -98,21 +98,23 @@ Value call_builtin(Reading& reading, const SyntaxTree& tree, ExprId expr, const 
   for (const auto& actual : actuals)
     if (actual.given && actual.value.type == Value::Type::open)
       return reading.calls.report(Code::wrong_type, actual.span,
-                                  "`open` is the default of a function's argument, not a value", "",
+                                  "`open` can be the default of a function's argument, but not a value", "",
                                   "leave the argument out");
   if (builtin.of_places && !scope.hand)
-    return reading.calls.report(Code::not_constant, span,
-                                fmt::format("expected a constant; `{}` depends on places of a patch", builtin.name), "",
-                                "use it in a material's physical block");
+    return reading.calls.report(
+        Code::not_constant, span,
+        fmt::format("expected a constant, but `{}` depends on the place on a patch", builtin.name), "",
+        "use it in a material's physical block");
   return builtin.apply(BuiltinCall{reading, actuals, span});
 }
 
-/// Whether a function may be expanded here: it does not lead back to itself, and the terms stay within bounds.
-bool may_expand(Reading& reading, const Word& callee, Span span) {
+/// Whether a function may be expanded here: it does not call itself, and the terms stay within bounds. Otherwise it is
+/// reported.
+bool may_expand(ExpressionReading& reading, const Word& callee, Span span) {
   CallStack& calls = reading.calls;
   if (calls.contains(callee.text, false)) {
     calls.report(Code::recursive_definition, callee.span, fmt::format("`{}` would call itself", callee.text), "",
-                 "functions are written out where they are called, so none may lead back to itself");
+                 "functions are expanded where they are called, so they cannot call themselves");
     return false;
   }
   if (calls.depth() >= deepest_call) {
@@ -126,7 +128,7 @@ bool may_expand(Reading& reading, const Word& callee, Span span) {
         {.code = Code::program_too_large,
          .span = calls.empty() ? span : calls.outermost(),
          .message = fmt::format("this expands to more than {} operations", most_terms),
-         .help = "functions are written out at every call; let them call each other less often"});
+         .help = "functions are expanded at every call; let them call each other less often"});
   return false;
 }
 
@@ -135,7 +137,7 @@ std::optional<Dimension> dimension_of(const FormalParameter& formal, const Decla
   return known ? std::optional(*known) : std::nullopt;
 }
 
-Value call_function(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
+Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
                     const Declared<FunctionDecl>& function, Scope& scope) {
   const Span span = tree.span(expr);
   if (!may_expand(reading, call.callee, span)) return failed_value(span);
@@ -160,7 +162,7 @@ Value call_function(Reading& reading, const SyntaxTree& tree, ExprId expr, const
   return good ? expanded(reading, function, std::move(actuals), scope, span) : failed_value(span);
 }
 
-Value unknown_function(Reading& reading, const Call& call, Scope& scope) {
+Value unknown_function(ExpressionReading& reading, const Call& call, Scope& scope) {
   const std::string_view name = call.callee.text;
   if (scope.find(name) || reading.names->constants.contains(name) || names_hand_or_patch(name))
     return reading.calls.report(Code::wrong_type, call.callee.span, fmt::format("`{}` is not a function", name), "",
@@ -171,8 +173,8 @@ Value unknown_function(Reading& reading, const Call& call, Scope& scope) {
                                             "schema/LANGUAGE.md lists them; `function name(…) = …` declares one"));
 }
 
-/// Whether some percept is carried by that argument of that function: "lateral amplitude".
-bool carries_a_percept(const Reading& reading, std::string_view function, std::string_view argument) {
+/// Whether that argument of that function carries a percept: "lateral amplitude".
+bool carries_a_percept(const ExpressionReading& reading, std::string_view function, std::string_view argument) {
   bool carries = false;
   reading.surroundings.declarations.percepts.each([&](const std::string&, const Percept& percept) {
     const std::string_view carrier = percept.carrier;
@@ -182,11 +184,12 @@ bool carries_a_percept(const Reading& reading, std::string_view function, std::s
   return carries;
 }
 
-/// A function with an argument that may be left open renders a percept: that argument is the carrier's size.
-void record_carrier(Reading& reading, const FunctionDecl& function, const std::vector<Actual>& actuals,
+/// Records the carrier of a function whose argument may be left open: that argument is the size of a percept's carrier.
+void record_carrier(ExpressionReading& reading, const FunctionDecl& function, const std::vector<Actual>& actuals,
                     const FormalParameter& formal, const Value& result, Span span) {
   const auto actual = [&](std::string_view name) -> const Value* {
-    for (std::size_t i = actuals.size(); i-- > 0;)  // of two formals with one name, which is an error, the last
+    // Backwards: if two formals have the same name, which is an error, the last one counts.
+    for (std::size_t i = actuals.size(); i-- > 0;)
       if (function.parameters[i].name.text == name) return &actuals[i].value;
     return nullptr;
   };
@@ -203,14 +206,14 @@ void record_carrier(Reading& reading, const FunctionDecl& function, const std::v
                   .span = reading.calls.blame(span),
                   .size_span = reading.calls.blame(size.span)};
   if (const auto fixed = carrier.open ? std::nullopt : constant_value(terms, size.x); fixed && *fixed < 0) {
-    if (!height) return;  // a force along the motion, or away, carries no percept
+    if (!height) return;  // other forces with a negative size carry no percept
     reading.calls.report(Code::value_out_of_range, span, fmt::format("`{}` is negative", formal.name.text), "",
-                         "give its size; to push the other way, turn the height around with a minus");
+                         "give a positive size; to push the other way, negate the height");
     return;
   }
   if (height && !terms.dependence(height->x).on(Dependence::position)) {
     reading.calls.report(Code::flat_height, span,
-                         "this height is the same everywhere, and a flat height pushes nothing", "",
+                         "this height is the same everywhere, and a flat height gives no force", "",
                          "let it change with `x` or `y`, as in `grating(x, period: 2.5 mm)`");
     return;
   }
@@ -221,8 +224,8 @@ void record_carrier(Reading& reading, const FunctionDecl& function, const std::v
   reading.record.carriers.push_back(std::move(carrier));
 }
 
-/// The quantity that a default `open` stands for, to be solved.
-Value open_quantity(Reading& reading, const FormalParameter& formal, const Declarations& home, Span span) {
+/// The open quantity for an argument with the default `open`; `solve` finds its value.
+Value open_quantity(ExpressionReading& reading, const FormalParameter& formal, const Declarations& home, Span span) {
   auto& open_spans = reading.record.open_spans;
   const auto index = static_cast<std::uint32_t>(open_spans.size());
   open_spans.push_back(reading.calls.blame(span));
@@ -232,9 +235,9 @@ Value open_quantity(Reading& reading, const FormalParameter& formal, const Decla
           .span = span};
 }
 
-/// Gives the arguments that are missing their defaults; false where one of all has failed.
-bool fill_in(Reading& reading, const Declared<FunctionDecl>& function, std::vector<Actual>& actuals, bool hand,
-             Span span) {
+/// Gives missing arguments their defaults; false if any argument has failed.
+bool fill_in(ExpressionReading& reading, const Declared<FunctionDecl>& function, std::vector<Actual>& actuals,
+             bool hand, Span span) {
   bool good = true;
   for (std::size_t i = 0; i < actuals.size(); ++i) {
     const auto& formal = function.node->parameters[i];
@@ -254,7 +257,8 @@ bool fill_in(Reading& reading, const Declared<FunctionDecl>& function, std::vect
   return good;
 }
 
-Value body(Reading& reading, const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals, bool hand) {
+Value body(ExpressionReading& reading, const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals,
+           bool hand) {
   const FunctionDecl& declaration = *function.node;
   Scope names;
   names.hand = hand;
@@ -266,7 +270,7 @@ Value body(Reading& reading, const Declared<FunctionDecl>& function, const std::
 
 }  // namespace
 
-Value expanded(Reading& reading, const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
+Value expanded(ExpressionReading& reading, const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
                const Scope& scope, Span span) {
   const FunctionDecl& declaration = *function.node;
   const auto* outside_names = std::exchange(reading.names, function.home);
@@ -285,7 +289,7 @@ Value expanded(Reading& reading, const Declared<FunctionDecl>& function, std::ve
   return result;
 }
 
-Value value_of_call(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
+Value value_of_call(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
   const std::string_view callee = call.callee.text;
   auto* binding = scope.find(callee);
@@ -294,10 +298,10 @@ Value value_of_call(Reading& reading, const SyntaxTree& tree, ExprId expr, const
     return call_field(reading, tree, expr, call, *binding->value.field, scope);
   }
   const Builtin* builtin = builtin_named(callee);
-  const auto* function = builtin ? nullptr : reading.names->functions.find(callee);  // no name is both
+  const auto* function = builtin ? nullptr : reading.names->functions.find(callee);  // no function is both
   if (binding && !function && binding->value.failed()) {
     binding->used = true;
-    return failed_value(span);  // reported where it was declared
+    return failed_value(span);  // reported at its declaration
   }
   if (function) return call_function(reading, tree, expr, call, *function, scope);
   if (callee == "curve") return curve(reading, tree, expr, call, scope);
@@ -308,7 +312,7 @@ Value value_of_call(Reading& reading, const SyntaxTree& tree, ExprId expr, const
     if (constant.type == Value::Type::field) return call_field(reading, tree, expr, call, *constant.field, scope);
   }
   for (const Argument& argument : tree.arguments(call))
-    check_expression(reading, tree, argument.value, scope);  // they have errors of their own
+    check_expression(reading, tree, argument.value, scope);  // to report the errors of the arguments too
   return unknown_function(reading, call, scope);
 }
 

@@ -12,11 +12,11 @@ namespace wale {
 
 namespace {
 
-/// A name that stands for an input of the machine.
+/// A name for an input of the machine.
 struct InputName {
   std::string_view name;
   Input x;
-  std::optional<Input> y;  ///< of a vector
+  std::optional<Input> y;  ///< y part, if it is a vector
   const char* dimension;
   bool condition = false;
 };
@@ -43,17 +43,18 @@ const InputName* input_named(std::string_view name) {
   return found == std::end(input_names) ? nullptr : found;
 }
 
-/// The value of `hand`, `x`, `velocity` and their like, where the scope has a hand.
-std::optional<Value> input(Reading& reading, const Word& word, const Scope& scope) {
+/// The value of `hand`, `x`, `velocity` and the like, if the scope has a hand.
+std::optional<Value> input(ExpressionReading& reading, const Word& word, const Scope& scope) {
   const InputName* found = scope.hand ? input_named(word.text) : nullptr;
   if (!found) return std::nullopt;
   if (word.text.starts_with("raw_") && reading.calls.empty())
     reading.surroundings.diagnostics.report(
         {.code = Code::raw_signal,
          .span = word.span,
-         .message =
-             fmt::format("`{}` is the difference of neighbouring positions: it jumps by whole counts", word.text),
-         .help = fmt::format("use `{}`, which the device's filter has smoothed, unless you want the noise",
+         .message = fmt::format(
+             "`{}` is computed from the difference of successive positions, so it jumps by whole encoder counts",
+             word.text),
+         .help = fmt::format("use `{}`, which the device's filter smooths, unless you want the noise",
                              word.text.substr(4))});
   Value value{.type = found->condition ? Value::Type::boolean : Value::Type::number,
               .x = reading.terms.input(found->x, word.span),
@@ -66,14 +67,14 @@ std::optional<Value> input(Reading& reading, const Word& word, const Scope& scop
   return value;
 }
 
-/// The value of a `let` outside the materials, read once.
-std::optional<Value> constant_named(Reading& reading, const Word& word) {
+/// The value of a `let` outside the materials. It is evaluated once.
+std::optional<Value> constant_named(ExpressionReading& reading, const Word& word) {
   const auto* found = reading.names->constants.find(word.text);
   if (!found) return std::nullopt;
   CallStack& calls = reading.calls;
   if (calls.contains(word.text, true))
     return calls.report(Code::recursive_definition, word.span, fmt::format("`{}` is defined by itself", word.text), "",
-                        "a `let` may use only what does not need it");
+                        "a `let` cannot use itself, directly or through others");
   const auto known = reading.known.constants.find(found->node);
   if (known == reading.known.constants.end()) {
     if (calls.depth() >= deepest_call)
@@ -93,8 +94,8 @@ std::optional<Value> constant_named(Reading& reading, const Word& word) {
   return value;
 }
 
-/// `hand.x`, `p.y`: one part of a vector.
-std::optional<Value> part_of_vector(Reading& reading, const Word& word, Scope& scope) {
+/// The value of `hand.x` or `p.y`: one part of a vector.
+std::optional<Value> part_of_vector(ExpressionReading& reading, const Word& word, Scope& scope) {
   const auto dot = word.text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
   const std::string_view whole = word.text.substr(0, dot), part = word.text.substr(dot + 1);
@@ -114,29 +115,30 @@ std::optional<Value> part_of_vector(Reading& reading, const Word& word, Scope& s
 
 bool names_hand_or_patch(std::string_view name) { return input_named(name) != nullptr; }
 
-bool has_value(const Reading& reading, std::string_view name, const Scope& scope) {
+bool has_value(const ExpressionReading& reading, std::string_view name, const Scope& scope) {
   const std::string_view whole = name.substr(0, name.find('.'));
   return scope.find(whole) || reading.names->constants.contains(whole) || names_hand_or_patch(whole);
 }
 
-std::optional<Value> private_name(Reading& reading, const Word& word) {
+std::optional<Value> private_name(ExpressionReading& reading, const Word& word) {
   const auto found = reading.names->private_names.find(word.text);
   if (found == reading.names->private_names.end()) return std::nullopt;
   const SourceSet& sources = reading.surroundings.sources;
   return reading.calls.report(
       Code::private_name, word.span,
       fmt::format("`{}` is private to {}", word.text, sources[found->second.source].name), "",
-      Advice(fmt::format("write `export` before its declaration there (line {}), if others may use it",
+      Advice(fmt::format("write `export` before its declaration there (line {}), if other files may use it",
                          sources.place(found->second).line))
           .see(found->second, "declared here, without `export`"));
 }
 
-Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sought sought, Advice otherwise) {
-  // A function's body is read at each of its calls; a misspelt word in it is looked up once.
+Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
+                     Advice otherwise) {
+  // A function's body is read at each of its calls, but a misspelt word in it is looked up only once.
   const Span place = reading.calls.blame(word.span);
   if (!reading.known.misspelt.emplace(place.source, place.begin).second) return otherwise;
   const Surroundings& surroundings = reading.surroundings;
-  if (surroundings.diagnostics.is_full()) return otherwise;  // it would not be shown
+  if (surroundings.diagnostics.is_full()) return otherwise;  // the advice would not be shown
   std::vector<std::string> candidates;
   if (sought == Sought::function) {
     candidates = reading.names->functions.spellings();
@@ -158,22 +160,22 @@ Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sou
   return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
 }
 
-Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& scope) {
+Value bound_value(ExpressionReading& reading, Scope::Binding& binding, Span span, Scope& scope) {
   binding.used = true;
   Value value = binding.value;
-  // A memory's name alone is its value under the hand.
+  // The name of a memory alone means its value under the hand.
   if (value.type == Value::Type::field && value.field->kind == Field::Kind::memory)
     value = value_at(reading.terms, *value.field, *input(reading, {"hand", span}, scope), span);
   value.span = span;
   return value;
 }
 
-Value value_of_name(Reading& reading, const Word& word, Scope& scope) {
+Value value_of_name(ExpressionReading& reading, const Word& word, Scope& scope) {
   auto* binding = scope.find(word.text);
   return binding ? bound_value(reading, *binding, word.span, scope) : free_value(reading, word, scope);
 }
 
-Value free_value(Reading& reading, const Word& word, Scope& scope) {
+Value free_value(ExpressionReading& reading, const Word& word, Scope& scope) {
   if (const auto filled_in = input(reading, word, scope)) return *filled_in;
   if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
   if (const auto constant = constant_named(reading, word)) return *constant;
@@ -188,7 +190,7 @@ Value free_value(Reading& reading, const Word& word, Scope& scope) {
     return report(Code::unknown_name, fmt::format("`{}` is a function and needs its arguments", word.text),
                   fmt::format("write `{}(…)`", word.text));
   if (names_hand_or_patch(word.text))
-    return report(Code::not_constant, fmt::format("expected a constant; `{}` changes as the hand moves", word.text),
+    return report(Code::not_constant, fmt::format("expected a constant, but `{}` changes as the hand moves", word.text),
                   "use numbers, units and other constants");
   if (const auto hidden = private_name(reading, word)) return *hidden;
   return report(Code::unknown_name, fmt::format("nothing here is called `{}`", word.text),

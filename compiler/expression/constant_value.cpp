@@ -14,8 +14,8 @@ std::optional<double> constant_value(const Terms& terms, TermId id, const std::v
   if (sought.known()) return sought.value;
   if (!parameters || !sought.dependence.without(Dependence::parameter).constant()) return std::nullopt;
   if (sought.kind == TermKind::parameter && sought.index < parameters->size()) return (*parameters)[sought.index].value;
-  // A term may be used many times over: each is evaluated once, operands first, without recursion. Most constants are
-  // worked out of a few, for which there is room here.
+  // A term may have many users. Each is evaluated once, operands first, without recursion. Most constants need only a
+  // few terms, which fit into this buffer.
   std::array<std::byte, 4096> room;
   std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
   std::pmr::unordered_map<TermId, double> known(&memory);

@@ -19,7 +19,7 @@ struct ProductName {
   bool divides;
 };
 
-/// The names in a chain of products and quotients; other factors are passed over.
+/// Collects the names in a chain of products and quotients; other factors are skipped.
 void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vector<ProductName>& names) {
   const Expr& node = tree.expr(expr);
   if (const auto* use = std::get_if<NameUse>(&node))
@@ -33,7 +33,7 @@ void collect_names(const SyntaxTree& tree, ExprId expr, bool divides, std::vecto
   }
 }
 
-/// Whether it is one base dimension and nothing else.
+/// Whether it is a single base dimension to the power 1.
 bool base(const Dimension& dimension) {
   int sum = 0;
   for (const int exponent : dimension.twelfths) {
@@ -43,15 +43,15 @@ bool base(const Dimension& dimension) {
   return sum == Dimension::unit_exponent;
 }
 
-/// The expression behind its signs.
+/// The expression without its leading signs.
 ExprId bare(const SyntaxTree& tree, ExprId expr) {
   while (const auto* unary = std::get_if<Unary>(&tree.expr(expr))) expr = unary->operand;
   return expr;
 }
 
-/// "one length too many", "one mass too few"; empty when no name fits the ratio.
+/// "one length too many", "one mass too few"; empty if no declared name fits the ratio.
 std::string surplus(const DimensionNames& names, const Dimension& ratio) {
-  // "One time too few" says more than "one frequency too many".
+  // "One time too few" is clearer than "one frequency too many".
   if (const auto name = names.name(Dimension{} / ratio); name && base(Dimension{} / ratio))
     return fmt::format("one {} too few", *name);
   if (const auto name = names.name(ratio)) return fmt::format("one {} too many", *name);
@@ -59,15 +59,15 @@ std::string surplus(const DimensionNames& names, const Dimension& ratio) {
   return {};
 }
 
-/// The factor that makes the dimension wrong by `ratio`, or another one to multiply or divide by.
-Advice factor_mend(const Reading& reading, const std::vector<ProductName>& factors, const Scope& scope,
+/// Advice on the factor that makes the dimension wrong by `ratio`, or on one to multiply or divide by.
+Advice factor_mend(const ExpressionReading& reading, const std::vector<ProductName>& factors, const Scope& scope,
                    const Dimension& expected, const Dimension& ratio) {
   const DimensionNames& names = reading.dimension_names();
   const SourceSet& sources = reading.surroundings.sources;
   const Declarations& own = reading.surroundings.declarations;
   const std::string count = surplus(names, ratio);
-  // Of three factors or more, one that is exactly the surplus is the likeliest slip; next comes a name that would fit
-  // if it were declared in another unit.
+  // In a product of three factors or more, a factor that equals the surplus is the most likely error; next comes a name
+  // that would fit if it were declared with another unit.
   for (const auto& factor : factors) {
     const auto* binding = scope.find(factor.name);
     if (!binding || factor.divides || factors.size() < 3 || binding->value.dimension != ratio) continue;
@@ -110,12 +110,12 @@ Advice unit_mend(const Word& word, const Declarations& declarations) {
     return Advice(fmt::format("write `{}`", *symbol))
         .fix(replace(word.span, *symbol, {}, false))
         .fact("meant", *symbol);
-  // One letter makes a million of a thousandth: `MN` and `mN`.
+  // No safe fix: one letter may change a factor from a million to a thousandth, as in `MN` and `mN`.
   return did_you_mean(word.span, word.text, declarations.units.spellings(),
                       "declare it, as in `unit thou = 25.4 um`, or use one of schema/units.wale", false);
 }
 
-Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
+Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                       const Dimension& expected, const Dimension& found) {
   const Surroundings& surroundings = reading.surroundings;
   const std::string unit = customary_unit(surroundings.declarations, expected);
@@ -136,8 +136,8 @@ Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId exp
   return factor_mend(reading, factors, scope, expected, found / expected);
 }
 
-void report_dimension(Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope, const Dimension& found,
-                      const Dimension& expected) {
+void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
+                      const Dimension& found, const Dimension& expected) {
   const DimensionNames& names = reading.dimension_names();
   const auto sides = names.side_by_side(expected, found);
   const std::string of_expected = names.words(expected), of_found = names.words(found);

@@ -30,7 +30,7 @@ Value value_at(Terms& terms, const Field& field, const Value& argument, Span spa
   };
   switch (field.kind) {
     case Field::Kind::curve: {
-      // Each stretch adds its own rise, so that the curve is continuous whatever the rounding, and needs no search.
+      // Each segment adds its own rise, so that the curve is continuous in spite of rounding and needs no search.
       result.x = field.knots.front()[1];
       for (std::size_t i = 0; i + 1 < field.knots.size(); ++i) {
         const auto [from, start] = field.knots[i];
@@ -82,7 +82,7 @@ std::array<TermId, 2> memory_place(Terms& terms, std::uint32_t memory, const Val
   return {along(place.x, Input::patch_half_width, 0), along(place.y, Input::patch_half_height, 1)};
 }
 
-Value call_field(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, const Field& field,
+Value call_field(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, const Field& field,
                  Scope& scope) {
   const Span span = tree.span(expr);
   std::vector<Value> arguments;
@@ -112,8 +112,8 @@ Value call_field(Reading& reading, const SyntaxTree& tree, ExprId expr, const Ca
 
 namespace {
 
-/// The values of `curve`'s arguments; none where one is wrong, which is reported.
-std::optional<std::vector<Value>> curve_values(Reading& reading, const SyntaxTree& tree, const Call& call,
+/// The values of the arguments of `curve`; nothing after an error, which is reported.
+std::optional<std::vector<Value>> curve_values(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
                                                Scope& scope) {
   std::vector<Value> values;
   bool good = true;
@@ -131,7 +131,7 @@ std::optional<std::vector<Value>> curve_values(Reading& reading, const SyntaxTre
 
 }  // namespace
 
-Value curve(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
+Value curve(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
   const auto read = curve_values(reading, tree, call, scope);
   if (!read) return failed_value(span);
@@ -140,7 +140,7 @@ Value curve(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& c
   if (values.size() < 4 || values.size() % 2 != 0)
     return calls.report(
         Code::missing_argument, span,
-        fmt::format("a curve needs two points or more, each a place and a value; found {} numbers", values.size()), "",
+        fmt::format("a curve needs at least two points, each a place and a value; found {} numbers", values.size()), "",
         "write, for example, `curve(0 mm, 0 N, 2 mm, 1 N)`");
   const Terms& terms = reading.terms;
   Field field{.kind = Field::Kind::curve, .from = values[0].dimension, .to = values[1].dimension};
@@ -148,15 +148,16 @@ Value curve(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& c
     if (values[i].type != Value::Type::number)
       return calls.report(Code::wrong_type, values[i].span,
                           fmt::format("expected a number, found {}", type_words(values[i].type)), "",
-                          "make a curve for each part of a vector");
+                          "write a curve for each part of a vector");
     const Dimension& expected = i % 2 == 0 ? field.from : field.to;
     if (values[i].dimension != expected) {
       report_dimension(reading, tree, tree.arguments(call)[i].value, scope, values[i].dimension, expected);
       return failed_value(span);
     }
     if (terms.dependence(values[i].x).in_tick())
-      return calls.report(Code::wrong_rate, values[i].span, "the points of a curve must stay, and this one changes", "",
-                          "give constants and parameters; call the curve with what changes");
+      return calls.report(Code::wrong_rate, values[i].span,
+                          "the points of a curve must be constant, but this one changes", "",
+                          "use constants and parameters; changing values can be arguments of the curve");
     if (i % 2 == 0) continue;
     field.knots.push_back({values[i - 1].x, values[i].x});
     if (i < 2) continue;

@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t most_rows = 1'000'000;
 constexpr double most_samples = 8192;
-/// Spacings that differ by less than this share count as equal: files hold rounded numbers.
+/// Spacings with a relative difference below this count as equal, since files hold rounded numbers.
 constexpr double equal_spacing = 1e-4;
 
 struct Point {
   double place, value;
 };
 
-/// One of a unit in SI, or nothing where it is no unit.
+/// The declared unit of that name, or nothing.
 std::optional<Unit> unit_of(std::string_view text, const Declarations& declarations) {
   if (text.empty()) return Unit{};
   SourceSet sources;
@@ -79,7 +79,7 @@ MeasuredTable sampled(const std::vector<Point>& points) {
   return measured;
 }
 
-/// A column that is read: its number, from 0, its name and its unit.
+/// A column to be read: its index from 0, its name and its unit.
 struct Column {
   std::size_t number = 0;
   std::string_view name;
@@ -110,7 +110,7 @@ Result<Column> find_column(const CsvRow& headings, const std::string& name, std:
 
 struct Columns {
   Column place, value;
-  std::size_t count = 0;  ///< of all columns of the table
+  std::size_t count = 0;  ///< number of all columns of the table
 };
 
 Result<Columns> find_columns(const CsvRow& headings, const std::string& from, const std::string& to,

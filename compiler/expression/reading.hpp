@@ -16,32 +16,32 @@
 
 namespace wale {
 
-/// Where the library exports a name: the module to import, and what it is there ("function").
+/// The module that exports a name, and the kind of its declaration there ("function").
 struct Exporter {
   std::string module;
   std::string_view what;
 };
 using FindExporter = std::function<std::optional<Exporter>(std::string_view name)>;
 
-/// The surroundings of the expressions of one material or declaration.
+/// The context in which the expressions of one material or declaration are read.
 struct Surroundings {
   const SourceSet& sources;
-  const Declarations& declarations;  ///< of the file whose expressions are checked
+  const Declarations& declarations;  ///< those of the file whose expressions are checked
   Diagnostics& diagnostics;
-  Resolver* resolver = nullptr;                 ///< for images and tables; null where no file may be read
-  const FindExporter* find_exporter = nullptr;  ///< for what to import; null where nothing is to be imported
+  Resolver* resolver = nullptr;                 ///< for images and tables; null if no file may be read
+  const FindExporter* find_exporter = nullptr;  ///< to suggest imports; null if there are none to suggest
 };
 
 /// The results of reading expressions besides terms and tables.
 struct CallRecord {
   std::vector<Carrier> carriers;
   std::vector<Span> open_spans;      ///< one for each open quantity: the call that leaves it open
-  std::vector<CheckedState> states;  ///< calls of `phase` add theirs
-  std::map<TermId, TermId> phases;   ///< the term of each of those, by its frequency
+  std::vector<CheckedState> states;  ///< states that calls of `phase` add
+  std::map<TermId, TermId> phases;   ///< the state term of each `phase`, by its frequency
   std::vector<CheckedPeriod> periods;
-  std::vector<std::unique_ptr<const Field>> fields;  ///< that values point to
+  std::vector<std::unique_ptr<const Field>> fields;  ///< fields to which values point
 
-  /// Keeps a field for as long as the record, for the values that point to it.
+  /// Stores a field for the life of the record, since values point to it.
   const Field* keep(Field field) { return fields.emplace_back(std::make_unique<const Field>(std::move(field))).get(); }
 };
 
@@ -53,8 +53,8 @@ struct KnownNames {
 };
 
 /// The state that the parts of the expression checker share while they read the expressions of one material.
-struct Reading {
-  Reading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
+struct ExpressionReading {
+  ExpressionReading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
       : surroundings(around),
         names(&surroundings.declarations),
         terms(terms),
@@ -62,13 +62,13 @@ struct Reading {
         calls(around.sources, around.diagnostics, terms) {}
 
   Surroundings surroundings;
-  const Declarations* names;  ///< of the file whose expression is read; another inside its functions
+  const Declarations* names;  ///< of the file whose expression is being read; changes inside functions of other files
   Terms& terms;
   std::vector<HeightTable>& tables;
   CallStack calls;
   CallRecord record;
   KnownNames known;
-  bool too_large = false;  ///< reported
+  bool too_large = false;  ///< there are too many terms, which has been reported
 
   const DimensionNames& dimension_names() const { return names->names(); }
 };

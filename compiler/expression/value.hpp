@@ -16,24 +16,24 @@ namespace wale {
 /// A relation between quantities that is called like a function: a curve, a measured table, a relief, a memory.
 struct Field {
   enum class Kind {
-    curve,   ///< straight from knot to knot, level beyond the first and the last
-    table,   ///< equally spaced samples from `first` on, `step` apart, held at both ends
+    curve,   ///< linear between knots, constant beyond the first and the last
+    table,   ///< equally spaced samples from `first`, `step` apart; constant beyond both ends
     relief,  ///< a picture centred on the patch
     memory,  ///< a grid over the patch
   };
   Kind kind = Kind::curve;
-  Dimension from, to;  ///< of a relief and of a memory, `from` is a length: they take a place
+  Dimension from, to;  ///< for a relief and a memory, `from` is length, and the argument is a place (a vector)
   std::vector<std::array<TermId, 2>> knots;
   std::uint32_t index = 0;       ///< of the table, or of the memory
   std::uint32_t samples = 0;     ///< of a table
   double first = 0, step = 0;    ///< of a table, SI
-  double low = 0, span = 0;      ///< value at code 0, and from there to the highest code, SI
+  double low = 0, span = 0;      ///< value at code 0, and its difference to the value at the highest code, SI
   double columns = 0, rows = 0;  ///< of a relief, in samples
-  double column = 0, row = 0;    ///< m from sample to sample
+  double column = 0, row = 0;    ///< spacing of samples, m
 };
 
-/// The value of an expression: its type, its dimension and the terms that compute it. Small and copied freely: texts
-/// stand in the syntax tree, fields in the `CallRecord` of the checker that made them.
+/// The value of an expression: its type, its dimension and the terms that compute it. Small and cheap to copy: texts
+/// are in the syntax tree, fields in the `CallRecord` of the checker that made them.
 struct Value {
   enum class Type {
     number,   ///< `x`
@@ -52,7 +52,7 @@ struct Value {
   Span span;
 
   bool failed() const { return type == Type::failed; }
-  /// Of a vector: 'x' or 'y', as a number.
+  /// One part of a vector, 'x' or 'y', as a number.
   Value part(char which) const {
     Value number = *this;
     number.type = Type::number;
@@ -62,7 +62,7 @@ struct Value {
   }
 };
 
-/// The value of what has been reported already.
+/// The value of an expression with an error that has been reported.
 inline Value failed_value(Span span) { return {.type = Value::Type::failed, .span = span}; }
 
 inline std::string type_words(Value::Type type) {
@@ -78,8 +78,7 @@ inline std::string type_words(Value::Type type) {
   return "nothing";
 }
 
-/// The names that an expression may use besides what is declared outside it. The names themselves stand elsewhere, in
-/// the syntax tree for the most part.
+/// The local names that an expression may use. The names' texts are owned by others, mostly by the syntax tree.
 class Scope {
  public:
   struct Binding {
@@ -89,9 +88,9 @@ class Scope {
     bool used = false;
   };
 
-  bool hand = false;  ///< position, velocity and the patch may be used
+  bool hand = false;  ///< the names of the hand and the patch may be used
 
-  /// Null where nothing has that name. Valid until the next name is declared.
+  /// The binding of a name, or null. Valid until the next name is declared.
   Binding* find(std::string_view name) {
     const std::size_t index = index_of(name);
     return index < bindings_.size() ? &bindings_[index] : nullptr;
@@ -100,10 +99,10 @@ class Scope {
     const std::size_t index = index_of(name);
     return index < bindings_.size() ? &bindings_[index] : nullptr;
   }
-  /// A name that is there.
+  /// The binding of a name, which must exist.
   Binding& at(std::string_view name) { return bindings_.at(index_of(name)); }
 
-  /// Enters a name, in the place of the one that was there.
+  /// Adds a name, or replaces its binding.
   void declare(std::string_view name, const Value& value, Span declared) {
     if (Binding* known = find(name)) {
       *known = {name, value, declared};
@@ -114,16 +113,16 @@ class Scope {
     for (std::size_t i = places_.size(); i < bindings_.size(); ++i) places_.emplace(bindings_[i].name, i);
   }
 
-  /// Forgets all names, to be used again for others.
+  /// Removes all names, so that the scope can be reused.
   void clear() {
     bindings_.clear();
     places_.clear();
   }
 
-  /// Makes room for so many names; there may be more.
+  /// Reserves room for that many names.
   void reserve(std::size_t names) { bindings_.reserve(names); }
 
-  /// All of them, in the order in which they were declared.
+  /// All bindings, in the order of declaration.
   const std::vector<Binding>& bindings() const { return bindings_; }
   /// All names in alphabetical order.
   std::vector<std::string> spellings() const {
@@ -134,7 +133,7 @@ class Scope {
   }
 
  private:
-  /// Up to this many names, which most functions have, a search is faster than an index.
+  /// Up to this many names, a linear search is faster than an index; most functions have no more.
   static constexpr std::size_t few = 8;
 
   std::size_t index_of(std::string_view name) const {
@@ -147,17 +146,18 @@ class Scope {
   }
 
   std::vector<Binding> bindings_;
-  std::unordered_map<std::string_view, std::size_t> places_;  ///< in `bindings_`, once there are more than a few
+  std::unordered_map<std::string_view, std::size_t>
+      places_;  ///< indices into `bindings_`; used with more than `few` names
 };
 
-/// A force algorithm's size, fixed or left open, at one of its calls: "lateral amplitude".
+/// The size argument at one call of a force function, fixed or left open: "lateral amplitude".
 struct Carrier {
   std::string name;  ///< function and argument
   TermId size = 0;   ///< the argument's term
   bool open = false;
   Dimension dimension;
   TermId force_x = 0, force_y = 0;  ///< the call's result
-  std::optional<TermId> relief;     ///< its argument `height`
+  std::optional<TermId> relief;     ///< the call's argument `height`
   Dimension relief_dimension;
   Span span;       ///< of the call
   Span size_span;  ///< of the argument, where it is given

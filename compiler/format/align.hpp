@@ -7,8 +7,8 @@
 
 namespace wale::formatting {
 
-/// The lines as a text, with what belongs below each other below each other: the values of a block's settings; the `=`
-/// and the descriptions of consecutive declarations of one kind; the comments behind consecutive lines.
+/// The lines as a text with aligned columns: the values of a block's settings; the `=` and the descriptions of
+/// consecutive declarations of one kind; the comments after consecutive lines.
 std::string aligned(std::vector<Line> lines);
 
 }  // namespace wale::formatting

@@ -11,7 +11,7 @@
 namespace wale {
 namespace {
 
-/// What formatting must not change: the tree, and every token and comment except `;`.
+/// The content that formatting must preserve: the tree, and every token and comment except `;`.
 struct Content {
   std::string tree;
   std::vector<std::string> pieces;

@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 constexpr double seconds = 1;
 
-/// Where the hand is, m: it begins at the centre and at rest, and has its whole radius after a quarter of the time.
+/// The hand's place, m. It begins at rest at the centre and reaches its full radius after a quarter of the time.
 glm::dvec2 place(double time, double radius, double frequency, bool circles) {
   const double angle = 2 * pi * frequency * time;
   return radius * coming_up(time, seconds / 4) * glm::dvec2(std::sin(angle), circles ? std::cos(angle) : 0.0);
@@ -43,7 +43,7 @@ Exploration explore(Bank bank, const GradingHand& hand) {
         if (memory.states()[state] != entered[state]) exploration.changing[state] = true;
       exploration.hands.push_back(now);
       exploration.states.insert(exploration.states.end(), memory.states().begin(), memory.states().end());
-      // Half a step before and half a step after, so that a field's own rounding of steps does not count.
+      // The step is centred on the hand's place, so that sampling gives almost no energy to a conservative field.
       const glm::dvec2 force = glm::dvec2(tick(bank, memory, now)),
                        step = 0.5 * (at(time + period) - at(time - period));
       const double joule = force.x * step.x + force.y * step.y;

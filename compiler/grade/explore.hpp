@@ -6,17 +6,17 @@
 
 namespace wale {
 
-/// A second of a hand that strokes to and fro and then one that circles, each from entering on.
+/// One second of a hand that strokes to and fro, then one second of a hand that circles; each begins by entering.
 struct Exploration {
-  std::vector<Hand> hands;     ///< one a tick
-  std::vector<float> states;   ///< before that tick, hand by hand
+  std::vector<Hand> hands;     ///< one per tick
+  std::vector<float> states;   ///< before each tick, hand by hand
   std::vector<char> changing;  ///< for each state, whether it changed after it was entered
-  double gained_joule = 0;     ///< the most that the program had given the hand, net, at any moment of either second
-  double moved_joule = 0;      ///< the sum of what went either way, of the second in which that is more
+  double gained_joule = 0;     ///< largest net energy given to the hand up to any moment of either second
+  double moved_joule = 0;      ///< sum of the energies in both directions, of the second in which it is larger
 };
 
-/// Runs the program under such hands at its device's rate, by its own ticks, guarded by nothing. The hand's radius is
-/// cut to what the patch has room for.
+/// Runs the program under such hands at its device's rate, without guards. The hand's radius is limited to the room on
+/// the patch. Deterministic.
 Exploration explore(Bank bank, const GradingHand& hand);
 
 }  // namespace wale

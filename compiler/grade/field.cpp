@@ -10,11 +10,11 @@
 namespace wale {
 namespace {
 
-/// More than this, in units of cost over all hands, is worth another thread: about a millisecond in blocks.
+/// Work above this, in units of cost over all hands, is worth another thread: about one millisecond.
 constexpr double worth_a_thread = 4e6;
 
-/// Gives each value that is needed a register: those of a moment and states their own, constants theirs, and what is
-/// worked out temporaries that are used again after the last use.
+/// Assigns a register to each needed value: inputs, states and constants have registers of their own; computed values
+/// use temporaries, which are free again after their last use.
 class Layout {
  public:
   Layout(const Graph& graph, std::span<const NodeId> roots) : graph_(graph), last_use_(graph.size(), unused) {
@@ -22,7 +22,7 @@ class Layout {
     for (NodeId id = static_cast<NodeId>(graph.size()); id-- > 0;)
       if (last_use_[id] != unused)
         for (const NodeId operand : graph.operands(id)) {
-          // A component is a register of its look-up, so that it lives as long as the component.
+          // A component is one of its look-up's registers, so the look-up lives as long as the component.
           const NodeId until = graph[id].kind == Node::Kind::component ? last_use_[id] : id;
           if (last_use_[operand] == unused || last_use_[operand] < until) last_use_[operand] = until;
         }
@@ -30,7 +30,7 @@ class Layout {
 
   bool needed(NodeId id) const { return last_use_[id] != unused; }
 
-  /// `count` neighbouring temporaries, free from the first of them on.
+  /// Allocates `count` adjacent temporaries for a node and returns the first.
   std::size_t take(NodeId id, std::size_t count) {
     while (!busy_.empty() && busy_.front().until < id) {
       temporaries_.give_back(busy_.front().first, busy_.front().count);
@@ -54,7 +54,7 @@ class Layout {
 
   const Graph& graph_;
   std::vector<NodeId> last_use_;
-  std::vector<Busy> busy_;  ///< a heap, the first to be free in front
+  std::vector<Busy> busy_;  ///< a heap, with the first to become free in front
   Temporaries temporaries_;
 };
 
@@ -74,7 +74,7 @@ LiftedField::LiftedField(const Graph& graph, std::span<const NodeId> roots, cons
   layout_.states = described.states;
   if (first_constant + needed_constants + layout_.states.size() > register_limit) return;
 
-  // Operands stand before what uses them, so a look-up has its registers before its components.
+  // Operands precede their users, so a look-up has its registers before its components need them.
   const RegisterNumber first_state = layout_.first_state(), first_temporary = layout_.first_temporary();
   const auto place = [&](NodeId id) {
     const Node& node = graph[id];
@@ -116,7 +116,7 @@ LiftedField::LiftedField(const Graph& graph, std::span<const NodeId> roots, cons
 void LiftedField::evaluate(std::span<const Hand> hands, std::span<const float> states, std::vector<float>& values) {
   values.resize(roots_.size() * hands.size());
   const std::size_t blocks = (hands.size() + lanes - 1) / lanes;
-  // Every block writes values of its own, so that it does not matter which thread works out which.
+  // Every block writes only its own values, so the result does not depend on the threads.
   const auto work = [&](std::size_t begin, std::size_t end) { evaluate_blocks(begin, end, hands, states, values); };
   if (static_cast<double>(hands.size()) * static_cast<double>(cost_) < worth_a_thread)
     work(0, blocks);

@@ -9,31 +9,32 @@
 
 namespace wale {
 
-/// Some values of a lifted tick, worked out for many hands by the machine's own blocks of lanes.
+/// Computes some values of a lifted tick for many hands, by the machine's own blocks of lanes.
 class LiftedField {
  public:
-  /// The values of `roots`, any nodes of `graph`, which was lifted from the bank's program. Check `fits` before use.
+  /// `roots` are the nodes of `graph` to compute; `graph` was lifted from the bank's program. Check `fits` before use.
   LiftedField(const Graph& graph, std::span<const NodeId> roots, const Bank& bank);
 
-  /// Whether the machine has registers enough for what was asked; otherwise nothing can be worked out.
+  /// Whether the machine has enough registers; otherwise `evaluate` must not be called.
   bool fits() const { return fits_; }
 
-  /// `values[root * hands.size() + hand]`. `states` has the program's states for each hand, hand by hand, or is empty
-  /// for a program without any. Grids are as they are at first. Uses all cores; the same values on however many.
+  /// Writes `values[root * hands.size() + hand]`. `states` has the program's states for each hand, hand by hand; it is
+  /// empty for a program without states. Memories have their initial values. Uses all cores; the values do not depend
+  /// on their number.
   void evaluate(std::span<const Hand> hands, std::span<const float> states, std::vector<float>& values);
 
  private:
-  /// The hands of blocks `begin` .. `end` - 1.
+  /// Evaluates the hands of blocks `begin` .. `end` - 1.
   void evaluate_blocks(std::size_t begin, std::size_t end, std::span<const Hand> hands, std::span<const float> states,
                        std::vector<float>& values) const;
 
-  Program program_;      ///< that the splines and grids belong to
-  PatchProgram layout_;  ///< of the registers that the code below uses
+  Program program_;      ///< owner of the splines and grids
+  PatchProgram layout_;  ///< layout of the registers that the code below uses
   std::vector<RegisterNumber> roots_;
-  std::vector<float> registers_;  ///< what is the same for all lanes
-  std::vector<Input> inputs_;     ///< that the code reads
+  std::vector<float> registers_;  ///< initial values, the same for all lanes
+  std::vector<Input> inputs_;     ///< those that the code reads
   BlockCode code_;
-  long cost_ = 0;  ///< of the code for one hand
+  long cost_ = 0;  ///< cost of the code for one hand
   bool fits_ = false;
 };
 

@@ -18,15 +18,16 @@ namespace wale {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t candidates = 12;       // of each kind whose required damping is worked out
-constexpr std::size_t hands_at_once = 1024;  // looked at: what is found of them stays in the cache
-constexpr std::size_t tiles = 4;             // of the patch along each side, for the mean of the curl
-constexpr double significant = 4;            // standard errors of a mean
-constexpr double share_of_slope = 0.02;      // of the usual slope: curl below is rounding and clipping
-constexpr double share_of_hand = 0.01;   // of what the hand takes up itself at its pace: less energy than that is none
-constexpr double share_of_work = 0.01;   // of what went either way: energy below is rounding
-constexpr double sharp_over_step = 1.5;  // a slope so much above what a step between counts gives is a tip
-constexpr double jump_over_slope = 1.5;  // a step between counts so much above what the slope gives is a jump
+constexpr std::size_t candidates = 12;       // of each kind: hands whose required damping is computed
+constexpr std::size_t hands_at_once = 1024;  // evaluated at once, so that their values fit into the cache
+constexpr std::size_t tiles = 4;             // per side of the patch, over which the mean of the curl is taken
+constexpr double significant = 4;            // in standard errors of a mean
+constexpr double share_of_slope = 0.02;      // of the usual slope; smaller curl is rounding and clipping
+constexpr double share_of_hand = 0.01;  // of the power that the hand absorbs at its pace; smaller powers are ignored
+constexpr double share_of_work = 0.01;  // of the energy in both directions; smaller net energy is rounding
+constexpr double sharp_over_step =
+    1.5;  // ratio of a slope to the step between counts above which the slope is a sharp tip
+constexpr double jump_over_slope = 1.5;  // ratio of a step between counts to the slope above which the step is a jump
 
 class Grader {
  public:
@@ -72,7 +73,7 @@ class Grader {
     return explore(bank_, hand_);
   }
 
-  /// Whether the tick reads accelerations: what a mass takes up it gives back, so that one moment says nothing.
+  /// Whether the tick reads accelerations. A mass stores and returns energy, so the power at one moment says nothing.
   bool stores_motion() const {
     return std::ranges::any_of(program_.tick, [](const Instruction& instruction) {
       const int operands = facts(static_cast<Operation>(instruction.operation)).operands;
@@ -85,7 +86,7 @@ class Grader {
     });
   }
 
-  /// A program that remembers is looked at where a second of exploring leads it, any other all over its patch.
+  /// Chooses the hands: for a program that remembers, those of the exploration; otherwise hands all over the patch.
   void choose_hands() {
     extent_ = 0.5f * glm::vec2(bank_.size().width, bank_.size().height);
     if (!program_.states.empty()) {
@@ -98,23 +99,23 @@ class Grader {
     for (Hand& hand : hands_in_motion(lattice_hands, extent_, static_cast<float>(peak_speed()))) hands_.push_back(hand);
   }
 
-  /// Of a hand that circles at its own pace, m/s.
+  /// The largest speed of the exploring hand, m/s.
   double peak_speed() const { return 2 * pi * hand_.frequency * hand_.radius; }
 
-  /// What the hand itself takes up at its pace, and some of it.
+  /// The least power that counts, W: a share of the power that the hand absorbs at its pace.
   double least_watt() const { return share_of_hand * hand_.damping * peak_speed() * peak_speed(); }
 
   std::span<const float> states_of(std::size_t hand) const {
     return std::span(states_).subspan(hand * program_.states.size(), program_.states.size());
   }
 
-  /// Some hands at a time, from number `first` on, and what is remembered where they are.
+  /// The number of hands in the group that begins with hand `first`.
   std::size_t hands_from(std::size_t first) const { return std::min(hands_at_once, hands_.size() - first); }
   std::span<const float> states_from(std::size_t first) const {
     return std::span(states_).subspan(first * program_.states.size(), hands_from(first) * program_.states.size());
   }
 
-  /// Lets each of the hands be a little otherwise, and visits its number with what the force is like then.
+  /// Changes each hand by `move`, computes its force, and calls `visit` with the hand's number and that force.
   template <typename Move, typename Visit>
   void each_moved(const Move& move, const Visit& visit) {
     std::vector<Hand> moved;
@@ -133,8 +134,9 @@ class Grader {
     grade_.stiffest = steepest_.where;
   }
 
-  /// What one count of the encoder changes: of the force, which for one that jumps is more than its slope says, and of
-  /// the slope, which tells how fine the detail is. A sine of period P changes its slope by 2 sin(pi count / P) of it.
+  /// Finds the changes over one encoder count: that of the force, which at a jump is more than the slope predicts, and
+  /// that of the slope, which shows how fine the detail is. For a sine of period P, the slope changes by the share 2
+  /// sin(pi count / P).
   void find_steps() {
     const auto count = static_cast<float>(device_.position_step());
     double wave_number_squared = 0;  // rad^2 / m^2
@@ -157,7 +159,7 @@ class Grader {
       wave_number_squared += wave_number * wave_number;
     }
     grade_.finest_period = 2 * pi / std::sqrt(wave_number_squared);
-    // A tip that is sharper than a count is felt by nobody: the loop sees what lies between two counts.
+    // A tip that is sharper than one count cannot be felt: the loop sees only the difference between two counts.
     if (grade_.stiffness * count > sharp_over_step * grade_.step_newton) {
       grade_.stiffness = grade_.step_newton / count;
       grade_.stiffest = {worst_step_.position, worst_step_.velocity};
@@ -180,9 +182,10 @@ class Grader {
     find_sources();
   }
 
-  /// A loop gains the integral of the curl over what it goes round. Clipped textures have a little curl of either sign
-  /// everywhere, which no loop gathers; so what counts is its mean over a part of the patch.
-  /// For a program that remembers, where the hand is says too little: what it gave while it was explored does.
+  /// Finds the power of the curl. A closed path gains the integral of the curl over its area. Clipped textures have a
+  /// little curl of both signs everywhere, which cancels in an integral; therefore the mean over a tile of the patch is
+  /// used. For a program that remembers, the place does not determine the force, so the energy of the exploration is
+  /// used.
   void find_curl() {
     if (!program_.states.empty()) return;
     struct Sum {
@@ -220,10 +223,11 @@ class Grader {
     grade_.energy.conservative = watt < least_watt();
     if (grade_.energy.conservative) return;
     grade_.energy.curl_watt = watt;
-    grade_.energy.reasons.push_back("the field turns: a hand that goes round gains energy");
+    grade_.energy.reasons.push_back("the field has a curl: a hand that moves in circles gains energy");
   }
 
-  /// What the force adds when the same hand moves, against what it is at rest. Likewise.
+  /// Finds the power of the part of the force that motion adds. As with the curl, a program that remembers is
+  /// different.
   void find_motion_power() {
     if (!slopes_.depends_on_motion() || exploration_) return;
     const auto rest = [](Hand& hand) {
@@ -238,36 +242,36 @@ class Grader {
     grade_.energy.reasons.push_back("it pushes along the hand's motion");
   }
 
-  /// What is remembered, and what moves by itself unless it only ever resists.
+  /// Finds the energy from memory, and from sources that move by themselves, unless the force only ever resists.
   void find_sources() {
     const bool moves = slopes_.moves_by_itself() && pushes_along();
     if (!moves && !exploration_) return;
     if (!exploration_) exploration_ = explore(bank_, hand_);
     if (exploration_->gained_joule > std::max(least_watt(), share_of_work * exploration_->moved_joule))
-      grade_.energy.source_watt = exploration_->gained_joule;  // of a second
+      grade_.energy.source_watt = exploration_->gained_joule;  // over one second
     if (moves) {
       grade_.energy.reasons.push_back("something in it moves by itself");
-      // A hand that went along with it could have half of what went either way.
+      // A hand that moved along with it could gain half of the energy in both directions.
       grade_.energy.source_watt = std::max(grade_.energy.source_watt, exploration_->moved_joule / 2);
     } else if (grade_.energy.source_watt > 0) {
-      grade_.energy.reasons.push_back("what it remembers gives more energy than it was given");
+      grade_.energy.reasons.push_back("its memory returns more energy than it received");
     }
   }
 
-  /// Whether the force ever goes along with the hand's motion.
+  /// Whether the force ever pushes along the hand's motion.
   bool pushes_along() const {
     for (std::size_t i = 0; i < hands_.size(); ++i)
       if (glm::dot(at_[i].force, glm::dvec2(hands_[i].velocity)) > least_watt()) return true;
     return false;
   }
 
-  /// False when there are more derivatives than the machine has registers for.
+  /// False if the machine has too few registers for the derivatives.
   bool find_required_damping() {
-    // The damping that the steepest places need is worked out with that of the others.
+    // The steepest places are included.
     std::vector<Hand> hands = steepest_.hands;
     std::vector<float> states = steepest_.states;
     if (slopes_.depends_on_motion() || !program_.states.empty()) {
-      // Those of the lattice where either kind of slope, or both together, is greatest; and some of all others.
+      // Add the hands where the slope by place, by motion, or by both is greatest, and some of the others.
       const double half = 0.5 / device_.rate;
       std::vector<double> motion(hands_.size()), both(hands_.size());
       for (std::size_t first = 0; first < hands_.size(); first += hands_at_once) {
@@ -291,7 +295,7 @@ class Grader {
     const LoopTiming timing(device_);
     const auto all = slopes_.at(hands, states);
     if (all.empty()) return false;
-    // Many places are alike, in oil all of them; of equals the first is named as the worst.
+    // Many places are equal, in oil all of them; of equal ones the first is reported as the worst.
     std::vector<std::size_t> different;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (is_smooth(all[i].linear) && steepness(all[i].linear.direct.place) <= sharp_over_step * grade_.stiffness &&
@@ -301,7 +305,7 @@ class Grader {
     const auto work = [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) of_different[i] = required_damping(all[different[i]].linear, timing);
     };
-    // In closed form, without motion and states, they are not worth a thread.
+    // Without motion and states there is a closed form, which is not worth a thread.
     if (slopes_.depends_on_motion() || !program_.states.empty())
       in_parallel(different.size(), work);
     else
@@ -322,7 +326,7 @@ class Grader {
     return true;
   }
 
-  /// Whether there are slopes at all: at the middle of a cone there are none.
+  /// Whether the slopes exist: at the tip of a cone they do not.
   static bool is_smooth(const LinearProgram& linear) {
     const auto finite = [](double value) { return std::isfinite(value); };
     const auto smooth = [&](const HandSlopes& slopes) {
@@ -360,7 +364,7 @@ class Grader {
   glm::vec2 extent_{0.0f};
   std::vector<Hand> hands_;
   std::vector<float> states_;
-  std::vector<ProgramSlopes::ByPlace> at_;  ///< by place, beside `hands_`
+  std::vector<ProgramSlopes::ByPlace> at_;  ///< slopes by place for each of `hands_`
   SteepPlaces steepest_;
   Hand worst_step_;
   double largest_force_ = 0;

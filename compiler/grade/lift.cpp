@@ -5,7 +5,7 @@
 namespace wale {
 namespace {
 
-/// Which value each register holds while the code is read in order.
+/// Tracks the value in each register while the code is read in order.
 class TickReader {
  public:
   explicit TickReader(const Bank& bank) : bank_(bank), program_(bank.program().description()) {}
@@ -21,7 +21,7 @@ class TickReader {
  private:
   static constexpr NodeId unread = ~NodeId{0};
 
-  /// What does not change from tick to tick is as the bank has it.
+  /// The node for a register. Registers that do not change from tick to tick are constants from the bank.
   NodeId value(RegisterNumber number) {
     if (values_[number] != unread) return values_[number];
     const bool moment = number < first_constant && input_table[number].changes;

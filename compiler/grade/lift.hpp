@@ -8,11 +8,11 @@
 
 namespace wale {
 
-/// A program's tick as values again, so that it can be derived: all that the control thread sets up is constant.
+/// A program's tick as a graph of values, so that it can be derived. Everything that the setup computes is constant.
 struct LiftedTick {
   Graph graph;
-  std::array<NodeId, 2> force{};  ///< along x and y, behind its limit
-  std::vector<NodeId> next;       ///< what each state becomes, before it is held in its range
+  std::array<NodeId, 2> force{};  ///< along x and y, after its limit
+  std::vector<NodeId> next;       ///< new value of each state, before it is limited to its range
 };
 
 /// Reads the tick of a verified program with the bank's parameters and patch.

@@ -17,18 +17,19 @@ constexpr double lowest_frequency = 0.05;  // Hz
 constexpr int frequencies = 128;
 constexpr long long most_parabola = 64;  // ticks; the acceleration filter's own bound
 
-/// What each quantity of the hand is of its place, at one frequency and for one choice of windows.
+/// The frequency responses from the hand's place to its other quantities, at one frequency and for one choice of
+/// windows.
 struct HandResponse {
   Complex velocity, raw_velocity, acceleration, raw_acceleration;
 };
 
-/// The slope of a line from the newest sample to the one `window` ticks before, per place.
+/// Response of the slope of a line from the newest sample to the one `window` ticks before.
 Complex line_response(Complex back, int window, double period) {
   return (1.0 - std::pow(back, window)) / (window * period);
 }
 
-/// Twice the curve of the least-squares parabola through the newest `window` + 1 samples, per place: with t counted
-/// from the middle, that is 2 sum(w(t) place(t)) where w = (t^2 - mean t^2) / sum((t^2 - mean t^2)^2).
+/// Response of the second derivative of the least-squares parabola through the newest `window` + 1 samples. With t
+/// counted from the middle, it is 2 sum(w(t) place(t)) with w = (t^2 - mean t^2) / sum((t^2 - mean t^2)^2).
 Complex parabola_response(Complex back, int window, double period) {
   const int n = window + 1;
   const double middle = window / 2.0;
@@ -56,7 +57,7 @@ Matrix2 respond(const HandSlopes& slopes, const HandResponse& response, bool wit
   return sum;
 }
 
-/// Solves (z - carry) state = input for both columns of the input, in place; nothing when there is no one solution.
+/// Solves (z - carry) state = input for both columns of the input, in place; false if there is no unique solution.
 bool solve_states(const LinearProgram& program, Complex z, std::vector<std::array<Complex, 2>>& right) {
   const std::size_t n = program.states;
   std::vector<Complex> left(n * n);
@@ -87,7 +88,7 @@ bool solve_states(const LinearProgram& program, Complex z, std::vector<std::arra
   return true;
 }
 
-/// Force per place but for what place does directly; nothing where the states have no response.
+/// The response from place to force, without the direct dependence on place; nothing if the states have no response.
 std::optional<Matrix2> transfer(const LinearProgram& program, const HandResponse& response, Complex z) {
   Matrix2 sum = respond(program.direct, response, false);
   if (program.states == 0) return sum;
@@ -105,7 +106,7 @@ std::optional<Matrix2> transfer(const LinearProgram& program, const HandResponse
   return sum;
 }
 
-/// Of the Hermitian part.
+/// The greatest eigenvalue of the Hermitian part of a matrix.
 double greatest_eigenvalue(const Matrix2& m) {
   const double a = m[0][0].real(), d = m[1][1].real();
   const Complex c = 0.5 * (m[0][1] + std::conj(m[1][0]));
@@ -145,7 +146,7 @@ double required_damping(const LinearProgram& program, const LoopTiming& timing) 
   };
   const bool static_only = program.states == 0 && !uses(&HandSlopes::velocity) && !uses(&HandSlopes::raw_velocity) &&
                            !uses(&HandSlopes::acceleration) && !uses(&HandSlopes::raw_acceleration);
-  // With nothing but place the supremum is where the frequency goes to 0.
+  // If the force depends on the place only, the supremum is the limit at frequency 0.
   if (static_only) return stiffness * (timing.period / 2 + timing.latest());
 
   const std::vector<int> one{1};

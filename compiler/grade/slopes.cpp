@@ -23,7 +23,7 @@ std::vector<HandQuantity> hand_quantities() {
           {&HandSlopes::raw_acceleration, {input(Input::raw_acceleration_x), input(Input::raw_acceleration_y)}}};
 }
 
-/// For each node, whether it depends on one that `leaf` picks.
+/// For each node, whether it depends on a node for which `leaf` is true.
 template <typename Leaf>
 std::vector<char> depending(const Graph& graph, const Leaf& leaf) {
   std::vector<char> depends(graph.size(), false);
@@ -53,7 +53,7 @@ void ProgramSlopes::find_dependences(const std::vector<char>& changing) {
                Input::acceleration_x, Input::acceleration_y, Input::raw_acceleration_x, Input::raw_acceleration_y});
   }));
 
-  // A state is driven when what it becomes depends on the hand or on a driven state.
+  // A state is driven if its new value depends on the hand or on a driven state.
   std::vector<char> driven(states_, false);
   for (bool more = true; std::exchange(more, false);) {
     const auto depends = depending(graph, [&](const Node& node) {
@@ -67,7 +67,7 @@ void ProgramSlopes::find_dependences(const std::vector<char>& changing) {
     return node.kind == Node::Kind::state && !driven[node.index] && changing[node.index];
   };
   moves_by_itself_ = either(depending(graph, is_source));
-  // What drives a driven state may be a source too.
+  // A driven state may also depend on a source.
   const auto by_itself = depending(graph, is_source);
   const auto through_states =
       depending(graph, [&](const Node& node) { return node.kind == Node::Kind::state && driven[node.index]; });
@@ -89,7 +89,7 @@ ProgramSlopes::ProgramSlopes(const Bank& bank, const std::vector<char>& changing
   place_field_.emplace(lifted_.graph, roots, bank_);
 }
 
-/// Of the force and of what each state becomes, by all that they depend on.
+/// Derives the force and the new value of each state by all quantities on which they depend.
 void ProgramSlopes::derive_all() {
   Graph& graph = lifted_.graph;
   std::vector<NodeId> results(lifted_.force.begin(), lifted_.force.end());

@@ -10,34 +10,34 @@
 
 namespace wale {
 
-/// A program with more states than this is not derived: its response would take too long.
+/// A program with more states than this is not graded: its frequency response would take too long.
 inline constexpr std::size_t most_graded_states = 32;
 
-/// The slopes of a program's force and states by all that they depend on, for many hands at once.
+/// The derivatives of a program's force and states by all quantities on which they depend, for many hands at once.
 class ProgramSlopes {
  public:
-  /// `changing`: for each state, whether it was ever seen to change.
+  /// `changing`: for each state, whether it was observed to change.
   ProgramSlopes(const Bank& bank, const std::vector<char>& changing);
 
-  /// Whether the machine has registers enough for derivatives by place; otherwise nothing below may be called.
+  /// Whether the machine has enough registers for the derivatives by place; otherwise nothing below may be called.
   bool fits() const { return place_field_ && place_field_->fits(); }
 
   struct At {
     glm::dvec2 force{0.0};
     LinearProgram linear;
   };
-  /// One for each hand; `states` as for `LiftedField::evaluate`. None when the machine has not registers enough for so
-  /// many derivatives.
+  /// One for each hand; `states` as for `LiftedField::evaluate`. Empty if the machine has too few registers for all
+  /// derivatives.
   std::vector<At> at(std::span<const Hand> hands, std::span<const float> states);
   struct ByPlace {
     glm::dvec2 force{0.0};
     Slopes place{};  ///< N/m
   };
-  /// Force and slope by place alone, which is quicker.
+  /// Force and slope by place only, which is faster.
   std::vector<ByPlace> by_place(std::span<const Hand> hands, std::span<const float> states);
 
   bool depends_on_motion() const { return depends_on_motion_; }
-  /// On time, or on states that change though neither the hand nor anything that it drives drives them.
+  /// Whether the force depends on time, or on states that change without being driven by the hand.
   bool moves_by_itself() const { return moves_by_itself_; }
 
  private:
@@ -49,7 +49,7 @@ class ProgramSlopes {
   LiftedTick lifted_;
   std::size_t states_ = 0;
   bool depends_on_motion_ = false, moves_by_itself_ = false;
-  std::vector<Slopes HandSlopes::*> quantities_;  ///< that the tick depends on
+  std::vector<Slopes HandSlopes::*> quantities_;  ///< those on which the tick depends
   std::optional<LiftedField> field_, place_field_;
   std::vector<float> values_;
 };

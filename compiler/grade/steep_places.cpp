@@ -9,11 +9,11 @@ namespace wale {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t climbers = 8;    // of the steepest places, from which steeper ones are looked for
-constexpr std::size_t directions = 8;  // of each step
-constexpr int climbs = 14;             // each with half the step of the one before
+constexpr std::size_t climbers = 8;    // places from which steeper ones are searched
+constexpr std::size_t directions = 8;  // tried in each step
+constexpr int climbs = 14;             // steps, each half as long as the one before
 
-/// The steepest of the hands, by number; of equally steep ones the first.
+/// The numbers of the steepest hands; of equally steep ones the first.
 std::vector<std::size_t> steepest_of(std::span<const ProgramSlopes::ByPlace> at) {
   std::vector<double> steep(at.size());
   std::ranges::transform(at, steep.begin(), steepness, &ProgramSlopes::ByPlace::place);
@@ -52,7 +52,7 @@ SteepPlaces find_steepest(ProgramSlopes& slopes, const LookedAt& looked_at, glm:
     best.states.insert(best.states.end(), states.begin(), states.end());
     steepest.push_back(steepness(looked_at.at[i].place));
   }
-  // At first as far as the hands are apart that were looked at all over the patch.
+  // The first step is the distance between the hands of the lattice.
   glm::vec2 step = extent / std::sqrt(static_cast<float>(lattice_hands));
   std::vector<Hand> tried;
   std::vector<float> tried_states;

@@ -8,8 +8,8 @@ namespace wale {
 
 namespace {
 
-/// A node that can be calculated with, so that the derivative column of the instruction table reads as mathematics.
-/// What is known to be zero stays zero and vanishes from sums: a derivative has no term where nothing changes.
+/// A node with arithmetic operators, so that the derivative column of the instruction table can be compiled. A known
+/// zero stays zero and vanishes from sums, so constant parts add no terms to a derivative.
 struct Expression {
   Graph* graph;
   NodeId id;
@@ -43,7 +43,7 @@ Expression operator/(Expression a, Expression b) { return a.zero() ? a : apply(O
   return {a.graph, a.graph->apply(Operation::select, a.id, b.id, c.id)};
 }
 
-/// The derivative of the result r of an operation of a, b, c, whose derivatives are da, db, dc; 0 of a look-up.
+/// The derivative of the result r of an operation on a, b, c, whose derivatives are da, db, dc; 0 for a look-up.
 [[gnu::noinline]] NodeId derivative_of(Graph& graph, const Node& node, NodeId result, NodeId derivative_a,
                                        NodeId derivative_b, NodeId derivative_c) {
   const Expression r{&graph, result}, a{&graph, node.a}, b{&graph, node.b}, c{&graph, node.c};
@@ -80,7 +80,8 @@ bool Derivatives::moves(const Node& node) const {
          std::ranges::find(by_.inputs, static_cast<Input>(node.index)) != by_.inputs.end();
 }
 
-/// How slope number `slope` (1 along a, 2 along b) of a table changes along a (coordinate 0) or b (1), per sample.
+/// The derivative, per sample, of slope number `slope` (1 along a, 2 along b) of a table along a (coordinate 0) or b
+/// (1).
 NodeId Derivatives::slope_of_slope(const Node& sample, std::uint32_t slope, int coordinate) {
   const auto slope_at = [&](Operation shift) {
     const NodeId step = graph_.constant(*difference_);
@@ -92,7 +93,7 @@ NodeId Derivatives::slope_of_slope(const Node& sample, std::uint32_t slope, int 
   return graph_.apply(Operation::multiply, change, graph_.constant(0.5f / *difference_));
 }
 
-/// The spline's own partial derivatives, chained to those of its coordinates.
+/// The spline's partial derivatives, multiplied by the derivatives of its coordinates (chain rule).
 NodeId Derivatives::of_component(const Node& node) {
   const Node sample = graph_[node.a];  // a copy: the graph grows
   const bool slope = node.index != 0;
@@ -109,13 +110,13 @@ NodeId Derivatives::of_component(const Node& node) {
   return sum.id;
 }
 
-/// What has to be derived for one node; of all else that it is worked out from the derivative is known then.
+/// Finds the nodes that must be derived for one node. For all other operands the derivative is known afterwards.
 void Derivatives::find_needed(NodeId of, NodeId zero) {
   if (known_.size() <= of) known_.resize(of + 1, none);
   needed_.clear();
   needed_.reserve(graph_.size());
   NodeId* const known = known_.data();
-  std::size_t waiting = 0;  // as long as a node waits it is known as `awaited`
+  std::size_t waiting = 0;  // nodes marked `awaited` in `known`
   const auto ask = [&](NodeId id) {
     if (known[id] != none) return;
     known[id] = awaited;
@@ -125,7 +126,7 @@ void Derivatives::find_needed(NodeId of, NodeId zero) {
   for (NodeId id = of + 1; waiting > 0;) {
     if (known[--id] != awaited) continue;
     --waiting;
-    known[id] = zero;  // unless there is more to say
+    known[id] = zero;  // unless the node changes, see below
     const Node& node = graph_[id];
     if (node.rate != Rate::tick) continue;
     needed_.push_back(id);

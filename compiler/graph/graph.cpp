@@ -11,7 +11,7 @@ namespace wale {
 
 namespace {
 
-/// What makes a node the value that it is. Where it came from does not, and the rate follows from the rest.
+/// The parts of a node that decide its value. Its place in the source does not, and its rate follows from the rest.
 struct Identity {
   std::uint64_t first_two, rest;  ///< operands a and b; c and the index
   std::uint16_t what;             ///< kind and operation
@@ -24,7 +24,7 @@ struct Identity {
 
   friend bool operator==(const Identity&, const Identity&) = default;
 
-  /// A number below 2^bits. Each multiplication carries what is below to what is above, which is what counts.
+  /// A hash below 2^bits. Each multiplication mixes lower bits into the higher ones, which are used.
   std::size_t hash(unsigned bits) const {
     return (((first_two * 0x9e3779b97f4a7c15u) ^ rest) + what) * 0xbf58476d1ce4e5b9u >> (64 - bits);
   }
@@ -33,10 +33,11 @@ struct Identity {
 /// The properties of an operation that `Graph::apply` uses.
 struct Working {
   std::uint8_t operands = 0;
-  Rate rate = Rate::constant;  ///< how often it is worked out at least: a table is not there while the compiler folds
+  Rate rate =
+      Rate::constant;  ///< the lowest rate of its result: a look-up cannot be folded, since the compiler has no tables
 };
 
-/// By number.
+/// By the operation's number.
 constexpr auto workings = [] {
   std::array<Working, operation_table.size()> table{};
   for (std::size_t number = 0; number < table.size(); ++number)
@@ -65,7 +66,7 @@ void Graph::reserve(std::size_t nodes) {
   }
 }
 
-/// The node that is there already, or this one. For those of which a program has hundreds, this is part of who asks.
+/// The existing equal node, or this one as a new node. Inlined, since a program makes hundreds of nodes.
 [[gnu::always_inline]] inline NodeId Graph::shared(const Node& node) {
   if (size_ == room_) [[unlikely]]
     reserve(size_ + 1);
@@ -106,13 +107,13 @@ NodeId Graph::state(std::uint32_t index) {
 }
 
 NodeId Graph::folded(Operation operation, NodeId a, NodeId b, NodeId c) {
-  const int count = facts(operation).operands;  // what it does not take may be no constant
+  const int count = facts(operation).operands;  // ignore unused operands, which need not be constant
   return constant(
       result_of(operation, nodes_[a].value(), count > 1 ? nodes_[b].value() : 0, count > 2 ? nodes_[c].value() : 0));
 }
 
-/// What is there already and has the value for every float, or `none`. Nothing else is simplified: the value must not
-/// depend on what the compiler knew.
+/// An existing node that has the same value for all floats, or `none`. Nothing else is simplified: the bits of the
+/// result must not depend on what the compiler knows.
 inline NodeId Graph::simpler(Operation operation, NodeId a, NodeId b, NodeId c) const {
   switch (operation) {
     case Operation::multiply: return is_constant(b, 1) ? a : is_constant(a, 1) ? b : none;
@@ -140,7 +141,7 @@ NodeId Graph::apply(Operation operation, NodeId a, NodeId b, NodeId c, std::uint
     take(c);
   else
     c = 0;
-  if (most == Rate::constant) return folded(operation, a, b, c);  // only constants are worked out once
+  if (most == Rate::constant) return folded(operation, a, b, c);  // all operands are constant
   if (least == Rate::constant || operation == Operation::negate)
     if (const NodeId there = simpler(operation, a, b, c); there != none) return there;
   return shared({.kind = Node::Kind::operation,

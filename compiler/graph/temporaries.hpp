@@ -8,12 +8,12 @@
 
 namespace wale {
 
-/// Hands out the temporary registers of one piece of code and takes them back after their last use.
+/// Allocates the temporary registers of one piece of code and frees them after their last use.
 class Temporaries {
  public:
-  /// For so many neighbours: always.
+  /// Whether there is room for that many adjacent registers: always.
   static constexpr bool has_room(std::size_t) { return true; }
-  /// The lowest register that is free.
+  /// Allocates the lowest free register.
   std::size_t take() {
     std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
     while (free_[word] == 0)
@@ -24,12 +24,12 @@ class Temporaries {
     if (first >= most_) most_ = first + 1;
     return first;
   }
-  /// `count` neighbouring registers, the lowest that are free.
+  /// Allocates the lowest `count` adjacent free registers, and returns the first.
   std::size_t take(std::size_t count) { return count == 1 ? take() : take_neighbours(count); }
   void give_back(std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
   }
-  /// Only if they are given back; else `first` may be any number.
+  /// Frees registers if `given`; otherwise does nothing, and `first` may be any number.
   void give_back_if(bool given, std::size_t first, std::size_t count) {
     if (given) give_back(first, count);
   }
@@ -40,7 +40,7 @@ class Temporaries {
 
   static std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i % word_bits; }
 
-  // Apart from `take`, which is called for every instruction.
+  // Separate from `take`, which is called for every instruction and must stay small.
 
   [[gnu::noinline]] void add_word() { free_.push_back(~std::uint64_t{0}); }
   [[gnu::noinline]] std::size_t take_neighbours(std::size_t count) {
@@ -59,7 +59,7 @@ class Temporaries {
   std::size_t most_ = 0;
 };
 
-/// The same for code that gets along with few of them, each by itself, as nearly all does.
+/// The same for code that needs few registers and no adjacent ones, as nearly all code does.
 class FewTemporaries {
  public:
   bool has_room(std::size_t count) const { return free_ != 0 && count == 1; }
@@ -70,7 +70,7 @@ class FewTemporaries {
     return static_cast<std::size_t>(first);
   }
   void give_back(std::size_t first, std::size_t) { free_ |= std::uint64_t{1} << first % 64; }
-  /// Without a branch, since nobody could foretell it.
+  /// Without a branch, which would be unpredictable.
   void give_back_if(bool given, std::size_t first, std::size_t) { free_ |= std::uint64_t{given} << first % 64; }
   std::size_t most() const { return static_cast<std::size_t>(std::bit_width(touched_)); }
 

@@ -57,7 +57,7 @@ Dependence dependence_of_input(Input input) {
   }
 }
 
-/// What the result of an operation changes with besides what its operands do, by number.
+/// The dependence that an operation adds to those of its operands, by its number.
 constexpr auto own_dependence = [] {
   std::array<std::uint8_t, operation_table.size()> table{};
   table[static_cast<std::size_t>(Operation::sample)] = Dependence::table;
@@ -69,7 +69,7 @@ constexpr auto own_dependence = [] {
 }  // namespace
 
 [[gnu::always_inline]] inline void Terms::find_dependence(Term& term) const {
-  if (term.kind == TermKind::operation) {  // as most are
+  if (term.kind == TermKind::operation) {  // as nearly always
     const auto number = static_cast<std::size_t>(term.operation);
     const int count = operation_table[number].operands;
     Dependence all = own_dependence[number];
@@ -78,7 +78,7 @@ constexpr auto own_dependence = [] {
     if (count > 2) all |= dependence(term.c);
     term.dependence = all;
     term.operands = static_cast<std::uint8_t>(count);
-    // Operands that the operation does not take are 0, which is some term too.
+    // Unused operands are 0, which is the number of another term.
     if (all.known())
       term.value = result_in_double(term.operation, terms_[term.a].value, terms_[term.b].value, terms_[term.c].value);
     return;
@@ -105,12 +105,12 @@ constexpr auto own_dependence = [] {
       return;
     case TermKind::peak:
       term.operands = 1;
-      // The patch's extents are setup inputs: the peak may change with them even if nothing else does.
+      // The patch's extents are setup inputs, so the peak changes with them even if the height has no parameters.
       term.dependence = Dependence::parameter | (dependence(term.a).on(Dependence::open) ? Dependence::open : 0);
   }
 }
 
-/// Of the last term, which has just been added: what there is to know of it.
+/// Fills in the facts about the term that is being added.
 [[gnu::always_inline]] inline TermId Terms::entered(Term& term) {
   if (place_ && (term.span == Span{} || term.span.source != place_->source)) term.span = *place_;
   find_dependence(term);
@@ -152,7 +152,7 @@ TermId Terms::apply(Operation operation, TermId a, TermId b, TermId c, Span span
 TermId Terms::append(const Terms& others) {
   const auto first = static_cast<TermId>(terms_.size());
   terms_.insert(terms_.end(), others.terms_.begin(), others.terms_.end());
-  // Operands that a term does not take are 0, and may be any other number as well.
+  // Unused operands are shifted too, which is harmless.
   for (auto term = terms_.begin() + first; term != terms_.end(); ++term)
     term->a += first, term->b += first, term->c += first;
   return first;

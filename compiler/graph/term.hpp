@@ -11,28 +11,29 @@
 
 namespace wale {
 
-/// A checked expression is a graph of terms: dimensions have been checked and left behind, vectors have been taken
-/// apart, functions inlined, names resolved; all values are in SI units. A `let` used twice is one term used twice.
+/// A checked expression is a graph of terms. Dimensions have been checked and dropped, vectors split into their parts,
+/// functions inlined, names resolved; all values are in SI units. A `let` that is used twice is one term with two
+/// users.
 using TermId = std::uint32_t;
 
 enum class TermKind : std::uint8_t {
   literal,    ///< `value`
   input,      ///< `input`
   parameter,  ///< parameter number `index`
-  open,       ///< a quantity left open, number `index`; `solve` settles it
-  settled,    ///< what `a` is: what was open here
+  open,       ///< open quantity number `index`; `solve` settles it
+  settled,    ///< the value of `a`; this term was open
   magnitude,  ///< in a map's law: the perceived magnitude
   carrier,    ///< in a map's law: the size of the carrier
-  state,      ///< state number `index` as it was when the tick began
-  cells,      ///< how many columns (index 2 g) or rows (2 g + 1) memory number g has; `solve` settles it
-  operation,  ///< `operation` of a, b, c as far as it takes operands; `sample` reads table number `index`, `recall` and
+  state,      ///< state number `index` at the beginning of the tick
+  cells,      ///< number of columns (index 2 g) or rows (2 g + 1) of memory number g; `solve` settles it
+  operation,  ///< `operation` on as many of a, b, c as it takes; `sample` reads table number `index`, `recall` and
               ///< `cell` grid number `index`
   component,  ///< result `index` of the sample or recall `a`
   gradient,   ///< derivative of `a` along axis `index` (0 x, 1 y)
   peak,       ///< 99th percentile of `a` over the patch less its rim
 };
 
-/// The quantities that a term's value changes with, a bit each.
+/// The quantities with which a term's value changes, one bit each.
 class Dependence {
  public:
   enum Cause : std::uint8_t {
@@ -42,23 +43,23 @@ class Dependence {
     open = 8,
     moment = 16,  ///< time, acceleration, the button, the hand's place on the workspace
     state = 32,   ///< states and memories
-    table = 64,   ///< nothing by itself, but only the machine knows what is looked up
+    table = 64,   ///< a look-up: constant, but the compiler cannot evaluate it
   };
 
   Dependence() = default;
-  /// On one cause, or several joined by `|`.
+  /// Dependence on one cause, or on several joined by `|`.
   Dependence(int causes) : causes_(static_cast<std::uint8_t>(causes)) {}
 
-  /// On any of them.
+  /// Whether it depends on any of these causes.
   bool on(int causes) const { return (causes_ & causes) != 0; }
   Dependence without(Cause cause) const { return causes_ & ~cause; }
   void operator|=(Dependence other) { causes_ |= other.causes_; }
 
   bool constant() const { return (causes_ & ~table) == 0; }
-  /// Worked out of nothing but literals by operations whose results the compiler knows.
+  /// Whether it is computed only from literals, by operations that the compiler can evaluate.
   bool known() const { return causes_ == 0; }
   bool in_tick() const { return on(position) || changing(); }
-  /// Not the same at the same place: no height, and nothing to take a peak of.
+  /// Whether its value at one place may change, so that it is neither a height nor an argument of `peak`.
   bool changing() const { return on(velocity | moment | state); }
 
  private:
@@ -68,10 +69,10 @@ class Dependence {
 struct Term {
   TermKind kind = TermKind::literal;
   Operation operation = Operation::add;
-  Dependence dependence;      ///< what `Terms::add` finds
-  std::uint8_t operands = 0;  ///< how many of a, b, c it is worked out from, which `Terms::add` finds too
+  Dependence dependence;      ///< filled in by `Terms::add`
+  std::uint8_t operands = 0;  ///< how many of a, b, c it uses; filled in by `Terms::add`
   TermId a = 0, b = 0, c = 0;
-  double value = 0;  ///< of a literal; of an operation that is `known` what it comes to, which `Terms::add` finds
+  double value = 0;  ///< of a literal, or of a `known` operation; the latter is filled in by `Terms::add`
   std::uint32_t index = 0;
   Span span;
 
@@ -79,12 +80,12 @@ struct Term {
   bool known() const { return dependence.known(); }
 };
 
-/// The terms of one material. Operands always stand before what uses them, so one pass in order reaches everything.
+/// The terms of one material. Operands always precede their users, so one pass in order suffices.
 class Terms {
  public:
   const Term& operator[](TermId id) const { return terms_[id]; }
   std::size_t size() const { return terms_.size(); }
-  /// Makes room for so many terms; there may be more.
+  /// Reserves room for that many terms.
   void reserve(std::size_t terms) { terms_.reserve(terms); }
 
   TermId add(const Term& term);
@@ -97,14 +98,14 @@ class Terms {
 
   Dependence dependence(TermId id) const { return terms_[id].dependence; }
 
-  /// Adds all of the others as they are; gives by how much their numbers have grown.
+  /// Appends all terms of `others`; returns the offset of their new numbers.
   TermId append(const Terms& others);
-  /// What was open, or a number of cells, is what `solution` is, which stands before it. What depends on it is still
-  /// said to depend on something open.
+  /// Gives an open quantity, or a number of cells, the value of `solution`, an earlier term. Terms that use it keep the
+  /// dependence on an open quantity.
   void settle(TermId open, TermId solution);
 
-  /// From now on, what is added from another file than `place`'s, or from nowhere, is said to come from `place`: what a
-  /// function of another file does belongs where the author calls it. Nothing: each term keeps its own span.
+  /// From now on, terms from another file than that of `place`, or without a file, are attributed to `place`: the terms
+  /// of a function of another file belong to the author's call. With nothing, each term keeps its own span.
   void attribute(std::optional<Span> place) { place_ = place; }
   std::optional<Span> attributed() const { return place_; }
 
@@ -116,10 +117,11 @@ class Terms {
   std::optional<Span> place_;
 };
 
-/// What an operation makes of numbers, in double precision; not-a-number where it takes something else.
+/// The result of an operation on numbers in double precision; not-a-number for an operation that needs more than
+/// numbers.
 double result_in_double(Operation operation, double a, double b, double c);
 
-/// The terms that a term is worked out from: a, b, c as far as it has them.
+/// The operands of a term: as many of a, b, c as it uses.
 struct TermOperands {
   std::array<TermId, 3> terms{};
   std::size_t count = 0;

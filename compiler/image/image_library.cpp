@@ -8,7 +8,7 @@ namespace wale {
 namespace {
 
 Result<const ImageLibrary*> opened_image_library() {
-  // Where it was built; for a program that was moved, where the system looks.
+  // The path of the build; for a program that was moved, the system's search path.
   for (const char* path : {WALE_IMAGE_LIBRARY, "libwale_images.so"}) {
     if (void* library = dlopen(path, RTLD_NOW | RTLD_LOCAL)) {
       if (const void* functions = dlsym(library, "wale_image_library"))

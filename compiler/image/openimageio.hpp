@@ -1,7 +1,7 @@
 #pragma once
 
-// OpenImageIO's headers make fmt header-only, which compiles the whole of it in every file that includes them: half of
-// such a file's build time. Whoever includes fmt first gets the library.
+// OpenImageIO's headers make fmt header-only, so that all of fmt is compiled in every file that includes them: half of
+// such a file's build time. Including fmt first uses its library instead.
 // clang-format off
 #include <fmt/format.h>
 #include <OpenImageIO/filesystem.h>

@@ -13,7 +13,7 @@ std::string cpp_arithmetic(std::string_view file, const std::string& name_space)
 /// The part of schema/patch_program.hpp that the machine's splines need.
 std::string cpp_height_table(const std::string& name_space);
 
-/// What else every program uses, and what programs with peaks use.
+/// Further functions that every program uses; with `with_peaks`, also those for peaks.
 std::string cpp_helpers(bool with_peaks);
 
 }  // namespace wale

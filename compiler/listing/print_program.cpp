@@ -142,7 +142,7 @@ class ProgramPrinter {
     for (const auto& result : results_of(section, index)) line("       {}", result);
   }
 
-  /// What the program does with the results of a section.
+  /// How the program uses the results of a section, in words.
   std::vector<std::string> results_of(CodeSection section, std::size_t index = 0) const {
     std::vector<std::string> results;
     switch (section) {

@@ -9,8 +9,8 @@ namespace wale {
 
 namespace {
 
-/// The i-th point of the four-dimensional Kronecker lattice, each coordinate in [-1, 1): the powers of the root of
-/// g^5 = g + 1 that fill four dimensions most evenly.
+/// The i-th point of a four-dimensional Kronecker lattice, with coordinates in [-1, 1). Its steps are the powers of 1 /
+/// g, where g is the real root of g^5 = g + 1, which spread points evenly in four dimensions.
 std::array<float, 4> lattice_point(std::size_t i) {
   constexpr double g = 1.1673039782614187;
   std::array<float, 4> point;
@@ -26,7 +26,7 @@ std::array<float, 4> lattice_point(std::size_t i) {
 }  // namespace
 
 bool depends_on_the_moment(const PatchProgram& program) {
-  // A surface is drawn of places alone.
+  // The picture depends on places only.
   const auto of_the_moment = [](RegisterNumber number) {
     return number < first_constant && input_table[number].changes && !input_table[number].picture;
   };

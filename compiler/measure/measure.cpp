@@ -26,9 +26,9 @@ Measured measure(const Bank& bank) {
   const float speed = static_cast<float>(program.device.speed_limit);
 
   const std::vector<Hand> at_rest = hands_at_rest(hands, extent);
-  // Where the force depends on place alone, only the corners differ from the hands at rest.
+  // If the force depends on the place only, moving hands add nothing to the hands at rest except the corners.
   std::vector<Hand> moving = hands_in_motion(depends_on_the_moment(program) ? moving_hands : corners, extent, speed);
-  // Corners are where fields that grow outward are strongest, and full speed where those of motion are.
+  // Forces that grow outward are strongest at the corners, and those of motion at full speed.
   for (std::size_t i = 0; i < corners; ++i) {
     const auto sign = [&](unsigned bit) { return i >> bit & 1u ? 1.0f : -1.0f; };
     moving[i] = {glm::vec2(sign(0), sign(1)) * glm::vec2(size.width, size.height) / 2.0f,

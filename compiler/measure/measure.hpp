@@ -16,14 +16,14 @@ struct Measured {
 /// Runs the program at this bank's parameters. Deterministic; about a millisecond.
 Measured measure(const Bank& bank);
 
-/// How a program shakes a pad, as far as the actuator can at each frequency, under a hand that goes to and fro across
-/// its patch as the hand `normal` does.
+/// The shaking of a pad by a program, limited by the actuator at each frequency, under a hand that goes to and fro
+/// across the patch.
 struct MeasuredShaking {
-  float max = 0, p99 = 0, rms = 0;  ///< of the amplitude, m/s^2
-  float lowest = 0, highest = 0;    ///< Hz, where it shakes with half of its P99 or more
+  float max = 0, p99 = 0, rms = 0;  ///< amplitude, m/s^2
+  float lowest = 0, highest = 0;    ///< frequencies at which the amplitude is at least half of `p99`, Hz
 };
 
-/// The same of a program that vibrates, under the hand of a `person`; null: 1 Hz, 40 mm to either side.
+/// Measures a program that vibrates, under the hand of `person`; if null, 1 Hz and 40 mm to both sides. Deterministic.
 MeasuredShaking measure_shaking(const Bank& bank, const HandDeclaration* person);
 
 }  // namespace wale

@@ -9,19 +9,19 @@ namespace wale {
 namespace {
 
 constexpr double least_seconds = 1, most_seconds = 5;
-constexpr double bend = 0.3;         // of the stroke's reach, across it: so that a trajectory is seen
-constexpr double whole_after = 0.3;  // s until the stroke has its whole reach
-constexpr double last_phase = 0.9;   // rad; the picture is taken while the hand is under way
+constexpr double bend = 0.3;         // sideways, as a share of the stroke's reach, so that a trajectory is visible
+constexpr double whole_after = 0.3;  // s until the stroke has its full reach
+constexpr double last_phase = 0.9;   // rad; the picture is taken while the hand is moving
 constexpr double most_rate = 20000;  // Hz; a device that claims more is rehearsed at this
 constexpr long most_samples = 2400;
 constexpr double two_pi = 6.283185307179586;
 
-/// To and fro, as a declared hand does (`showing` of calibration/hands/hands.wale).
+/// A motion to and fro like that of a declared hand (`showing` of calibration/hands/hands.wale).
 struct Stroke {
-  double reach = 0, frequency = 0;  ///< m to either side of the centre; Hz
-  double seconds = 0;               ///< how long it goes on
+  double reach = 0, frequency = 0;  ///< m to both sides of the centre; Hz
+  double seconds = 0;               ///< duration
 
-  /// Where the hand is, m. It begins at rest at the centre.
+  /// The hand's place at a time (s), in m. It begins at rest at the centre.
   glm::dvec2 operator()(double time) const {
     const double phase = two_pi * frequency * (time - seconds) + last_phase;
     return glm::dvec2(std::sin(phase), bend * std::sin(phase / 2 + 0.7)) * (coming_up(time, whole_after) * reach);

@@ -9,27 +9,27 @@
 
 namespace wale {
 
-/// Whether a program remembers anything from tick to tick, so that entering it says little of it.
+/// Whether a program has states or memories, so that its behaviour right after entering is not typical.
 bool remembers(const PatchProgram& program);
 
 /// The state of a program after a hand came in at the patch's centre and rubbed to and fro.
 struct Rehearsal {
   explicit Rehearsal(const Program& program) : memory(program) {}
 
-  Memory memory;                 ///< as the last tick left it
-  Hand hand;                     ///< of the last tick
-  std::vector<ShownMark> marks;  ///< as they stand at the end, in the order of drawing
-  /// Beside `marks`: where a trajectory's place was in its last seconds, the oldest first; empty for other marks.
+  Memory memory;                 ///< after the last tick
+  Hand hand;                     ///< in the last tick
+  std::vector<ShownMark> marks;  ///< at the end, in the order of drawing
+  /// For each of `marks`: the recent places of a trajectory, the oldest first; empty for other marks.
   std::vector<std::vector<glm::vec2>> paths;
-  double seconds = 0;             ///< how long the hand rubbed; 0 where nothing can change
-  std::vector<double> times;      ///< s; of some of the ticks, as many as a picture can show
-  std::vector<glm::vec2> places;  ///< beside `times`: of the hand, m
-  std::vector<Force> forces;      ///< beside `times`: on the hand, N
+  double seconds = 0;             ///< duration of the rubbing, s; 0 if nothing can change
+  std::vector<double> times;      ///< times of some ticks, as many as a picture can show, s
+  std::vector<glm::vec2> places;  ///< the hand's place at `times`, m
+  std::vector<Force> forces;      ///< the force on the hand at `times`, N
 };
 
-/// Lets a simulated time pass, for a program that remembers or shows marks: one second, or as long as its longest
-/// trajectory, five at most. The hand goes up and down a gently bent stroke, through the program's own ticks, guarded
-/// by nothing. The same bank gives the same rehearsal.
+/// Runs a program that remembers or shows marks for a simulated time: one second, or as long as its longest trajectory,
+/// at most five seconds. The hand goes to and fro along a slightly curved stroke. The program's ticks run without
+/// guards. Deterministic.
 Rehearsal rehearse(Bank bank, const HandDeclaration* hand);
 
 }  // namespace wale

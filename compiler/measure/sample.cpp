@@ -11,10 +11,10 @@ namespace wale {
 
 namespace {
 
-/// The number that a single-precision value is short for: 0.0006, not 0.00060000002849.
+/// The shortest decimal number that reads as this single-precision value: 0.0006, not 0.00060000002849.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
-/// Fills in what a trace of places and velocities tells besides them.
+/// Computes accelerations and raw figures from a trace of places and velocities.
 void complete(std::vector<SampledHand>& hands) {
   for (std::size_t i = 0; i < hands.size(); ++i) {
     Hand& hand = hands[i].hand;
@@ -40,7 +40,7 @@ std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands) {
     const glm::vec2 place = sampled.hand.position;
     const bool inside = std::abs(place.x) <= extent.x && std::abs(place.y) <= extent.y;
     if (inside && !was_inside) memory.enter(bank, sampled.hand);
-    sampled.force = inside ? tick(bank, memory, sampled.hand) + Force(0.0f)  // a spreadsheet has no use for -0
+    sampled.force = inside ? tick(bank, memory, sampled.hand) + Force(0.0f)  // turns -0 into 0
                            : Force(0.0f);
     was_inside = inside;
   }

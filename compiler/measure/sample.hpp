@@ -7,21 +7,22 @@
 
 namespace wale {
 
-/// One hand of a trace, and what the program answers.
+/// One hand of a trace, and the program's force on it.
 struct SampledHand {
   double time = 0;  ///< s
   Hand hand;        ///< m from the patch's centre, m/s
   Force force{0};   ///< N
 };
 
-/// Runs the program at each hand in turn, a tick each, with one memory: it enters when the hand comes inside, and
-/// outside the patch nothing ticks or pushes. The patch is at the workspace's centre, time is that of the trace, and
-/// accelerations and raw figures are the differences between one hand and the next over their times.
+/// Runs the program for each hand in turn, one tick each, with one memory. The program is entered when the hand comes
+/// onto the patch; outside there are no ticks and no force. The patch is at the workspace's centre, and time is that of
+/// the trace. Accelerations and raw figures are differences between successive hands over their times.
 std::vector<SampledHand> sample(Bank bank, std::vector<SampledHand> hands);
 
-/// A line a hand under a header with units, in the shortest digits that read back as the same numbers.
+/// Comma-separated values: a header with units, then one line per hand. Numbers have the fewest digits that preserve
+/// them.
 std::string samples_csv(const std::vector<SampledHand>& samples, bool vibrates = false);
-/// An array of objects with t, x, y, vx, vy, fx, fy in SI units.
+/// JSON: an array of objects with t, x, y, vx, vy, fx, fy in SI units.
 std::string samples_json(const std::vector<SampledHand>& samples, bool vibrates = false);
 
 }  // namespace wale

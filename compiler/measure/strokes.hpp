@@ -7,19 +7,19 @@
 
 namespace wale {
 
-/// How far to either side of its centre a hand can stroke a patch, m: not over its rim, and a tenth less.
+/// How far to both sides of its centre a hand can stroke a patch, m: nine tenths of the way to its rim.
 inline double room_to_stroke(PatchSize size) {
   return 0.9 * std::max(0.0, 0.5 * std::min<double>(size.width, size.height) - size.rim);
 }
 
-/// From 0 at time 0 to 1 at `whole` (s), level at both ends and without a jump of the acceleration.
+/// A smooth step from 0 at time 0 to 1 at time `whole` (s), with zero slope at both ends and continuous acceleration.
 inline double coming_up(double time, double whole) {
   const double u = std::clamp(time / whole, 0.0, 1.0);
   return u * u * u * (10 + u * (6 * u - 15));
 }
 
-/// A hand that goes along `place`, a function of the time (s) that gives m: its motion as differences over `step` (s)
-/// have it, filtered and raw alike.
+/// A hand that moves along `place`, a function from time (s) to place (m). Its motion, both filtered and raw, consists
+/// of differences over `step` (s).
 template <typename Place>
 Hand hand_along(const Place& place, double time, double step) {
   const glm::dvec2 here = place(time), before = place(time - step), earlier = place(time - 2 * step);

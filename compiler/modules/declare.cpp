@@ -10,7 +10,7 @@ namespace wale {
 
 namespace {
 
-/// Works out one file's dimensions and units, which may refer to each other only backwards.
+/// Declares what one file declares. Dimensions and units may refer only to earlier ones.
 class Declarer {
  public:
   Declarer(const SyntaxTree& tree, const SourceSet& sources, Declarations& declarations, Diagnostics& diagnostics)
@@ -30,9 +30,9 @@ class Declarer {
       if (names.base_units.size() == Dimension::capacity)
         return report(Code::number_out_of_range, node.name.span,
                       fmt::format("more than {} base dimensions", Dimension::capacity),
-                      "define it by others, as in `dimension area = length^2`");
+                      "define it in terms of others, as in `dimension area = length^2`");
       dimension.twelfths[names.base_units.size()] = Dimension::unit_exponent;
-      names.base_units.emplace_back(node.name.text);  // until its unit is declared
+      names.base_units.emplace_back(node.name.text);  // a placeholder until its unit is declared
     }
     enter(declarations_.dimensions, node, dimension);
     enter(declarations_.dimension_bounds, node, DimensionBounds{&tree_, node.range});
@@ -60,7 +60,7 @@ class Declarer {
       if (value.failed()) return;
       const auto factor = value.type == Value::Type::number ? constant_value(terms, value.x) : std::nullopt;
       if (!factor || !std::isfinite(*factor) || *factor <= 0)
-        return report(Code::not_constant, value.span, "a unit is a positive quantity known at compile time",
+        return report(Code::not_constant, value.span, "a unit must be a positive quantity known at compile time",
                       "write, for example, `unit thou = 25.4 um`");
       unit = {*factor, value.dimension};
     }
@@ -95,8 +95,8 @@ class Declarer {
     for (const auto& parameter : node.parameters)
       if (const auto* hidden = declarations_.constants.entry(parameter.name.text))
         report(Code::shadowed_name, parameter.name.span,
-               fmt::format("the argument `{}` hides the constant of that name", parameter.name.text),
-               Advice(fmt::format("give it another name, or leave it if it is meant; the constant is {}",
+               fmt::format("the argument `{}` hides the constant of the same name", parameter.name.text),
+               Advice(fmt::format("give it another name, or leave it if that is intended; the constant is {}",
                                   whereabouts(hidden->declared)))
                    .see(hidden->declared, "the constant that it hides"));
     enter(declarations_.functions, node, Declared<FunctionDecl>{&tree_, &node, &declarations_});
@@ -126,7 +126,7 @@ class Declarer {
   /// `mass * length / time^2`: names of dimensions, multiplied, divided and raised to whole powers.
   std::optional<Dimension> dimension_of(ExprId expr) {
     const Expr& node = tree_.expr(expr);
-    // In `1 / time` the parser takes what follows the number for its unit.
+    // In `1 / time` the parser reads `/ time` as the unit of the number.
     if (const auto* number = std::get_if<NumberLiteral>(&node); number && number->value == 1) return suffix_of(*number);
     if (const auto* use = std::get_if<NameUse>(&node)) {
       if (const auto* found = declarations_.dimensions.find(use->name)) return *found;
@@ -139,7 +139,7 @@ class Declarer {
       if (binary->op == BinaryOperator::power) {
         const auto* exponent = std::get_if<NumberLiteral>(&tree_.expr(binary->right));
         if (exponent && std::abs(exponent->value) <= 32 && exponent->value == std::floor(exponent->value)) {
-          // In `length^3 / time` the parser takes what follows the 3 for its unit.
+          // In `length^3 / time` the parser reads `/ time` as the unit of the 3.
           const auto raised = power(*left, static_cast<int>(exponent->value));
           const auto rest = suffix_of(*exponent);
           if (!rest) return std::nullopt;
@@ -151,7 +151,7 @@ class Declarer {
         return binary->op == BinaryOperator::multiply ? *left * *right : *left / *right;
       }
     }
-    report(Code::wrong_type, tree_.span(expr), "a dimension is a product of dimensions",
+    report(Code::wrong_type, tree_.span(expr), "a dimension must be a product of dimensions",
            "write, for example, `dimension force = mass * length / time^2`");
     return std::nullopt;
   }
@@ -174,7 +174,7 @@ class Declarer {
   void unknown_dimension(const Word& word) {
     if (const auto hidden = declarations_.private_names.find(word.text); hidden != declarations_.private_names.end())
       return report(Code::private_name, word.span,
-                    fmt::format("`{}` belongs to {} alone", word.text, sources_[hidden->second.source].name),
+                    fmt::format("`{}` is private to {}", word.text, sources_[hidden->second.source].name),
                     fmt::format("write `export` before its declaration there (line {}), if others may use it",
                                 sources_.place(hidden->second).line));
     if (diagnostics_.is_full()) return;
@@ -188,7 +188,7 @@ class Declarer {
                                            : fmt::format("in {}", sources_[declared.source].name);
   }
 
-  /// Whether the name is taken, reported.
+  /// Whether the name is taken, which is reported.
   template <typename T>
   bool twice(const Names<T>& names, const Word& word, const char* kind) {
     const auto* other = names.entry(word.text);
@@ -214,7 +214,7 @@ class Declarer {
   Diagnostics& diagnostics_;
 };
 
-/// One kind of names from one file to another.
+/// Enters one kind of names from an imported file.
 template <typename T>
 void import_kind(const Names<T>& from, const Import& import, Names<T>& into, const char* kind,
                  std::map<std::string, Span, std::less<>>& hidden, const SourceSet& sources, Diagnostics& diagnostics) {
@@ -226,11 +226,11 @@ void import_kind(const Names<T>& from, const Import& import, Names<T>& into, con
     }
     if (const auto* other = into.entry(name)) {
       if (other->declared == entry.declared) continue;
-      diagnostics.report(Advice("import one of the two, or let one of the files call it otherwise")
+      diagnostics.report(Advice("import only one of the two, or rename it in one of the files")
                              .see(other->declared, "declared here first")
                              .see(entry.declared, "and here")
                              .about(Code::declared_twice, import.module.span,
-                                    fmt::format("`{}` brings a {} `{}`, and {} has brought one already",
+                                    fmt::format("`{}` exports a {} `{}`, but {} has exported one already",
                                                 import.module.text, kind, name, sources[other->declared.source].name)));
       continue;
     }
@@ -240,7 +240,7 @@ void import_kind(const Names<T>& from, const Import& import, Names<T>& into, con
   }
 }
 
-/// Maps, thresholds, rules and levels have no names that could clash; they are not handed on from file to file.
+/// Enters maps, thresholds, rules or levels. Their names cannot clash, since they are not passed on from file to file.
 template <typename T>
 void import_unnamed(const std::vector<T>& from, std::vector<T>& into) {
   for (const auto& each : from)
@@ -270,7 +270,7 @@ void import_names(const Declarations& from, const Import& import, Declarations& 
 
 void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& declarations, Diagnostics& diagnostics) {
   Declarer declarer(tree, sources, declarations, diagnostics);
-  // Records speak of units, percepts and functions wherever in the file those stand.
+  // Records may use units, percepts and functions that are declared further down in the file.
   for (const auto& declaration : tree.declarations)
     if (!std::holds_alternative<RecordDecl>(declaration)) std::visit(declarer, declaration);
   for (const char* keyword : {"percept", "map", "threshold", "rule", "class", "device", "levels", "hand"})

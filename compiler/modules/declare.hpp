@@ -5,11 +5,11 @@
 
 namespace wale {
 
-/// Enters what a file declares. Dimensions and units are worked out at once; constants and functions are entered as
-/// they stand and read where they are used.
+/// Enters all declarations of a file. Dimensions and units are evaluated at once. Constants and functions are entered
+/// as syntax and evaluated where they are used. Errors are reported to `diagnostics`.
 void declare(const SyntaxTree& tree, const SourceSet& sources, Declarations& declarations, Diagnostics& diagnostics);
 
-/// Enters what an imported file hands on: its materials, and whatever else stands behind `export`.
+/// Enters the materials and the exported declarations of an imported file.
 void import_names(const Declarations& from, const Import& import, Declarations& into, const SourceSet& sources,
                   Diagnostics& diagnostics);
 

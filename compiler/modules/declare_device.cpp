@@ -17,7 +17,7 @@ void read_workspace(RecordReader& reader, DeviceProfile& profile) {
     profile.workspace_diameter =
         reader.value(reader.tree.arguments(*call)[0].value, reader.declarations.dimension("length")).value_or(0);
   if (!(profile.workspace_diameter > 0))
-    reader.report(Code::wrong_type, workspace->span, "a workspace is a disc of some diameter",
+    reader.report(Code::wrong_type, workspace->span, "a workspace must be a disc with a diameter",
                   "write, for example, `workspace disc(228.6 mm)`");
 }
 
@@ -30,7 +30,8 @@ void read_source_of_position(RecordReader& reader, DeviceProfile& profile) {
   if (source == "pointer" || source == "touch")
     profile.shaker->position = source == "touch" ? PositionSource::touch : PositionSource::pointer;
   else
-    reader.report(Code::wrong_type, position->span, "a device that vibrates has its position from somewhere, or none",
+    reader.report(Code::wrong_type, position->span,
+                  "the position of a device that vibrates must be `pointer`, `touch` or `none`",
                   "write `position pointer, 1024 counts`, `position touch, 1024 counts` or `position none`");
   profile.position_counts = reader.quantity(*position, 1, "number").value_or(0);
 }
@@ -72,7 +73,7 @@ Shaker read_vibration(RecordReader& reader) {
       vibration.response.push_back(*response);
     else if (reader.diagnostics.error_count() == errors_before)
       reader.report(Code::value_out_of_range, setting->span,
-                    "a response is a frequency and then commands up to 100 % with their accelerations, all rising",
+                    "a response needs a frequency, then commands up to 100 % with their accelerations, all rising",
                     "write, for example, `acceleration 60 Hz, 50 % = 2 m/s^2, 100 % = 5 m/s^2`");
   }
   if (const auto* frequency = reader.required("frequency", "40 Hz .. 250 Hz"); frequency && !frequency->items.empty()) {
@@ -99,7 +100,7 @@ Shaker read_vibration(RecordReader& reader) {
   return vibration;
 }
 
-/// The moving mass, its damping and its friction. Figures that are left out, or said to be unknown, are unknown.
+/// Reads the moving mass, its damping and its friction. Missing figures and those marked `unknown` are unknown.
 void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::string>& unknown) {
   const auto known = [&](const char* key) {
     const auto* found = reader.setting(key);
@@ -127,18 +128,18 @@ void read_handle(RecordReader& reader, DeviceProfile& profile, std::vector<std::
   per_axis("bandwidth", "frequency", profile.bandwidth_x, profile.bandwidth_y);
 }
 
-/// `rate 900 Hz`: ticks a second, as many as a loop can keep.
+/// Reads `rate 900 Hz`: ticks per second, within the rates that the loop supports.
 void read_rate(RecordReader& reader, DeviceProfile& profile) {
   profile.rate = reader.positive("rate", 0, "frequency", "900 Hz");
   if (profile.rate > 0 && !(profile.rate >= DeviceProfile::least_rate && profile.rate <= DeviceProfile::most_rate))
-    reader.report(
-        Code::value_out_of_range, reader.setting("rate")->items.front().span,
-        fmt::format("a device's rate is {} Hz .. {} kHz", DeviceProfile::least_rate, DeviceProfile::most_rate / 1000),
-        "write, for example, `rate 900 Hz`");
+    reader.report(Code::value_out_of_range, reader.setting("rate")->items.front().span,
+                  fmt::format("a device's rate must be {} Hz .. {} kHz", DeviceProfile::least_rate,
+                              DeviceProfile::most_rate / 1000),
+                  "write, for example, `rate 900 Hz`");
 }
 
-/// What the motors bear and what a program may do with them: `sustained 5 N, 20 s` and `active 2 W`, each `unknown`
-/// where nobody knows it.
+/// Reads the motors' sustained force and the active power of programs: `sustained 5 N, 20 s` and `active 2 W`. Each is
+/// `unknown` if nobody knows it.
 void read_motors(RecordReader& reader, DeviceProfile& profile) {
   const auto known = [&](const char* key) -> const Setting* {
     const auto* found = reader.setting(key);
@@ -156,7 +157,7 @@ void read_motors(RecordReader& reader, DeviceProfile& profile) {
       reader.report(
           Code::value_out_of_range, continuous->span,
           fmt::format("the sustained force of an axis must be greater than zero and at most its largest force, {:.6g} "
-                      "N; it takes at least {:.6g} ms to grow hot",
+                      "N; its heating time must be at least {:.6g} ms",
                       profile.force_newton, 1e3 * DeviceProfile::least_heating_seconds),
           "write, for example, `sustained 5 N, 20 s`, or `sustained unknown` if it is not known");
   }
@@ -208,7 +209,7 @@ void read_figures(RecordReader& reader, const Declarations& declarations, Device
   }
 }
 
-/// Which figures nobody measured, and whether damping and friction are among those that are known.
+/// Records which figures nobody measured, and whether damping and friction are known.
 void read_assumptions(RecordReader& reader, DeviceDeclaration& device, bool vibrates) {
   for (const auto& setting : reader.record.settings)
     for (const auto& item : setting.items)
@@ -222,7 +223,7 @@ void read_assumptions(RecordReader& reader, DeviceDeclaration& device, bool vibr
   device.profile.friction_known = !vibrates && known("friction");
 }
 
-/// The realisations of percepts: those of the device itself, and besides those of its class.
+/// Reads the realisations of percepts: the device's own, then those of its class for the other percepts.
 void read_all_realisations(RecordReader& reader, const Declarations& declarations, DeviceDeclaration& device,
                            bool vibrates) {
   const DeviceProfile& profile = device.profile;
@@ -241,10 +242,10 @@ void read_all_realisations(RecordReader& reader, const Declarations& declaration
     if (rule.rate.has_value() != vibrates)
       reader.report(
           Code::wrong_type, reader.record.name.span,
-          fmt::format("`{}` {}, and its realisation of {} ({}) is {}", profile.name, vibrates ? "vibrates" : "pushes",
+          fmt::format("`{}` {}, but its realisation of {} ({}) is {}", profile.name, vibrates ? "vibrates" : "pushes",
                       percept, rule.owner, vibrates ? "a force" : "a vibration"),
-          vibrates ? "give how it shakes and its `rate`, or another class of devices"
-                   : "give a force without a `rate`, or another class of devices");
+          vibrates ? "give its shaking and a `rate`, or use another class of devices"
+                   : "give a force without a `rate`, or use another class of devices");
 }
 
 }  // namespace

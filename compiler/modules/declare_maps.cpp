@@ -23,7 +23,7 @@ std::optional<Evidence> grade_named(std::string_view word) {
   return std::nullopt;
 }
 
-/// "`measured`, `published`, …": what a grade may be.
+/// All grades in words: "`measured`, `published`, … or `…`".
 std::string grade_words() {
   std::vector<std::string> words;
   for (const auto& [name, evidence] : evidence_words) words.push_back(fmt::format("`{}`", name));
@@ -32,13 +32,13 @@ std::string grade_words() {
   return fmt::format("{} or {}", fmt::join(words, ", "), last);
 }
 
-/// `on sandpaper`: where something was measured; empty where the setting says nothing.
+/// The device of `on sandpaper`; empty if the setting names none.
 std::string measured_on(const Setting& on) {
   return on.on ? std::string(on.on->text) : on.items.empty() ? "" : words_of(on.items[0]);
 }
 
-/// `evidence slope published, handle transferred`: the grade of each part goes where the list says. What is no grade is
-/// offered to `otherwise`, and reported where that knows nothing of it.
+/// Reads `evidence slope published, handle transferred`: the grade of each part goes to its entry in the list. Items
+/// that are not grades are passed to `otherwise`, and reported if it does not accept them.
 void read_grades(RecordReader& reader, const Setting& evidence,
                  const std::vector<std::pair<const char*, Evidence*>>& parts,
                  const std::function<bool(const SettingItem&)>& otherwise = {}) {
@@ -53,14 +53,14 @@ void read_grades(RecordReader& reader, const Setting& evidence,
     else if (!otherwise || !otherwise(item))
       reader.report(
           Code::wrong_type, item.span,
-          fmt::format("the evidence of a {} is graded apart for {}", reader.record.keyword.text,
+          fmt::format("the evidence of a {} has separate grades for {}", reader.record.keyword.text,
                       fmt::join(names, ", ")),
           fmt::format("write one of these, then {}{}", grade_words(),
                       otherwise ? "; `anchor none` where the law is not tied to the reference stimulus" : ""));
   }
 }
 
-/// A setting's whole number, such as that of the observers; 0 where it is not there.
+/// A setting's whole number, such as the number of observers; 0 if the setting is missing.
 int whole_number(RecordReader& reader, const char* key) {
   const Setting* setting = reader.setting(key);
   return setting ? static_cast<int>(std::lround(reader.quantity(*setting, 0, "number").value_or(0))) : 0;
@@ -85,12 +85,12 @@ std::optional<Map::Condition> condition_of(RecordReader& reader, const SettingIt
   return condition;
 }
 
-/// A law is read as any expression, but what is wrong with its dimensions is said of the map, beside its source.
+/// Reports errors in a law. Errors of dimension name the law's source, since they are errors of the map.
 void report_law(RecordReader& reader, const Diagnostics& found, const std::string& source) {
   for (Diagnostic each : found.all()) {
     if (each.code == Code::wrong_dimension || each.code == Code::mismatched_dimensions) {
       each.code = Code::map_dimension;
-      each.cause = source.empty() ? "" : fmt::format("the law is that of {}", source);
+      each.cause = source.empty() ? "" : fmt::format("the law comes from {}", source);
     }
     reader.diagnostics.report(std::move(each));
   }
@@ -110,7 +110,7 @@ class MapReader {
     if (const auto* name = reader_.setting("name"); name && !name->items.empty()) map_.name = words_of(name->items[0]);
     map_.source = reader_.text("source");
     if (!reader_.setting("source"))
-      reader_.report(Code::missing_setting, record.name.span, "a map without a source is a rumour",
+      reader_.report(Code::missing_setting, record.name.span, "a map needs a source",
                      "add `source \"author, year, figure\"`");
     read_quantity();
     read_evidence();
@@ -129,7 +129,8 @@ class MapReader {
   }
 
  private:
-  /// The quantity that the law starts from: the percept's carrier, or `quantity length` says what else.
+  /// Reads the quantity that the law starts from: the percept's carrier, or another one of the dimension in `quantity
+  /// length`.
   void read_quantity() {
     if (const auto* quantity = reader_.setting("quantity"); quantity && !quantity->items.empty()) {
       const auto* known = declarations_.dimensions.find(words_of(quantity->items[0]));
@@ -138,7 +139,7 @@ class MapReader {
       else if (words_of(quantity->items[0]) != "number")
         reader_.report(Code::unknown_name, quantity->span,
                        fmt::format("nothing declares a dimension `{}`", words_of(quantity->items[0])),
-                       "name the dimension of what the law starts from, or `number`");
+                       "name the dimension of the quantity that the law starts from, or `number`");
       map_.of_carrier = map_.from == percept_.argument() && map_.dimension == percept_.carrier_dimension;
       read_one();
       return;
@@ -148,24 +149,26 @@ class MapReader {
     const RecordDecl& record = reader_.record;
     const Span span = record.from ? record.from->span : record.name.span;
     if (percept_.carrier.empty())
-      return reader_.report(Code::missing_setting, span,
-                            fmt::format("`{}` has no carrier, so the law must say what it starts from", percept_.name),
-                            "add `quantity length`, or what else it is");
+      return reader_.report(
+          Code::missing_setting, span,
+          fmt::format("`{}` has no carrier, so the map must name the dimension that its law starts from",
+                      percept_.name),
+          "add, for example, `quantity length`");
     reader_.report(Code::unknown_name, span,
                    fmt::format("`{}` is carried by its `{}`, not by `{}`", map_.percept, percept_.carrier, map_.from),
-                   Advice(fmt::format("write `map {} from {}`, or add `quantity` for what is no carrier", map_.percept,
+                   Advice(fmt::format("write `map {} from {}`, or add `quantity` if it is not a carrier", map_.percept,
                                       percept_.argument()))
                        .see(percept_.span, "declared here"));
   }
 
-  /// `one 12 m/s^2`: what stands for the carrier on another kind of device feels like the reference stimulus there.
+  /// Reads `one 12 m/s^2`: on another kind of device, a quantity of this size feels like the reference stimulus.
   void read_one() {
     const auto* one = reader_.setting("one");
     if (!one || one->items.size() != 1 || !one->items[0].value) return;
     map_.one = reader_.value(*one->items[0].value, map_.dimension);
     if (map_.of_carrier)
       reader_.report(Code::wrong_type, one->span, fmt::format("`{}` is the carrier itself", map_.from),
-                     "its size at level 1 is the percept's: leave out `one`");
+                     "the percept declares its size at level 1: leave out `one`");
     else if (map_.one && !(*map_.one > 0))
       reader_.report(Code::value_out_of_range, one->span, "level 1 has no size", "write, for example, `one 12 m/s^2`");
   }
@@ -182,8 +185,9 @@ class MapReader {
     if (map_.tied && !map_.of_carrier && !map_.one)
       reader_.report(
           Code::wrong_type, evidence->span,
-          fmt::format("a law from `{}` is not tied to the reference stimulus of {}", map_.from, map_.percept),
-          "write `anchor none`; or `one`, its size at level 1, where it stands for the carrier on another device");
+          fmt::format("a law that starts from `{}` is not tied to the reference stimulus of {}", map_.from,
+                      map_.percept),
+          "write `anchor none`; or, if it replaces the carrier on another device, give `one`, its size at level 1");
   }
 
   /// `couples stickiness drag`.
@@ -192,7 +196,7 @@ class MapReader {
       for (const auto& item : setting->items) {
         const Percept* other = item.words.size() == 2 ? declarations_.percepts.find(item.words[0].text) : nullptr;
         if (!other || other->argument() != item.words[1].text || other->name == percept_.name) {
-          reader_.report(Code::unknown_name, item.span, "a law couples another percept's carrier",
+          reader_.report(Code::unknown_name, item.span, "a law can couple only the carrier of another percept",
                          "write the percept and its carrier's argument, as in `couples stickiness drag`");
           continue;
         }
@@ -206,17 +210,17 @@ class MapReader {
       if (side == "rising" || side == "falling")
         map_.branch = side == "rising" ? Branch::rising : Branch::falling;
       else
-        reader_.report(Code::wrong_type, branch->span, "a branch is the rising or the falling one",
+        reader_.report(Code::wrong_type, branch->span, "a branch must be `rising` or `falling`",
                        "write `branch rising` or `branch falling`");
     }
     if (const auto* table = reader_.setting("table")) return read_table(*table);
     const auto* law = reader_.required("law", "log10(magnitude) = …");
     if (!law) return;
     const SettingItem* equation = law->items.size() == 1 && law->items[0].equals ? &law->items[0] : nullptr;
-    // In `law magnitude = …` the parser takes the lone name before `=` for a word.
+    // In `law magnitude = …` the parser reads the single name before `=` as a word.
     const Word* lone = equation && !equation->value && equation->words.size() == 1 ? &equation->words[0] : nullptr;
     if (!equation || (!equation->value && !lone))
-      return reader_.report(Code::wrong_type, law->span, "a law is an equation",
+      return reader_.report(Code::wrong_type, law->span, "a law must be an equation",
                             fmt::format("write `law log10(magnitude) = …` in `magnitude` and `{}`", map_.from));
     Diagnostics found;
     std::vector<HeightTable> tables;
@@ -232,8 +236,8 @@ class MapReader {
     report_law(reader_, found, map_.source);
     for (const auto& name : scope.spellings())
       if (!found.has_errors() && !scope.at(name).used)
-        reader_.report(Code::unsolvable_law, law->span, fmt::format("the law does not speak of `{}`", name),
-                       "tie the magnitude to the carrier");
+        reader_.report(Code::unsolvable_law, law->span, fmt::format("the law does not contain `{}`", name),
+                       "write an equation between the magnitude and the carrier");
   }
 
   void declare_names(Scope& scope, Span span) {
@@ -253,10 +257,10 @@ class MapReader {
 
   /// `table 0.2 N = 1.6, 1 N = 6.1, 3.8 N = 16.8`.
   void read_table(const Setting& setting) {
-    reader_.setting("law");  // it has none, and one beside the table is another law
+    reader_.setting("law");  // read but not used: the table is the law
     for (const auto& item : setting.items) {
       if (!item.value || !item.equals) {
-        reader_.report(Code::wrong_type, item.span, "a table is made of points",
+        reader_.report(Code::wrong_type, item.span, "a table must consist of points",
                        fmt::format("write the {} and its magnitude, as in `table 0.2 N = 1.6, 1 N = 6.1`", map_.from));
         return;
       }
@@ -265,14 +269,15 @@ class MapReader {
       if (!size || !magnitude) return;
       if (!(*size > 0 && *magnitude > 0) || (!map_.table.empty() && !(*size > map_.table.back()[0])))
         return reader_.report(Code::value_out_of_range, item.span,
-                              "the points of a table must rise, and all must be greater than zero",
-                              "put them into their order");
+                              "the values of a table must rise from point to point and be greater than zero",
+                              "sort them");
       map_.table.push_back({*size, *magnitude});
     }
     if (map_.table.size() < 2)
-      reader_.report(Code::missing_setting, setting.span, "a table has two points or more", "add another");
+      reader_.report(Code::missing_setting, setting.span, "a table needs at least two points", "add another");
     if (!map_.couples.empty())
-      reader_.report(Code::wrong_type, setting.span, "a table knows one quantity", "write a `law` to couple another");
+      reader_.report(Code::wrong_type, setting.span, "a table has only one quantity",
+                     "write a `law` to couple another");
   }
 
   void read_validity() {
@@ -346,7 +351,8 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
     threshold.criterion = reader.quantity(*criterion, 0, "number").value_or(0.75);
     threshold.criterion_assumed = !criterion->items.empty() && has_word(criterion->items[0], "assumed");
     if (!(threshold.criterion > 0.5 && threshold.criterion < 1)) {
-      reader.report(Code::value_out_of_range, criterion->span, "a criterion is a share of correct answers above chance",
+      reader.report(Code::value_out_of_range, criterion->span,
+                    "a criterion must be a share of correct answers above chance",
                     "write, for example, `criterion 75 %`");
       threshold.criterion = 0.75;
     }
@@ -367,7 +373,7 @@ void declare_threshold(RecordReader& reader, Declarations& declarations) {
   if (const auto* on = reader.required("on", "sandpaper")) threshold.device = measured_on(*on);
   threshold.source = reader.text("source");
   if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a threshold without a source is a rumour",
+    reader.report(Code::missing_setting, record.name.span, "a threshold needs a source",
                   "add `source \"author, year\"`");
   declarations.own_thresholds.push_back(std::move(threshold));
 }
@@ -389,7 +395,7 @@ void declare_rule(RecordReader& reader, Declarations& declarations) {
       } else if (const auto condition = condition_of(reader, item)) {
         each.conditions.push_back(*condition);
       } else {
-        reader.report(Code::wrong_type, item.span, "a case is a text, and then what must hold for it",
+        reader.report(Code::wrong_type, item.span, "a case needs a text, then its conditions",
                       "write, for example, `case \"moguls\", amplitude above 1.1 N, period above 7 mm`");
       }
     }
@@ -401,12 +407,12 @@ void declare_rule(RecordReader& reader, Declarations& declarations) {
     if (grade)
       rule.evidence = *grade;
     else
-      reader.report(Code::wrong_type, evidence->span, "this is no grade of evidence", "write " + grade_words());
+      reader.report(Code::wrong_type, evidence->span, "this is not a grade of evidence", "write " + grade_words());
   }
   if (const auto* on = reader.required("on", "sandpaper")) rule.device = measured_on(*on);
   rule.source = reader.text("source");
   if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a rule without a source is a rumour",
+    reader.report(Code::missing_setting, record.name.span, "a rule needs a source",
                   "add `source \"author, year, section\"`");
   declarations.own_rules.push_back(std::move(rule));
 }

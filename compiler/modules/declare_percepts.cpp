@@ -53,7 +53,7 @@ void read_reference(RecordReader& reader, const Setting& one, Percept& percept) 
   if (reader.diagnostics.error_count() > errors_before) return;
   if (!carrier.empty() && carrier != percept.carrier)
     reader.report(Code::wrong_type, item.span,
-                  fmt::format("the reference stimulus is of `{}`, and the carrier is `{}`", percept.carrier, carrier),
+                  fmt::format("the reference stimulus is of `{}`, but the carrier is `{}`", percept.carrier, carrier),
                   "name the same function and argument in both");
   const auto size = item.value ? reader.value(*item.value, percept.carrier_dimension) : std::optional<double>(0.0);
   percept.one = size.value_or(0);
@@ -87,7 +87,7 @@ void read_extractor(RecordReader& reader, const Setting& setting, Percept& perce
   }
 }
 
-/// `exerts 0.25 m/s`: times a viscosity it is a force.
+/// Reads `exerts 0.25 m/s`: the factor that makes a carrier, here a viscosity, a force.
 void read_exertion(RecordReader& reader, Percept& percept) {
   const Dimension force = reader.declarations.dimension("force");
   const Setting* setting = reader.setting("exerts");
@@ -127,7 +127,7 @@ void declare_percept(RecordReader& reader, Declarations& declarations) {
     percept.antonym_words = reader.texts(texts);
     if (declarations.percept_named(percept.antonym).percept || percept.antonym.empty())
       reader.report(Code::declared_twice, antonym->span,
-                    percept.antonym.empty() ? "an antonym has a name"
+                    percept.antonym.empty() ? "an antonym needs a name"
                                             : fmt::format("`{}` names a percept already", percept.antonym),
                     "write, for example, `antonym smoothness \"smooth\"`");
   }
@@ -159,9 +159,10 @@ void read_realisations(RecordReader& reader, const Declarations& declarations, c
     }
     good = good && (realisation.rate || realisation.period == 0);
     if (!good) {
-      reader.report(Code::wrong_type, setting->span, "a realisation is a force for a percept, or how a pad shakes",
-                    "write, for example, `realise roughness = lateral(grating(x, period: 2.5 mm))`, and behind it "
-                    "`, by NAME` to choose a map; of a pad `realise vibration = shaking, rate = 120 Hz`");
+      reader.report(Code::wrong_type, setting->span,
+                    "a realisation must give a force for a percept, or the shaking of a pad",
+                    "write, for example, `realise roughness = lateral(grating(x, period: 2.5 mm))`, followed by "
+                    "`, by NAME` to choose a map; for a pad `realise vibration = shaking, rate = 120 Hz`");
       continue;
     }
     realisation.force = *item.equals;

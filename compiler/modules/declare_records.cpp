@@ -98,7 +98,7 @@ std::string RecordReader::text(const std::string& key) {
   if (found->items.size() == 1 && found->items[0].value)
     if (const auto* literal = std::get_if<TextLiteral>(&tree.expr(*found->items[0].value)))
       return std::string(literal->text);
-  report(Code::wrong_type, found->span, fmt::format("`{}` is a text", key), fmt::format("write `{} \"…\"`", key));
+  report(Code::wrong_type, found->span, fmt::format("`{}` must be a text", key), fmt::format("write `{} \"…\"`", key));
   return {};
 }
 
@@ -111,7 +111,7 @@ std::optional<RecordReader::Quantity> RecordReader::constant(ExprId expr) {
   if (value.failed()) return std::nullopt;
   if (value.type != Value::Type::number) {
     report(Code::wrong_type, value.span, fmt::format("expected a number, found {}", type_words(value.type)),
-           "write one with its unit, as in `0.7 mm`");
+           "write a number with its unit, as in `0.7 mm`");
     return std::nullopt;
   }
   const auto known = checker.constant(value);
@@ -156,7 +156,7 @@ void declare_levels(RecordReader& reader, Declarations& declarations) {
                   did_you_mean(levels.span, levels.percept, declarations.percepts.spellings(),
                                "declare it, as in schema/percepts.wale"));
   for (const auto& setting : reader.record.settings) {
-    reader.setting(std::string(setting.key.text));  // every key is a name of the author's
+    reader.setting(std::string(setting.key.text));  // the keys are names that the author chose
     const auto value = reader.quantity(setting, 0, "number");
     if (!value) continue;
     if (!(*value >= 0 && *value <= 1))

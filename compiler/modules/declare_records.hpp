@@ -9,34 +9,34 @@
 
 namespace wale {
 
-/// Reads the settings of one record: each is read by its key, once; settings that were not read are reported at the
-/// end.
+/// Reads the settings of one record by their keys. At the end, `report_unknown_settings` reports those that nobody
+/// read.
 class RecordReader {
  public:
   RecordReader(const SyntaxTree& tree, const RecordDecl& record, const SourceSet& sources,
                const Declarations& declarations, Diagnostics& diagnostics);
 
-  std::vector<const Setting*> settings(const std::string& key);                 ///< all of that key
-  const Setting* setting(const std::string& key);                               ///< the only one, or none
-  const Setting* required(const std::string& key, const std::string& example);  ///< or none, reported
+  std::vector<const Setting*> settings(const std::string& key);                 ///< all with that key
+  const Setting* setting(const std::string& key);                               ///< the only one with that key, or null
+  const Setting* required(const std::string& key, const std::string& example);  ///< as `setting`, but null is reported
 
   /// Item `index` of a setting as a quantity of the named dimension ("number" for a plain one), in SI.
   std::optional<double> quantity(const Setting& setting, std::size_t index, const std::string& dimension);
-  /// The same, of a setting that must be there and be greater than zero.
+  /// The same for a required setting that must be greater than zero; 0 after an error, which is reported.
   double positive(const std::string& key, std::size_t index, const std::string& dimension, const std::string& example);
-  std::string text(const std::string& key);  ///< empty when not written
-  /// An expression's value in SI, of the dimension.
+  std::string text(const std::string& key);  ///< empty if there is none
+  /// The value in SI of an expression, which must have the dimension; otherwise nothing, and an error is reported.
   std::optional<double> value(ExprId expr, const Dimension& dimension);
   struct Quantity {
     double value = 0;
     Dimension dimension;
   };
-  /// An expression's value in SI, whatever its dimension; what is not known at compile time is reported.
+  /// The value in SI of an expression of any dimension; nothing if it is not known at compile time, which is reported.
   std::optional<Quantity> constant(ExprId expr);
-  std::vector<std::string> texts(const Setting& setting);  ///< of a list in quotes; others are reported
+  std::vector<std::string> texts(const Setting& setting);  ///< texts of a list; other items are reported
 
   void report(Code code, Span span, std::string message, Advice advice);
-  /// The same about the record as a whole, whose settings then are not read.
+  /// Reports an error about the record as a whole; its settings are then not read.
   void reject(Code code, Span span, std::string message, Advice advice);
   void report_unknown_settings();
 
@@ -52,20 +52,21 @@ class RecordReader {
   bool rejected_ = false;
 };
 
-/// "lateral amplitude" of `lateral amplitude 194 pu`.
+/// The leading words of an item: "lateral amplitude" for `lateral amplitude 194 pu`.
 std::string words_of(const SettingItem& item);
-/// Whether a setting says that its figure is not known: `damping unknown`.
+/// Whether a setting marks its figure as unknown: `damping unknown`.
 bool is_unknown(const Setting& setting);
-/// Whether an item holds a word, before its value or behind it.
+/// Whether an item contains a word, before or after its value.
 bool has_word(const SettingItem& item, std::string_view word);
-/// The mend for a name that is declared already, at `declared`.
+/// The advice for a name that is already declared, at `declared`.
 Advice another_name(Span declared);
 
-/// `realise roughness = lateral(…), by minsky1995.figure19`: each entered by its percept.
+/// Reads `realise roughness = lateral(…), by minsky1995.figure19` and enters each by its percept.
 void read_realisations(RecordReader& reader, const Declarations& declarations, const std::string& owner,
                        std::map<std::string, Realisation>& realise);
 
-/// `usb`, `axes`, `motors` and `gain` of a device: which ones it is about, and how they lie on the desk.
+/// Reads `usb`, `axes`, `motors` and `gain` of a device: which USB devices it describes, and the directions of its axes
+/// and motors.
 void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWiring& wiring);
 
 /// Each enters one record of its kind.

@@ -9,7 +9,7 @@ namespace wale {
 
 namespace {
 
-/// `x`, `-y`; a word of evidence may stand before it.
+/// Reads `x` or `-y`; a word of evidence may come before it.
 std::optional<SignedAxis> signed_axis(const SyntaxTree& tree, const SettingItem& item) {
   SignedAxis axis;
   std::string_view name = item.words.empty() ? "" : item.words.back().text;
@@ -27,7 +27,7 @@ std::optional<SignedAxis> signed_axis(const SyntaxTree& tree, const SettingItem&
   return axis;
 }
 
-/// `axes y, -x`: two different axes of the device.
+/// Reads `axes y, -x`: two different axes of the device.
 void read_axes(RecordReader& reader, const char* key, std::array<SignedAxis, 2>& axes) {
   const auto* found = reader.setting(key);
   if (!found) return;
@@ -39,7 +39,7 @@ void read_axes(RecordReader& reader, const char* key, std::array<SignedAxis, 2>&
   else
     reader.report(
         Code::wrong_type, found->span,
-        fmt::format("`{}` names the device's two axes, the one to the right first, each perhaps with a `-`", key),
+        fmt::format("`{}` needs the device's two axes, the one to the right first, each with an optional `-`", key),
         fmt::format("write, for example, `{} x, y` or `{} -y, x`", key, key));
 }
 
@@ -55,11 +55,10 @@ void read_usb(RecordReader& reader, DeviceWiring& wiring) {
     const auto numbers = read_usb_numbers(text);
     if (!numbers)
       reader.report(Code::wrong_type, found->span,
-                    fmt::format("\"{}\" is no vendor and product of USB: four hexadecimal digits each", text),
-                    "write what `wale devices` says of it, as in `usb \"1209:ffb0\"`, or `usb any`");
+                    fmt::format("\"{}\" is not a USB vendor and product, with four hexadecimal digits each", text),
+                    "copy it from `wale devices`, as in `usb \"1209:ffb0\"`, or write `usb any`");
     else if (std::ranges::find(wiring.usb, *numbers) != wiring.usb.end())
-      reader.report(Code::declared_twice, found->span, fmt::format("\"{}\" stands here twice", text),
-                    "keep one of them");
+      reader.report(Code::declared_twice, found->span, fmt::format("\"{}\" is given twice", text), "keep one of them");
     else
       wiring.usb.push_back(*numbers);
   }
@@ -81,9 +80,9 @@ void read_wiring(RecordReader& reader, const DeviceProfile& profile, DeviceWirin
       each = 1;
       reader.report(
           Code::value_out_of_range, gain->span,
-          fmt::format("a gain is from {} to {}: what comes out at the handle of 1 N", DeviceWiring::least_gain,
-                      DeviceWiring::most_gain),
-          "write, for example, `gain 0.95, 1.05`; where a motor pulls the wrong way, turn it: `motors -x, y`");
+          fmt::format("a gain must be from {} to {}: the force at the handle, in newtons, for a command of 1 N",
+                      DeviceWiring::least_gain, DeviceWiring::most_gain),
+          "write, for example, `gain 0.95, 1.05`; if a motor pulls the wrong way, reverse it: `motors -x, y`");
       return;
     }
 }

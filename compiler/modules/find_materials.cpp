@@ -10,7 +10,7 @@
 namespace wale {
 namespace {
 
-/// In small letters and with blanks between words; letters beyond ASCII as they are.
+/// The text in lower case with blanks between words; characters beyond ASCII are unchanged.
 std::string folded(std::string_view text) {
   std::string words;
   for (const unsigned char c : text) {
@@ -27,7 +27,7 @@ std::string folded(std::string_view text) {
 bool begins_a_word_in(const std::string& words, const std::string& sought) {
   if (sought.empty()) return false;
   for (std::size_t at = words.find(sought); at != std::string::npos; at = words.find(sought, at + 1)) {
-    // A word begins at a letter after what is none, as in "like ball-bearings" and in "(satin)".
+    // A word begins after a character that is not a letter, as in "like ball-bearings" and in "(satin)".
     const auto before = at == 0 ? ' ' : static_cast<unsigned char>(words[at - 1]);
     if (!std::isalnum(before) && before < 0x80) return true;
   }
@@ -44,7 +44,7 @@ struct Occurrence {
   std::string text;
 };
 
-/// Where a folded text stands in a material, the nearest.
+/// Finds a folded text in a material; of several places, the first in the order of `FoundBy`.
 std::optional<Occurrence> occurrence_of(const std::string& sought, const IndexedMaterial& material) {
   std::optional<Occurrence> nearest;
   const auto look = [&](FoundBy by, const std::string& text) {
@@ -80,7 +80,7 @@ std::vector<FoundMaterial> find_materials(const LibraryIndex& index, const std::
                                           std::string_view kind) {
   std::vector<std::string> sought;
   for (const std::string& text : texts) sought.push_back(folded(text));
-  std::vector<std::pair<bool, FoundMaterial>> found;  // inexact first, as they are ordered
+  std::vector<std::pair<bool, FoundMaterial>> found;  // whether it is inexact, as the key to sort by
   for (const IndexedMaterial& material : index.materials()) {
     if (!kind.empty() && !is_of_kind(material.kind, kind)) continue;
     Occurrence farthest{false, FoundBy::name, material.name};

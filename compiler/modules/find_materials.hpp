@@ -8,27 +8,27 @@
 
 namespace wale {
 
-/// By what a material was found, the nearest to it first.
+/// The kind of text by which a material was found, the best first.
 enum class FoundBy { name, title, called, kind, feels, documentation };
 
-/// The word for one: "name", "called".
+/// Its word: "name", "called".
 std::string_view in_words(FoundBy by);
 
-/// A material with all that was looked for in it.
+/// A material that contains all the texts that were sought.
 struct FoundMaterial {
-  const IndexedMaterial* material = nullptr;  ///< of the index that was searched
-  FoundBy by = FoundBy::name;                 ///< of several texts, the one that was farthest
-  std::string text;                           ///< which of its texts that was: "like ball bearings"
+  const IndexedMaterial* material = nullptr;  ///< points into the index that was searched
+  FoundBy by = FoundBy::name;                 ///< for several sought texts, the worst of their kinds
+  std::string text;                           ///< the material's text of that kind: "like ball bearings"
 };
 
-/// The materials in which every text occurs where a word begins, capitals apart and `_`, `.` and `-` as good as a
-/// blank: "cord" finds "corduroy" and "old cord" and not "accord". `kind` leaves those of that kind and of the kinds in
-/// it, "fabric" those of "fabric.woven"; empty leaves all. First what is called exactly so, then by what they were
-/// found, then by their modules and names.
+/// The materials that contain every text at the beginning of a word. Capitals do not matter, and `_`, `.` and `-` count
+/// as blanks: "cord" finds "corduroy" and "old cord" but not "accord". `kind` keeps only materials of that kind and its
+/// subkinds, as "fabric" does with "fabric.woven"; if it is empty, all are kept. Exact matches come first; then the
+/// order is by `FoundBy`, module and name.
 std::vector<FoundMaterial> find_materials(const LibraryIndex& index, const std::vector<std::string>& texts,
                                           std::string_view kind);
 
-/// For somebody who found nothing: every word of every material, and every kind with the kinds that hold it.
+/// Suggestions for a search without results: every word of every material, and every kind with its parent kinds.
 std::vector<std::string> findable_words(const LibraryIndex& index);
 std::vector<std::string> kinds_in(const LibraryIndex& index);
 

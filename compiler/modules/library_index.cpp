@@ -13,7 +13,7 @@
 namespace wale {
 namespace {
 
-/// Texts as they are written, words with their dots.
+/// The texts and words of a setting as they are written, words with their dots.
 std::vector<std::string> texts_in(const Setting& setting, const SyntaxTree& tree) {
   std::vector<std::string> texts;
   for (const SettingItem& item : setting.items) {
@@ -28,7 +28,7 @@ bool same_but_for_capitals(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// Reads one more file. Its errors are reported when it is compiled, not here.
+/// Adds one file to the index. Its errors are ignored here and reported when it is compiled.
 void read_into(LibraryIndex& index, const std::string& module, const std::string& name, std::string text,
                bool shipped) {
   SourceSet sources;

@@ -10,15 +10,15 @@
 
 namespace wale {
 
-/// A material of a library, as people look for it.
+/// A material of a library, with all texts by which people look for it.
 struct IndexedMaterial {
   std::string name;
   std::string module;  ///< the file that declares it, as an import names it: "fabric.denim"
-  std::string file;    ///< ... and as people see it: "library/fabric/denim.wale"
+  std::string file;    ///< the same file as messages show it: "library/fabric/denim.wale"
   std::string title, kind;
   std::vector<std::string> called, feels;
-  std::string documentation;  ///< of its `///` comment
-  bool shipped = false;       ///< part of the binary, and no file of the person's own
+  std::string documentation;  ///< text of its `///` comment
+  bool shipped = false;       ///< part of the binary, not a file of the user
 };
 
 /// A name that a file of a library exports, other than a material.
@@ -28,23 +28,23 @@ struct ExportedName {
   std::string_view what;  ///< "function", "constant", "unit" or "dimension"
 };
 
-/// The materials of a library by all their names, file by file in the order of their modules.
+/// The materials of a library with all their names, file by file in the order of their modules.
 class LibraryIndex {
  public:
-  /// Enters the materials and the exports of a file. Errors in the file do not matter here.
+  /// Enters the materials and the exports of a file. Errors in the file are ignored.
   void add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped = false);
 
   const std::vector<IndexedMaterial>& materials() const { return materials_; }
 
-  /// The first export of that name, or null.
+  /// The first export with that name, or null.
   const ExportedName* exported(std::string_view name) const;
 
-  /// The materials that a text may mean: those of that name; where there are none, those with that title or `called`
-  /// so, capitals or not; then those of that kind; then those of that module, "fabric.denim", or the one named with its
-  /// module, "sandpaper.chapter4.Viscous".
+  /// The materials that a text may mean: those with that name. If there are none, those with that title or `called`
+  /// text (capitals do not matter); if there are none, those of that kind; if there are none, those of that module,
+  /// "fabric.denim", or the one named with its module, "sandpaper.chapter4.Viscous".
   std::vector<const IndexedMaterial*> meant_by(std::string_view text) const;
 
-  /// Everything by which a material may be meant.
+  /// All texts that may mean a material.
   std::vector<std::string> spellings() const;
 
  private:
@@ -52,8 +52,8 @@ class LibraryIndex {
   std::vector<ExportedName> exports_;
 };
 
-/// Of all modules that a file called `from` could import: those that the resolver lists, then the embedded ones. Made
-/// once in a process for each library, from all of its files; a file that is written later is not in it.
+/// The index of all modules that a file called `from` could import: those that the resolver lists, then the embedded
+/// ones. It is made once per process for each library; files that are written later are not in it.
 std::shared_ptr<const LibraryIndex> library_index(Resolver& resolver, const std::string& from);
 
 }  // namespace wale

@@ -22,13 +22,13 @@ namespace wale {
 
 namespace {
 
-/// A file that could be imported by this name is: its exported devices are those of the project.
+/// A module of this name is imported automatically: its exported devices are those of the project.
 constexpr const char* project_devices = "devices";
 
-/// A file's imports may have imports, and so on, so deep.
+/// How deep imports may be nested.
 constexpr std::size_t deepest_import = 64;
 
-/// Whether a file of this name, "…/schema/units.wale", is meant to stand in the place of an embedded one.
+/// Whether a file of this name, "…/schema/units.wale", replaces an embedded one.
 bool stands_for(const std::string& name, const EmbeddedFile& file) {
   if (!name.ends_with(file.name)) return false;
   return name.size() == file.name.size() || name[name.size() - file.name.size() - 1] == '/';
@@ -60,19 +60,19 @@ std::vector<std::string_view> imported_modules(const SyntaxTree& tree) {
   return modules;
 }
 
-/// Follows imports depth first, so that what a file refers to is declared before it.
+/// Follows imports depth first, so that a file is declared after all files that it refers to.
 class ModuleLoader {
  public:
   ModuleLoader(SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics, ModuleSet& modules)
       : sources_(sources), resolver_(resolver), diagnostics_(diagnostics), modules_(modules) {}
 
-  /// The file itself, with all that its imports and the materials that it names bring, each before what uses it. It
-  /// knows the devices of its project besides.
+  /// Loads the file itself, its imports and the files of the library materials that it names, each before the files
+  /// that use it. The file also knows the devices of its project.
   void load(SyntaxTree tree) {
     add_project_devices_of(sources_[tree.source].name);
     const std::shared_ptr<const Module> file = add(std::move(tree));
     modules_.modules.pop_back();
-    // Files that this adds may add more.
+    // `added_` grows while files that it adds need more files.
     for (std::size_t i = 0; i < added_.size(); ++i) find_materials(*std::shared_ptr(added_[i]));
     modules_.modules.push_back(file);
   }
@@ -100,14 +100,14 @@ class ModuleLoader {
 
   void add_project_devices_of(const std::string& name) {
     auto resolved = resolver_.module(project_devices, name);
-    // One that is just being written is still empty.
+    // An empty file is ignored: an editor may be writing it at this moment.
     if (resolved && resolved->name != name && !resolved->bytes.empty()) {
       const SourceId source = sources_.add(resolved->name, std::move(resolved->bytes));
       devices_ = add(parse(sources_, source, diagnostics_));
     }
   }
 
-  /// Declarations and imports of the file by the same names go before them.
+  /// Declarations and imports of the file itself take precedence over devices of the same names.
   void add_project_devices(Declarations& declarations) const {
     for (const auto& [name, entry] : devices_->declarations.devices.own()) {
       if (!entry.exported || entry.imported || declarations.devices.own().contains(name)) continue;
@@ -125,7 +125,7 @@ class ModuleLoader {
           {.code = Code::unknown_import,
            .span = module.span,
            .message = fmt::format("`{}` cannot be imported: {}", module.text, resolved.error().sentence),
-           .help = "dots stand for folders: `import fabric.denim` is the file fabric/denim.wale"});
+           .help = "dots separate folders: `import fabric.denim` means the file fabric/denim.wale"});
       return nullptr;
     }
     ResolvedFile& file = *resolved;
@@ -135,7 +135,7 @@ class ModuleLoader {
     return add(parse(sources_, source, diagnostics_));
   }
 
-  /// A module that is part of the binary, `std.friction`, unless the file asking is that module.
+  /// A module that is part of the binary, such as `std.friction`, unless the importing file is that module itself.
   std::optional<std::shared_ptr<const Module>> embedded_module(const Word& word) {
     std::string name = fmt::format("library/{}", word.text);
     std::replace(name.begin(), name.end(), '.', '/');
@@ -164,23 +164,23 @@ class ModuleLoader {
     Diagnostic diagnostic =
         std::move(advice).about(Code::cyclic_import, module.span,
                                 fmt::format("`{}` imports this file, directly or through others", module.text));
-    diagnostic.expected = "imports that come to an end";
+    diagnostic.expected = "imports without a circle";
     diagnostic.found = circle + fmt::format("`{}`", name);
     diagnostics_.report(std::move(diagnostic));
     return true;
   }
 
-  /// Imports are followed recursively, so their depth is bounded.
+  /// Whether the imports are nested too deep, which is reported. They are followed recursively.
   bool too_deep(const Word& module) {
     if (path_.size() < deepest_import) return false;
-    diagnostics_.report(Advice("let this file import what it needs itself, or put some of the files into one")
+    diagnostics_.report(Advice("import directly the files that this file needs, or combine some of the files")
                             .fact("limit", static_cast<double>(deepest_import))
                             .about(Code::nested_too_deep, module.span,
-                                   fmt::format("more than {} files import one another in a row", deepest_import)));
+                                   fmt::format("imports are nested more than {} files deep", deepest_import)));
     return true;
   }
 
-  /// Finds the materials that those of a file are made from and that it neither declares nor imports by those names.
+  /// Finds the library materials that a file's materials are made from but that it neither declares nor imports.
   void find_materials(Module& module) {
     for (const Declaration& declaration : module.tree.declarations)
       if (const auto* material = std::get_if<MaterialDecl>(&declaration))
@@ -190,8 +190,8 @@ class ModuleLoader {
                 find_in_library(module, std::string(material->name.text), word);
   }
 
-  /// The material that a word means: one of the file itself goes before one that it imports, and that before others.
-  /// No material means itself by its title or kind. Null where none or several are found, which is reported.
+  /// The material that a word means. Materials of the file itself take precedence over imported ones, and those over
+  /// others. The material `asking` is never meant. Null if none or several are found, which is reported.
   const Declared<MaterialDecl>* find_in_library(const Module& module, std::string_view asking, const Word& word) {
     LibraryIndex own;
     own.add(module.name, module.name, module.tree);
@@ -210,7 +210,7 @@ class ModuleLoader {
     return file ? file->declarations.materials.find(found.front()->name) : nullptr;
   }
 
-  /// Whether an entry of an index is of the file itself: "fabric.denim" of "library/fabric/denim.wale".
+  /// Whether an entry of the index comes from the file itself: "fabric.denim" from "library/fabric/denim.wale".
   static bool is_file(const Module& module, const IndexedMaterial& entry) {
     if (entry.module == module.name) return true;
     std::string path = entry.module;
@@ -227,7 +227,7 @@ class ModuleLoader {
           Advice(fmt::format("`{}` is a {} of `{}`; to use it in an expression, write `import {}`", word.text,
                              other->what, other->module, other->module))
               .about(Code::unknown_name, word.span, message));
-    // Its own file's materials need no import, and neither do those that it imports.
+    // Materials that the file declares or imports need no import.
     std::vector<std::pair<std::string, std::string>> near;  // a name, and the module to import
     for (const IndexedMaterial* each : nearest_materials(own, word.text)) near.emplace_back(each->name, "");
     for (const IndexedMaterial* each : nearest_materials(index, word.text))
@@ -247,7 +247,7 @@ class ModuleLoader {
       told.push_back(from.empty() ? fmt::format("`{}`", name) : fmt::format("`{}` (`import {}`)", name, from));
     const std::string last = std::exchange(told.back(), "");
     told.pop_back();
-    // A slip in a name that the file itself knows is mended without asking.
+    // A misspelt name that the file itself knows gets a safe fix.
     std::vector<Fix> fixes = respell(word.span, word.text, module.declarations.materials.spellings());
     if (fixes.empty()) fixes.push_back(replace(word.span, near.front().first, {}, false));
     diagnostics_.report(Advice(told.empty() ? fmt::format("did you mean {}?", last)
@@ -274,7 +274,7 @@ class ModuleLoader {
   std::shared_ptr<SharedNames> names_ = std::make_shared<SharedNames>(modules_.common->declarations.names());
   std::vector<std::string> path_;  ///< files whose imports are being followed
   std::map<std::string, std::shared_ptr<const Module>> loaded_;
-  std::vector<std::shared_ptr<Module>> added_;  ///< all of them
+  std::vector<std::shared_ptr<Module>> added_;  ///< all files loaded so far
   std::shared_ptr<const Module> devices_;       ///< the project's own; may be null
 };
 

@@ -8,16 +8,16 @@
 
 namespace wale {
 
-/// The embedded files that every file knows, parsed and declared once for the process. Errors in them are in `problems`,
-/// which `load_modules` reports. May be called by several threads at once.
+/// The embedded files that every file knows, parsed and declared once per process. `load_modules` reports the errors in
+/// `problems`. Thread-safe.
 std::shared_ptr<const CommonModules> common_modules();
 
-/// Declares everything that a file may use: follows the imports of `tree` through `resolver`, and where that finds
-/// nothing among the embedded modules, each file once. Materials that others are made from and that the file neither
-/// declares nor imports are looked for in the library. The devices that a module `devices` exports, where there is one,
-/// need no import. A file that is itself one of the embedded common ones takes the place of that one.
+/// Declares everything that a file may use. Imports of `tree` are resolved by `resolver`, or else among the embedded
+/// modules; each file is loaded once. Materials that the file uses but neither declares nor imports are looked up in
+/// the library. The exported devices of a module `devices`, if there is one, need no import. A file that is itself one
+/// of the embedded common files replaces that one. Errors are reported to `diagnostics`.
 ModuleSet load_modules(SyntaxTree tree, SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics);
-/// The same with other files in the place of the embedded common ones.
+/// The same with other common files instead of the embedded ones.
 ModuleSet load_modules(SyntaxTree tree, SourceSet& sources, Resolver& resolver, Diagnostics& diagnostics,
                        std::shared_ptr<const CommonModules> common);
 

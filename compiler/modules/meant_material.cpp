@@ -12,7 +12,7 @@
 namespace wale {
 namespace {
 
-/// How far a text is from the nearest of a material's names, in letters changed.
+/// The edit distance between a text and the nearest of a material's names, in letters.
 std::size_t distance(std::string_view text, const IndexedMaterial& material) {
   std::size_t least = letters_changed(text, material.name);
   const auto hold_against = [&](std::string_view name) {

@@ -18,7 +18,8 @@ struct Spelling {
   TokenKind kind;
 };
 
-/// Spellings that begin alike stand together, the longer ones first, so that `<=` is not read as `<` and `=`.
+/// Spellings with the same first character are adjacent, the longer ones first, so that `<=` is not read as `<` and
+/// `=`.
 constexpr Spelling punctuation[] = {
     {"..", TokenKind::range},
     {".x", TokenKind::part_x},
@@ -48,7 +49,8 @@ constexpr Spelling punctuation[] = {
     {"%", TokenKind::percent},
 };
 
-/// By first byte: where in `punctuation` the spellings that begin with it are, or its size.
+/// By first byte: the index in `punctuation` of the first spelling that begins with it, or the table's size if none
+/// does.
 constexpr auto first_spelling = [] {
   std::array<std::uint8_t, 256> first{};
   first.fill(std::size(punctuation));
@@ -57,8 +59,8 @@ constexpr auto first_spelling = [] {
   return first;
 }();
 
-/// By byte: what it is where no other spelling begins with it; `unreadable` of the others. One that a lookalike begins
-/// with must not be doubled.
+/// By byte: its token, if no longer spelling begins with it; otherwise `unreadable`. A byte that begins a lookalike is
+/// such a token only if it is not doubled.
 constexpr auto lone_symbols = [] {
   std::array<TokenKind, 256> table{};
   table.fill(TokenKind::unreadable);
@@ -71,7 +73,7 @@ constexpr auto lone_symbols = [] {
   return table;
 }();
 
-/// By byte: whether a text that is what stands there goes no further: it ends, or a letter of it is written otherwise.
+/// By byte: whether it ends the part of a text that can be taken over unchanged: a quote, an escape or the line's end.
 constexpr auto ends_plain_text = [] {
   std::array<bool, 256> table{};
   for (const char c : {'"', '\\', '\n', '\0'}) table[static_cast<unsigned char>(c)] = true;
@@ -84,7 +86,7 @@ constexpr Spelling words[] = {
     {"and", TokenKind::word_and}, {"or", TokenKind::word_or},     {"not", TokenKind::word_not},
 };
 
-/// A name, or one of the words that cannot be names, all of which are short.
+/// The kind of a word: a name, or one of the reserved words, all of which are short.
 TokenKind kind_of_word(std::string_view word) {
   constexpr std::size_t longest = 4;
   if (word.size() > longest) return TokenKind::name;
@@ -94,7 +96,7 @@ TokenKind kind_of_word(std::string_view word) {
 
 bool is_bracket(TokenKind kind) { return kind >= TokenKind::left_parenthesis && kind <= TokenKind::right_brace; }
 
-/// What a token can be that begins with a byte, so that each byte is asked about once.
+/// The kinds of tokens by their first byte, so that one look-up per token decides.
 enum class Beginning : std::uint8_t { other, name, number, symbol, slash, quote };
 constexpr auto beginnings = [] {
   std::array<Beginning, 256> table{};
@@ -146,7 +148,7 @@ bool Lexer::is_readable() {
     return false;
   }
   for (std::size_t at = 0; at < text_.size();) {
-    if (text_[at] > 0) {  // ASCII, as nearly all are
+    if (text_[at] > 0) {  // ASCII, as nearly always
       ++at;
       continue;
     }
@@ -163,7 +165,7 @@ bool Lexer::is_readable() {
   return true;
 }
 
-// Nearly all of a text: names, numbers, symbols of one character, and the space between them.
+// Nearly all of a file: names, numbers, symbols of one character, and the space between them.
 
 [[gnu::always_inline]] inline void Lexer::name() {
   const std::size_t begin = at_;
@@ -243,7 +245,7 @@ void Lexer::line_comment() {
   if (comment.starts_with("///") && !comment.starts_with("////")) {
     std::string_view line = comment.substr(3);
     if (line.starts_with(' ')) line.remove_prefix(1);
-    // Only ASCII's blanks: the last byte of a letter may be that of another one.
+    // Only ASCII blanks: the last byte of a UTF-8 letter may equal that of another character.
     while (!line.empty() && static_cast<unsigned char>(line.back()) <= ' ') line.remove_suffix(1);
     std::string& documentation = result_.documentation[result_.tokens.size()];
     if (!documentation.empty()) documentation += '\n';
@@ -294,7 +296,7 @@ void Lexer::digits() {
   while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
 }
 
-/// `e-3`; an `e` that no digits follow is the beginning of a unit's name.
+/// Reads `e-3`. An `e` without digits after it begins a unit's name instead.
 void Lexer::exponent() {
   std::size_t at = at_;
   if (at == text_.size() || (text_[at] != 'e' && text_[at] != 'E')) return;
@@ -305,7 +307,7 @@ void Lexer::exponent() {
   digits();
 }
 
-/// A text whose opening quote is `quote_bytes` long; one that opens typographically may close so.
+/// Reads a text whose opening quote is `quote_bytes` long. After a typographic quote, a typographic quote may close it.
 void Lexer::text(std::size_t quote_bytes) {
   const std::size_t begin = at_, inside = at_ + quote_bytes;
   const bool typographic = quote_bytes > 1;
@@ -313,10 +315,10 @@ void Lexer::text(std::size_t quote_bytes) {
   while (!typographic && !ends_plain_text[static_cast<unsigned char>(here())]) ++at_;
   if (typographic || here() != '"') return rewritten_text(begin, inside, typographic);
   ++at_;
-  add_text(begin, text_.substr(inside, at_ - 1 - inside));  // as nearly always: what stands there
+  add_text(begin, text_.substr(inside, at_ - 1 - inside));  // as nearly always: no escapes
 }
 
-/// The rest of a text that is not what stands between its quotes.
+/// Reads the rest of a text with escapes, whose value differs from its spelling.
 void Lexer::rewritten_text(std::size_t begin, std::size_t inside, bool typographic) {
   std::string value(text_.substr(inside, at_ - inside));
   while (at_ < text_.size() && text_[at_] != '\n') {
@@ -375,14 +377,14 @@ bool Lexer::symbol() {
   return false;
 }
 
-/// Whether a line that begins with such a token is not the rest of the one above.
+/// Whether a line that begins with such a token begins a statement, rather than continuing the line above.
 bool Lexer::is_statement_line(TokenKind kind) const {
   // No statement begins with these, so they may also begin the second line of a long conditional.
   if (kind == TokenKind::word_then || kind == TokenKind::word_else) return false;
   return !result_.tokens.empty() && !continues(result_.tokens.back().kind);
 }
 
-/// Whether `.x` here is a part of what the parenthesis right before it closes.
+/// Whether `.x` here is a part of a vector: it directly follows a `)`.
 bool Lexer::is_part() const {
   if (result_.tokens.empty()) return false;
   const Token& last = result_.tokens.back();
@@ -392,8 +394,8 @@ bool Lexer::is_part() const {
   return last.kind == TokenKind::right_parenthesis && last.end == at_ && !goes_on;
 }
 
-/// Finds which bracket closes which, for the parser's recovery. A brace ends the parentheses that are open inside it:
-/// one forgotten `)` must not swallow the rest of the file.
+/// Finds the matching brackets, for the parser's recovery. A closing brace also ends the parentheses that are open
+/// inside its block, so that one forgotten `)` does not swallow the rest of the file.
 void Lexer::match_brackets(TokenKind kind, std::uint32_t index) {
   const auto close = [&](TokenKind opening) {
     while (!open_.empty()) {

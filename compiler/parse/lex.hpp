@@ -14,10 +14,10 @@ namespace wale {
 
 enum class TokenKind : std::uint8_t {
   end,
-  name,  ///< perhaps dotted: fabric.denim
+  name,  ///< with or without dots: fabric.denim
   number,
   text,
-  // The words that cannot be names, because a value or a unit may stand before them.
+  // Reserved words: a value or a unit may precede them, so they cannot be names.
   word_if,
   word_then,
   word_else,
@@ -49,29 +49,30 @@ enum class TokenKind : std::uint8_t {
   greater_equal,
   plus_minus,
   prime,
-  part_x,  ///< `.x` right behind a `)`
+  part_x,  ///< `.x` directly after a `)`
   part_y,
   percent,
-  unreadable,  ///< already reported; whatever needs it gives up silently
+  unreadable,  ///< already reported; the parser gives up silently where it meets one
 };
 
-/// Whether a line that ends in such a token goes on in the next.
+/// Whether a line that ends in such a token continues in the next.
 bool continues(TokenKind kind);
 
 /// Whether a statement ends before a token.
 enum class StatementEnd : std::uint8_t {
   no,
-  outside_parentheses,  ///< the token begins a line that is not the rest of the one above
+  outside_parentheses,  ///< the token begins a line that does not continue the one above; inside parentheses newlines
+                        ///< do not matter
   yes,                  ///< `;`, `}` or the end of the file
 };
 
 struct Token {
   TokenKind kind = TokenKind::end;
-  bool starts_line = false;  ///< a newline stands before it
+  bool starts_line = false;  ///< a newline precedes it
   StatementEnd ends_statement = StatementEnd::no;
   std::uint32_t begin = 0, end = 0;  ///< bytes of the source
-  /// Of a number or text: its index in `numbers` or `texts`. Of a name: 0, or one more than the index of its corrected
-  /// spelling in `texts`. Of a bracket: the token that closes it, or 0 when none does.
+  /// For a number or text: its index in `numbers` or `texts`. For a name: 0, or 1 + the index of its corrected spelling
+  /// in `texts`. For a bracket: the index of the token that closes it, or 0 if none does.
   std::uint32_t value = 0;
 };
 
@@ -80,11 +81,11 @@ struct Tokens {
   std::vector<Token> tokens;
   std::vector<double> numbers;
   std::vector<std::string_view> texts;
-  std::map<std::size_t, std::string> documentation;  ///< text of the `///` comments before a token
+  std::map<std::size_t, std::string> documentation;  ///< text of the `///` comments, by the token after them
   std::shared_ptr<const Source> source;
-  std::shared_ptr<std::forward_list<std::string>> rewritten;  ///< null while nothing is
+  std::shared_ptr<std::forward_list<std::string>> rewritten;  ///< null if nothing was rewritten
 
-  /// Keeps what the file says in other letters: a text with escapes, a corrected name.
+  /// Stores a text that differs from its spelling in the file: a text with escapes, a corrected name.
   std::string_view rewrite(std::string text) {
     if (!rewritten) rewritten = std::make_shared<std::forward_list<std::string>>();
     return rewritten->emplace_front(std::move(text));
@@ -94,8 +95,8 @@ struct Tokens {
 /// Reading a file stops after this many errors in it.
 constexpr std::size_t error_limit = 100;
 
-/// Cuts one file into tokens. Reports what is no token and leaves `unreadable`, or what was evidently meant, in its
-/// place. A file that is no text at all (W0107, W0109) gives nothing but `end`.
+/// Cuts one file into tokens. Errors are reported; instead of the erroneous bytes the result has `unreadable`, or the
+/// token that was evidently meant. A file that is not text or too large (W0107, W0109) gives only `end`.
 Tokens lex(const SourceSet& sources, SourceId source, Diagnostics& diagnostics);
 
 }  // namespace wale

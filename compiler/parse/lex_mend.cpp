@@ -1,4 +1,4 @@
-// Bytes that are no token are reported, and read as the token that was evidently meant.
+// Bytes that form no token are reported, and read as the token that was evidently meant.
 
 #include <fmt/format.h>
 
@@ -13,13 +13,13 @@
 namespace wale {
 namespace {
 
-/// What stands between the first two backticks: the token in "`^` for a power".
+/// The text between the first two backticks: the token in "`^` for a power".
 std::string quoted_token(std::string_view text) {
   const std::size_t begin = text.find('`') + 1;
   return std::string(text.substr(begin, text.find('`', begin) - begin));
 }
 
-/// A name of ASCII letters and Greek ones, which become `u`.
+/// The name with its Greek letters replaced by `u`.
 std::string with_u(std::string_view name) {
   std::string ascii;
   for (std::size_t at = 0; at < name.size(); at += decode(name, at).bytes)
@@ -30,24 +30,24 @@ std::string with_u(std::string_view name) {
 std::string help_for(char c, bool visible) {
   switch (c) {
     case '#': return "comments begin with `//`";
-    case '!': return "values are compared with `<`, `<=`, `>` and `>=`; `if … then … else …` chooses";
+    case '!': return "compare values with `<`, `<=`, `>` and `>=`; choose with `if … then … else …`";
     case '?': return "write `if … then … else …`";
-    case '\\': return "a line goes on by itself after an operator, a comma, `=` or `..`, and inside parentheses";
-    case '`': return "texts stand between straight quotes: write `\"`";
+    case '\\': return "a line continues by itself after an operator, a comma, `=` or `..`, and inside parentheses";
+    case '`': return "write texts in straight quotes: `\"`";
     default: return visible ? "remove it, or put it into a text or a comment" : "delete it";
   }
 }
 
 }  // namespace
 
-/// A `0` before the point, unless it would become part of the word that touches it.
+/// A fix that adds a `0` before the point, unless the `0` would become part of the word before it.
 std::vector<Fix> Lexer::leading_zero(std::size_t begin) const {
   if (begin > 0 && (continues_name(text_[begin - 1]) || text_[begin - 1] == '.')) return {};
   return {insert_before(span(begin, at_), "0")};
 }
 
 void Lexer::out_of_range(std::size_t begin, std::string_view digits) {
-  // from_chars leaves the value alone; strtod says in which direction it went out of range.
+  // from_chars leaves the value unset; strtod tells overflow from underflow.
   const double size = std::strtod(std::string(digits).c_str(), nullptr);
   report(Code::number_out_of_range, begin, at_,
          std::isinf(size) ? "this number is too large to hold" : "this number is too close to zero to hold",
@@ -67,7 +67,7 @@ void Lexer::hexadecimal() {
   add(TokenKind::number, begin, add_number(value));
 }
 
-/// A name in which letters of other alphabets stand.
+/// Reads a name that contains letters of other alphabets, and reports it.
 void Lexer::foreign_name() {
   const std::size_t begin = at_;
   bool micro = false, foreign = false;
@@ -89,10 +89,9 @@ void Lexer::foreign_name() {
   }
   const std::string_view word = text_.substr(begin, at_ - begin);
   if (foreign) {
-    // A name may be used many times; once is enough to say what is wrong with it.
+    // The name may be used many times; report it once.
     if (reported_names_.emplace(word).second) {
-      report(Code::unexpected_character, begin, at_,
-             fmt::format("names are written in the letters a to z; `{}` is not", word),
+      report(Code::unexpected_character, begin, at_, fmt::format("`{}` has letters other than a to z", word),
              "rename it with a-z, A-Z, 0-9 and `_`; texts in quotes may hold any letter");
     }
   } else if (micro) {
@@ -104,7 +103,7 @@ void Lexer::foreign_name() {
   add(TokenKind::name, begin);
 }
 
-/// Lookalikes are not ASCII, or else doubled, or `!=`; the rest need not be held against all of them.
+/// Lookalikes are not ASCII, or else doubled, or `!=`; for other bytes the list need not be searched.
 bool Lexer::may_be_lookalike() const {
   const auto c = static_cast<unsigned char>(text_[at_]);
   if (!begins_lookalike[c]) return false;
@@ -117,16 +116,16 @@ bool Lexer::quote() {
     if (starts(mark)) {
       const std::size_t begin = at_;
       text(mark.size());
-      report(Code::unexpected_character, begin, begin + mark.size(), "a typographic quotation mark",
-             "texts stand between straight quotes: write `\"`", quote_fixes(begin, begin + mark.size()));
+      report(Code::unexpected_character, begin, begin + mark.size(), "typographic quotation mark",
+             "write texts in straight quotes: `\"`", quote_fixes(begin, begin + mark.size()));
       return true;
     }
   }
   return false;
 }
 
-/// Straight quotes for the text that has just been read, if it ends as it began. One that a straight quote ends may
-/// hold that quote rather than end there.
+/// Fixes that put straight quotes around the text that has just been read, if both its quotes are typographic. If the
+/// second is straight, it may be part of the text instead of its end.
 std::vector<Fix> Lexer::quote_fixes(std::size_t begin, std::size_t inside) const {
   Fix fix = replace(span(begin, inside), "\"", "write straight quotes");
   for (const std::string_view closing : typographic_quotes) {
@@ -166,19 +165,19 @@ bool Lexer::lookalike() {
   return false;
 }
 
-/// A name that is read in another spelling than it has.
+/// Adds a name with a corrected spelling.
 void Lexer::add_corrected(std::string name, std::size_t begin) {
   result_.texts.push_back(result_.rewrite(std::move(name)));
   add(TokenKind::name, begin, static_cast<std::uint32_t>(result_.texts.size()));
 }
 
-/// One that may mean several things is left to its author.
+/// The fix for a lookalike; none if it may mean several things.
 std::vector<Fix> Lexer::lookalike_fixes(const Lookalike& each, std::size_t begin) const {
   if (each.kind == TokenKind::unreadable) return {};
   return {replace(span(begin, at_), quoted_token(each.meant))};
 }
 
-/// A run of the same character is one mistake.
+/// Reports an unknown character; a run of the same character is one error.
 void Lexer::unknown(const Character& character) {
   const std::size_t begin = at_;
   while (at_ < text_.size() && decode(text_, at_).code == character.code) at_ += character.bytes;
@@ -186,12 +185,13 @@ void Lexer::unknown(const Character& character) {
                        !(character.code >= 0x200B && character.code <= 0x206F) && character.code != 0xFEFF;
   report(Code::unexpected_character, begin, at_,
          visible ? fmt::format("Wale does not use the character `{}`", text_.substr(begin, character.bytes))
-                 : fmt::format("the invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
+                 : fmt::format("invisible character U+{:04X}", static_cast<std::uint32_t>(character.code)),
          help_for(text_[begin], visible), unknown_fixes(begin, visible));
   add(TokenKind::unreadable, begin);
 }
 
-/// An invisible character is removed; a `#` at the beginning of a line begins a comment in many languages.
+/// Fixes: remove an invisible character; replace a `#` at the beginning of a line, a comment in many languages, by
+/// `//`.
 std::vector<Fix> Lexer::unknown_fixes(std::size_t begin, bool visible) const {
   if (!visible) return {replace(span(begin, at_), "")};
   if (text_[begin] == '#' && starts_line_) return {replace(span(begin, at_), "//")};

@@ -15,7 +15,7 @@
 
 namespace wale {
 
-/// Cuts the text of one file into tokens; `lex.hpp` is the way in.
+/// Cuts the text of one file into tokens. Call it through `lex` in `lex.hpp`.
 class Lexer {
  public:
   Lexer(const SourceSet& sources, SourceId source, Diagnostics& diagnostics)
@@ -27,7 +27,7 @@ class Lexer {
   Tokens run();
 
  private:
-  // lex.cpp: tokens as they should be
+  // lex.cpp: correct tokens
   bool is_readable();
   void next();
   void line_comment();
@@ -36,7 +36,7 @@ class Lexer {
   void digits();
   void exponent();
   void name();
-  /// `fabric.denim` is one name; the dots of `low..high` are none of it.
+  /// `fabric.denim` is one name; the dots of `low..high` do not belong to a name.
   bool is_dot_in_name() const { return here() == '.' && begins_name(after()); }
   void text(std::size_t quote_bytes);
   void rewritten_text(std::size_t begin, std::size_t inside, bool typographic);
@@ -52,7 +52,7 @@ class Lexer {
                               static_cast<std::uint32_t>(at_), value});
     starts_line_ = false;
   }
-  /// Of a token of that kind here.
+  /// Whether a statement ends before a token of that kind here.
   [[gnu::always_inline]] inline StatementEnd statement_end(TokenKind kind) const {
     if (kind == TokenKind::end || kind == TokenKind::semicolon || kind == TokenKind::right_brace)
       return StatementEnd::yes;
@@ -60,7 +60,7 @@ class Lexer {
   }
   [[gnu::noinline]] bool is_statement_line(TokenKind kind) const;
 
-  // lex_mend.cpp: what is no token, and what was evidently meant
+  // lex_mend.cpp: bytes that form no token, and the tokens that were evidently meant
   std::vector<Fix> leading_zero(std::size_t begin) const;
   void out_of_range(std::size_t begin, std::string_view digits);
   void hexadecimal();
@@ -74,11 +74,11 @@ class Lexer {
   void unknown(const Character& character);
   std::vector<Fix> unknown_fixes(std::size_t begin, bool visible) const;
 
-  /// The byte where the lexer stands, and the one behind it: a NUL at the end of the text and nowhere else.
+  /// The current byte and the next one; a NUL at the end of the text and nowhere else.
   char here() const { return text_.data()[at_]; }
   char after() const { return at_ < text_.size() ? text_.data()[at_ + 1] : '\0'; }
   bool starts(std::string_view spelling) const {
-    // Tables of short spellings are tried one by one: most differ in their first byte.
+    // Called for every spelling of a table; most differ in their first byte.
     if (text_.size() - at_ < spelling.size()) return false;
     for (std::size_t i = 0; i < spelling.size(); ++i)
       if (text_[at_ + i] != spelling[i]) return false;
@@ -90,10 +90,10 @@ class Lexer {
   [[gnu::cold]] void report(Code code, std::size_t begin, std::size_t end, std::string message, std::string help,
                             std::vector<Fix> fixes = {}, std::vector<Fact> facts = {}, std::string rule = {});
 
-  std::string_view text_;  ///< of `result_.source`
+  std::string_view text_;  ///< the text of `result_.source`
   SourceId source_;
   Diagnostics& diagnostics_;
-  bool is_full_;  ///< of errors: the rest is not read
+  bool is_full_;  ///< the error limit is reached; the rest is not read
   Tokens result_;
   std::size_t at_ = 0;
   bool starts_line_ = true;

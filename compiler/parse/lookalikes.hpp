@@ -7,12 +7,12 @@
 
 namespace wale {
 
-/// What people type, or their word processor makes, instead of a token of Wale.
+/// Characters that people or their word processors write instead of a token of Wale.
 struct Lookalike {
   std::string_view text;
   std::string_view called;
   std::string_view meant;
-  TokenKind kind;  ///< what it is read as; `unreadable` when it may mean several things
+  TokenKind kind;  ///< the token it is read as; `unreadable` if it may mean several things
 };
 
 inline constexpr Lookalike lookalikes[] = {
@@ -41,7 +41,7 @@ inline constexpr Lookalike lookalikes[] = {
     {"′", "a prime", "`'`", TokenKind::prime},
 };
 
-/// By first byte: whether one of them may begin with it, as with any that is not ASCII.
+/// By first byte: whether a lookalike may begin with it, which is true of every byte that is not ASCII.
 inline constexpr auto begins_lookalike = [] {
   std::array<bool, 256> table{};
   for (std::size_t byte = 0x80; byte < table.size(); ++byte) table[byte] = true;

@@ -7,13 +7,13 @@
 
 namespace wale {
 
-/// The material that a setting `like X`, `like "deep wale corduroy"` or `like fabric.woven` names; none for any other
-/// setting, and none for a `like` that names no single material.
+/// The name in a setting `like X`, `like "deep wale corduroy"` or `like fabric.woven`. None for other settings, and
+/// none for a `like` without exactly one name.
 std::optional<Word> liked_by(const Setting& setting, const SyntaxTree& tree);
 
-/// Every place of a material where the name of another may stand, in the order written: `like X`, `= X`, `= X(…)`,
-/// `= 0.5 X + 30 % X + 0.2 * X(…)`, `= between(X, X(…), 0.3)`; a text in quotes is as good as a name. Whether the
-/// names mean materials is not known here.
+/// All words of a material that may name another material, in the order written: X in `like X`, `= X`, `= X(…)`,
+/// `= 0.5 X + 30 % X + 0.2 * X(…)`, `= between(X, X(…), 0.3)`. X may also be a text in quotes. Whether the words do
+/// name materials is not known here.
 std::vector<Word> made_from(const MaterialDecl& material, const SyntaxTree& tree);
 
 }  // namespace wale

@@ -2,7 +2,7 @@
 
 namespace wale {
 
-/// One function out of several lambdas, one for each alternative of a variant: for `std::visit`.
+/// Combines several lambdas, one for each alternative of a variant, into one function object for `std::visit`.
 template <typename... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;

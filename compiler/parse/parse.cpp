@@ -14,7 +14,7 @@ namespace {
 
 constexpr int known_version = 1;
 
-/// Declarations whose blocks hold settings; what the settings mean is `check`'s business.
+/// Declarations whose blocks hold settings. Later stages know what the settings mean.
 const std::vector<std::string> record_words = {"percept", "map",    "threshold", "rule",
                                                "class",   "device", "levels",    "hand"};
 
@@ -28,10 +28,10 @@ bool holds(const std::vector<std::string>& words, std::string_view word) {
 
 bool is_record(std::string_view word) { return holds(record_words, word); }
 
-/// Hands over what lexer and parser found, in the order of the text.
+/// Reports the errors of the lexer and the parser in the order of the text.
 void report_in_order(const Diagnostics& found, Diagnostics& diagnostics) {
   std::vector<Diagnostic> all = found.all();
-  // Errors in a newer language cannot be told from its new features.
+  // In a file of a newer version, errors cannot be told from new features, so only the version is reported.
   const auto newer =
       std::find_if(all.begin(), all.end(), [](const auto& each) { return each.code == Code::newer_version; });
   if (newer != all.end()) all = {Diagnostic(*newer)};
@@ -60,7 +60,7 @@ SyntaxTree parse(const SourceSet& sources, SourceId source, Diagnostics& diagnos
   const bool is_text = std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic& each) {
     return each.code == Code::invalid_encoding || each.code == Code::too_long;
   });
-  tree.exprs.reserve(tokens.tokens.size() / 2);  // about as many as there are
+  tree.exprs.reserve(tokens.tokens.size() / 2);  // about as many as there will be
   tree.expr_spans.reserve(tokens.tokens.size() / 2);
   tree.suffix_factors.reserve(tokens.tokens.size() / 8);
   tree.call_arguments.reserve(tokens.tokens.size() / 16);
@@ -114,7 +114,7 @@ void Parser::file() {
   }
 }
 
-/// `wale 1`. Without it the file is read as the version that this compiler knows; a newer one is not guessed at.
+/// Reads `wale 1`. Without it the file is read as the version that this compiler knows; a newer version is not read.
 bool Parser::version() {
   const std::string_view first = spelling(here());
   const bool is_wale = here().kind == TokenKind::name && (first == "wale" || first == "Wale" || first == "WALE");
@@ -146,7 +146,7 @@ bool Parser::version() {
   return true;
 }
 
-/// Whether what stands here is a declaration for sure. An indented `let` may belong to what came before.
+/// Whether a declaration certainly begins here. An indented `let` may belong to the previous declaration.
 bool Parser::ends_lostness() const {
   if (here().kind != TokenKind::name) return false;
   const bool body = is_word(at_, "let") && sources_.place(span_of(here())).column > 1;
@@ -155,11 +155,11 @@ bool Parser::ends_lostness() const {
 }
 
 void Parser::declaration() {
-  // The rest of a declaration that ended too early is no news.
+  // The rest of a declaration that ended too early is not reported again.
   reported_ = lost_ = lost_ && !ends_lostness();
   if (here().kind == TokenKind::right_brace) {
-    complain_at(Code::unexpected_token, span_of(here()), "nothing is open that this `}` could close", "a declaration",
-                "`}`", "remove it, or look for a `}` too many above", {replace(span_of(here()), "", {}, false)});
+    complain_at(Code::unexpected_token, span_of(here()), "this `}` closes nothing", "a declaration", "`}`",
+                "remove it, or look for an extra `}` above", {replace(span_of(here()), "", {}, false)});
     advance();
     return;
   }
@@ -172,7 +172,7 @@ void Parser::declaration() {
       const bool material = is_word(at_, "material");
       complain_at(Code::unexpected_token, exporting,
                   material ? "a material needs no `export`: every file that imports this one may use it"
-                           : "an import is not handed on",
+                           : "an import cannot be exported",
                   "", "`export`", material ? "leave `export` out" : "let the files that need it import it too");
     }
   }
@@ -182,18 +182,24 @@ void Parser::declaration() {
     const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;
     std::string help;
     if (meant) help = fmt::format("did you mean `{}`?", *meant);
-    if (!keyword.empty() && followed_by(TokenKind::equals)) help = fmt::format("write `let {} = …`", keyword);
+    bool lacks_let = !keyword.empty() && followed_by(TokenKind::equals);
+    if (lacks_let) help = fmt::format("write `let {} = …`", keyword);
     for (const std::string_view word : {"param", "height", "force", "state", "next", "show", "patch"}) {
-      if (keyword == word) help = fmt::format("`{}` stands in the `physical {{ … }}` of a material", word);
+      if (keyword != word) continue;
+      help = fmt::format("`{}` belongs in the `physical {{ … }}` of a material", word);
+      lacks_let = false;
     }
-    if (keyword == "wale") help = "the version is stated once, in the first line";
+    if (keyword == "wale") {
+      help = "the version is stated once, in the first line";
+      lacks_let = false;
+    }
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
                 "`class`, `device`, `levels` or `hand`",
                 shown(here()), std::move(help),
-                meant                            ? respell_here(declaration_words)
-                : help.starts_with("write `let") ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
-                                                 : std::vector<Fix>{},
+                meant       ? respell_here(declaration_words)
+                : lacks_let ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
+                            : std::vector<Fix>{},
                 {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
     lost_ = lost_ || !meant;
     if (lost_ || keyword == "wale") throw Abandon{};
@@ -209,18 +215,19 @@ void Parser::declaration() {
   end_statement();
 }
 
-/// `import fabric.denim`.
+/// Reads `import fabric.denim`.
 void Parser::import_module() {
   advance();
   if (!at(TokenKind::name)) {
     fail("expected the name of a module" + after_previous(), "a name",
-         at(TokenKind::text) ? "modules are named without quotes, folders with dots: `import fabric.denim`" : "",
+         at(TokenKind::text) ? "write a module's name without quotes, with dots between folders: `import fabric.denim`"
+                             : "",
          unquote(true));
   }
   tree_.declarations.push_back(Import{take_word()});
 }
 
-/// `dimension length`, or `dimension force = mass * length / time^2`, and perhaps the bounds of its states.
+/// Reads `dimension length` or `dimension force = mass * length / time^2`, with optional bounds for its states.
 void Parser::dimension(bool exported) {
   advance();
   DimensionDecl dimension{declared_name("dimension"), {}, {}, exported};
@@ -232,7 +239,7 @@ void Parser::dimension(bool exported) {
   tree_.declarations.push_back(std::move(dimension));
 }
 
-/// `unit m : length`, or `unit N = 1 kg m/s^2`.
+/// Reads `unit m : length` or `unit N = 1 kg m/s^2`.
 void Parser::unit(bool exported) {
   UnitDecl unit;
   unit.exported = exported;
@@ -266,7 +273,7 @@ void Parser::constant(bool exported) {
   tree_.declarations.push_back(std::move(constant));
 }
 
-/// `function grating(along: length, period: length, duty = 0.5) = …`.
+/// Reads `function grating(along: length, period: length, duty = 0.5) = …`.
 void Parser::function(bool exported) {
   FunctionDecl function{};
   function.exported = exported;
@@ -300,7 +307,7 @@ FormalParameter Parser::formal_parameter() {
   return parameter;
 }
 
-/// `percept NAME { … }`, `map NAME from NAME { … }` and the like.
+/// Reads `percept NAME { … }`, `map NAME from NAME { … }` and the like.
 void Parser::record(bool exported) {
   const std::size_t begin = at_;
   RecordDecl record;
@@ -325,7 +332,7 @@ void Parser::record(bool exported) {
   tree_.declarations.push_back(std::move(record));
 }
 
-/// `material NAME { … }`, `material NAME = EXPRESSION`, or both.
+/// Reads `material NAME { … }`, `material NAME = EXPRESSION`, or both.
 void Parser::material() {
   const std::size_t begin = at_;
   MaterialDecl material;
@@ -336,7 +343,7 @@ void Parser::material() {
     advance();
     material.derived_from = expression();
   }
-  // The brace may stand in the next line: nothing else begins with one.
+  // The brace may be on the next line, since nothing else begins with one.
   const bool has_block = here().kind == TokenKind::left_brace || (!material.derived_from && has_sections_below());
   if (has_block) {
     bool misplaced = false;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view sections[] = {"representative", "perceptual", "physical"};
 const std::vector<std::string> section_names(std::begin(sections), std::end(sections));
 
-/// What begins a physical statement, in the order of `PhysicalKeyword`; `x' = …` has no word of its own.
+/// The keywords of physical statements, in the order of `PhysicalKeyword`; `x' = …` has no keyword.
 const std::vector<std::string> physical_words = {"param",  "let",   "height", "force", "patch",
                                                  "active", "state", "memory", "next",  "show"};
 
@@ -32,13 +32,14 @@ bool holds(const List& list, std::string_view word) {
 
 }  // namespace
 
-/// `valid amplitude 9 pu .. 194 pu, period 0.7 mm .. 10 mm`.
+/// Reads a setting such as `valid amplitude 9 pu .. 194 pu, period 0.7 mm .. 10 mm`.
 Setting Parser::setting() {
   const std::size_t begin = at_;
   const bool is_key = here().kind == TokenKind::name || here().kind == TokenKind::word_on;
   if (!is_key) {
-    // Here the statement has only begun, so whatever stands here belongs to it although it begins a line.
-    complain_at(Code::unexpected_token, span_of(here()), "a setting begins with its name", "a name", shown(here()), {});
+    // The statement begins here, so this token belongs to it although it begins a line.
+    complain_at(Code::unexpected_token, span_of(here()), "a setting must begin with its name", "a name", shown(here()),
+                {});
     throw Abandon{};
   }
   Setting setting;
@@ -64,8 +65,8 @@ Setting Parser::setting() {
   return setting;
 }
 
-/// A name is a word of its own unless it is called or an operator says that it is a value. A sign is the next value's:
-/// `amplitude -3 N .. 3 N`.
+/// Whether a name is a leading word, not part of a value: it is not called, and no operator follows it. A sign belongs
+/// to the next value: `amplitude -3 N .. 3 N`.
 bool Parser::is_leading_word() const {
   if (!at(TokenKind::name)) return false;
   for (const TokenKind operation :
@@ -99,7 +100,7 @@ SettingItem Parser::setting_item() {
   return item;
 }
 
-/// Whether the lines of a material's sections follow although no `{` stands here.
+/// Whether the sections of a material follow although the `{` is missing here.
 bool Parser::has_sections_below() const {
   std::size_t index = at_;
   while (!token(index).starts_line && kind(index) != TokenKind::left_brace && kind(index) != TokenKind::end) ++index;
@@ -108,7 +109,7 @@ bool Parser::has_sections_below() const {
           holds(sections, spelling(token(index))));
 }
 
-/// `representative { … }`, `perceptual { … }` or `physical { … }`.
+/// Reads `representative { … }`, `perceptual { … }` or `physical { … }`.
 void Parser::material_section(MaterialDecl& material, bool& misplaced) {
   std::string_view section = spelling(here());
   const bool opens = kind(at_ + 1) == TokenKind::left_brace;
@@ -121,8 +122,8 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
     section = *std::ranges::find(sections, *meant);
   }
   if ((section == "perceptual" && material.perceptual_span) || (section == "physical" && material.physical_span))
-    complain_at(Code::declared_twice, span_of(here()), fmt::format("a material has one `{}` block", section), "", "",
-                "put all its statements into one block", {},
+    complain_at(Code::declared_twice, span_of(here()), fmt::format("a material can have only one `{}` block", section),
+                "", "", "put all its statements into one block", {},
                 {{section == "physical" ? *material.physical_span : *material.perceptual_span, "the first one"}});
   advance();
   if (section == "representative") {
@@ -144,8 +145,8 @@ void Parser::material_section(MaterialDecl& material, bool& misplaced) {
   }
 }
 
-/// What stands in a material but in none of its sections. A physical statement is read where it is, and only the first
-/// statement reported: they were all meant to be in the same section, or one ended too early.
+/// Reads a statement outside the sections of a material. Only the first such statement is reported, since they were
+/// probably all meant for the same section, or a section ended too early. A physical statement is read all the same.
 void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
   const bool physical =
       here().kind == TokenKind::name && (holds(physical_words, spelling(here())) || kind(at_ + 1) == TokenKind::prime);
@@ -153,9 +154,9 @@ void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
     reported_ = true;
   } else {
     complain_at(Code::unexpected_token, span_of(here()),
-                fmt::format("{} stands outside the sections of the material", shown(here())),
+                fmt::format("{} is outside the sections of the material", shown(here())),
                 "`representative`, `perceptual` or `physical`", shown(here()),
-                physical ? "put it into `physical { … }`" : "put it into the section that it belongs to");
+                physical ? "put it into `physical { … }`" : "put it into the section to which it belongs");
   }
   misplaced = true;
   if (!physical) throw Abandon{};
@@ -204,14 +205,15 @@ PerceptStatement Parser::percept_statement() {
   }
   percept.span = since(begin);
   if (at(TokenKind::range)) {
-    complain("a level is one number, with a tolerance if need be", "`±`, or the end of the line", "write `0.5 ± 0.1`");
+    complain("a level must be one number, with or without a tolerance", "`±`, or the end of the line",
+             "write `0.5 ± 0.1`");
     skip_statement();
     percept.value = erroneous(begin);
   }
   return percept;
 }
 
-/// Which statement stands here, by its first word; a misspelt one is reported and read as what it was meant to be.
+/// The kind of the statement here, by its first word. A misspelt word is reported and read as the one that was meant.
 PhysicalKeyword Parser::physical_keyword() {
   if (here().kind == TokenKind::name) {
     if (followed_by(TokenKind::prime)) return PhysicalKeyword::prime;
@@ -228,16 +230,17 @@ PhysicalKeyword Parser::physical_keyword() {
       return *physical_keyword_named(*meant);
     }
     if (defines) {
-      complain_at(Code::unexpected_token, span_of(here()), fmt::format("`{}` is defined without saying as what", word),
-                  "`let`, `param`, `height` or `state`", fmt::format("`{}`", word),
-                  fmt::format("write `let {} = …`", word), {insert_before(span_of(here()), "let ", {}, false)});
+      complain_at(Code::unexpected_token, span_of(here()),
+                  fmt::format("the definition of `{}` lacks its keyword", word), "`let`, `param`, `height` or `state`",
+                  fmt::format("`{}`", word), fmt::format("write `let {} = …`", word),
+                  {insert_before(span_of(here()), "let ", {}, false)});
       return PhysicalKeyword::equals;
     }
   }
   const bool operation = here().kind >= TokenKind::plus && here().kind <= TokenKind::greater_equal;
   complain_at(Code::unexpected_token, span_of(here()), fmt::format("no statement begins with {}", shown(here())),
               "`param`, `let`, `height`, `state`, `memory`, `force`, `patch`, `next`, `show` or `name' = …`",
-              shown(here()), operation ? "to go on in the next line, end the line above with the operator" : "",
+              shown(here()), operation ? "to continue on the next line, end the line above with the operator" : "",
               operation ? move_operator_up() : std::vector<Fix>{});
   throw Abandon{};
 }
@@ -274,7 +277,7 @@ PhysicalStatement Parser::physical_statement() {
   return result;
 }
 
-/// `let reach = …`, `height ribs = …`: a name and its value.
+/// Reads `let reach = …` or `height ribs = …`: a name and its value.
 std::pair<Word, ExprId> Parser::definition(PhysicalKeyword keyword) {
   const bool is_height = keyword == PhysicalKeyword::height, has_keyword = keyword != PhysicalKeyword::equals;
   if (has_keyword) advance();
@@ -284,7 +287,7 @@ std::pair<Word, ExprId> Parser::definition(PhysicalKeyword keyword) {
   return {name, expression()};
 }
 
-/// `force drag = viscous(2 N s/m) limit 3 N`.
+/// Reads `force drag = viscous(2 N s/m) limit 3 N`.
 ForceStatement Parser::force() {
   advance();
   ForceStatement force{};
@@ -299,7 +302,7 @@ ForceStatement Parser::force() {
   return force;
 }
 
-/// `param wale = 2.5 mm in 1 mm .. 5 mm "distance between ribs"`.
+/// Reads `param wale = 2.5 mm in 1 mm .. 5 mm "distance between ribs"`.
 ParamStatement Parser::param() {
   ParamStatement param;
   param.documentation = documentation_here();
@@ -320,20 +323,21 @@ ParamStatement Parser::param() {
   return param;
 }
 
-/// `state p : position = hand in -60 mm .. 60 mm`.
+/// Reads `state p : position = hand in -60 mm .. 60 mm`.
 StateStatement Parser::state() {
   advance();
   StateStatement state;
   state.name = declared_name("state");
   state.dimension = optional_dimension();
   if (!take(TokenKind::equals))
-    missing("`=`", fmt::format("a state begins somewhere: write `state {} = …`", state.name.text), insert_equals());
+    missing("`=`", fmt::format("a state needs an initial value: write `state {} = …`", state.name.text),
+            insert_equals());
   state.value = expression();
   state.range = optional_range();
   return state;
 }
 
-/// `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
+/// Reads `memory track : length = 0 mm in 0 mm .. 5 mm, cell 1 mm`.
 MemoryStatement Parser::memory() {
   advance();
   MemoryStatement memory{};
@@ -344,7 +348,7 @@ MemoryStatement Parser::memory() {
   memory.range = optional_range();
   if (!at(TokenKind::comma) || !is_word(at_ + 1, "cell"))
     fail("expected `, cell`" + after_previous(), "`, cell` and a length",
-         "say how wide its cells are, as in `memory track = 0 in 0 .. 1, cell 1 mm`");
+         "give the width of its cells, as in `memory track = 0 in 0 .. 1, cell 1 mm`");
   advance();
   advance();
   memory.cell = expression();
@@ -358,7 +362,7 @@ std::optional<Word> Parser::optional_dimension() {
   return take_word();
 }
 
-/// `v' = …`, or `next v = …`.
+/// Reads `v' = …` or `next v = …`.
 UpdateStatement Parser::update() {
   UpdateStatement update{};
   update.derivative = kind(at_ + 1) == TokenKind::prime;
@@ -388,7 +392,7 @@ PatchStatement Parser::patch() {
 ActiveStatement Parser::active() {
   advance();
   if (at(TokenKind::equals)) {
-    complain("the power of what is active has no `=` before it", "a power",
+    complain("the active power has no `=` before it", "a power",
              fmt::format("write `active {}`", spelling(token(at_ + 1))), drop_here());
     advance();
   }
@@ -409,25 +413,25 @@ Range Parser::range() {
   return range;
 }
 
-/// Goes behind the `{` of a block. When it is missing the block is read all the same, from the next line on, or else
-/// each of its statements would seem to stand in the wrong place; so is a block with a `{` too many.
+/// Goes past the `{` of a block. If it is missing, the block is read from the next line on, since otherwise each of its
+/// statements would be reported as misplaced. A block with an extra `{` is read too.
 void Parser::open_block() {
   if (here().kind == TokenKind::left_brace) {
     advance();
     if (here().kind != TokenKind::left_brace) return;
     complain_at(Code::unexpected_token, span_of(here()), "a second `{`", "a statement", "`{`",
-                "a block has one; remove it", {replace(span_of(here()), "")});
+                "a block has only one; remove it", {replace(span_of(here()), "")});
     return advance();
   }
-  complain("expected `{`" + after_previous(), "`{`", "a block stands in braces", insert_opening_brace());
+  complain("expected `{`" + after_previous(), "`{`", "a block needs braces", insert_opening_brace());
   while (here().kind != TokenKind::left_brace && here().kind != TokenKind::right_brace &&
          here().kind != TokenKind::end && !here().starts_line)
     advance();
   if (here().kind == TokenKind::left_brace) return advance();
-  brace_missing_ = true;  // how many it should be is now a guess
+  brace_missing_ = true;  // the right number of closing braces is now unknown
 }
 
-/// Whether the block must have been meant to end before this token although no `}` says so.
+/// Whether the block was evidently meant to end before this token although the `}` is missing.
 bool Parser::ends_block_by_mistake(bool in_section) const {
   if (here().kind == TokenKind::end || begins_declaration(at_)) return true;
   return in_section && here().kind == TokenKind::name && kind(at_ + 1) == TokenKind::left_brace &&

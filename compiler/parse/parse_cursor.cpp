@@ -21,8 +21,8 @@ bool Parser::is_word(std::size_t index, std::string_view word) const {
          text_.substr(candidate.begin, word.size()) == word;
 }
 
-/// Whether a line that begins at the token can only be a new statement. Asked where an expression is incomplete, so
-/// that the mistake in one line does not swallow the next.
+/// Whether a line that begins with the token can only be a new statement. Used after an incomplete expression, so that
+/// an error in one line does not swallow the next.
 bool Parser::begins_statement(std::size_t index) const {
   if (kind(index) != TokenKind::name) return false;
   const TokenKind next = kind(index + 1);
@@ -40,11 +40,11 @@ bool Parser::begins_statement(std::size_t index) const {
   return begins_declaration(index);
 }
 
-/// Whether a statement begins a declaration even inside a block that nobody closed.
+/// Whether a declaration certainly begins at the token, even inside a block without its `}`.
 bool Parser::begins_declaration(std::size_t index) const {
   if (kind(index) != TokenKind::name || kind(index + 1) != TokenKind::name) return false;
   if (is_word(index, "export")) return token(index + 1).starts_line == false;
-  // What stands behind the two names is looked at first: it leaves few words to ask for.
+  // The token after the two names is checked first: then few words remain to be compared.
   const auto is_one_of = [&](std::initializer_list<std::string_view> words) {
     return std::ranges::any_of(words, [&](std::string_view word) { return is_word(index, word); });
   };
@@ -58,7 +58,7 @@ bool Parser::begins_declaration(std::size_t index) const {
   }
 }
 
-/// The name that a declaration gives to something: "param", "state" and the like say what for.
+/// Reads the name that a declaration gives. `declares` is its keyword, "param", "state" and the like, for messages.
 Word Parser::declared_name(std::string_view declares) {
   const bool reserved = here().kind >= TokenKind::word_if && here().kind <= TokenKind::word_not;
   if (reserved && !ends_statement(at_)) {
@@ -68,16 +68,16 @@ Word Parser::declared_name(std::string_view declares) {
   }
   if (!at(TokenKind::name)) {
     std::string help;
-    if (at(TokenKind::number)) help = "names begin with a letter";
-    if (at(TokenKind::text)) help = "names are written without quotes";
+    if (at(TokenKind::number)) help = "names must begin with a letter";
+    if (at(TokenKind::text)) help = "write names without quotes";
     fail(fmt::format("expected the name of the {}{}", declares, after_previous()), "a name", std::move(help),
          unquote(false));
   }
   const Word name = take_word();
   if (name.text.find('.') != std::string_view::npos) {
-    complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} has no dots", declares),
+    complain_at(Code::unexpected_token, name.span, fmt::format("the name of a {} cannot have dots", declares),
                 "a plain name", fmt::format("`{}`", name.text),
-                "dots lead to what another module declares; write `_` instead");
+                "dots are for names in other modules; write `_` instead");
   }
   return name;
 }
@@ -88,7 +88,7 @@ void Parser::missing(std::string_view spelling, std::string help, std::vector<Fi
            std::move(fixes));
 }
 
-/// A token as messages quote it: cut short, since it may be a text of any length.
+/// A token as messages quote it; long texts are cut short.
 std::string Parser::shown(const Token& token) const {
   constexpr std::size_t longest = 40;
   std::string text(spelling(token));
@@ -111,7 +111,7 @@ std::string Parser::after_previous() const { return at_ == 0 ? "" : " after " + 
 
 std::string_view Parser::documentation_here() {
   auto found = input_.documentation.find(at_);
-  // What is exported has its comment above the word `export`.
+  // The comment of an exported declaration is above the word `export`.
   if (found == input_.documentation.end() && at_ > 0 && is_word(at_ - 1, "export"))
     found = input_.documentation.find(at_ - 1);
   return found == input_.documentation.end() ? std::string_view() : input_.rewrite(found->second);
@@ -129,7 +129,7 @@ void Parser::complain(std::string message, std::string expected, std::string hel
 void Parser::complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
                          std::string help, std::vector<Fix> fixes, std::vector<SecondarySpan> secondary,
                          std::vector<Fact> facts) {
-  // What the lexer could not read has been reported by the lexer.
+  // The lexer has reported unreadable tokens.
   if (here().kind == TokenKind::unreadable) reported_ = true;
   if (reported_) return;
   reported_ = true;
@@ -142,13 +142,13 @@ void Parser::complain_at(Code code, Span span, std::string message, std::string 
                        .secondary = std::move(secondary),
                        .facts = std::move(facts),
                        .fixes = std::move(fixes)});
-  // Nothing more is said about a file with this many errors: what is left of it is skipped.
+  // After this many errors the rest of the file is skipped.
   if (diagnostics_.all().size() >= error_limit) {
     give_up();
   }
 }
 
-/// Skips the rest of the file, and says no more about it.
+/// Skips the rest of the file and reports nothing more.
 void Parser::give_up() {
   at_ = tokens_.size() - 1;
   brace_missing_ = true;
@@ -173,7 +173,7 @@ void Parser::fail(std::string message, std::string expected, std::string help, s
   throw Abandon{};
 }
 
-/// What to write instead of the token here, when it follows a complete value and cannot.
+/// What to write instead of the token here, which cannot follow a complete value.
 std::string Parser::mend_here() const {
   const Token& next = here();
   const Token& previous = token(at_ == 0 ? 0 : at_ - 1);
@@ -191,35 +191,34 @@ std::string Parser::mend_here() const {
     case TokenKind::comma:
       if (previous.kind == TokenKind::number && touching && after.kind == TokenKind::number &&
           after.begin == next.end) {
-        return fmt::format("decimals are written with a point: `{}.{}`", spelling(previous), spelling(after));
+        return fmt::format("write decimals with a point: `{}.{}`", spelling(previous), spelling(after));
       }
       return {};
-    case TokenKind::equals: return "`=` defines; values are compared with `<`, `<=`, `>` and `>=`";
+    case TokenKind::equals: return "`=` defines; compare values with `<`, `<=`, `>` and `>=`";
     case TokenKind::less:
     case TokenKind::less_equal:
     case TokenKind::greater:
-    case TokenKind::greater_equal: return "comparisons do not chain; join two of them with `and`";
+    case TokenKind::greater_equal: return "comparisons cannot be chained; join two of them with `and`";
     case TokenKind::plus_minus: return "a tolerance belongs to a percept; to subtract, write `-`";
     case TokenKind::range: return "a range follows `in`: `in 1 mm .. 5 mm`";
-    case TokenKind::colon: return "named arguments stand in the parentheses of a call";
-    case TokenKind::right_parenthesis: return "there is no `(` that it could close; remove it";
+    case TokenKind::colon: return "named arguments belong in the parentheses of a call";
+    case TokenKind::right_parenthesis: return "it closes no `(`; remove it";
     case TokenKind::word_then:
-    case TokenKind::word_else: return "a conditional is written `if … then … else …`";
+    case TokenKind::word_else: return "write a conditional as `if … then … else …`";
     default: return {};
   }
 }
 
 void Parser::end_statement() {
   if (!ends_statement(at_)) {
-    // What was read of the value is not what was meant: `2` of `2 sin(x)`.
+    // The value read so far is not the one that was meant: `2` in `2 sin(x)`.
     if (last_expression_) tree_.exprs[*last_expression_] = Erroneous{};
     fail("expected the end of the line" + after_previous(), "the end of the line", mend_here(), fixes_here());
   }
   if (here().kind == TokenKind::semicolon) advance();
 }
 
-/// Whether the `}` here stands where something else was meant: in the middle of a line that goes on as no line does
-/// behind a block.
+/// Whether the `}` here is a typing error: the line continues after it in a way that is impossible after a block.
 bool Parser::is_stray_brace() const {
   const Token& next = token(at_ + 1);
   if (here().starts_line || next.starts_line) return false;
@@ -233,8 +232,8 @@ bool Parser::is_stray_brace() const {
   }
 }
 
-/// Goes to the end of a statement in which something was wrong: past the parentheses that it opened if they are closed,
-/// past a block if it has one, and to the next line.
+/// Goes to the end of an erroneous statement: past its parentheses if they are closed, past its block if it has one,
+/// and to the next line.
 void Parser::skip_statement() {
   const bool at_next = here().starts_line && at_ > statement_begin_ && begins_statement(at_);
   if (!open_parentheses_.empty() && !at_next) {

@@ -13,11 +13,11 @@ namespace {
 struct InfixOperator {
   TokenKind token;
   BinaryOperator op;
-  int precedence = 0;  ///< of what is no infix operator
+  int precedence = 0;  ///< 0 for tokens that are not infix operators
 };
 
-/// Higher binds tighter. `not` stands between `and` and the comparisons; a power binds tighter still, and to the right:
-/// see `power`.
+/// Higher binds tighter. `not` is between `and` and the comparisons. A power binds tightest, and to the right: see
+/// `raised`.
 constexpr int disjunction_precedence = 1, conjunction_precedence = 2, comparison_precedence = 3, sum_precedence = 4,
               product_precedence = 5;
 constexpr InfixOperator infix_operators[] = {
@@ -40,7 +40,7 @@ constexpr auto infix = [] {
   return table;
 }();
 
-/// How well a number is known, where a declaration says so: these words are no units.
+/// In declarations these words after a number say how well it is known; they are not units.
 constexpr std::string_view evidence_words[] = {"measured", "published",   "estimated",
                                                "recalled", "transferred", "assumed"};
 
@@ -48,7 +48,7 @@ std::vector<Fact> limit_fact(std::size_t limit) { return {{"limit", NumberWithUn
 
 }  // namespace
 
-/// A whole expression. One that cannot be read becomes `Erroneous`, so that what it defines is still declared.
+/// Reads a whole expression. An unreadable one becomes `Erroneous`, so that the name it defines is still declared.
 ExprId Parser::expression() {
   const std::size_t begin = at_;
   const std::size_t nesting = nesting_;
@@ -78,7 +78,7 @@ ExprId Parser::operation(int least_precedence) {
     advance();
     const ExprId right = operation(found.precedence + 1);
     left = add(Binary{found.op, left, right}, joined(tree_.span(left), tree_.span(right)), {left, right});
-    // `a < b < c` compares a truth with a number; nobody means that.
+    // `a < b < c` would compare a condition with a number, which nobody means.
     if (found.precedence <= comparison_precedence) most_precedence = conjunction_precedence;
   }
   return left;
@@ -91,7 +91,7 @@ void Parser::nested_too_deep() {
   throw Abandon{};
 }
 
-/// `not a < b` is `not (a < b)`.
+/// Reads a `not` and its operand: `not a < b` means `not (a < b)`.
 ExprId Parser::complement() {
   nest();
   const std::size_t begin = at_;
@@ -101,7 +101,7 @@ ExprId Parser::complement() {
   return add(Unary{UnaryOperator::complement, operand}, joined(span_of(token(begin)), tree_.span(operand)), {operand});
 }
 
-/// Everything else that nests passes through here, so this is where depth is counted.
+/// Reads an operand with its sign. Everything else that nests passes through here, so depth is counted here.
 ExprId Parser::signed_operand() {
   nest();
   const TokenKind sign = here().kind;
@@ -111,7 +111,7 @@ ExprId Parser::signed_operand() {
   return result;
 }
 
-/// With its sign.
+/// Reads a sign and its operand.
 ExprId Parser::negated() {
   const std::size_t begin = at_;
   const UnaryOperator op = at(TokenKind::minus) ? UnaryOperator::negate : UnaryOperator::plus;
@@ -127,7 +127,7 @@ ExprId Parser::power() {
   return goes_on ? raised(base) : base;
 }
 
-/// What stands behind a value: parts of a vector, an exponent. `-2^2` is -4, `2^-1` a half, `2^3^2` two to the ninth.
+/// Reads what follows a value: a part of a vector, an exponent. `-2^2` is -4, `2^-1` is 0.5, `2^3^2` is 2^9.
 ExprId Parser::raised(ExprId base) {
   while (at(TokenKind::part_x) || at(TokenKind::part_y)) {
     const char part = at(TokenKind::part_x) ? 'x' : 'y';
@@ -157,7 +157,7 @@ ExprId Parser::operand() {
   no_operand(next_statement);
 }
 
-/// Reports the token that stands where a value was expected.
+/// Reports the token here, where a value was expected.
 void Parser::no_operand(bool next_statement) {
   const std::string message = "expected a value" + after_previous();
   if (next_statement) {
@@ -167,10 +167,10 @@ void Parser::no_operand(bool next_statement) {
   }
   std::string help;
   switch (here().kind) {
-    case TokenKind::left_bracket: help = "vectors are written `vector(a, b)`"; break;
-    case TokenKind::word_not: help = "`not` is of a condition: put it and its condition in parentheses"; break;
+    case TokenKind::left_bracket: help = "write vectors as `vector(a, b)`"; break;
+    case TokenKind::word_not: help = "put `not` and its condition in parentheses"; break;
     case TokenKind::star:
-    case TokenKind::slash: help = "an operator stands between two values; a value is missing before it"; break;
+    case TokenKind::slash: help = "an operator needs a value on both sides; the one before it is missing"; break;
     case TokenKind::plus_minus: help = "write `-`, or `+` and a space before the `-`"; break;
     case TokenKind::word_in:
     case TokenKind::word_on:
@@ -193,7 +193,7 @@ ExprId Parser::number() {
   return add(literal, since(begin));
 }
 
-/// Whether the token may be a unit behind a number. Whether it is one, `check` decides.
+/// Whether the token may be a unit after a number. `check` decides whether it is one.
 bool Parser::is_suffix_name(std::size_t index) const {
   if (ends_statement(index)) return false;
   if (kind(index) == TokenKind::percent) return true;
@@ -206,7 +206,7 @@ bool Parser::is_suffix_name(std::size_t index) const {
   return !in_setting_ || std::none_of(std::begin(evidence_words), std::end(evidence_words), is_this);
 }
 
-/// One of the names behind a number: `N`, `/ s`, `m^2`, `s^-1`. `/ x^2.5` is an ordinary division and left alone.
+/// Reads one of the names after a number: `N`, `/ s`, `m^2`, `s^-1`. `/ x^2.5` is an ordinary division and not read.
 bool Parser::suffix_factor() {
   const TokenKind first = here().kind;
   if (first != TokenKind::name && first != TokenKind::slash && first != TokenKind::percent) return false;
@@ -224,8 +224,8 @@ bool Parser::suffix_factor() {
     if (!whole && divides) return false;
     if (!whole) {
       at_ = next + 1;
-      fail(fmt::format("the power of `{}` behind a number is a whole number", factor.name.text), "a whole number",
-           fmt::format("if `{0}` is no unit, write `* {0}^…`", factor.name.text));
+      fail(fmt::format("the power of `{}` after a number must be a whole number", factor.name.text), "a whole number",
+           fmt::format("if `{0}` is not a unit, write `* {0}^…`", factor.name.text));
     }
     factor.exponent = static_cast<int>(negative ? -exponent : exponent);
     next += negative ? 3 : 2;
@@ -266,8 +266,9 @@ ExprId Parser::call() {
       std::string help = mend_here();
       std::vector<Fix> fixes = fixes_here();
       at_ = after;
-      complain_at(Code::unexpected_token, tree_.span(last.value), "arguments without a name come before those with one",
-                  "`name: value`", shown(token(argument_begin)), std::move(help), std::move(fixes));
+      complain_at(Code::unexpected_token, tree_.span(last.value),
+                  "arguments without a name must come before those with one", "`name: value`",
+                  shown(token(argument_begin)), std::move(help), std::move(fixes));
       throw Abandon{};
     }
     named = named || last.name;
@@ -300,7 +301,7 @@ ExprId Parser::parenthesised() {
   const ExprId inner = operation(0);
   if (at(TokenKind::comma)) {
     fail("expected `)`" + after_previous(), "`)`",
-         mend_here().empty() ? "vectors are written `vector(a, b)`" : mend_here(),
+         mend_here().empty() ? "write vectors as `vector(a, b)`" : mend_here(),
          mend_here().empty() ? std::vector{insert_before(span_of(token(begin)), "vector", {}, false)} : fixes_here());
   }
   close_parenthesis("`)`");
@@ -320,7 +321,7 @@ void Parser::close_parenthesis(std::string_view expected) {
       throw Abandon{};
     }
     std::string help = mend_here();
-    if (here().starts_line && closed_later) help = "arguments are separated by commas";
+    if (here().starts_line && closed_later) help = "separate arguments by commas";
     if (help.empty()) help = unclosed_parenthesis();
     if (here().kind == TokenKind::name && expected.starts_with("`,`")) help += ", and commas between arguments";
     fail(message, std::string(expected), std::move(help), fixes_here(),
@@ -348,7 +349,7 @@ ExprId Parser::conditional() {
   const ExprId yes = operation(0);
   if (!at(TokenKind::word_else)) {
     fail("expected `else`" + after_previous(), "`else`",
-         "an `if` says what the value is otherwise: `if … then … else …`");
+         "an `if` needs a value for the other case: `if … then … else …`");
   }
   advance();
   const ExprId no = operation(0);

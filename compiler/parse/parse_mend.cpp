@@ -1,4 +1,4 @@
-// Fixes for what the parser cannot read. They look at the tokens around the place where it stands.
+// Fixes for text that the parser cannot read. They look at the tokens around the current place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool begins_value(TokenKind kind) {
   }
 }
 
-/// The blanks that the line of the byte `at` begins with.
+/// The blanks at the beginning of the line that contains the byte `at`.
 std::string_view indentation(std::string_view text, std::size_t at) {
   const std::size_t newline = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
   const std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
@@ -31,7 +31,7 @@ std::string_view indentation(std::string_view text, std::size_t at) {
   return text.substr(begin, end - begin);
 }
 
-/// How the lines of the text end: a file from another system keeps its own way.
+/// The line ending of the text, "\n" or "\r\n", so that a fix keeps it.
 std::string_view line_end(std::string_view text) {
   const std::size_t newline = text.find('\n');
   return newline != std::string_view::npos && newline > 0 && text[newline - 1] == '\r' ? "\r\n" : "\n";
@@ -39,7 +39,7 @@ std::string_view line_end(std::string_view text) {
 
 }  // namespace
 
-/// The same cases as `mend_here`, where what it says can be done.
+/// Fixes for the cases of `mend_here` that a program can mend.
 std::vector<Fix> Parser::fixes_here() const {
   if (at_ == 0) return {};
   const Token& previous = token(at_ - 1);
@@ -55,8 +55,8 @@ std::vector<Fix> Parser::fixes_here() const {
       return {insert_after(span_of(previous), " *", "multiply with `*`",
                            number_before && (call || next.kind == TokenKind::left_parenthesis))};
     case TokenKind::comma:
-      if (!mend_here().starts_with("decimals")) return {};
-      // Among arguments the comma may have been meant as one.
+      if (mend_here().empty()) return {};
+      // Among arguments the comma may really be meant as a comma.
       return {replace(span_of(next), ".", "write a decimal point", open_parentheses_.empty())};
     case TokenKind::right_parenthesis:
       if (!open_parentheses_.empty()) return {};
@@ -65,7 +65,7 @@ std::vector<Fix> Parser::fixes_here() const {
   }
 }
 
-/// ` =` between a name and its value, unless the statement has a `=` of its own further on.
+/// Inserts ` =` between a name and its value, unless the statement has a `=` further on.
 std::vector<Fix> Parser::insert_equals() const {
   if (at_ == 0 || ends_statement(at_) || !begins_value(here().kind)) return {};
   for (std::size_t index = at_; !ends_statement(index); ++index)
@@ -73,13 +73,13 @@ std::vector<Fix> Parser::insert_equals() const {
   return {insert_after(span_of(token(at_ - 1)), " =", "write `=`")};
 }
 
-/// ` ..` between two numbers that stand behind `in`.
+/// Inserts ` ..` between two numbers after `in`.
 std::vector<Fix> Parser::insert_range() const {
   const bool number = at(TokenKind::number) || (at(TokenKind::minus) && followed_by(TokenKind::number));
   return number ? std::vector{insert_after(span_of(token(at_ - 1)), " ..", "write `..`")} : std::vector<Fix>{};
 }
 
-/// Removes the token here; what stood to both sides of it stays apart.
+/// Removes the token here; its neighbours stay separated.
 std::vector<Fix> Parser::drop_here() const {
   const std::string what(spelling(here()));
   const Token& previous = token(at_ - 1);
@@ -88,10 +88,10 @@ std::vector<Fix> Parser::drop_here() const {
   const bool apart = previous.end < here().begin || here().end < next.begin;
   const Span both = {tree_.source, previous.end < here().begin ? previous.end : here().begin, here().end};
   return {replace(apart ? both : span_of(here()), apart && here().end < next.begin ? "" : " ",
-                  fmt::format("leave out the `{}`", what))};
+                  fmt::format("remove the `{}`", what))};
 }
 
-/// An operator that begins a line goes to the end of the line above: no statement begins with one.
+/// Moves an operator at the beginning of a line to the end of the line above, since no statement begins with one.
 std::vector<Fix> Parser::move_operator_up() const {
   const Token& next = token(at_ + 1);
   if (at_ == 0 || next.starts_line || !begins_value(next.kind) || kind(at_ - 1) == TokenKind::left_brace) return {};
@@ -101,20 +101,20 @@ std::vector<Fix> Parser::move_operator_up() const {
   return {fix};
 }
 
-/// ` {` at the end of a block's heading.
+/// Inserts ` {` at the end of a block's heading.
 std::vector<Fix> Parser::insert_opening_brace() const {
   const bool heads_lines = here().starts_line && kind(at_) == TokenKind::name && !begins_declaration(at_);
   return heads_lines ? std::vector{insert_after(span_of(token(at_ - 1)), " {", "open the block")} : std::vector<Fix>{};
 }
 
-/// `}` in a line of its own below what stands in the block, or before what stands behind it in the same line.
+/// Inserts `}` on a line of its own below the block, or before the next token if that is on the same line.
 std::vector<Fix> Parser::insert_brace(std::size_t open) const {
   const std::string_view text = sources_[tree_.source].text;
   const std::size_t last = token(at_ - 1).end;
   const std::size_t newline = std::min(text.find('\n', last), text.size());
   if (here().kind != TokenKind::end && here().begin < newline)
     return {insert_before(span_of(here()), "} ", "close the block")};
-  // Behind a comment that runs over several lines the end of this line is inside the comment.
+  // The end of this line may be inside a comment of several lines.
   if (text.substr(last, newline - last).find("/*") != std::string_view::npos) return {};
   const auto end = static_cast<std::uint32_t>(newline > last && text[newline - 1] == '\r' ? newline - 1 : newline);
   return {insert_before({tree_.source, end, end},
@@ -122,7 +122,7 @@ std::vector<Fix> Parser::insert_brace(std::size_t open) const {
                         "close the block")};
 }
 
-/// A name that stands in quotes; a module's may be a path.
+/// Removes the quotes around a name; that of a module may be a path.
 std::vector<Fix> Parser::unquote(bool is_module) const {
   if (!at(TokenKind::text)) return {};
   std::string name(input_.texts[here().value]);
@@ -141,8 +141,8 @@ std::vector<Fix> Parser::unquote(bool is_module) const {
   return {replace(span_of(here()), name)};
 }
 
-/// `wale 1` above everything else, or in the place of a version that is incomplete. What does not begin with a
-/// declaration may be no Wale file at all.
+/// Inserts `wale 1` above everything else, or replaces an incomplete version. The fix is unsafe if the file does not
+/// begin with a declaration, since it may not be a Wale file at all.
 std::vector<Fix> Parser::state_version(bool is_wale, bool has_number, bool is_declaration) const {
   const std::string_view text = sources_[tree_.source].text;
   if (!is_wale) {
@@ -151,7 +151,7 @@ std::vector<Fix> Parser::state_version(bool is_wale, bool has_number, bool is_de
     return {insert_before({tree_.source, begin, begin}, fmt::format("wale 1{}", line_end(text)),
                           "write `wale 1` in the first line", is_declaration)};
   }
-  // There is no telling what `wale 0` was meant as.
+  // It is unknown which version `wale 0` was meant to be.
   const bool known = !has_number || input_.numbers[token(at_ + 1).value] == 1;
   const Span span = {tree_.source, here().begin, has_number ? token(at_ + 1).end : here().end};
   return {replace(span, "wale 1", {}, known)};

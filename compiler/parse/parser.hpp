@@ -14,23 +14,23 @@
 
 namespace wale {
 
-/// Thrown where a statement cannot be read any further, caught where the next one begins. Never leaves the parser.
+/// Thrown where a statement cannot be read any further, caught before the next one. Never leaves the parser.
 struct Abandon {};
 
-/// How deep parentheses, calls, signs, powers and conditionals may stand in each other.
+/// How deep parentheses, calls, signs, powers and conditionals may be nested.
 constexpr std::size_t deepest_nesting = 200;
-/// How high the tree of one expression may grow, a sum of many terms included: later stages walk it recursively.
+/// The greatest height of an expression's tree, which grows also with the terms of a sum: later stages recurse into it.
 constexpr std::size_t highest_expression = 1000;
 
-/// Statements of one file. People write hundreds; later stages compare each name with all others.
+/// The most statements of one file. People write hundreds; later stages compare each name with all others.
 constexpr std::size_t most_statements = 12000;
 
-/// What a physical statement begins with: its keyword, the prime of `x' = …`, or a `=` where a keyword is missing.
+/// The beginning of a physical statement: its keyword, the prime of `x' = …`, or a `=` if the keyword is missing.
 enum class PhysicalKeyword { param, let, height, force, patch, active, state, memory, next, show, prime, equals };
 
-/// Recursive descent over the tokens of one file; `parse.hpp` is the way in, schema/wale.grammar the authority.
+/// Recursive descent over the tokens of one file, by the grammar in schema/wale.grammar. Call it through `parse.hpp`.
 ///
-/// At most one error is reported for a statement, since what follows the first is guesswork.
+/// At most one error is reported for a statement, since after the first one the rest is guesswork.
 class Parser {
  public:
   Parser(const SourceSet& sources, Tokens& input, SyntaxTree& tree, Diagnostics& diagnostics)
@@ -62,7 +62,7 @@ class Parser {
   void record(bool exported);
   void material();
 
-  // parse_block.cpp: what stands in braces
+  // parse_block.cpp: blocks in braces
   Setting setting();
   SettingItem setting_item();
   bool is_leading_word() const;
@@ -118,7 +118,7 @@ class Parser {
   ExprId add(const Node& node, Span span, std::initializer_list<ExprId> children = {});
   [[noreturn, gnu::cold]] void grown_too_high(Span span);
 
-  // parse_mend.cpp: what a program can mend of it
+  // parse_mend.cpp: fixes
   std::vector<Fix> fixes_here() const;
   std::vector<Fix> insert_equals() const;
   std::vector<Fix> insert_range() const;
@@ -130,11 +130,11 @@ class Parser {
   std::vector<Fix> state_version(bool is_wale, bool has_number, bool is_declaration) const;
   std::vector<Fix> respell_here(const std::vector<std::string>& candidates) const;
 
-  // parse_cursor.cpp: where the parser stands, what it says, where it goes on
+  // parse_cursor.cpp: the current place, messages, recovery
   const Token& here() const { return tokens_[at_]; }
   const Token& token(std::size_t index) const { return tokens_[std::min(index, tokens_.size() - 1)]; }
   TokenKind kind(std::size_t index) const { return token(index).kind; }
-  /// A token of that kind stands here and belongs to this statement.
+  /// Whether the current token has that kind and belongs to this statement.
   bool at(TokenKind kind) const { return here().kind == kind && !ends_statement(at_); }
   bool followed_by(TokenKind next) const { return kind(at_ + 1) == next && !ends_statement(at_ + 1); }
   bool is_word(std::size_t index, std::string_view word) const;
@@ -151,23 +151,23 @@ class Parser {
     return {spelling(taken), span_of(taken)};
   }
   Word declared_name(std::string_view declares);
-  /// Takes a token of that kind if one is here.
+  /// Consumes the current token if it has that kind and belongs to this statement.
   bool take(TokenKind kind) {
     if (!at(kind)) return false;
     advance();
     return true;
   }
-  /// Reports that a token is missing here; the caller goes on as if it had been there.
+  /// Reports that a token is missing here; the caller continues as if it were there.
   [[gnu::cold]] void missing(std::string_view spelling, std::string help = {}, std::vector<Fix> fixes = {});
 
   Span span_of(const Token& token) const { return {tree_.source, token.begin, token.end}; }
-  /// From a token to the one before this, or that token alone.
+  /// The span from `first_token` to the token before the current one, or that of `first_token` alone.
   Span since(std::size_t first_token) const {
     const std::uint32_t begin = tokens_[first_token].begin;
     return {tree_.source, begin, std::max(begin, tokens_[at_ > first_token ? at_ - 1 : first_token].end)};
   }
   Span joined(Span first, Span last) const { return {first.source, first.begin, last.end}; }
-  /// A token as it is read: as it stands in the text, or corrected by the lexer.
+  /// A token's spelling: that in the text, or the one that the lexer corrected.
   std::string_view spelling(const Token& token) const {
     if (token.kind == TokenKind::name && token.value > 0) return input_.texts[token.value - 1];
     return {text_.data() + token.begin, token.end - token.begin};
@@ -177,7 +177,7 @@ class Parser {
   [[gnu::cold]] std::string after_previous() const;
   std::string_view documentation_here();
 
-  /// Reports what stands here, or the place just after the last token when the statement has ended.
+  /// Reports an error at the current token, or just after the last token if the statement has ended.
   [[gnu::cold]] void complain(std::string message, std::string expected, std::string help, std::vector<Fix> fixes = {},
                               std::vector<SecondarySpan> secondary = {});
   [[gnu::cold]] void complain_at(Code code, Span span, std::string message, std::string expected, std::string found,
@@ -192,30 +192,30 @@ class Parser {
   void count_statement();
   bool is_stray_brace() const;
   [[gnu::cold]] void skip_statement();
-  /// Reads one statement and stands at the beginning of the next, whatever happens.
+  /// Reads one statement. Afterwards the parser is at the beginning of the next one, even after an error.
   template <class Body>
   void statement(Body body);
 
-  /// That are open at once, as a rule.
+  /// Room for the arguments and parentheses that are usually open at once.
   static constexpr std::size_t few = 8;
 
   const SourceSet& sources_;
-  std::string_view text_;  ///< of the file
+  std::string_view text_;  ///< the file's text
   Tokens& input_;
   std::span<const Token> tokens_;
   SyntaxTree& tree_;
   Diagnostics& diagnostics_;
-  std::vector<std::uint32_t> heights_;         ///< of the tree below every expression
-  std::vector<Argument> open_arguments_;       ///< of calls that are being read, the innermost at the end
-  std::vector<std::size_t> open_parentheses_;  ///< tokens; newlines inside are white space
+  std::vector<std::uint32_t> heights_;         ///< height of each expression's tree
+  std::vector<Argument> open_arguments_;       ///< arguments of the calls that are being read, the innermost last
+  std::vector<std::size_t> open_parentheses_;  ///< their tokens; newlines inside are white space
   std::size_t at_ = 0;
   std::size_t statement_begin_ = 0;
   std::size_t nesting_ = 0;
-  std::optional<ExprId> last_expression_;  ///< of this statement
-  bool reported_ = false;                  ///< this statement has had its error
-  bool brace_missing_ = false;             ///< this declaration has had its error about braces
+  std::optional<ExprId> last_expression_;  ///< the last one in this statement
+  bool reported_ = false;                  ///< an error in this statement has been reported
+  bool brace_missing_ = false;             ///< a wrong brace in this declaration has been reported
   std::size_t statements_ = 0;
-  bool lost_ = false;        ///< outside all declarations; one error has said so
+  bool lost_ = false;        ///< outside all declarations, which has been reported
   bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
   bool in_force_ = false;    ///< `limit` ends a unit: `k * 5 mm limit 2 N`
 };
@@ -249,7 +249,7 @@ void Parser::statement(Body body) {
   if (at_ == begin) advance();
 }
 
-/// `{`, statements, `}`. The body reads one statement with its end.
+/// Reads `{`, statements, `}`. `body` reads one statement up to its end.
 template <class Body>
 Span Parser::block(bool in_section, Body body) {
   const std::size_t open = at_;

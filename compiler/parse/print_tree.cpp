@@ -73,7 +73,7 @@ struct ExpressionPrinter {
   std::string operator()(const Erroneous&) const { return "<error>"; }
 };
 
-/// Writes nested lists with one line for each declaration, section and statement.
+/// Writes nested lists, with one line for each declaration, section and statement.
 class TreePrinter {
  public:
   explicit TreePrinter(const SyntaxTree& tree) : tree_(tree) {}
@@ -167,7 +167,7 @@ class TreePrinter {
     }
   }
 
-  /// An item of a single word or value stands bare, everything else in braces.
+  /// An item of a single word or value is written bare, everything else in braces.
   std::string item_text(const SettingItem& item) const {
     std::string text;
     const auto append = [&](const std::string& part) { text += (text.empty() ? "" : " ") + part; };

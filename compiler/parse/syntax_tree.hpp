@@ -14,7 +14,7 @@
 
 namespace wale {
 
-/// A word of the text and where it stands. Dotted names ("fabric.woven") are one word. Words and texts are parts of the
+/// A word of the text and its place. Dotted names ("fabric.woven") are one word. Words and texts are views into the
 /// file that was read, which the tree keeps.
 struct Word {
   std::string_view text;
@@ -23,7 +23,7 @@ struct Word {
 
 using ExprId = std::uint32_t;
 
-/// One unit name of a literal's suffix: `N s/m^2` is N, s, /m^2. Whether a name is a unit is `check`'s business, since
+/// One name in the suffix of a number: `N s/m^2` is N, s, /m^2. `check` decides whether a name is a unit, since
 /// `0.3 denim` is a product.
 struct SuffixFactor {
   Word name;
@@ -31,7 +31,7 @@ struct SuffixFactor {
   int exponent = 1;
 };
 
-/// Things that stand in a row in one of the tree's lists: `SyntaxTree::suffix` and `SyntaxTree::arguments` give them.
+/// Consecutive entries of one of the tree's lists; `SyntaxTree::suffix` and `SyntaxTree::arguments` return them.
 struct Row {
   std::uint32_t first = 0, count = 0;
 };
@@ -81,12 +81,12 @@ struct Call {
 struct Conditional {
   ExprId condition, yes, no;
 };
-/// `grad(h).x`: one part of a vector that has no name. `hand.x` is a dotted name.
+/// `grad(h).x`: one part of a vector without a name. `hand.x` is a dotted name instead.
 struct Part {
   ExprId whole;
   char part;  ///< 'x' or 'y'
 };
-/// What stands where an expression was expected and none could be read; already reported.
+/// An expression that could not be read, which has been reported.
 struct Erroneous {};
 
 using Expr = std::variant<NumberLiteral, TextLiteral, NameUse, Unary, Binary, Call, Conditional, Part, Erroneous>;
@@ -96,7 +96,7 @@ struct Range {
   ExprId low, high;
 };
 
-/// One item of a setting: leading words, then perhaps a value, a range or an equation, as in
+/// One item of a setting: leading words, then optionally a value, a range or an equation, as in
 /// `slope measured` | `10 N` | `amplitude 9 pu .. 194 pu` | `log10(magnitude) = 0.76 * ...` | `roughness =
 /// lateral(...)`.
 struct SettingItem {
@@ -104,11 +104,11 @@ struct SettingItem {
   std::optional<ExprId> value;
   std::optional<ExprId> range_end;  ///< value .. range_end
   std::optional<ExprId> equals;     ///< value = equals, or words = equals
-  std::vector<Word> trailing;       ///< words behind all that: `0.3 kg assumed`
+  std::vector<Word> trailing;       ///< words after the value: `0.3 kg assumed`
   Span span;
 };
 
-/// One statement of a declarative block: a key, items separated by commas, perhaps `on DEVICE`.
+/// One statement of a declarative block: a key, items separated by commas, optionally `on DEVICE`.
 struct Setting {
   Word key;
   std::vector<SettingItem> items;
@@ -130,11 +130,11 @@ struct RecordDecl {
 struct Import {
   Word module;
 };
-/// Declarations other than materials and imports are their file's own unless `export` stands before them.
+/// Declarations other than materials and imports are private to their file unless `export` precedes them.
 struct DimensionDecl {
   Word name;
-  std::optional<ExprId> definition;  ///< none: a base dimension
-  std::optional<Range> range;        ///< the bounds of states of this dimension that have none of their own
+  std::optional<ExprId> definition;  ///< none for a base dimension
+  std::optional<Range> range;        ///< default bounds of states of this dimension
   bool exported = false;
 };
 /// `unit m : length` (a base unit) or `unit N = 1 kg m/s^2`.
@@ -171,7 +171,7 @@ struct PerceptStatement {
   std::optional<ExprId> value;
   std::optional<Word> level_name;
   std::optional<ExprId> tolerance;
-  std::optional<Word> by;  ///< the map that was chosen, `, by minsky1995.figure19`
+  std::optional<Word> by;  ///< the chosen map, `, by minsky1995.figure19`
   Span span;
 };
 
@@ -191,7 +191,7 @@ struct HeightStatement {
   Word name;
   ExprId value;
 };
-/// `force = …`, or a layer of it, `force texture = …`, perhaps with `limit 3 N`.
+/// `force = …`, or a layer of it, `force texture = …`, optionally with `limit 3 N`.
 struct ForceStatement {
   std::optional<Word> name;
   ExprId value;
@@ -201,7 +201,7 @@ struct ForceStatement {
 struct PatchStatement {
   std::vector<ExprId> sizes;
 };
-/// `active 0.3 W`: the energy that the material may give by itself.
+/// `active 0.3 W`: the power that the material may give to the hand by itself.
 struct ActiveStatement {
   ExprId power;
 };
@@ -242,23 +242,23 @@ struct MaterialDecl {
   std::vector<Setting> representative;
   std::vector<PerceptStatement> perceptual;
   std::vector<PhysicalStatement> physical;
-  std::optional<Span> perceptual_span, physical_span;  ///< the blocks with their braces, absent when not written
+  std::optional<Span> perceptual_span, physical_span;  ///< the blocks with their braces, if they are there
   std::string_view documentation;
   Span span;
 };
 
 using Declaration = std::variant<Import, DimensionDecl, UnitDecl, Constant, FunctionDecl, RecordDecl, MaterialDecl>;
 
-/// One parsed file. Expressions live in `exprs` and are named by index; `expr_spans` runs beside it.
+/// One parsed file. Expressions are in `exprs` and named by index; `expr_spans` has their spans.
 struct SyntaxTree {
   SourceId source = 0;
   std::vector<Expr> exprs;
   std::vector<Span> expr_spans;
-  std::vector<SuffixFactor> suffix_factors;  ///< of one number after the other
-  std::vector<Argument> call_arguments;      ///< of one call after the other
+  std::vector<SuffixFactor> suffix_factors;  ///< of all numbers, one after the other
+  std::vector<Argument> call_arguments;      ///< of all calls, one after the other
   std::vector<Declaration> declarations;
-  std::shared_ptr<const Source> text;                               ///< what words and texts are parts of ...
-  std::shared_ptr<const std::forward_list<std::string>> rewritten;  ///< ... or else of these: see `Tokens`
+  std::shared_ptr<const Source> text;                               ///< the file into which words and texts point ...
+  std::shared_ptr<const std::forward_list<std::string>> rewritten;  ///< ... or these rewritten texts: see `Tokens`
 
   std::span<const SuffixFactor> suffix(const NumberLiteral& number) const {
     return std::span(suffix_factors).subspan(number.suffix.first, number.suffix.count);

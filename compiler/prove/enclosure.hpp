@@ -9,8 +9,8 @@ namespace wale {
 /// The number of quantities in a first-order form; only the range is known of others.
 inline constexpr std::size_t quantities_limit = 16;
 
-/// What is known of one register: an interval and, if that is finite, a first-order form in the quantities that the
-/// program starts from. The form shows dependences between registers.
+/// The known facts about one register: an interval and, if that is finite, a first-order form in the quantities that
+/// the program starts from. The form shows dependences between registers.
 ///
 /// A value that is a number lies in `range` and equals `centre` + sum of slopes[i] e[i] + r. The e[i] in [-1, 1], one
 /// for each quantity, are the same for all registers of one run; r is any number in [-rest, rest].

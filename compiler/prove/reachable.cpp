@@ -8,8 +8,8 @@
 namespace wale {
 namespace {
 
-/// Number of ticks after which moving ends jump to their bounds; number of ticks after which nothing may move any more;
-/// and how often the ranges are shrunk again.
+/// After `patient_ticks` ticks, moving ends of ranges jump to their bounds. After `most_ticks` ticks all other ranges
+/// do too. Then the ranges are shrunk at most `most_shrinkings` times.
 constexpr int patient_ticks = 4, most_ticks = 16, most_shrinkings = 24;
 
 /// The memory of a program: ranges of states, then of memories' cells.

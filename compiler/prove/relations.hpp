@@ -14,7 +14,7 @@ namespace wale {
 /// A value of straight-line code: the content of a register before it, or a result of one of its instructions.
 using ValueNumber = std::uint32_t;
 
-/// What is known of the values of one run.
+/// The known ranges of the values in one run.
 struct KnownRanges {
   std::span<const Enclosure> registers;  ///< the registers that the code does not write
   std::span<const Interval> results;     ///< three for each instruction that has been run

@@ -9,7 +9,7 @@ Percept carried_on(const DeviceDeclaration& device, const Percept& percept, cons
   Percept shaken = percept;
   shaken.carrier = shaking_carrier(percept.name);
   shaken.carrier_dimension = declarations.dimension("acceleration");
-  shaken.one = 0;  // the map knows
+  shaken.one = 0;  // given by the map
   shaken.extractor = Extractor::acceleration;
   shaken.period = {};
   shaken.cue = "shaking";
@@ -23,7 +23,7 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
   const std::string& by = named.empty() && rule != device.realise.end() ? rule->second.by : named;
   MapChoice choice;
   std::vector<const Map*> tied;
-  tied.reserve(8);  // there may be more
+  tied.reserve(8);  // usually enough
   declarations.each_map([&](const Map& map) {
     if (map.percept != percept.name || (!by.empty() && map.name != by)) return;
     const bool of_carrier = map.from == percept.argument() && map.dimension == percept.carrier_dimension;
@@ -37,7 +37,7 @@ MapChoice choose_map(const Percept& percept, const DeviceDeclaration& device, co
   };
   const auto declared_class = [&](const std::string& name) {
     const auto* found = declarations.devices.find(name);
-    return found ? found->of_class : name;  // a map may be of a whole class
+    return found ? found->of_class : name;  // a map may be for a whole class
   };
   const auto measured = [&](const auto& there) {
     std::vector<const Map*> all;

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// Copies an expression from one set of terms to another, some of its terms replaced.
+/// Copies an expression from one set of terms to another, and replaces some of its terms.
 class TermCopier {
  public:
   TermCopier(const Terms& from, Terms& to) : from_(from), to_(to), copies_(from.size(), none) {}
@@ -15,10 +15,10 @@ class TermCopier {
 
   TermId operator()(TermId root) {
     if (copies_[root] != none) return copies_[root];
-    // Operands stand before their users, so what the root needs is found from the root backwards, and copied in order.
+    // Operands precede their users, so the needed terms are found from the root backwards, and then copied in order.
     needed_.clear();
     copies_[root] = awaited;
-    std::size_t waiting = 1;  // to be looked at
+    std::size_t waiting = 1;  // terms still to be visited
     for (TermId id = root; waiting > 0; --id) {
       if (copies_[id] != awaited) continue;
       --waiting;
@@ -45,8 +45,8 @@ class TermCopier {
 
   const Terms& from_;
   Terms& to_;
-  std::vector<TermId> copies_;  ///< by the term copied; `none` where there is none yet
-  std::vector<TermId> needed_;  ///< by the root at work, the last first
+  std::vector<TermId> copies_;  ///< the copy of each term; `none` if it has not been copied
+  std::vector<TermId> needed_;  ///< terms needed by the current root, the last first
 };
 
 }  // namespace wale

@@ -5,7 +5,7 @@ namespace wale {
 Occurrences::Occurrences(const Terms& terms, TermId last, TermId unknown)
     : unknown_(unknown), counts_(last >= unknown ? last - unknown + 1 : 1) {
   counts_[0] = 1;
-  // One pass from the unknown on, since operands stand before what uses them.
+  // One pass beginning at the unknown, since operands precede their users.
   for (TermId id = unknown + 1; id <= last; ++id) {
     if (terms[id].kind != TermKind::operation) continue;
     int count = 0;

@@ -9,12 +9,12 @@
 
 namespace wale {
 
-/// How often an unknown stands in each term up to `last`.
+/// How often an unknown occurs in each term up to `last`.
 class Occurrences {
  public:
   Occurrences(const Terms& terms, TermId last, TermId unknown);
 
-  /// 0, 1, or 2 for more.
+  /// 0, 1, or 2 for two or more.
   int operator[](TermId id) const { return id < unknown_ ? 0 : counts_[id - unknown_]; }
 
  private:
@@ -22,10 +22,10 @@ class Occurrences {
   std::vector<std::uint8_t> counts_;
 };
 
-/// The equation `left = right` solved for the one place where the unknown stands, or nothing where its inverse is not
-/// known or it stands in several places. `worth(id)` says what a term without the unknown comes to, a number or a term
-/// elsewhere, and `apply(operation, a, b)` what an operation makes of two of those; one of a single operand ignores
-/// `b`.
+/// Solves the equation `left = right` for the unknown. Nothing if the unknown occurs in several places, or if an
+/// operation has no known inverse. `worth(id)` gives the value of a term without the unknown (a number, or a term of
+/// another set), and `apply(operation, a, b)` the result of an operation on such values; operations with one operand
+/// ignore `b`.
 template <typename WorthOf, typename Apply>
 auto isolated(const Terms& terms, TermId left, TermId right, const Occurrences& counts, WorthOf worth, Apply apply)
     -> std::optional<decltype(worth(left))> {
@@ -56,7 +56,7 @@ auto isolated(const Terms& terms, TermId left, TermId right, const Occurrences& 
   return other;
 }
 
-/// The same where `unknown` is a term of `terms`; new terms are added there.
+/// The same for an `unknown` among `terms`; new terms are added there.
 std::optional<TermId> isolate(Terms& terms, TermId left, TermId right, TermId unknown);
 
 }  // namespace wale

@@ -11,7 +11,7 @@ namespace wale {
 
 namespace {
 
-/// Whether two terms compute the same from the same.
+/// Whether two terms are the same operation on the same operands, recursively.
 bool same_term(const Terms& terms, TermId a, TermId b) {
   if (a == b) return true;
   const Term &x = terms[a], &y = terms[b];
@@ -31,15 +31,15 @@ bool speaks_of(const Terms& terms, TermId id, TermId unknown) {
   return false;
 }
 
-/// c0 + c1 u + c2 u^2, where u is the `atom` that the unknown stands in.
+/// c0 + c1 u + c2 u^2, where u is the `atom`, a term that contains the unknown.
 struct Polynomial {
   TermId atom = 0;
-  std::array<std::optional<TermId>, 3> coefficients;  ///< those that are not there are 0
+  std::array<std::optional<TermId>, 3> coefficients;  ///< missing ones are 0
 
   bool constant() const { return !coefficients[1] && !coefficients[2]; }
 };
 
-/// An expression as a polynomial in the one function of the unknown that it is made of; nothing where it is none.
+/// Reads an expression as a polynomial in one function of the unknown; nothing if it is not such a polynomial.
 class PolynomialReader {
  public:
   PolynomialReader(Terms& terms, TermId unknown) : terms_(terms), unknown_(unknown) {}
@@ -73,7 +73,7 @@ class PolynomialReader {
     return polynomial;
   }
 
-  /// The atom of both, or nothing where they have two.
+  /// The common atom of both; nothing if they have different ones.
   std::optional<TermId> common_atom(const Polynomial& a, const Polynomial& b) const {
     if (a.constant()) return b.atom;
     if (b.constant() || same_term(terms_, a.atom, b.atom)) return a.atom;
@@ -116,8 +116,8 @@ class PolynomialReader {
   TermId unknown_;
 };
 
-/// Straight lines through knots, on beyond the first and the last: the first line, and at each knot between two a
-/// change of slope.
+/// Linear interpolation between knots, and extrapolation beyond the first and the last: the first line, plus a change
+/// of slope at each inner knot.
 TermId through_knots(Terms& terms, TermId at, const std::vector<std::array<double, 2>>& knots) {
   const auto slope = [&](std::size_t i) { return (knots[i + 1][1] - knots[i][1]) / (knots[i + 1][0] - knots[i][0]); };
   const auto from = [&](std::size_t i) { return terms.apply(Operation::subtract, at, terms.literal(knots[i][0])); };
@@ -131,7 +131,7 @@ TermId through_knots(Terms& terms, TermId at, const std::vector<std::array<doubl
   return value;
 }
 
-/// So many values, 0 at first. For nearly every law's terms there is room in itself.
+/// An array of values, initially 0. It has room for the terms of nearly every law without an allocation.
 template <typename T>
 class Room {
  public:
@@ -158,7 +158,7 @@ Law::Sizes literals(Terms& terms, const std::vector<double>& values) {
   return sizes;
 }
 
-/// The map's law among other terms, magnitude and carriers in their places.
+/// Copies the map's law to other terms, with the given terms for its magnitude and carriers.
 std::array<TermId, 2> copied(const Map& map, Terms& terms, TermId magnitude, TermId carrier,
                              const Law::Sizes& couples) {
   TermCopier copier(map.terms, terms);
@@ -175,11 +175,11 @@ std::array<TermId, 2> copied(const Map& map, Terms& terms, TermId magnitude, Ter
   return {left, copier(map.right)};
 }
 
-/// The term of a map's law that stands for its magnitude or its own carrier.
+/// The term of the magnitude or the carrier in a map's law.
 TermId quantity(const Map& map, TermKind kind) {
   for (TermId id = 0; id < map.terms.size(); ++id)
     if (map.terms[id].kind == kind && map.terms[id].index == 0) return id;
-  return 0;  // of a table, which has no terms
+  return 0;  // for a table, which has no terms
 }
 
 bool is_quantity(const Term& term) { return term.kind == TermKind::magnitude || term.kind == TermKind::carrier; }
@@ -196,7 +196,7 @@ Law::Law(const Map& map, const Percept& percept)
   carrier_stands_alone_ = stands_alone(of_carrier_);
   if (magnitude_stands_alone_) magnitude_of_one_ = magnitude_of(map_.one.value_or(percept_.one));
   if (carrier_stands_alone_) return;
-  // Which root of a quadratic gives back what was put in, where there are two.
+  // Of the two roots of a quadratic, find the one that inverts the law.
   const Way way = map_.branch == Branch::rising    ? Way::rising
                   : map_.branch == Branch::falling ? Way::falling
                                                    : way_within_range();
@@ -278,7 +278,7 @@ std::optional<TermId> Law::looked_up(Terms& terms, TermId value, bool inverse) c
     knots.push_back({std::log2(inverse ? magnitude : size), std::log2(inverse ? size : magnitude)});
   if (inverse && knots.front()[0] > knots.back()[0]) std::ranges::reverse(knots);
   for (std::size_t i = 1; i < knots.size(); ++i)
-    if (!(knots[i][0] > knots[i - 1][0])) return std::nullopt;  // it turns back
+    if (!(knots[i][0] > knots[i - 1][0])) return std::nullopt;  // the law is not monotonic
   return terms.apply(Operation::exp2, through_knots(terms, terms.apply(Operation::log2, value), knots));
 }
 
@@ -295,7 +295,7 @@ std::optional<TermId> Law::solved_quadratic(Terms& terms, TermId left, TermId ri
   if (!c2) {
     atom = apply(Operation::divide, rest, *c1);
   } else {
-    // c2 u^2 + c1 u - rest = 0. Beyond the vertex there is no root, and the vertex is as near as it gets.
+    // c2 u^2 + c1 u - rest = 0. Beyond the vertex there is no real root, and the vertex is the nearest value.
     const TermId linear = c1 ? *c1 : terms.literal(0);
     const TermId four = apply(Operation::multiply, terms.literal(4), apply(Operation::multiply, *c2, rest));
     const TermId square = apply(Operation::add, apply(Operation::multiply, linear, linear), four);

@@ -35,30 +35,32 @@ std::optional<double> LevelScale::step(double size, double towards, double apart
 
 namespace {
 
-/// Two levels of one percept, the lower first.
+/// Checks two neighbouring levels of one percept, the lower first.
 void check_neighbours(const LevelScale& scale, const Levels::Level& lower, const Levels::Level& higher,
                       const std::string& device, Diagnostics& diagnostics) {
-  constexpr double rounding = 1e-6;  // levels are written with a few digits
+  constexpr double rounding = 1e-6;  // since levels are written with few digits
   const double low = scale.size_of(lower.value), high = scale.size_of(higher.value);
   const Threshold* threshold = scale.people().threshold(low, high);
   const auto apart = scale.people().distance(low, high);
   if (!threshold || !apart || std::isnan(*apart) || *apart >= 1 - rounding) return;
   const std::string& percept = scale.percept().name;
   const auto enough = scale.step(low, std::min(scale.size_of(1), scale.most_size()), 1);
-  // Rounded up, so that what is proposed will do.
+  // Rounded up, so that the proposed level is far enough.
   const double written = enough ? std::ceil(scale.level_of(*enough) * 1000) / 1000 : HUGE_VAL;
-  Advice advice = written <= 1
-                      ? Advice(fmt::format("`{} {:.3g}` would be one apart from it; `wale levels {}` proposes more",
-                                           higher.name, written, percept))
-                            .fact("enough", written)
-                      : Advice(fmt::format("no level above it would do; lower `{}`, as `wale levels {}` proposes",
-                                           lower.name, percept));
+  Advice advice =
+      written <= 1
+          ? Advice(fmt::format("`{} {:.3g}` is one just noticeable difference from it; `wale levels {}` proposes more",
+                               higher.name, written, percept))
+                .fact("enough", written)
+          : Advice(fmt::format("no higher level is far enough from it; lower `{}`, as `wale levels {}` proposes",
+                               lower.name, percept));
   advice = std::move(advice).see(lower.span, fmt::format("{} {:.3g}", percept, lower.value)).fact("apart", *apart);
   Diagnostic found = std::move(advice).about(
       Code::close_levels, higher.span,
-      fmt::format("`{}` is hardly told from `{}` on `{}`: {:.2g} of a just noticeable difference of {}", higher.name,
-                  lower.name, device, *apart, percept));
-  found.cause = fmt::format("of two such sizes {:.2g} is noticed at d' = 1 ({})", threshold->weber, threshold->source);
+      fmt::format("`{}` and `{}` are hard to tell apart on `{}`: {:.2g} of a just noticeable difference of {}",
+                  higher.name, lower.name, device, *apart, percept));
+  found.cause = fmt::format("at these sizes, a relative difference of {:.2g} is noticed at d' = 1 ({})",
+                            threshold->weber, threshold->source);
   diagnostics.report(std::move(found));
 }
 
@@ -71,7 +73,7 @@ void check_levels(const Declarations& declarations, SourceId source, const std::
   for (const Levels* levels : declarations.levels()) {
     const Percept* declared = declarations.percepts.find(levels->percept);
     if (levels->span.source != source || !declared || !declared->has_reference) continue;
-    if (on->profile.shaker && !on->realise.contains(declared->name)) continue;  // it renders none of them
+    if (on->profile.shaker && !on->realise.contains(declared->name)) continue;  // it renders no level of this percept
     const Percept percept = carried_on(*on, *declared, declarations);
     const Map* map = choose_map(percept, *on, declarations).map;
     if (!map) continue;
@@ -89,12 +91,12 @@ void check_levels(const Declarations& declarations, SourceId source, const std::
     }
     if (!recalled) continue;
     diagnostics.report(
-        Advice("take it as a guess until somebody has seen the source")
+        Advice("treat it as a guess until somebody has checked the source")
             .see(recalled->span, "the threshold")
-            .about(
-                Code::unverified_basis, levels->span,
-                fmt::format("how far levels of {} are apart rests on a figure that was recalled and not looked up ({})",
-                            levels->percept, recalled->source)));
+            .about(Code::unverified_basis, levels->span,
+                   fmt::format(
+                       "the distance between levels of {} rests on a figure that was recalled and not looked up ({})",
+                       levels->percept, recalled->source)));
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// A percept's levels as one device gives them: the size of the carrier for each, and how plainly people tell two of
-/// them apart. Percept, map and declarations outlive it.
+/// A percept's levels on one device: the carrier's size for each, and how easily people tell two of them apart.
+/// Percept, map and declarations must outlive it.
 class LevelScale {
  public:
   LevelScale(const Percept& percept, const Map& map, const Declarations& declarations, const DeviceDeclaration& device);
@@ -19,14 +19,14 @@ class LevelScale {
   const Map& map() const { return map_; }
   const Discrimination& people() const { return people_; }
 
-  /// The carrier's size, SI, and no more than the device has the force for; 0 for level 0.
+  /// The carrier's size for a level, SI, limited by the device's force; 0 for level 0.
   double size_of(double level) const;
   double level_of(double size) const { return law_.level_of(size); }
-  /// Above this size the device saturates, SI; infinite where a size exerts no force.
+  /// The size above which the device saturates, SI; infinite if the carrier exerts no force.
   double most_size() const { return most_size_; }
 
-  /// The size nearest to `size` on the way `towards` another that is so many just noticeable differences `apart` from
-  /// it, SI. Nothing where the other is nearer, or nobody knows.
+  /// The first size on the way from `size` `towards` another one that is `apart` just noticeable differences from
+  /// `size`, SI. Nothing if the other one is nearer than that, or if there is no threshold.
   std::optional<double> step(double size, double towards, double apart) const;
 
  private:
@@ -37,9 +37,9 @@ class LevelScale {
   double most_size_;
 };
 
-/// Warns of the levels that a file declares where two neighbours would hardly be told apart on the device, or where
-/// that is judged by a figure that nobody has looked up. Two names for one level are meant, and levels of which too
-/// little is known are not judged.
+/// Checks the levels that a file declares. Warns of neighbours that are hard to tell apart on the device, and of
+/// judgements that rest on a recalled figure. Two names for one level are allowed, and levels without a map or
+/// threshold are not judged.
 void check_levels(const Declarations& declarations, SourceId source, const std::string& device,
                   Diagnostics& diagnostics);
 

@@ -7,25 +7,25 @@
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 
-// The device's force, shared out among what is asked for: what the author fixed comes first, then what matters most. A
-// size that another's law couples counts as it is after that.
+// Divides the device's force among the percepts. Sizes that the author fixed come first, then the percepts in the order
+// of their priority. If a law depends on the size of another percept's carrier, it uses the reduced size.
 //
-// A percept whose law counts on one that matters less cannot be settled before it, nor after it. But whatever the
-// couplings, there is one order in which percepts are served, so one number tells how far it goes: 2.3 says that two
-// are rendered whole, of the third 0.3 of what its level asks for then, and of the others nothing. Given it, all sizes
-// follow, what is coupled before what couples it; and the number is where their forces come to the device's.
+// A percept whose law depends on a percept of lower priority can be solved neither before nor after it. Therefore one
+// number describes how far the percepts are served in the order of priority: 2.3 means that two are rendered fully, the
+// third with 0.3 of the size that its level needs then, and the others not at all. Given this number, all sizes follow,
+// coupled percepts first. The number is found such that the sum of the forces equals the device's force.
 
 namespace wale {
 namespace {
 
-constexpr int steps_as_number = 60;  // of halving how far it goes
-/// As an expression of the program, before a straight line between the two ends: an error of the square of a part in
-/// 4096 where the law bends.
+constexpr int steps_as_number = 60;  // steps of bisection
+/// Steps of bisection in the program, followed by linear interpolation between the two ends. Each end is known to
+/// 1/4096, so the error is of the order of (1/4096)^2 if the law is curved.
 constexpr int steps_as_expression = 12;
 
 }  // namespace
 
-/// Solved percepts, what matters most first: the essential ones, then the others, each in the author's order.
+/// Solved percepts in the order of their priority: the essential ones, then the others, each in the author's order.
 std::vector<std::size_t> PerceptSolver::by_priority() const {
   std::vector<std::size_t> all;
   for (const bool essential : {true, false})
@@ -34,7 +34,7 @@ std::vector<std::size_t> PerceptSolver::by_priority() const {
   return all;
 }
 
-/// Whether a law counts, directly or through others, on what is served after it.
+/// Whether a law depends, directly or through others, on a percept that is served after it.
 bool PerceptSolver::serves_out_of_order(const std::vector<std::size_t>& order) const {
   std::vector<std::size_t> later;
   for (auto each = order.rbegin(); each != order.rend(); ++each) {
@@ -102,7 +102,7 @@ void PerceptSolver::reduce() {
   }
 }
 
-/// Says so where a percept gets less than its level asks for, although alone it could have it.
+/// Reports a percept that gets less than its level needs although the device could render it alone.
 void PerceptSolver::report_reduced(const Told& told, double used, const std::vector<std::string>& before) {
   const double limit = device_.profile.most(), exerts = told.percept->exerts;
   const char* limited = device_.profile.shaker ? "m/s^2" : "N";
@@ -111,7 +111,7 @@ void PerceptSolver::report_reduced(const Told& told, double used, const std::vec
   if (!(told.size < asked * (1 - rounding)) || exerts * asked > limit) return;
   const double level = told.law->level_of(told.size, coupled_sizes(told));
   report(Code::reduced_percept, told.asked->span,
-         fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would come to {:.3g} {}, and `{}` gives "
+         fmt::format("{} {:.3g} is reduced to {:.2g}: the forces together would be {:.3g} {}, and `{}` gives "
                      "{:.3g} {}",
                      told.asked->name, told.asked->level, level, used + exerts * asked, limited, device_.profile.name,
                      limit, limited),
@@ -155,8 +155,8 @@ TermId PerceptSolver::serve(const std::vector<std::size_t>& order, TermId served
   return force;
 }
 
-/// Where the forces come to the device's, found by halving and a straight line at the end; all of them where they do
-/// not.
+/// Finds how far the percepts are served so that their forces equal the device's force, by bisection and a final linear
+/// interpolation. If the forces never exceed the device's, all are served.
 void PerceptSolver::serve_jointly(const std::vector<std::size_t>& order, SolvedMaterial& solved, TermCopier& copy) {
   Terms& terms = solved.terms;
   const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };
@@ -200,7 +200,7 @@ void PerceptSolver::reduce(SolvedMaterial& solved, TermCopier& copy) {
         apply(Operation::minimum, *told.term, apply(Operation::divide, left, terms.literal(told.percept->exerts)));
     take(told);
   }
-  // What exerts no force has the size that its level asks for beside the others as they are now.
+  // A percept that exerts no force has the size for its level, given the sizes of the others now.
   for (const std::size_t index : order_) {
     Told& told = told_[index];
     if (told.shares != none) told.term = told_[told.shares].term;

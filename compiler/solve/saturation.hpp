@@ -6,13 +6,13 @@
 
 namespace wale {
 
-/// Why a percept is rendered weaker than it was asked for: the device's limit cuts it alone, or `together` with others.
+/// Why a percept is rendered at a lower level than asked: the device limits it alone, or `together` with others.
 inline std::string saturation_reason(const std::string& device, bool together) {
   return fmt::format("`{}` gives no more{}", device, together ? " to all together" : "");
 }
 
-/// How a percept is realised: by the device's own force for it, by a map that was measured on another device, or by
-/// both. An empty name means that there is none; both are empty for a percept that is realised as it is declared.
+/// How a percept is realised: by the device's own rule for it, by a map that was measured on another device, or by
+/// both. An empty name means that there is none; both are empty for a percept that is realised as declared.
 inline std::string realisation_reason(const std::string& realisation, const std::string& map,
                                       const std::string& map_device) {
   std::string how = realisation.empty() ? "" : fmt::format("rendered as {}", realisation);

@@ -8,7 +8,7 @@
 #include "compiler/solve/saturation.hpp"
 #include "compiler/solve/solve_percepts.hpp"
 
-// Sizes as numbers, at the parameters' defaults, and as expressions of the program.
+// Sizes of carriers: as numbers at the parameters' defaults, and as expressions of the program.
 
 namespace wale {
 
@@ -16,9 +16,10 @@ void PerceptSolver::solve_size(Told& told, std::vector<Parameter>& parameters) {
   const AskedPercept& asked = *told.asked;
   for (std::size_t i = 0; i < material_.parameters.size(); ++i)
     if (material_.parameters[i].name == asked.name)
-      report(Code::declared_twice, material_.parameter_spans[i],
-             fmt::format("a parameter `{}` would stand beside the percept of that name", asked.name),
-             Advice("give the parameter another name").see(asked.span, "asked for here"));
+      report(
+          Code::declared_twice, material_.parameter_spans[i],
+          fmt::format("the parameter `{}` has the same name as a percept, whose level is a parameter too", asked.name),
+          Advice("give the parameter another name").see(asked.span, "asked for here"));
   told.parameter = static_cast<std::uint32_t>(parameters.size());
   if (!asked.blended) add_level(asked.name, asked.level, asked.name, parameters);
   for (const LevelShare& share : asked.shares)
@@ -26,7 +27,7 @@ void PerceptSolver::solve_size(Told& told, std::vector<Parameter>& parameters) {
               parameters);
 }
 
-/// Adds a parameter for a level; a name that is taken gets a number.
+/// Adds a parameter for a level; if the name is taken, a number is appended.
 void PerceptSolver::add_level(const std::string& name, double level, const std::string& of,
                               std::vector<Parameter>& parameters) {
   std::string free = name;
@@ -43,7 +44,7 @@ void PerceptSolver::add_level(const std::string& name, double level, const std::
                         .description = fmt::format("level of {}: 0 none, 1 its reference stimulus", of)});
 }
 
-/// The level of a solved percept: a parameter, or in a blend what those of its components come to.
+/// The level of a solved percept: a parameter, or in a blend the weighted sum of its components' levels.
 TermId PerceptSolver::level_term(const Told& told, Terms& terms, TermCopier& copy) const {
   if (!told.asked->blended) return terms.parameter(told.parameter);
   TermId level = terms.literal(0);
@@ -72,7 +73,7 @@ void PerceptSolver::work_out_sizes() {
       report(Code::unsolvable_law, told.map->span,
              fmt::format("the law of {} from {} cannot be solved for `{}`", told.map->percept, told.map->from,
                          told.map->from),
-             "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can, and quadratics with a `branch`");
+             "use one `magnitude` and one carrier with + - * / ^ log exp sqrt, or a quadratic with a `branch`");
     } else if (told.asked->level > 0 && !law.reaches(told.asked->level, couples)) {
       report(Code::inverse_out_of_range, told.asked->span,
              fmt::format("no {} gives {} {:.3g} by this law ({})", told.percept->argument(), told.asked->name,
@@ -94,7 +95,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
   const std::string of_carrier = unit(percept);
   const double most = percept.exerts > 0 ? device_.profile.most() / percept.exerts : HUGE_VAL;
   const double size = told.size;
-  constexpr double rounding = 1e-6;  // a reference stimulus at the very end of the range is inside it
+  constexpr double rounding = 1e-6;  // a reference stimulus exactly at the end of the range is inside it
   if (size > most)
     report(Code::saturates, asked.span,
            fmt::format("{} {:.3g} needs {:.3g} {}, and `{}` {} {:.3g} {} at most", asked.name, asked.level, size,
@@ -109,7 +110,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
     report(Code::beyond_validity, asked.span,
            asked.level < percept.near_threshold
                ? fmt::format("{} {:.3g} is near or below threshold", asked.name, asked.level)
-               : fmt::format("{} {:.3g} lies outside what was measured ({})", asked.name, asked.level, map.source),
+               : fmt::format("{} {:.3g} is outside the measured range ({})", asked.name, asked.level, map.source),
            fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
                        law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())
@@ -120,7 +121,7 @@ void PerceptSolver::warn_of_range(const Told& told) {
 
 double PerceptSolver::most_size(const Told& told) const { return std::max(told.size, told.law->carrier_of(1)); }
 
-/// Whether the forces of all that is told could come to more than the device gives, wherever the sliders stand.
+/// Whether the forces of all percepts could together exceed the device's for any setting of the sliders.
 bool PerceptSolver::may_exceed() const {
   double sum = 0;
   int count = 0;
@@ -211,9 +212,9 @@ FateRecord PerceptSolver::fate(const AskedPercept& asked) const {
   }
   const Map& map = *found->map;
   const auto rule = realised_.find(asked.name);
-  // What several of them share, or what couples others, is told by its size; a law of one at 0 of the others is near.
+  // The level follows from the size, which may have been reduced.
   double most = found->percept->exerts > 0 ? device_.profile.most() / found->percept->exerts : HUGE_VAL;
-  // Where it is known how often a pad will shake, it gives no more than it does at that frequency.
+  // If the frequency of a pad's shaking is known, its limit is that at this frequency.
   if (const auto& shaker = device_.profile.shaker)
     if (const auto rate = constant_value(*terms_, (*carriers_)[found->carrier].force_y, &material_.parameters))
       most = std::min(most, shaker->acceleration(1, std::clamp(*rate, shaker->frequency_low, shaker->frequency_high)));
@@ -250,7 +251,7 @@ void PerceptSolver::describe(SolvedMaterial& solved) {
     if (!magnitude || !level) {
       report(Code::unsolvable_law, told.map->span,
              fmt::format("the law of {} cannot be solved for its magnitude", told.percept->name),
-             "laws of one `magnitude` and one carrier in + - * / ^ log exp sqrt can");
+             "use one `magnitude` and one carrier with + - * / ^ log exp sqrt");
       continue;
     }
     each.magnitude = *magnitude;

@@ -19,7 +19,7 @@ namespace {
 
 class Solver {
  public:
-  /// `physics` is what becomes of the material's physics, where that is known.
+  /// `physics` are the fates of the material's physics, if they are known already.
   Solver(const CheckedMaterial& material, const CheckedModule& module, const SourceSet& sources, Resolver& resolver,
          Diagnostics& diagnostics, std::vector<FateRecord> physics = {})
       : material_(material),
@@ -83,10 +83,11 @@ class Solver {
            near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", known));
   }
 
-  /// A patch is felt as far as the device reaches: one text is for wide devices and for narrow ones.
+  /// Cuts a patch to the device's workspace, so that one file can serve wide and narrow devices.
   void cut_patch(double workspace) {
     const double width = solved_.patch_width, height = solved_.patch_height;
-    float widest = static_cast<float>(workspace);  // as a program writes it, which must not be the wider one
+    float widest =
+        static_cast<float>(workspace);  // rounded as in the program, which must not be wider than the workspace
     if (widest > workspace) widest = std::nextafter(widest, 0.0f);
     solved_.patch_width = std::min(width, double{widest});
     solved_.patch_height = std::min(height, double{widest});
@@ -96,16 +97,15 @@ class Solver {
     report(Code::cut_patch, material_.patch ? material_.patch_span : material_.span,
            fmt::format("a patch of {} does not fit `{}` and is cut to its workspace, {:.4g} mm across", asked,
                        device_->profile.name, 1e3 * workspace),
-           Advice(fmt::format("what lies beyond is not felt there; `patch {:.4g} mm, {:.4g} mm` fits",
+           Advice(fmt::format("the rest cannot be felt there; `patch {:.4g} mm, {:.4g} mm` fits",
                               1e3 * solved_.patch_width, 1e3 * solved_.patch_height))
                .fact("high", 1e3 * workspace, "mm"));
   }
 
-  /// A material without a force takes the device's own realisations of its percepts, side by side.
+  /// Gives a material without a force the device's own realisations of its percepts, added together.
   bool realise_percepts() {
     if (material_.percepts.empty() && physics_.empty()) {
-      report(Code::no_force, material_.span,
-             fmt::format("`{}` says neither how it pushes nor how it feels", material_.name),
+      report(Code::no_force, material_.span, fmt::format("`{}` has neither a force nor a percept", material_.name),
              "add `physical { force = … }` or `perceptual { roughness … }`");
       return false;
     }
@@ -117,7 +117,8 @@ class Solver {
     std::vector<Span> spans;
     const bool vibrates = device_->profile.shaker.has_value();
     for (const auto& asked : material_.percepts) {
-      if (!declarations_.percepts.find(asked.name)->has_reference) continue;  // it has no levels: said later
+      if (!declarations_.percepts.find(asked.name)->has_reference)
+        continue;  // it has no levels, which is reported later
       const auto rule = device_->realise.find(asked.name);
       if (rule == device_->realise.end()) {
         lose(asked);
@@ -131,7 +132,7 @@ class Solver {
       spans.resize(checker.record().open_spans.size(), asked.span);
     }
     if (!force_ && vibrates && diagnostics_.error_count() == errors_before) {
-      // The rest of the material, its picture and what it says, is there all the same.
+      // The rest of the material, such as its picture, is still solved.
       const TermId none = terms_.literal(0);
       force_ = {none, none};
     }
@@ -151,9 +152,9 @@ class Solver {
     return diagnostics_.error_count() == errors_before;
   }
 
-  /// Adds the force that stands for a percept on this device.
+  /// Adds the force that renders a percept on this device.
   void realise(const AskedPercept& asked, const Realisation& rule, ExpressionChecker& checker) {
-    terms_.attribute(asked.span);  // not to the device's file
+    terms_.attribute(asked.span);  // and not to the device's file
     checker.read(*rule.home);
     Scope scope;
     scope.hand = true;
@@ -169,7 +170,7 @@ class Solver {
       force_ = {value.x, value.y};
   }
 
-  /// Adds what stands for a percept on a device that vibrates.
+  /// Adds the shaking that renders a percept on a device that vibrates.
   void realise_by_shaking(const AskedPercept& asked, const Realisation& rule, ExpressionChecker& checker,
                           std::vector<Span>& spans) {
     terms_.attribute(asked.span);
@@ -206,7 +207,7 @@ class Solver {
     force_ = {shaking.amplitude, shaking.rate};
   }
 
-  /// A percept that the device has no rule for, or no use of it.
+  /// Records a percept as lost: the device has no rule for it or cannot use the rule.
   void lose(const AskedPercept& asked, const std::string& why = {}) {
     const std::string& device = device_->profile.name;
     const auto maps = declarations_.maps();
@@ -224,20 +225,22 @@ class Solver {
              "leave it out, write the physics, or mark it `essential` to refuse such a device");
   }
 
-  /// Nothing is left to push with.
+  /// Reports that no percept can be rendered, so that there is no force.
   void lose_all() {
     const auto& asked = material_.percepts.front();
     if (!declarations_.percepts.find(asked.name)->has_reference)
-      return report(Code::untied_map, asked.span,
-                    fmt::format("{} has no reference stimulus yet, so it has an order and no levels", asked.name),
-                    "leave it out: it is told of the finished material, and two can be compared");
+      return report(
+          Code::untied_map, asked.span,
+          fmt::format("{} has no reference stimulus yet, so materials can be ordered by it but it has no levels",
+                      asked.name),
+          "leave it out: `wale describe` and `wale compare` report it for finished materials");
     report(Code::percept_unrealised, asked.span,
            fmt::format("`{}` has no realisation of {} of its own", device_->profile.name, asked.name),
            "write the physics: `physical { force = … }`");
   }
 
-  /// What becomes of each percept asked for, and of the physics. What of it is lost is said once, of a material that
-  /// has a force for devices that push.
+  /// Records the fates of the percepts asked for and of the physics. If parts of a force are lost, one warning names
+  /// them.
   void tell_fates(const PerceptSolver& percepts) {
     for (const auto& asked : material_.percepts) {
       const auto lost = lost_.find(asked.name);
@@ -258,13 +261,13 @@ class Solver {
       if (each.fate == Fate::lost) lost += (lost.empty() ? "" : "; ") + each.name + ": " + each.reason;
     if (!lost.empty())
       report(Code::lost_percept, material_.force_span,
-             fmt::format("on `{}` some of this force is lost ({})", device_->profile.name, lost),
-             "`wale describe --device` says what becomes of each; say what matters as a percept, and mark it "
+             fmt::format("on `{}`, parts of this force are lost ({})", device_->profile.name, lost),
+             "`wale describe --device` lists them; write what matters as a percept, and mark it "
              "`essential` to refuse such a device");
     solved_.fates.insert(solved_.fates.end(), physics_.begin(), physics_.end());
   }
 
-  /// A size that neither the author nor a percept sets.
+  /// Reports an open size that neither the author nor a percept sets.
   void report_open(std::uint32_t open) {
     const Percept* percept = nullptr;
     for (const auto& carrier : carriers_)
@@ -273,15 +276,15 @@ class Solver {
           if (each.carrier == carrier.name) percept = &each;
         });
     const bool texture = !percept || percept->argument() == "amplitude";
-    report(Code::open_amplitude, open_spans_[open], "nothing says how hard this pushes",
-           texture ? fmt::format("say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give the amplitude: "
+    report(Code::open_amplitude, open_spans_[open], "the size of this force is not given",
+           texture ? fmt::format("give the percept, as in `perceptual {{ {} 0.5 }}`, or the amplitude: "
                                  "`amplitude: 1.2 N`",
                                  percept ? percept->name : "roughness")
-                   : fmt::format("say what it feels like, as in `perceptual {{ {} 0.5 }}`, or give its {}",
-                                 percept->name, percept->argument()));
+                   : fmt::format("give the percept, as in `perceptual {{ {} 0.5 }}`, or the {}", percept->name,
+                                 percept->argument()));
   }
 
-  /// Lays the memories' cells over the patch.
+  /// Computes the number of cells of each memory on the patch.
   void size_memories() {
     constexpr double most_cells_a_side = 1024, most_cells = 1 << 20;
     double all = 0;
@@ -293,9 +296,10 @@ class Solver {
         report(
             Code::unbounded_memory, memory.span,
             fmt::format("`{}` has {:.0f} x {:.0f} cells on this patch", memory.name, columns, rows),
-            Advice(fmt::format("at most {:.0f} a side and {:.0f} in all are kept; make the cells wider than {:.3g} mm",
-                               most_cells_a_side, most_cells,
-                               1e3 * std::max(solved_.patch_width, solved_.patch_height) / most_cells_a_side))
+            Advice(fmt::format(
+                       "at most {:.0f} per side and {:.0f} in total are possible; make the cells wider than {:.3g} mm",
+                       most_cells_a_side, most_cells,
+                       1e3 * std::max(solved_.patch_width, solved_.patch_height) / most_cells_a_side))
                 .fact("columns", columns)
                 .fact("rows", rows)
                 .fact("most_a_side", most_cells_a_side)
@@ -312,7 +316,7 @@ class Solver {
     }
   }
 
-  /// A period that falls between two encoder counts is noise at the handle.
+  /// Warns of periods of less than two encoder counts, which become noise at the handle.
   void warn_of_fine_periods() {
     const double step = device_->profile.position_step();
     std::set<std::pair<std::uint32_t, std::uint32_t>> said;
@@ -328,11 +332,11 @@ class Solver {
     }
   }
 
-  /// Puts the solved expressions in place of what was open.
+  /// Substitutes the solved expressions for the open quantities.
   void substitute(PerceptSolver& percepts) {
     Terms& terms = solved_.terms;
     const Terms& author = *open_terms_;
-    terms.reserve(author.size() + author.size() / 4 + 128);  // and what is solved
+    terms.reserve(author.size() + author.size() / 4 + 128);  // room for the solutions
     TermCopier copier(author, terms);
     const std::map<std::uint32_t, TermId> sizes = percepts.sizes(solved_, copier);
     std::vector<std::pair<TermId, TermId>> solutions;
@@ -377,7 +381,7 @@ class Solver {
   Diagnostics& diagnostics_;
   const DeviceDeclaration* device_ = nullptr;
   SolvedMaterial solved_;
-  Terms terms_;  ///< the material's and those of a realisation, where there is one
+  Terms terms_;  ///< the material's, and those of a realisation if there is one
   const Terms* open_terms_ = &material_.terms;
   std::vector<Carrier> carriers_;
   std::vector<Span> open_spans_;
@@ -385,11 +389,11 @@ class Solver {
   std::optional<std::array<TermId, 2>> force_;
   std::optional<TermId> relief_;
   Span force_span_;
-  std::vector<CheckedState> states_;             ///< the material's, and what a realisation adds
-  std::map<std::string, std::string> realised_;  ///< percepts that the device renders in its own way: how
-  std::map<std::string, std::string> lost_;      ///< percepts that it does not render: why
-  std::vector<FateRecord> physics_;              ///< of what the device cannot exert
-  std::string cut_;                              ///< what became of a patch that is wider than the device; else empty
+  std::vector<CheckedState> states_;             ///< the material's, and those that a realisation adds
+  std::map<std::string, std::string> realised_;  ///< for percepts that the device renders by its own rule: how
+  std::map<std::string, std::string> lost_;      ///< for percepts that the device does not render: why
+  std::vector<FateRecord> physics_;              ///< fates of the parts of the force that the device cannot exert
+  std::string cut_;                              ///< sentence about a patch that was cut to the device; otherwise empty
 };
 
 }  // namespace

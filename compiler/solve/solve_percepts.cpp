@@ -14,7 +14,7 @@ namespace wale {
 
 namespace {
 
-/// What to do about several sizes left open, the second of which is where it is reported.
+/// The advice for several open sizes. The error is reported at the second.
 Advice left_open(const std::vector<const Carrier*>& open) {
   Advice advice = "add the heights up in one `lateral(a + b)`, or give all but one an amplitude";
   for (std::size_t i = 0; i < open.size(); ++i)
@@ -30,7 +30,7 @@ std::string sources_of(const std::vector<const Map*>& maps) {
 
 }  // namespace
 
-/// Whether the force is a sum of which the carrier's is a term as it stands: neither scaled nor bounded nor switched.
+/// Whether the carrier's force is a term of the total force, unchanged: neither scaled nor limited nor switched.
 bool PerceptSolver::is_summand(const Carrier& carrier) const {
   std::vector<std::array<TermId, 2>> waiting{force_};
   while (!waiting.empty()) {
@@ -58,8 +58,8 @@ const Percept& PerceptSolver::percept(const std::string& name) {
 void PerceptSolver::find_told_carriers() {
   for (std::size_t i = 0; i < carriers_->size(); ++i) {
     const Carrier& carrier = (*carriers_)[i];
-    // What is left open is meant to be felt. What is fixed may be a part of something else: the slope by which a
-    // friction comes on is no oil.
+    // An open size is meant to be felt. A fixed one may be part of something else: the viscous onset of a dry friction
+    // is not felt as viscosity.
     if (carrier.open || (!terms_->dependence(carrier.size).in_tick() && is_summand(carrier))) candidates_.push_back(i);
   }
 }
@@ -75,7 +75,7 @@ void PerceptSolver::plan(const Terms& terms, const std::vector<Carrier>& carrier
   find_told_carriers();
   for (const auto& asked : material_.percepts)
     if (!lost.contains(asked.name)) match(asked);
-  // What nobody asked for is told all the same, where it is alone of its kind and a map is there.
+  // A percept that was not asked for is told too, if only one carrier tells of it and there is a map.
   declarations_.percepts.each([&](const std::string& name, const Percept& declared) {
     if (!declared.has_reference) return;
     const Percept& percept = this->percept(name);
@@ -117,7 +117,7 @@ std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id) const {
   return found;
 }
 
-/// A parameter that scales the force of a solved carrier moves the percept off its level, and its slider says so.
+/// Marks the parameters that scale the force of a solved carrier: they move the percept away from its level.
 void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const {
   for (const Told& told : told_) {
     if (!told.solved) continue;
@@ -157,12 +157,12 @@ void PerceptSolver::match(const AskedPercept& asked) {
                       .see(percept.span, "declared here"));
   }
   if (mine.empty())
-    return report(Code::percept_unrealised, asked.span, fmt::format("nothing in the force carries {}", asked.name),
+    return report(Code::percept_unrealised, asked.span, fmt::format("no part of the force carries {}", asked.name),
                   fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
   if (open.size() > 1) {
     settle_all();
     return report(Code::several_open, open[1]->span,
-                  fmt::format("{} sizes are left open for one {}", open.size(), asked.name), left_open(open));
+                  fmt::format("{} sizes are left open for one percept, {}", open.size(), asked.name), left_open(open));
   }
   settle_all();
   const Map* map = map_for(percept, asked);
@@ -171,7 +171,7 @@ void PerceptSolver::match(const AskedPercept& asked) {
   tell({.percept = &percept, .asked = &asked, .map = map, .carrier = index, .solved = !open.empty()});
 }
 
-/// Enters a percept. Where another one is told by the same carrier, the first has set its size.
+/// Adds a percept. If several are told by the same carrier, the first one sets its size.
 void PerceptSolver::tell(Told told) {
   const auto first = std::ranges::find(told_, told.carrier, &Told::carrier);
   if (first != told_.end()) {
@@ -199,20 +199,19 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
   if (!choice.rivals.empty()) {
     std::vector<std::string> names;
     for (const Map* map : choice.rivals) names.push_back(map->name.empty() ? "(no name)" : map->name);
-    Advice advice = fmt::format("choose one behind the level, as in `{} {:.2g}, by {}`: {}", asked.name, asked.level,
+    Advice advice = fmt::format("choose one after the level, as in `{} {:.2g}, by {}`: {}", asked.name, asked.level,
                                 names.front(), fmt::join(names, ", "));
     for (const Map* map : choice.rivals) advice = std::move(advice).see(map->span, map->source);
     return report(Code::several_maps, asked.span,
-                  fmt::format("{} maps for {} would do on `{}`: {}", choice.rivals.size(), asked.name,
+                  fmt::format("{} maps for {} fit `{}` equally well: {}", choice.rivals.size(), asked.name,
                               device_.profile.name, sources_of(choice.rivals)),
                   std::move(advice));
   }
   if (!choice.untied.empty()) {
-    Advice advice = "leave the level out, or measure a map that is tied to the reference stimulus";
+    Advice advice = "remove the level, or measure a map that is tied to the reference stimulus";
     for (const Map* map : choice.untied) advice = std::move(advice).see(map->span, map->source);
     return report(Code::untied_map, asked.span,
-                  fmt::format("what is known of {} is not tied to its reference stimulus, so it orders and cannot set "
-                              "levels ({})",
+                  fmt::format("the maps for {} are not tied to its reference stimulus, so they cannot set levels ({})",
                               asked.name, sources_of(choice.untied)),
                   std::move(advice));
   }
@@ -227,8 +226,8 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
          "declare one, as in calibration/maps/minsky1995.wale");
 }
 
-/// Percept and physics both given: they disagree beyond what is felt, what the map is sure of, and what the author
-/// allows.
+/// Reports a percept and a size in the physics that contradict each other, by more than a just noticeable difference,
+/// the scatter of the map and the author's tolerance.
 void PerceptSolver::check_conflict(const Told& told) {
   const Carrier& carrier = (*carriers_)[told.carrier];
   const AskedPercept& asked = *told.asked;
@@ -243,8 +242,8 @@ void PerceptSolver::check_conflict(const Told& told) {
   const Discrimination people(declarations_, told.percept->cue, device_.profile.name, told.percept->exerts);
   if (const Threshold* threshold = people.threshold(*size, asked_size); threshold && threshold->recalled())
     report(Code::unverified_basis, asked.span,
-           fmt::format("how little of {} is noticed rests on a figure that was recalled and not looked up ({})",
-                       asked.name, threshold->source),
+           fmt::format("the threshold for {} rests on a figure that was recalled and not looked up ({})", asked.name,
+                       threshold->source),
            Advice("take it as a guess until somebody has seen the source").see(threshold->span, "the threshold"));
   if (const auto apart = people.distance(*size, asked_size); apart && *apart <= 1) return;
   const std::string unit = declarations_.names().unit(carrier.dimension);
@@ -252,12 +251,13 @@ void PerceptSolver::check_conflict(const Told& told) {
   diagnostics_.report(
       {.code = Code::percept_conflict,
        .span = asked.span,
-       .message = fmt::format("{} {:.3g} is asked for, and the {} given makes it {:.2g}", asked.name, asked.level,
+       .message = fmt::format("{} {:.3g} is asked for, but the given {} makes it {:.2g}", asked.name, asked.level,
                               argument, level),
        .expected = fmt::format("{} {} of {:.3g} {}", std::string("aeiou").find(argument[0]) < 5 ? "an" : "a", argument,
                                asked_size, unit),
        .found = fmt::format("{:.3g} {}", *size, unit),
-       .help = fmt::format("leave out the {}, and it is solved from the percept; or leave out the percept", argument),
+       .help =
+           fmt::format("leave out the {}, so that it is solved from the percept; or leave out the percept", argument),
        .secondary = {{carrier.size_span, fmt::format("gives {} {:.2g}", asked.name, level)}},
        .facts = {{"asked", NumberWithUnit{asked.level, ""}}, {"given", NumberWithUnit{level, ""}}}});
 }
@@ -280,10 +280,10 @@ bool PerceptSolver::order_from(std::size_t index, std::vector<int>& state) {
   if (state[index] == 2) return true;
   const Told& told = told_[index];
   if (state[index] == 1) {
-    report(
-        Code::circular_couples, told.asked ? told.asked->span : material_.span,
-        fmt::format("the maps of {} and of what it couples need each other ({})", told.percept->name, told.map->source),
-        Advice("choose another map for one of them").see(told.map->span, "couples the other"));
+    report(Code::circular_couples, told.asked ? told.asked->span : material_.span,
+           fmt::format("the maps of {} and of the percepts that it couples depend on each other ({})",
+                       told.percept->name, told.map->source),
+           Advice("choose another map for one of them").see(told.map->span, "couples the other"));
     return false;
   }
   state[index] = 1;

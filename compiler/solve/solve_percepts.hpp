@@ -15,33 +15,33 @@ namespace wale {
 
 /// Ties the percepts of one material to the carriers in its force, and solves those that are left open.
 ///
-/// Carriers are orthogonal, so each open size has one percept and the system is triangular: what a law couples is
-/// solved before it. When the forces would come to more than the device gives, what the author put last is reduced
-/// first.
+/// Carriers are independent, so each open size belongs to one percept. The system is triangular: the percepts that a
+/// law couples are solved before it. If the forces together would exceed the device's, the percept that the author put
+/// last is reduced first.
 class PerceptSolver {
  public:
   PerceptSolver(const CheckedMaterial& material, const Declarations& declarations, const DeviceDeclaration& device,
                 Diagnostics& diagnostics)
       : material_(material), declarations_(declarations), device_(device), diagnostics_(diagnostics) {}
 
-  /// Matches what was asked for, but for what is lost, with carriers and maps; what does not fit is reported. Adds a
-  /// parameter for each percept that is solved. `realised` are those that the device renders by a rule of its own, each
-  /// with the rule's force as written.
+  /// Matches the percepts asked for, except lost ones, with carriers and maps; errors are reported. Adds a parameter
+  /// for each solved percept. `realised` are those that the device renders by its own rule, each with the rule's force
+  /// as written.
   void plan(const Terms& terms, const std::vector<Carrier>& carriers, const std::array<TermId, 2>& force,
             const std::map<std::string, std::string>& realised, const std::map<std::string, std::string>& lost,
             std::vector<Parameter>& parameters);
 
-  /// Whether an open quantity is solved, or something has been said of it.
+  /// Whether an open quantity is solved, or an error about it has been reported.
   bool settled(std::uint32_t open) const { return settled_.contains(open); }
 
-  /// Builds the size of every open quantity that is solved, in setup expressions of `solved`; `copy` brings what the
-  /// author fixed there.
+  /// Builds the size of every solved open quantity as setup expressions in `solved`; `copy` copies the author's terms
+  /// there.
   std::map<std::uint32_t, TermId> sizes(SolvedMaterial& solved, TermCopier& copy);
 
   /// The outcome for a percept that was asked for and planned without an error.
   FateRecord fate(const AskedPercept& asked) const;
 
-  /// Adds a record for every percept that a carrier tells of, asked for or not; the asked ones first, in their order.
+  /// Adds a record for every percept that a carrier tells of: first those asked for, in their order, then the others.
   void describe(SolvedMaterial& solved);
 
  private:
@@ -50,19 +50,20 @@ class PerceptSolver {
   /// A carrier in the force and the percept that it tells of.
   struct Told {
     const Percept* percept = nullptr;
-    const AskedPercept* asked = nullptr;  ///< null: not asked for
+    const AskedPercept* asked = nullptr;  ///< null if it was not asked for
     const Map* map = nullptr;
     std::size_t carrier = 0;
-    std::optional<Law> law;            ///< of the map, once it is told of
-    bool solved = false;               ///< its size was open; otherwise the author fixed it
-    std::uint32_t parameter = 0;       ///< of a solved one: its level; of a blended one the first of its components'
-    double size = 0;                   ///< at the parameters' defaults, SI; not-a-number where it is not known
-    std::vector<std::size_t> couples;  ///< beside the map's: which of `told_`, or `none`
-    std::size_t shares = none;         ///< which of `told_` before it is told by the same carrier, or `none`
-    std::optional<TermId> term;        ///< in the solved terms, once it is built
+    std::optional<Law> law;  ///< the map's law, once it is needed
+    bool solved = false;     ///< its size was open; otherwise the author fixed it
+    std::uint32_t parameter =
+        0;            ///< for a solved percept: its level; for a blended one: the first of its components' levels
+    double size = 0;  ///< at the parameters' defaults, SI; not-a-number if it is not known
+    std::vector<std::size_t> couples;  ///< for each of the map's couplings: its index in `told_`, or `none`
+    std::size_t shares = none;         ///< index in `told_` of an earlier percept with the same carrier, or `none`
+    std::optional<TermId> term;        ///< its size in the solved terms, once it is built
   };
 
-  /// A percept as this device carries it.
+  /// The percept as this device carries it.
   const Percept& percept(const std::string& name);
   void find_told_carriers();
   bool is_summand(const Carrier& carrier) const;
@@ -76,7 +77,7 @@ class PerceptSolver {
                         std::vector<Parameter>& parameters);
   TermId level_term(const Told& told, Terms& terms, TermCopier& copy) const;
   void tell(Told told);
-  /// The force of a carrier of size 1, or 0 where it does not count or is counted already.
+  /// The force of a carrier of size 1; 0 if it exerts none or an earlier percept with the same carrier counts it.
   static double exertion(const Told& told) { return told.shares == none ? told.percept->exerts : 0; }
   void check_conflict(const Told& told);
   void mark_decalibrating(std::vector<Parameter>& parameters) const;
@@ -87,9 +88,10 @@ class PerceptSolver {
   void warn_of_range(const Told& told);
   std::vector<std::size_t> by_priority() const;
   bool serves_out_of_order(const std::vector<std::size_t>& order) const;
-  /// Which turn each of `told_` has, by its index; 0 of those that are not served.
+  /// The position of each of `told_` in the order, counted from 0; also 0 for those that are not served.
   std::vector<double> turns(const std::vector<std::size_t>& order) const;
-  /// Sets all sizes as they are where serving has come so far; the force of all together, in the device's limit's unit.
+  /// Sets all sizes for percepts `served` so far, and returns the sum of their forces in the unit of the device's
+  /// limit.
   double serve(const std::vector<std::size_t>& order, double served);
   TermId serve(const std::vector<std::size_t>& order, TermId served, SolvedMaterial& solved, TermCopier& copy);
   void serve_jointly(const std::vector<std::size_t>& order, SolvedMaterial& solved, TermCopier& copy);
@@ -121,10 +123,10 @@ class PerceptSolver {
   const std::vector<Carrier>* carriers_ = nullptr;
   std::array<TermId, 2> force_{};
   std::map<std::string, std::string> realised_;
-  std::map<std::string, Percept> percepts_;  ///< as a device that vibrates carries them: see `percept`
-  std::vector<std::size_t> candidates_;      ///< carriers that tell of something
+  std::map<std::string, Percept> percepts_;  ///< as this device carries them: see `percept`
+  std::vector<std::size_t> candidates_;      ///< carriers that tell of a percept
   std::vector<Told> told_;
-  std::vector<std::size_t> order_;  ///< of `told_`: what is coupled before what couples it
+  std::vector<std::size_t> order_;  ///< indices into `told_`: coupled percepts before those that couple them
   std::set<std::uint32_t> settled_;
 };
 

@@ -13,7 +13,7 @@ namespace wale {
 
 namespace {
 
-/// The percept that a force of this name carries, on the devices that push; null where there is none.
+/// The percept that a force with this name carries on devices that push; null if there is none.
 const Percept* percept_of(const Carrier& carrier, const Declarations& declarations) {
   const Percept* found = nullptr;
   declarations.percepts.each([&](const std::string&, const Percept& percept) {
@@ -22,7 +22,7 @@ const Percept* percept_of(const Carrier& carrier, const Declarations& declaratio
   return found;
 }
 
-/// How the author's own size of a force feels on the device of the percept's reference stimulus.
+/// The level of the author's own size of a force, on the device of the percept's reference stimulus.
 std::optional<double> level_of(const CheckedMaterial& material, const Carrier& carrier, const Percept& percept,
                                const Declarations& declarations) {
   const DeviceDeclaration* reference = declarations.devices.find(percept.reference_device);
@@ -34,7 +34,7 @@ std::optional<double> level_of(const CheckedMaterial& material, const Carrier& c
   return std::min(level, 1.0);
 }
 
-/// Whether the force is a sum of nothing but carriers and zeros.
+/// Whether the force is a sum of only carriers and zeros.
 bool is_sum_of_carriers(const CheckedMaterial& material) {
   std::vector<std::array<TermId, 2>> waiting{*material.force};
   while (!waiting.empty()) {

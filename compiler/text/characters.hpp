@@ -7,7 +7,7 @@ namespace wale {
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-/// Asked of nearly every byte of a text, so looked up.
+/// Whether a byte may be part of a name. A table, since nearly every byte of a file is tested.
 inline constexpr auto in_names = [] {
   std::array<bool, 256> table{};
   for (int c = 0; c < 128; ++c) table[c] = begins_name(static_cast<char>(c)) || is_digit(static_cast<char>(c));
@@ -15,11 +15,11 @@ inline constexpr auto in_names = [] {
 }();
 constexpr bool continues_name(char c) { return in_names[static_cast<unsigned char>(c)]; }
 
-/// The micro sign and the Greek letter.
+/// Whether it is the micro sign or the Greek letter mu.
 inline bool is_micro(char32_t code) { return code == 0xB5 || code == 0x3BC; }
 
-/// Letters of other alphabets, roughly: everything beyond Latin-1's signs but for the blocks of punctuation and
-/// symbols.
+/// Whether it is a letter of another alphabet, approximately: everything beyond the signs of Latin-1 except the blocks
+/// of punctuation and symbols.
 inline bool is_foreign_letter(char32_t code) {
   const bool sign = code == 0xD7 || code == 0xF7 || (code >= 0x2000 && code <= 0x2BFF) ||
                     (code >= 0x3000 && code <= 0x303F) || (code >= 0xFE00 && code <= 0xFEFF) || code >= 0xFFF0;

@@ -68,14 +68,14 @@ class FileResolver final : public Resolver {
   }
 
  private:
-  /// Of a file's project, or the one that it is in.
+  /// The folder of a file's project, or else the folder that contains the file.
   fs::path own_folder(const std::string& from) {
     if (const auto& project = project_of(from)) return *project;
     const fs::path folder = fs::path(from).parent_path();
     return folder.empty() ? fs::path(".") : folder;
   }
 
-  /// Adds the modules of a folder, and of those in it where they belong to it, in the order of their names.
+  /// Adds the modules of a folder in the order of their names; if `whole`, those of its subfolders too.
   static void list(const fs::path& folder, bool whole, std::vector<std::string>& all) {
     std::vector<std::string> found;
     std::error_code error;
@@ -87,7 +87,7 @@ class FileResolver final : public Resolver {
         if (!whole || path.filename().string().starts_with('.')) each.disable_recursion_pending();
       } else if (path.extension() == ".wale") {
         std::string module = path.lexically_relative(folder).replace_extension().generic_string();
-        // A dot in a name would stand for a folder.
+        // A dot in a module's name would mean a folder.
         if (module.find_first_of(". ") == std::string::npos) {
           std::ranges::replace(module, '/', '.');
           found.push_back(std::move(module));
@@ -110,21 +110,21 @@ class FileResolver final : public Resolver {
       if (fs::exists(candidate, ignored)) return read_file(candidate.lexically_normal().string());
     }
     std::string searched;
-    std::set<std::string> said;  // the file may stand beside its project's mark
+    std::set<std::string> said;  // a folder may occur twice, if the file is in the root of its project
     for (const auto& candidate : candidates)
       if (const auto shown = candidate.lexically_normal().string(); said.insert(shown).second)
         searched += fmt::format("{}`{}`", searched.empty() ? "" : ", ", shown);
     return unreadable(name, fmt::format("no such file; looked for {}", searched));
   }
 
-  /// Found once for each folder: a file's imports ask for it again and again.
+  /// The project of a file. Cached by folder, since each import asks for it.
   const std::optional<fs::path>& project_of(const std::string& from) {
     const fs::path folder = fs::path(from).parent_path();
     const auto [known, added] = projects_.try_emplace(folder.string());
     if (!added) return known->second;
     std::error_code ignored;
     fs::path above = fs::absolute(folder.empty() ? fs::path(".") : folder, ignored).lexically_normal();
-    fs::path shown = folder.empty() ? fs::path(".") : folder;  // names stay relative where the file's was
+    fs::path shown = folder.empty() ? fs::path(".") : folder;  // keep names relative if the file's name was
     while (!above.empty()) {
       if (fs::is_regular_file(above / project_marker, ignored)) {
         known->second = shown;
@@ -140,7 +140,7 @@ class FileResolver final : public Resolver {
   std::vector<std::string> roots_;
   std::vector<std::string>* looked_for_;
   std::map<std::string, std::optional<fs::path>> projects_;
-  std::set<std::string> modules_;  ///< all that were asked for
+  std::set<std::string> modules_;  ///< all modules requested so far
 };
 
 }  // namespace
@@ -154,7 +154,7 @@ Result<ResolvedFile> read_file(const std::string& path) {
   const auto status = fs::status(path, error);
   if (!fs::exists(status)) return unreadable(path, "no such file");
   if (fs::is_directory(status)) return unreadable(path, "this is a folder");
-  // A pipe has no size and may never end; only regular files are measured before they are read.
+  // A pipe has no size and may never end, so only the size of regular files is checked before reading.
   if (fs::is_regular_file(status)) {
     const auto size = fs::file_size(path, error);
     if (!error && size > largest_file)

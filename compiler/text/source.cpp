@@ -7,11 +7,11 @@
 namespace wale {
 
 SourceSet::Entry SourceSet::measured(std::string name, std::string text) {
-  constexpr std::size_t bytes_of_a_line = 32;  // or thereabouts
+  constexpr std::size_t bytes_of_a_line = 32;  // about; only for reserving memory
   std::vector<std::uint32_t> starts;
   starts.reserve(std::min(text.size(), largest_source) / bytes_of_a_line + 1);
   starts.push_back(0);
-  // Nobody points into a file that is refused for its size; the lines of 100 MB are not worth remembering.
+  // No span points into a file that is refused for its size, so its lines need not be indexed.
   const bool is_read = text.size() <= largest_source;
   for (std::size_t at = text.find('\n'); is_read && at != std::string::npos; at = text.find('\n', at + 1)) {
     starts.push_back(static_cast<std::uint32_t>(at + 1));
@@ -50,7 +50,7 @@ LineColumn SourceSet::place(Span span) const {
   const std::size_t line = line_index(span);
   const std::size_t end = std::min<std::size_t>(span.begin, text.size());
   LineColumn place{static_cast<unsigned>(line + 1), 1};
-  // Columns count the bytes that begin a character. No span points behind a byte that is not UTF-8.
+  // Columns count the bytes that begin a character. No span points past a byte that is not UTF-8.
   for (std::size_t at = entry(span.source).line_starts[line]; at < end; ++at)
     place.column += (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80;
   return place;

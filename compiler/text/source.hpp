@@ -11,11 +11,11 @@ namespace wale {
 
 using SourceId = std::uint32_t;
 
-/// Files larger than this are refused (W0109); a material has a few hundred lines, measured tables live in their own
-/// files.
+/// Files larger than this, in bytes, are refused (W0109). A material has a few hundred lines; measured tables are in
+/// files of their own.
 constexpr std::size_t largest_source = 4u << 20;
 
-/// A stretch of source text: bytes `begin` .. `end` of one file.
+/// A part of the source text: bytes `begin` up to but not including `end` of one file.
 struct Span {
   SourceId source = 0;
   std::uint32_t begin = 0, end = 0;
@@ -28,7 +28,7 @@ struct LineColumn {
   unsigned line = 1, column = 1;
 };
 
-/// One file's text under the name that diagnostics show.
+/// One file's text, with the name that diagnostics show.
 struct Source {
   std::string name;
   std::string text;
@@ -39,13 +39,13 @@ inline constexpr SourceId first_embedded_source = 1u << 31;
 /// The id of `embedded_files()[index]`.
 constexpr SourceId embedded_source(std::size_t index) { return first_embedded_source + static_cast<SourceId>(index); }
 
-/// All texts that a compilation has read, besides the embedded files that each one knows; a `Span` names a part of one
-/// of them.
+/// All texts that a compilation has read, and the embedded files, which every compilation knows. A `Span` is a part of
+/// one of them.
 class SourceSet {
  public:
   SourceId add(std::string name, std::string text);
   const Source& operator[](SourceId id) const { return *entry(id).source; }
-  /// The same, to be kept for as long as something points into the text.
+  /// The same, for owners of views into the text.
   std::shared_ptr<const Source> kept(SourceId id) const { return entry(id).source; }
   std::size_t size() const { return sources_.size(); }
 
@@ -63,7 +63,7 @@ class SourceSet {
   const Entry& entry(SourceId id) const {
     return id >= first_embedded_source ? embedded()[id - first_embedded_source] : sources_[id];
   }
-  std::size_t line_index(Span span) const;  ///< which line the span begins in, from 0
+  std::size_t line_index(Span span) const;  ///< the line in which the span begins, from 0
 
   std::vector<Entry> sources_;
 };

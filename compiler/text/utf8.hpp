@@ -4,14 +4,15 @@
 
 namespace wale {
 
-/// One character of UTF-8 text: its code point and how many bytes it takes.
+/// One character of UTF-8 text: its code point and its length in bytes.
 struct Character {
   char32_t code = 0xFFFD;
   unsigned bytes = 1;
   bool valid = false;
 };
 
-/// The character that begins at byte `at`. A byte that begins none is U+FFFD, one byte long and not valid.
+/// The character that begins at byte `at`. A byte that begins no valid character gives U+FFFD, one byte long, not
+/// valid.
 inline Character decode(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(at);

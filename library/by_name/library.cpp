@@ -20,7 +20,7 @@ Error first_error(const Diagnostics& diagnostics, Place place) {
   return {Code::refused_program, "this cannot be compiled", "", std::move(place)};
 }
 
-/// Where the first error of a compilation stands.
+/// The place of the first error of a compilation.
 Place first_place(const Diagnostics& diagnostics, const SourceSet& sources) {
   for (const Diagnostic& each : diagnostics.all())
     if (severity_of(each.code) == Severity::error)
@@ -38,7 +38,7 @@ Error unknown(Code code, const char* argument, const std::string& name, const st
           {.name = argument, .text = name}};
 }
 
-/// A word of Wale or a number: nothing that could end the statement it is put into.
+/// Whether the text is a word of Wale or a number, so that it cannot end the statement into which it is put.
 bool is_level(const std::string& text) {
   return !text.empty() &&
          std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });

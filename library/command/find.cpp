@@ -15,13 +15,13 @@ namespace wale::command {
 namespace {
 
 struct FindOptions {
-  std::vector<std::string> texts;  ///< a material has all of them; none: all materials
-  std::string kind;                ///< empty: of any kind
+  std::vector<std::string> texts;  ///< sought texts; a material must have all of them; empty for all materials
+  std::string kind;                ///< empty for any kind
   std::vector<std::string> folders;
   bool json = false;
 };
 
-/// What of the question is to blame, with what may have been meant.
+/// The reason why nothing was found, with a proposal.
 std::string why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts,
                                  const std::string& kind) {
   if (index.materials().empty()) return "there is no material here";
@@ -38,10 +38,10 @@ std::string why_nothing_is_found(const LibraryIndex& index, const std::vector<st
     return fmt::format("none of {} materials{} has \"{}\"{}", find_materials(index, {}, kind).size(), among, text,
                        near ? fmt::format("; did you mean \"{}\"?", *near) : "; `wale find` alone lists them all");
   }
-  return "no material has all of these; each alone is found";
+  return "no material has all of these texts, although each alone is found";
 }
 
-/// How it was found, where that does not stand in the line already.
+/// The text by which a material was found, if its line does not show it already.
 std::string found_in(const FoundMaterial& found) {
   if (found.by == FoundBy::called || found.by == FoundBy::feels)
     return fmt::format("{} \"{}\"", in_words(found.by), found.text);
@@ -84,7 +84,7 @@ std::string found_json(const std::vector<FoundMaterial>& found) {
 
 int find(const FindOptions& options) {
   const auto resolver = file_resolver(library_folders(options.folders, std::getenv("WALE_LIBRARY")));
-  // What a file in the present folder could import. The file itself need not be there.
+  // The index of what a file in the current folder could import; there need not be such a file.
   const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
   const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
   if (options.json) fmt::print("{}", found_json(found));
@@ -103,7 +103,7 @@ Run declare_find(CLI::App& verb) {
       ->type_name("KIND");
   offer_library(verb, options->folders);
   verb.get_option("--library")->description("a folder whose materials are listed too; may be repeated");
-  offer_json(verb, options->json, "an array with all that is known of each");
+  offer_json(verb, options->json, "an array with all facts about each material");
   verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
   return [options] { return find(*options); };
 }

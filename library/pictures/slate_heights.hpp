@@ -6,14 +6,15 @@
 
 namespace wale {
 
-/// The heights of slate.png: a riven face of slate that nobody ever photographed.
+/// The heights of slate.png: a cleft face of slate, computed and not photographed.
 ///
-/// Sums, products and floors of doubles and whole numbers only, so that every machine makes the same pixels.
+/// Uses only sums, products and floors of doubles and integers, so that every machine makes the same pixels.
 class SlateHeights {
  public:
   static constexpr int side = 256;  ///< pixels; at 0.5 mm each, a tile of 128 mm
 
-  /// Row-major from the top left, 0 lowest, 65535 highest. The cleavage runs upright, across a hand that rubs sideways.
+  /// Row-major from the top left, 0 lowest, 65535 highest. The steps run upright, across the motion of a hand that rubs
+  /// sideways.
   static std::vector<std::uint16_t> draw() {
     std::vector<double> heights;
     for (int row = 0; row < side; ++row)
@@ -27,7 +28,7 @@ class SlateHeights {
   }
 
  private:
-  /// Leaves of stone that lie on each other and break off along ragged edges, and the grain of their faces.
+  /// Layers of stone that break off along ragged edges, with a grain on their faces.
   static double height(double x, double y) {
     const double lean = 0.55 * x + y;
     const double leaves = lean / 75 + 2.2 * fractal(x / 80, lean / 46, 4, 10);
@@ -37,7 +38,7 @@ class SlateHeights {
     return 0.5 * (leaf + step - lean / 75) + 1.1 * grain;
   }
 
-  /// Smooth noise, and finer noise on it: each octave is half as wide and half as high as the one before.
+  /// A sum of smooth noises: each octave is half as wide and half as high as the one before.
   static double fractal(double x, double y, std::uint32_t octaves, std::uint32_t layer) {
     double sum = 0, size = 0.5;
     for (std::uint32_t octave = 0; octave < octaves; ++octave) {
@@ -47,7 +48,7 @@ class SlateHeights {
     return sum;
   }
 
-  /// Smooth noise of 0 .. 1 whose hills are about as wide as the lattice's cells.
+  /// Smooth noise from 0 to 1, with hills about as wide as the lattice's cells.
   static double noise(double x, double y, std::uint32_t layer) {
     const double column = std::floor(x), row = std::floor(y);
     const double u = eased(x - column), v = eased(y - row);
@@ -61,7 +62,7 @@ class SlateHeights {
 
   static double eased(double t) { return t * t * t * (10 + t * (6 * t - 15)); }
 
-  /// A number of 0 .. 1 that neighbours do not share.
+  /// A pseudorandom number in [0, 1) for a point of the lattice.
   static double hashed(std::uint32_t column, std::uint32_t row, std::uint32_t layer) {
     std::uint32_t bits = column * 0x9e3779b1u ^ row * 0x85ebca77u ^ layer * 0xc2b2ae3du;
     bits = (bits ^ bits >> 15) * 0x2c1b3c6du;

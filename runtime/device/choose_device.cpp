@@ -14,7 +14,7 @@ constexpr std::string_view simulated = "simulated", simulated_as = "simulated:";
 
 bool is_usable(const PluggedIn& plugged) { return !plugged.can.empty() && !plugged.obstacle; }
 
-/// Whether it is a force device, also one that cannot be used now: it can push, or its declaration says that it can.
+/// Whether it is a force device, usable now or not: it can push, or its declaration says that it can.
 bool is_force_device(const PluggedIn& plugged, const MatchedDevice& match) {
   return !plugged.can.empty() || (match.device != nullptr && !match.is_generic);
 }
@@ -80,7 +80,7 @@ class Chooser {
     return ChosenDevice{.declared = device};
   }
 
-  /// Where virtual time or a simulated hand leaves no real device to choose.
+  /// The choice with virtual time or a simulated hand, which no real device can have.
   Result<ChosenDevice> only_simulated() const {
     const std::string& asked = request_.spelling;
     if (asked == "auto") return ChosenDevice{};
@@ -91,7 +91,7 @@ class Chooser {
                  "leave out --virtual-time and --hand, or choose a simulated device");
   }
 
-  /// A device that is asked for by its numbers, port, declaration or driver.
+  /// The device with these numbers, at this port, of this declaration or of this driver.
   Result<ChosenDevice> named(const std::string& asked) const {
     if (asked == "usb")
       return real(
@@ -170,7 +170,7 @@ class Chooser {
                  plugged.obstacle->mend);
   }
 
-  /// A device that is plugged in and that `is_meant` accepts; never a simulated one.
+  /// The best plugged device that `is_meant` accepts; never a simulated one.
   template <class IsMeant>
   Result<ChosenDevice> real(IsMeant is_meant, const std::string& none, const std::string& instead = "simulated") const {
     std::optional<Error> why;

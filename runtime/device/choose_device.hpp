@@ -10,29 +10,29 @@
 
 namespace wale {
 
-/// The device that is asked for, as by `--device`.
+/// The device that a person asks for, as by `--device`.
 struct DeviceRequest {
   /// `simulated`, `simulated:NAME`, `auto`, `usb`, a driver's name, a declared device, "1209:ffb0", or a port, "1-2.3".
   std::string spelling = "auto";
-  std::string built_for;        ///< the device that the program is for, where that is settled; else empty
-  bool only_simulated = false;  ///< virtual time or a simulated hand's motion is asked for too
+  std::string built_for;        ///< the device that the program is built for; empty if that is still open
+  bool only_simulated = false;  ///< virtual time or a simulated hand's motion was asked for as well
 };
 
 /// The device that was chosen.
 struct ChosenDevice {
-  std::optional<DeclaredDevice> declared;  ///< to build for and to drive it by; none: the program's own, simulated
+  std::optional<DeclaredDevice> declared;  ///< to build for and to drive it by; none: simulate the program's own device
   std::optional<PluggedIn> plugged;        ///< none: it is simulated
-  bool is_generic = false;                 ///< no declaration is about what is plugged in
+  bool is_generic = false;                 ///< no declaration names the plugged device
   std::string said;                        ///< which one and why, for the person; may have several lines
-  bool is_worth_saying = false;            ///< also to a person who asked for nothing
+  bool is_worth_saying = false;            ///< tell it also a person who did not ask for a device
 };
 
-/// Chooses among what is plugged in and what is declared; of two declarations of one device the first of `known`
-/// counts. A device that is named is the real one, unless its declaration is about none that can be plugged in. `auto`
-/// takes the best real one, or the simulated one. Errors, each with what to do: `absent_device` a real device is asked
-/// for, and is not plugged in; `unusable_device` it is plugged in and cannot be used; `other_device` the program is
-/// built for another one; `unknown_device` nothing has that name, and no declaration is about what has;
-/// `malformed_value` a real device is asked for together with virtual time or a simulated hand.
+/// Chooses among plugged and declared devices; of two declarations of one device the first of `known` counts. A name
+/// means the real device, unless its declaration is about one that cannot be plugged in. `auto` takes the best real
+/// device, or else the simulated one. Errors, each with what to do: `absent_device`: the requested real device is not
+/// plugged in; `unusable_device`: it is plugged in but cannot be used; `other_device`: the program is built for another
+/// device; `unknown_device`: no device has that name, or none is declared for the one that has it;
+/// `malformed_value`: a real device was requested together with virtual time or a simulated hand.
 Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,
                                    std::span<const PluggedIn> plugged, Drivers drivers = wale::drivers());
 

@@ -16,7 +16,7 @@
 
 namespace wale {
 
-/// What devices are plugged into, opened once and shared by all drivers.
+/// The systems that devices are plugged into, opened once and shared by all drivers.
 struct Connections {
   Result<std::shared_ptr<UsbContext>> usb;  ///< the error says why USB cannot be used
 
@@ -27,14 +27,14 @@ struct Driver;
 
 /// A device that is plugged in, as the driver that found it describes it.
 struct PluggedIn {
-  const Driver* driver = nullptr;      ///< never null in what a driver has found
-  std::string numbers = {};            ///< "1209:ffb0"; empty where it is not on USB
-  std::string port = {};               ///< "1-2.3": where; the same when it is plugged in there again
+  const Driver* driver = nullptr;      ///< the driver that found it, never null then
+  std::string numbers = {};            ///< "1209:ffb0"; empty if it is not on USB
+  std::string port = {};               ///< "1-2.3"; the same when it is plugged in there again
   std::string name = {};               ///< as it calls itself; may be empty
-  std::string can = {};                ///< what it can do, in a line; empty where that is not known
-  std::optional<Error> obstacle = {};  ///< why it cannot be used; nothing where no reason is known
-  std::string profile = {};            ///< the declared device that it is, where its driver knows; else empty
-  std::string transport = {};          ///< how it would be driven, and why; empty where there is one way only
+  std::string can = {};                ///< what it can do, in a line; empty if that is not known
+  std::optional<Error> obstacle = {};  ///< why it cannot be used; nothing if no reason is known
+  std::string profile = {};            ///< the name of its declaration, if its driver knows it; else empty
+  std::string transport = {};          ///< how it would be driven, and why; empty if there is only one way
   /// Other programs that have it open: "steam (4711) by /dev/input/event5".
   std::vector<std::string> held_by = {};
   long processes_hidden = 0;  ///< processes whose open files this user may not see
@@ -45,12 +45,13 @@ struct PluggedIn {
 std::string in_words(const PluggedIn& plugged);
 
 struct DeviceOptions {
-  int priority = 0;  ///< SCHED_FIFO, of the threads that serve the device, where permitted; 0: ordinary
-  /// Told what the person has to do before the device can be used. From any thread; empty: nobody is asked.
+  int priority = 0;  ///< SCHED_FIFO priority of the threads that serve the device, if permitted; 0: ordinary
+  /// Called with the sentence that asks the person to do something before the device can be used. From any thread;
+  /// empty: there is no person to ask.
   std::function<void(const std::string&)> ask = {};
-  /// True: stop waiting for the person. Outlives the device; null: never.
+  /// Becomes true to stop waiting for the person. Must outlive the device; null: never.
   const std::atomic<bool>* stop = nullptr;
-  /// The way to drive it, of those that its driver has: "hidraw"; empty: the driver chooses.
+  /// One of its driver's ways to drive it: "hidraw"; empty: the driver chooses.
   std::string transport = {};
   /// An open file of the device that a portal or a broker handed over; -1: none. The caller owns it until opening
   /// succeeds, then the device does. It is used once: a device that was lost and comes back is opened by its driver.
@@ -61,16 +62,17 @@ struct DeviceOptions {
 /// the table of drivers (drivers.def): a new driver is a folder with a driver.cpp, and one row of that table. It is
 /// `constinit`, so that the table is whole before any other object is made.
 struct Driver {
-  std::string_view name;   ///< also a spelling for `--device`: the best device of this driver
-  bool is_chosen_by_auto;  ///< whether `auto` may take its devices; others have to be named
-  bool is_felt;            ///< false where forces are only shown
+  std::string_view name;   ///< with `--device` it means the best device of this driver
+  bool is_chosen_by_auto;  ///< whether `auto` may take its devices; others must be named
+  bool is_felt;            ///< false if its devices only show forces
   /// All of its devices that are plugged in, also those that cannot be used; with `like`, only those with its numbers.
-  /// Takes a few milliseconds for each, and does no more to a device than read its descriptors.
+  /// Takes a few milliseconds for each, and only reads descriptors from a device.
   std::vector<PluggedIn> (*find)(const Connections& connections, const PluggedIn* like);
-  /// Opens what `find` found, and sets it up without force: may take a second. An error leaves the device as it was.
+  /// Opens a device that `find` found, and sets it up without force: may take a second. An error leaves the device as
+  /// it was.
   OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
                        const DeviceOptions& options);
-  /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty where there is one way only.
+  /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty if there is only one.
   std::span<const std::string_view> transports = {};
 };
 
@@ -78,13 +80,13 @@ using Drivers = std::span<const Driver* const>;
 
 /// All drivers, in the order in which `auto` prefers their devices.
 Drivers drivers();
-/// The ways to drive a device of any of them: "hidraw", "libusb".
+/// The names of all ways to drive a device: "hidraw", "libusb".
 std::vector<std::string> transport_names(Drivers drivers = wale::drivers());
 /// The one of that name, or null.
 const Driver* find_driver(Drivers drivers, std::string_view name);
 
-/// The devices of all drivers that are plugged in, in the order in which `auto` looks at them. A driver that `auto`
-/// does not choose, as the pointer, which is always there, is only looked at when it is `asked` for by its name.
+/// The plugged devices of all drivers, in the order in which `auto` prefers them. A driver that `auto` does not choose
+/// (the pointer, which is always there) is included only if it is `asked` for by its name.
 std::vector<PluggedIn> plugged_in(const Connections& connections, std::string_view asked = {},
                                   Drivers drivers = wale::drivers());
 

@@ -16,30 +16,30 @@
 
 namespace wale {
 
-/// What happened to a device while it was used.
+/// The losses and returns of a device while it was used.
 struct HotPlugReport {
   long losses = 0;                                  ///< how often it was unplugged or stopped answering
   long returns = 0;                                 ///< how often it was set up again
-  std::string reason;                               ///< why it was last lost; empty: never
-  std::string refusal;                              ///< why the last attempt to set it up again failed; empty: none did
-  std::string manner;                               ///< how it is driven, or was last
-  std::vector<std::pair<std::string, long>> tally;  ///< of the whole time, before and after losses
+  std::string reason;                               ///< why it was lost the last time; empty: never
+  std::string refusal;  ///< why the last attempt to set it up again failed; empty: it did not
+  std::string manner;   ///< how it is driven, or was driven last
+  std::vector<std::pair<std::string, long>> tally;  ///< sums over the whole time, before and after losses
 };
 
-/// A hardware device as the stage uses it: turned as it lies on the desk, and set up again when it comes back after a
+/// A hardware device as the stage uses it: its axes turned by its wiring, and set up again when it comes back after a
 /// loss. In between it reads `Contact::lost` at its last place, and exerts no force. A device that came back is not
-/// used until the velocity filter holds only positions of it; then the guards let the force slew in.
+/// used until the velocity filter holds only its new positions; then the guards let the force slew in.
 ///
 /// A thread of its own closes a lost device and opens it again. The real-time thread hands over and takes devices by
 /// exchanging a pointer.
 class HotPluggedDevice final : public Device {
  public:
-  /// Opens the device again, once it is plugged in again. Called on the other thread; may block.
+  /// Opens the device again, when it is plugged in again. Called on the device's own thread; may block.
   using Reopen = std::function<OpenedDevice()>;
 
   HotPluggedDevice(std::unique_ptr<PluggedDevice> device, DeviceWiring wiring, Reopen reopen,
                    std::chrono::milliseconds patience = std::chrono::milliseconds(250));
-  /// Lets the device go, without force. Waits for an attempt to open it that is under way.
+  /// Closes the device, without force. If an attempt to open it is under way, waits for its end.
   ~HotPluggedDevice() override;
   HotPluggedDevice(const HotPluggedDevice&) = delete;
   HotPluggedDevice& operator=(const HotPluggedDevice&) = delete;
@@ -49,7 +49,7 @@ class HotPluggedDevice final : public Device {
   Reading sample() noexcept override;
   Force command(Force force) noexcept override;
 
-  /// Only while nobody else uses the device, as after a run.
+  /// Call it only while no other thread uses the device, as after a run.
   HotPlugReport report() const;
 
  private:
@@ -70,7 +70,7 @@ class HotPluggedDevice final : public Device {
   long settling_ = 0;  // ticks until a new device is used
 
   std::atomic<PluggedDevice*> offered_{nullptr};  // handed to the real-time thread
-  std::atomic<PluggedDevice*> retired_{nullptr};  // handed over by it
+  std::atomic<PluggedDevice*> retired_{nullptr};  // handed back by it
   std::atomic<long> losses_{0}, returns_{0};
 
   mutable std::mutex mutex_;  // guards all below; the real-time thread never takes it

@@ -9,19 +9,19 @@ namespace {
 
 // A gentle push: no harder than needed, and slow enough that a person who holds the handle can let go.
 constexpr double share_of_peak = 0.2;   // of the device's force, at most
-constexpr double rise_seconds = 2;      // from none to the most allowed
-constexpr double hold_seconds = 0.5;    // at the most allowed, before it counts as not having moved
-constexpr double ease_seconds = 0.1;    // back to none
-constexpr double rest_seconds = 1.5;    // longest wait for the handle to come to rest
-constexpr double still_seconds = 0.2;   // without a move of two counts the handle is at rest
-constexpr double share_to_move = 0.02;  // of the workspace's diameter; then it has moved
-constexpr double share_to_show = 0.1;   // the same, moved by hand: more than a slip
-constexpr double shown_seconds = 0.3;   // held there for so long
-constexpr double person_seconds = 15;   // a person's time to do what was asked for
+constexpr double rise_seconds = 2;      // s, from no force to the largest allowed
+constexpr double hold_seconds = 0.5;    // s at the largest force, after which the handle counts as not moving
+constexpr double ease_seconds = 0.1;    // s, back to no force
+constexpr double rest_seconds = 1.5;    // s, longest wait for the handle to come to rest
+constexpr double still_seconds = 0.2;   // s without a move of two counts, after which the handle is at rest
+constexpr double share_to_move = 0.02;  // of the workspace's diameter: a move
+constexpr double share_to_show = 0.1;   // of the workspace's diameter: a move by hand, more than a slip
+constexpr double shown_seconds = 0.3;   // s, for which the person must hold the handle there
+constexpr double person_seconds = 15;   // s, a person's time to do what was asked for
 constexpr double least_counts = 8;      // more than an encoder's noise
-constexpr double plainly = 2;           // one axis moved so many times as far as the other
+constexpr double plainly = 2;           // least ratio of the moves along one axis and the other
 
-/// The axis along which the handle moved plainly, and which way.
+/// The axis along which the handle clearly moved, and its direction.
 std::optional<SignedAxis> plain_axis(glm::dvec2 moved) {
   const double x = std::abs(moved.x), y = std::abs(moved.y);
   if (std::max(x, y) < plainly * std::min(x, y)) return std::nullopt;
@@ -164,7 +164,7 @@ Identified Identification::result() const {
     found.problem = "both motors moved the handle along the same axis";
     return found;
   }
-  // The device's own axes, unless the person has shown that they lie otherwise. One of the two determines the other.
+  // The device's own axes, unless the person has shown that they lie differently. One of the two determines the other.
   std::array<SignedAxis, 2> axes{{{0}, {1}}};
   if (shown_[0] && shown_[1] && shown_[0]->axis == shown_[1]->axis) {
     found.problem = "the person moved the handle along the same axis to the right and away";

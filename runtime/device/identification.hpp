@@ -13,24 +13,24 @@
 namespace wale {
 
 struct IdentifyOptions {
-  /// N along one motor, the limit of the user; it never exceeds a fifth of the profile's peak force either.
+  /// N along one motor, the user's limit. The force also never exceeds a fifth of the profile's peak force.
   double most_newton = 1e9;
-  /// Whether a person is there to move the handle when asked. Otherwise the device's axes are assumed to lie as its
-  /// standard says.
+  /// Whether a person is there to move the handle when asked. Otherwise the device's axes are assumed to lie as in its
+  /// standard.
   bool asks = false;
 };
 
-/// How the handle answered one motor.
+/// How the handle moved under one motor.
 struct MotorAnswer {
-  std::optional<SignedAxis> moves;  ///< the device's own axis that it moves, and which way
-  double newton = 0;                ///< the least force at which the handle began to move; 0: it did not
-  std::string problem;              ///< why it is not known what it moves; empty otherwise
+  std::optional<SignedAxis> moves;  ///< the device's own axis that the motor moves, and its direction
+  double newton = 0;                ///< N, the least force at which the handle began to move; 0: it did not
+  std::string problem;              ///< why the axis is not known; empty if it is
 };
 
 struct Identified {
   std::array<MotorAnswer, 2> motors;
   std::array<std::optional<SignedAxis>, 2> shown;  ///< the axes that the person moved: to the right, and away
-  /// Both axes and both motors; nothing where they are not known.
+  /// Both axes and both motors; nothing if they are not known.
   std::optional<std::array<SignedAxis, 2>> axes_settled, motors_settled;
   std::string problem;  ///< why not; empty otherwise
 };
@@ -40,11 +40,11 @@ struct Identified {
 /// between the handle comes to rest. Then a person, if one is there, moves the handle to the right and away by hand,
 /// while the device does not push.
 ///
-/// It needs no device: once a tick it takes counts along the device's own axes, and gives the force to command along
-/// its own motors.
+/// It does no input or output: once a tick it takes counts along the device's own axes, and gives the force to command
+/// along its own motors.
 class Identification {
  public:
-  /// The profile's rate, workspace, counts and force are positive.
+  /// The profile's rate, workspace, counts and force must be positive.
   Identification(const DeviceProfile& profile, const IdentifyOptions& options);
 
   /// The force (N along the device's own motors) to command while the handle is at `counts`: along one motor at a time,
@@ -52,9 +52,9 @@ class Identification {
   Force tick(glm::ivec2 counts);
 
   bool is_done() const { return phase_ == Phase::done; }
-  /// What the person should do now; changes from phase to phase.
+  /// The sentence that asks the person to do something now; changes from phase to phase.
   std::string_view request() const;
-  /// Once it is done.
+  /// Call it only when it is done.
   Identified result() const;
   /// The largest force that it pushes with, N.
   double most_newton() const { return most_; }

@@ -20,8 +20,8 @@ Result<Identified> identify_device(Device& device, const IdentifyOptions& option
     const bool is_stopped = stop.load(std::memory_order_relaxed);
     if (is_stopped || reading.contact == Contact::lost) {
       device.command(Force(0));
-      if (is_stopped) return Error{Code::stopped, "stopped before it was known how the device lies"};
-      return Error{Code::lost_device, "the device was lost before it was known how it lies"};
+      if (is_stopped) return Error{Code::stopped, "stopped before the device's axes were found"};
+      return Error{Code::lost_device, "the device was lost before its axes were found"};
     }
     device.command(reading.contact == Contact::good ? identification.tick(reading.counts) : Force(0));
     if (identification.request() != said && !identification.is_done()) say(said = identification.request());

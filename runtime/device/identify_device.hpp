@@ -11,13 +11,13 @@
 
 namespace wale {
 
-/// Pushes a device gently and watches how it answers, in real time on the calling thread, for ten to thirty seconds
-/// (`Identification` says how). `say` is told what the person should do, each time that changes. Afterwards the device
-/// is without force. Errors: `stopped` once `stop` is true, and `lost_device`.
+/// Pushes a device gently and watches how its handle moves (`Identification`), in real time on the calling thread, for
+/// ten to thirty seconds. Calls `say` with each new request to the person. Afterwards the device is without force.
+/// Errors: `stopped` once `stop` is true, and `lost_device`.
 Result<Identified> identify_device(Device& device, const IdentifyOptions& options,
                                    const std::function<void(std::string_view)>& say, const std::atomic<bool>& stop);
 
-/// `wiring` with the axes and motors that were found; `found` has settled them. Each motor keeps its gain.
+/// `wiring` with the axes and motors of `found`, which must have settled them. Each motor keeps its gain.
 DeviceWiring rewired(DeviceWiring wiring, const Identified& found);
 
 }  // namespace wale

@@ -10,8 +10,8 @@ struct libusb_device_handle;
 
 namespace wale {
 
-/// Fills in what a device can do, how it would be driven, or why it cannot be used (`can`, `transport`, `obstacle`).
-/// `handle` is null where this process must not open the device through libusb; `obstacle` then has the reason.
+/// Sets `can`, `transport` and `obstacle` of a device. `handle` is null if this process must not open the device
+/// through libusb; `obstacle` then has the reason.
 using DescribeUsbDevice =
     std::function<void(PluggedIn& device, const KernelNodes& nodes, libusb_device_handle* handle)>;
 

@@ -8,7 +8,7 @@
 namespace wale {
 namespace {
 
-/// The devices like `plugged`. On USB none is opened to find out, since another program may use it.
+/// The devices like `plugged`. USB devices are not opened for this, since another program may be using them.
 std::vector<PluggedIn> alike(const Connections& connections, const PluggedIn& plugged) {
   const auto numbers = read_usb_numbers(plugged.numbers);
   if (!numbers || !connections.usb) return plugged.driver->find(connections, &plugged);
@@ -28,14 +28,15 @@ Result<std::unique_ptr<HotPluggedDevice>> open_device(const Connections& connect
                                                       DeviceOptions options) {
   const PluggedIn& plugged = *chosen.plugged;
   const DeviceProfile& profile = chosen.declared->profile;
-  if (connections.usb) (*connections.usb)->set_priority(options.priority);  // not permitted: as punctual as may be
-  std::set<std::string> others;                                             // ports where another like it was
+  if (connections.usb)
+    (*connections.usb)->set_priority(options.priority);  // without permission it runs at ordinary priority
+  std::set<std::string> others;                          // ports of other devices like it
   for (const PluggedIn& each : alike(connections, plugged))
     if (each.port != plugged.port) others.insert(each.port);
   OpenedDevice opened = plugged.driver->open(connections, plugged, profile, options);
   if (!opened) return std::move(opened.error());
 
-  options.descriptor = -1;  // it was used up
+  options.descriptor = -1;  // a handed-over descriptor is used only once
   const auto reopen = [connections, plugged, profile, options, others]() -> OpenedDevice {
     const std::vector<PluggedIn> found = alike(connections, plugged);
     const PluggedIn* again = nullptr;

@@ -8,10 +8,10 @@
 
 namespace wale {
 
-/// Opens a chosen device that is plugged in, by the profile and the wiring of its declaration; `chosen` has both. Its
-/// threads run just below the real-time loop's priority, where that is permitted, unless the options say otherwise. It
-/// pushes nothing until it is commanded. After it was unplugged it is found again at its port, or at another port where
-/// none like it was.
+/// Opens a plugged device with the profile and the wiring of its declaration; `chosen.plugged` and `chosen.declared`
+/// must be set. Its threads run just below the real-time loop's priority, if that is permitted, unless the options say
+/// otherwise. It exerts no force until it is commanded. After it was unplugged it is found again at its port, or at a
+/// port that had no device like it when this one was opened. Errors: those of `Driver::open`.
 Result<std::unique_ptr<HotPluggedDevice>> open_device(const Connections& connections, const ChosenDevice& chosen,
                                                       DeviceOptions options = {.priority = loop_priority - 1});
 

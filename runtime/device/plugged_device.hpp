@@ -10,15 +10,15 @@
 
 namespace wale {
 
-/// A hardware device, set up and running. Its axes are its own: x to the right and y away from the user, as its
-/// standard says; `HotPluggedDevice` turns them as its `DeviceWiring` says. A device that is gone reads `Contact::lost`
-/// for good, and another one is opened in its place. It stops pushing as soon as it is destroyed or lost.
+/// A hardware device, set up and running. Its axes are its own, by its standard x to the right and y away from the
+/// user; `HotPluggedDevice` turns them by its `DeviceWiring`. Once it is lost it always reads `Contact::lost`; a new
+/// object is opened in its place. It stops pushing when it is destroyed or lost.
 class PluggedDevice : public Device {
  public:
-  /// Why it was lost; empty while it is not. Not real-time; may be called while another thread uses the device.
+  /// Why it was lost; empty if it was not. Not real-time; may be called while another thread uses the device.
   virtual std::string reason() const = 0;
 
-  /// What it has done since it was opened, for the report: {"forces_sent_x", 4210}. Not real-time; from any thread.
+  /// Counts since it was opened, for the report: {"forces_sent_x", 4210}. Not real-time; from any thread.
   virtual std::vector<std::pair<std::string, long>> tally() const = 0;
 
   /// How it is driven, in a line: "one effect for each axis, by direction".

@@ -9,12 +9,12 @@
 
 namespace wale {
 
-/// The devices that Wale itself declares (calibration/devices), by name: data in the binary, which the build makes with
-/// the compiler. No file and no compiler is needed at run time. Decoded at the first call; safe from all threads.
-/// Refused only where the build was handed a damaged table.
+/// The devices that Wale itself declares (calibration/devices), in the order of their names. The build makes the table
+/// with the compiler and stores it in the binary, so no file and no compiler is needed at run time. Decoded at the
+/// first call, which allocates; safe from all threads. Error: `damaged_file`, only if the build stored a damaged table.
 const Result<std::vector<DeclaredDevice>>& shipped_devices();
 
-/// The bytes that they are decoded from (schema/device_table.hpp).
+/// The table from which they are decoded (schema/device_table.hpp).
 std::span<const std::byte> shipped_device_table();
 
 }  // namespace wale

@@ -14,10 +14,10 @@ Result<ChosenDevice> wait_for_device(const Connections& connections, const Devic
                                      const std::atomic<bool>& stop, Drivers drivers) {
   using Clock = std::chrono::steady_clock;
   constexpr auto between_looks = std::chrono::milliseconds(100);
-  constexpr int most_looks = 20;  // at what was just plugged in: permissions come a moment after it
+  constexpr int most_looks = 20;  // at a device that was just plugged in: udev gives permission a moment later
   const auto begun = Clock::now();
   std::vector<UsbDeviceInfo> seen;
-  int looks = 1;  // it may have come before the first look
+  int looks = 1;  // the device may have come before the first look
   Error newest{Code::absent_device, "no such device is plugged in"};
   while (!stop.load(std::memory_order_relaxed)) {
     if (seconds && std::chrono::duration<double>(Clock::now() - begun).count() >= *seconds) {

@@ -8,9 +8,9 @@
 
 namespace wale {
 
-/// Looks again whenever something is plugged in on USB, until the device that is asked for is there, or is there and
-/// cannot be used. Errors are those of `choose_device`; `absent_device` or what was in the way once `seconds` are over
-/// (nothing: no limit), and `stopped` once `stop` is true. Blocks the calling thread; `connections.usb` is there.
+/// Chooses again whenever a device is plugged in on USB, until the requested device is there, usable or not. Errors:
+/// those of `choose_device`; the last of them once `seconds` (nothing: no limit) are over; `stopped` once `stop` is
+/// true. Blocks the calling thread. `connections.usb` must have a value.
 Result<ChosenDevice> wait_for_device(const Connections& connections, const DeviceRequest& request,
                                      std::span<const DeclaredDevice> known, std::optional<double> seconds,
                                      const std::atomic<bool>& stop, Drivers drivers = wale::drivers());

@@ -13,7 +13,7 @@
 namespace wale {
 namespace {
 
-/// What all instances have in common, and never changes.
+/// The constant part of all instances: program, registers and cells of grids.
 struct Shared {
   Program program;
   std::vector<float> registers;
@@ -28,7 +28,7 @@ struct Shared {
   }
 };
 
-/// What one block of instances remembers: rows of lanes for the states and for what they were at the last entry.
+/// The memory of one block of instances: rows of lanes for the states and for their values at the last entry.
 class BlockStates {
  public:
   explicit BlockStates(std::span<const StateRule> rules) : rows_(2 * rules.size() * lanes) {
@@ -45,7 +45,7 @@ class BlockStates {
   std::vector<float> rows_;
 };
 
-/// Runs instances of up to one block, with room of its own to work in.
+/// Runs the instances of one block, at most `lanes`, in registers of its own.
 class Runner {
  public:
   explicit Runner(const Shared& shared)

@@ -5,7 +5,7 @@
 #include "runtime/machine/held_state.hpp"
 #include "runtime/machine/meaning.hpp"
 
-// Operands share a row with the destination exactly or not at all, so lanes never depend on one another.
+// The row of an operand is either the destination's or does not overlap it, so no lane depends on another one.
 #if defined(__clang__)
 #define WALE_LANES_ARE_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #else
@@ -65,7 +65,8 @@ Kernel kernel([[maybe_unused]] bool wide) {
   return narrow_kernel<operation, uniform_a, uniform_b, uniform_c>;
 }
 
-// Look-ups go in two loops, places first and then what is there, so that the compiler makes gathers of the second.
+// Look-ups run in two loops, first over the places and then over the values there, so that the compiler makes gathers
+// of the second loop.
 
 template <bool uniform_a, bool uniform_b>
 [[gnu::always_inline]] inline void look_up_spline(float* destination, const float* as, const float* bs,
@@ -85,7 +86,7 @@ template <bool uniform_a, bool uniform_b>
     sign_a[lane] = column.sign;
     sign_b[lane] = row.sign;
   }
-  // The sixteen coefficients of each lane, one place after the other.
+  // The sixteen coefficients of each lane.
   float found[16][lanes];
   const float* coefficients = spline.coefficients.data();
   for (std::uint32_t j = 0; j < 4; ++j) {
@@ -167,10 +168,10 @@ Kernel look_up_kernel([[maybe_unused]] bool wide) {
   return narrow_look_up<operation, uniform_a, uniform_b>;
 }
 
-/// Kernels of one operation, by which operands are uniform: a counts 1, b 2, c 4.
+/// The kernels of one operation. The index says which operands are uniform: a counts 1, b 2, c 4.
 using Variants = std::array<Kernel, 8>;
 
-/// Of an operation that looks into something at a and b.
+/// The kernels of an operation that reads a table or grid at a and b.
 template <Operation operation>
 Variants look_up_variants(bool wide) {
   const Kernel all[] = {look_up_kernel<operation, false, false>(wide), look_up_kernel<operation, true, false>(wide),
@@ -178,7 +179,7 @@ Variants look_up_variants(bool wide) {
   return {all[0], all[1], all[2], all[3], all[0], all[1], all[2], all[3]};
 }
 
-/// An operand that an operation does not read is uniform in all its variants, which are then made once.
+/// An operand that an operation does not read counts as uniform in all variants, so that they share one kernel.
 template <Operation operation>
 Variants variants(bool wide) {
   constexpr bool a = facts(operation).fields[0] != 'r';
@@ -217,7 +218,7 @@ const Kernels& kernels_of(Vectors vectors) {
   return vectors == Vectors::widest ? widest : baseline;
 }
 
-/// A state's row at the end of a tick, `next` being one value for all lanes or a row.
+/// Computes a state's row at the end of a tick; `next` is one value for all lanes, or a row.
 template <bool uniform>
 [[gnu::always_inline]] inline void hold_row(const float* next, const StateRule& rule, const float* otherwise,
                                             float* held) {
@@ -241,7 +242,7 @@ void narrow_hold(const float* next, bool uniform, const StateRule& rule, const f
 }  // namespace
 
 BlockOperand block_operand(RegisterNumber first_state, RegisterNumber number) {
-  // Of each input, how many before it change from tick to tick.
+  // For each input, the number of earlier inputs that change from tick to tick.
   static constexpr auto row_of_input = [] {
     std::array<std::uint16_t, first_constant> rows{};
     for (std::size_t i = 1; i < rows.size(); ++i)
@@ -258,7 +259,7 @@ BlockCode decode_block(const PatchProgram& program, std::span<const std::referen
   BlockCode decoded(code.size());
   if (code.empty()) return decoded;
   const Kernels& kernels = kernels_of(vectors);
-  // Instructions name registers again and again: where each is found is found once.
+  // Instructions name the same registers many times, so each register's place is computed once.
   std::vector<BlockOperand> places(program.register_count());
   for (std::size_t number = 0; number < places.size(); ++number)
     places[number] = block_operand(program.first_state(), static_cast<RegisterNumber>(number));

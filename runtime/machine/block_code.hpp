@@ -13,9 +13,10 @@
 
 namespace wale {
 
-/// Lanes that one block runs side by side.
+/// The number of lanes of a block, which run side by side.
 inline constexpr std::size_t lanes = 128;
-/// Floats from one row of lanes to the next: the lanes and a cache line more, so that rows do not collide in the cache.
+/// Floats from one row of lanes to the next: the lanes and one more cache line, so that rows do not collide in the
+/// cache.
 inline constexpr std::size_t row_stride = lanes + 16;
 
 /// The tables and grids that instructions read besides registers.
@@ -24,8 +25,8 @@ struct Lookup {
   const GridShape* grid = nullptr;
 };
 
-/// Applies an operation to a block. An operand is a row of lanes or, in the variants for it, one uniform float.
-/// `cells` has the cells of all grids.
+/// Applies an operation to a block. Each operand is a row of lanes, or one float in the variants that take it as
+/// uniform. `cells` has the cells of all grids.
 using Kernel = void (*)(float* destination, const float* a, const float* b, const float* c, const Lookup& lookup,
                         const float* cells);
 
@@ -54,8 +55,8 @@ inline BlockOperand block_operand(const PatchProgram& program, RegisterNumber nu
   return block_operand(program.first_state(), number);
 }
 
-/// The processor's instructions that kernels use. Each lane goes through the same operations with either, so its bits
-/// are the same.
+/// The processor's instructions that kernels use. Each lane computes the same operations with either choice, so the
+/// bits are the same.
 enum class Vectors {
   baseline,  ///< those of every processor that the build is for
   widest,    ///< the widest vectors of this processor
@@ -81,7 +82,7 @@ class Block {
   /// The last two are rows of `lanes` floats. The caller holds a `FloatingPointMode`.
   void hold(BlockOperand next, const float* registers, const StateRule& rule, const float* otherwise, float* held,
             Vectors vectors = Vectors::widest);
-  /// Writes pairs of operands, as many as `pairs` has room for: forces from their components.
+  /// Writes the operands' values in the first lanes as pairs, `pairs.size()` of them: forces from their components.
   void pairs(BlockOperand x, BlockOperand y, const float* registers, std::span<glm::vec2> pairs) const;
   /// The value of an operand in a lane.
   float value(BlockOperand operand, std::size_t lane, const float* registers) const {

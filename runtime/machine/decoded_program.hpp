@@ -19,8 +19,8 @@ namespace wale {
 
 struct DecodedProgram;
 
-/// A section's code for blocks of lanes, decoded at the first request: a program that runs only at a device requests
-/// the code of its peaks only.
+/// A section's code for blocks of lanes, decoded at the first request. A program that runs only on a device needs no
+/// more than the code of its peaks.
 class BlockSection {
  public:
   /// `instructions` are a section of the program, which must outlive this.
@@ -46,12 +46,12 @@ struct DecodedProgram {
 
   PatchProgram description;
   std::vector<std::shared_ptr<const SharedMap>> maps;         ///< one for each table
-  std::vector<std::reference_wrapper<const Spline>> splines;  ///< theirs
+  std::vector<std::reference_wrapper<const Spline>> splines;  ///< those of `maps`
   std::vector<GridShape> grids;                               ///< one for each grid
-  std::vector<float> initial_cells;                           ///< of all grids, when the program is placed
+  std::vector<float> initial_cells;                           ///< of all grids, for a new memory
   Envelope envelope;
-  std::vector<Input> tick_inputs;  ///< that change from tick to tick and that tick, enter, picture or frame reads
-  HandReader hand_reader;          ///< of these
+  std::vector<Input> tick_inputs;  ///< those that change from tick to tick and that tick, enter, picture or frame reads
+  HandReader hand_reader;          ///< reads `tick_inputs`
   ThreadedCode lane_enter, lane_tick, lane_frame;
   BlockSection enter{*this, description.enter}, tick{*this, description.tick}, picture{*this, description.picture.code};
   std::vector<std::unique_ptr<const BlockSection>> peaks;

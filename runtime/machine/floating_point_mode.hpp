@@ -8,8 +8,8 @@
 
 namespace wale {
 
-/// While it lives, the thread rounds to nearest, traps nothing and flushes denormals to zero, because an operation on a
-/// denormal can cost a hundred times as much. Its end restores the host's mode, sticky flags included.
+/// During its lifetime the thread rounds to nearest, traps no exception and flushes denormals to zero, because an
+/// operation on a denormal can cost a hundred times as much. The destructor restores the host's mode and sticky flags.
 ///
 /// On processors other than x86 and 64-bit ARM it does nothing. Code that computes under it must be in a separate
 /// function that is not inlined, because the compiler does not know that arithmetic depends on the mode.

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// The registers and range that determine a state.
+/// A state's range, and the registers of its first and next values.
 struct StateRule {
   explicit StateRule(const State& state)
       : low(arithmetic::flushed(state.low)),
@@ -18,12 +18,13 @@ struct StateRule {
   RegisterNumber initial, next;
 };
 
-/// The state's next value when its register holds `value`: clamped to its range; `otherwise` for not-a-number.
+/// The next value of a state whose register holds `value`: clamped to its range; `otherwise` for not-a-number.
 inline float held_state(float value, const StateRule& rule, float otherwise) {
   return held_within(value, rule.low, rule.high, otherwise);
 }
 
-/// The state's first value when `enter` leaves `value` in its register.
+/// The first value of a state whose register holds `value` after `enter`: clamped to its range; for not-a-number the
+/// number of the range that is nearest to 0.
 inline float initial_state(float value, const StateRule& rule) {
   return held_state(value, rule, rule.low > 0.0f ? rule.low : (rule.high < 0.0f ? rule.high : 0.0f));
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// `value` clamped to +-`bound`; not-a-number gives 0, and a subnormal number the zero of its sign.
 float within(float value, float bound) {
-  // A branch, which the processor predicts: a tick does not wait for it as it would for a minimum and a maximum.
+  // The processor predicts this branch; the tick would have to wait for the results of a minimum and a maximum.
   const float size = absolute(value);
   if (size >= arithmetic::least_normal && size <= bound) [[likely]]
     return value;
@@ -24,7 +24,7 @@ float seconds(double time) {
   return time >= arithmetic::least_normal ? (time <= most ? static_cast<float>(time) : most) : 0.0f;
 }
 
-/// The field of a hand for an input, and its bound; none for time and button, which are no components of motion.
+/// The field of a hand for an input, and its bound; nothing for time and button, which are not components of motion.
 struct Place {
   glm::vec2 Hand::*quantity;
   float glm::vec2::*axis;

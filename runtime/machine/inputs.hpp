@@ -22,9 +22,9 @@ struct Envelope {
   float acceleration;  ///< m/s^2
 };
 
-/// Writes one input of each hand to `values`, which has room for them: clamped to the envelope, with 0 for not-a-number
-/// and for subnormal numbers.
-/// `input` is one that changes from tick to tick.
+/// Writes one input of each hand to `values`, which is as long as `hands`: clamped to the envelope, with 0 for
+/// not-a-number and for subnormal numbers.
+/// `input` must be one that changes from tick to tick.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 void place_input(Input input, std::span<const Hand> hands, const Envelope& envelope, float* values) noexcept;
 
@@ -32,7 +32,7 @@ void place_input(Input input, std::span<const Hand> hands, const Envelope& envel
 class HandReader {
  public:
   HandReader() = default;
-  /// Reads these inputs, which change from tick to tick.
+  /// `inputs` must be inputs that change from tick to tick.
   HandReader(std::span<const Input> inputs, const Envelope& envelope);
 
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.

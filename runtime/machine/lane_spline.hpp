@@ -11,8 +11,8 @@ namespace wale {
 /// Four floats side by side, each multiplied and added like a single float.
 using FourFloats [[gnu::vector_size(16)]] = float;
 
-/// The same bits as `sample_of`, for one lane: sums run over four rows at a time, and a place within the table, the
-/// predicted case, is not mirrored.
+/// Gives the same bits as `sample_of`, for one lane. It sums over four rows at a time, and does not mirror a place
+/// within the table, which the processor predicts.
 inline SplineSample sample_in_lane(const Spline& spline, float a, float b) {
   const auto placed = [](float coordinate, float last) -> MirroredCoordinate {
     const float u = absolute(coordinate);
@@ -25,8 +25,8 @@ inline SplineSample sample_in_lane(const Spline& spline, float a, float b) {
   const MirroredCoordinate column = placed(a, spline.last_column);
   const MirroredCoordinate row = placed(b, spline.last_row);
 
-  // As `CubicWeights`: along a and b at the fraction f, then along both at 1 - f, where what belongs to the samples
-  // behind is as what belongs to those before is at f.
+  // The weights of `CubicWeights`: along a and b at the fraction f, then along both at 1 - f. By symmetry, the weights
+  // of the two samples after the place are those of the two before it at 1 - f.
   const float across = column.fraction, down = row.fraction;
   const FourFloats f = {across, down, 1.0f - across, 1.0f - down};
   const FourFloats f_squared = f * f;
@@ -58,7 +58,7 @@ inline SplineSample sample_in_lane(const Spline& spline, float a, float b) {
   const FourFloats column2 = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
   const FourFloats column3 = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
 
-  // As `sample_among`, each float being a row.
+  // As `sample_among`; each float belongs to a row.
   const FourFloats row_value = (outer[2] * column0 + inner[0] * column1) + (inner[2] * column2 + outer[0] * column3);
   const FourFloats row_slope =
       (outer_slope[2] * column0 + inner_slope[0] * column1) + (inner_slope[2] * column2 + outer_slope[0] * column3);

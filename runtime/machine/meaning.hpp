@@ -5,8 +5,8 @@
 
 namespace wale {
 
-/// The result of an operation on its operands: the column `meaning` of `schema/instruction.def`, once for all
-/// interpreters. Special operations have none.
+/// The result of an operation on its operands, for all interpreters: the column `meaning` of `schema/instruction.def`.
+/// SPECIAL operations have none.
 template <Operation>
 struct Meaning;
 

@@ -83,7 +83,8 @@ void Memory::remember(const float* registers) noexcept {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const StateRule& rule = program.state_rules[i];
     const float next = registers[rule.next];
-    if (next >= rule.low && next <= rule.high) [[likely]] {  // foreseen, so the next tick need not wait for it
+    // The processor predicts this branch, so the next tick does not wait for a clamped value.
+    if (next >= rule.low && next <= rule.high) [[likely]] {
       states_[i] = next;
     } else {
       states_[i] = held_state(next, rule, initial_states_[i]);

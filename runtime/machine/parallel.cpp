@@ -21,10 +21,10 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t begin, 
   };
   std::vector<std::thread> threads;
   threads.reserve(parts);
-  std::size_t given = 1;  // the first part is the caller's
+  std::size_t given = 1;  // the calling thread takes part 0
   try {
     for (; given < parts; ++given) threads.emplace_back(run, given);
-  } catch (const std::system_error&) {  // no more threads
+  } catch (const std::system_error&) {  // the system gives no more threads
   }
   run(0);
   for (std::size_t part = given; part < parts; ++part) run(part);

@@ -5,10 +5,10 @@
 
 namespace wale {
 
-/// Calls `work(begin, end)` for parts of 0 .. count - 1 that cover it once, on as many threads as the machine has
-/// cores; the calling thread is one of them. Parts are contiguous and in the order of threads, so each thread does the
-/// same work each time. Where there is one core, or the system gives no thread, the caller does the rest. What `work`
-/// throws is thrown again, once all are done. Allocates.
+/// Divides 0 .. count - 1 into contiguous parts and calls `work(begin, end)` for each, on as many threads as the
+/// machine has cores, the calling thread included. Parts are in the order of threads, so each thread does the same work
+/// each time. If the system gives no thread, the caller does the rest. An exception from `work` is thrown again when
+/// all parts are done. Allocates.
 void in_parallel(std::size_t count, const std::function<void(std::size_t begin, std::size_t end)>& work);
 
 }  // namespace wale

@@ -7,7 +7,8 @@
 namespace wale {
 namespace {
 
-/// Coordinate number `i` of a Kronecker lattice of the given step: 2 u - 1, rounded once, for u = i step / 2^32.
+/// Coordinate number `i` of a Kronecker lattice of the given step: 2 u - 1, rounded once, where u is
+/// (i step mod 2^32) / 2^32.
 float lattice_coordinate(std::uint32_t i, std::uint32_t step) {
   const auto centred = static_cast<std::int32_t>(i * step ^ 0x80000000u);  // 2^32 u - 2^31
   return static_cast<float>(centred) * 0x1p-31f;

@@ -10,7 +10,7 @@
 namespace wale {
 namespace {
 
-/// All that a hand brings.
+/// All inputs that come from a hand.
 constexpr auto hand_inputs = [] {
   std::array<Input, changing_inputs> inputs{};
   std::size_t count = 0;
@@ -23,7 +23,7 @@ bool belongs(const Memory* memory, const Bank& bank) {
   return memory != nullptr && &memory->program().decoded() == &bank.program().decoded();
 }
 
-/// A copy of the bank's registers with a hand and the states that the memory or, without one, entering gives.
+/// A copy of the bank's registers with a hand, and with the states of the memory or, without one, those after entering.
 std::vector<float> registers_at(const Bank& bank, const Memory* memory, const Hand& hand) {
   const DecodedProgram& program = bank.program().decoded();
   std::vector<float> registers(bank.registers().begin(), bank.registers().end());

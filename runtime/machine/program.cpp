@@ -13,8 +13,9 @@ namespace {
 
 float& at(float* registers, Input input) { return registers[static_cast<std::size_t>(input)]; }
 
-/// The size asked for where it makes sense: no side longer than `most`, the workspace, which proofs count on, and no
-/// half of one subnormal. A rim that leaves no middle is cut to a quarter of the smaller side.
+/// The requested size, corrected: a side that is not positive, or whose half would be subnormal, becomes the
+/// fallback's; a longer side than `most` (the workspace) becomes `most`, because proofs rely on it. A rim that leaves
+/// no middle becomes a quarter of the smaller side.
 PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
   const auto usable = [](float side) { return std::isfinite(side) && side >= 2 * arithmetic::least_normal; };
   size.width = std::min(usable(size.width) ? size.width : fallback.width, most);

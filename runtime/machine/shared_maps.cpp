@@ -16,7 +16,8 @@ struct Registry {
 };
 
 Registry& registry() {
-  static Registry* const all = new Registry;  // programs in static variables may outlive any other static variable
+  // Never destroyed: programs in static variables may outlive other static variables.
+  static Registry* const all = new Registry;
   return *all;
 }
 

@@ -15,7 +15,7 @@ struct SharedMap {
   const Spline spline;
 };
 
-/// The one map of these heights in this process: an existing one, found by comparing every height, or a new one.
+/// The map of these heights, of which a process has only one: an existing map with exactly these heights, or a new one.
 /// From any thread but the real-time one: it allocates, and waits while another thread makes a map.
 std::shared_ptr<const SharedMap> shared_map(const HeightTable& table);
 

@@ -6,7 +6,7 @@
 namespace wale {
 namespace {
 
-// Not inlined: the compiler does not know that arithmetic depends on the mode in which it runs.
+// Not inlined; see FloatingPointMode.
 [[gnu::noinline]] float evaluate(Operation operation, float a, float b, float c) {
   // clang-format off
   switch (operation) {

@@ -8,10 +8,10 @@ namespace {
 
 /// The pole of the cubic B-spline's inverse filter, sqrt(3) - 2.
 constexpr double pole = -0.26794919243112270647;
-/// The pole's 30th power is 7e-18: samples farther away do not reach a double.
+/// The pole's 30th power is 7e-18, below a double's precision: samples farther away make no difference.
 constexpr std::size_t horizon = 30;
 
-/// Signals that are filtered side by side: no one waits for another, and as columns they fill a cache line.
+/// The number of signals that are filtered side by side: none waits for another, and as columns they fill a cache line.
 constexpr std::size_t at_once = 16;
 
 /// Turns samples into B-spline coefficients in place (Unser, Aldroubi and Eden 1993, "B-spline signal processing"),
@@ -47,12 +47,12 @@ void to_coefficients(std::span<double> lines) {
   for (double& coefficient : lines) coefficient *= 6;
 }
 
-/// Rounded to a float, the same in any mode of the thread: subnormal values, into which a signal fades, become zeros.
+/// `value` rounded to a float, with 0 for subnormal results, so that the thread's mode makes no difference.
 float coefficient_of(double value) {
   return value < arithmetic::least_normal && value > -arithmetic::least_normal ? 0.0f : static_cast<float>(value);
 }
 
-/// The sample 0 .. samples - 1 that coefficient `i`, -1 .. samples + 1, mirrors.
+/// The index of the sample, 0 .. samples - 1, whose coefficient number `i`, -1 .. samples + 1, is by mirroring.
 std::size_t mirrored_index(std::ptrdiff_t i, std::ptrdiff_t samples) {
   const std::ptrdiff_t period = 2 * (samples - 1);
   const std::ptrdiff_t within = (i + period) % period;

@@ -11,16 +11,16 @@ namespace wale {
 /// A height table as the coefficients of the cubic B-spline that passes through its samples (code 65535 is 1),
 /// continued beyond its edges by mirroring about the first and last samples.
 ///
-/// Coefficients are computed in double and kept as float, row by row: at a sample the spline is within 3e-7 of it.
-/// With 16 bits each it would be within 2e-5, more than a step of the table's own codes, and no faster: at a random
+/// Coefficients are computed in double and kept as float, row by row; the spline is within 3e-7 of each sample.
+/// Coefficients of 16 bits would leave 2e-5, more than a step of the table's own codes, and gain no speed: at a random
 /// place of a map larger than the cache the four rows are fetched at once, and tiles of four by four take as long.
 struct Spline {
   explicit Spline(const HeightTable& table);
 
   std::uint32_t width, height;      ///< samples, 2 or more
   float last_column, last_row;      ///< numbers of the last samples, width - 1 and height - 1
-  std::uint32_t stride;             ///< coefficients in a row, width + 3: the mirrored one before and two after
-  std::vector<float> coefficients;  ///< height + 3 rows likewise
+  std::uint32_t stride;             ///< coefficients in a row, width + 3: mirrored ones, one before and two after
+  std::vector<float> coefficients;  ///< height + 3 rows, mirrored likewise
 };
 
 /// A spline's value, in [0, 1] except for overshoot, and its derivatives along each coordinate, per sample.
@@ -35,7 +35,7 @@ struct MirroredCoordinate {
   float sign;          ///< of the derivative: -1 where the mirror image runs backwards
 };
 
-/// `coordinate` mirrored into 0 .. `last`, the last sample's number. Any float is safe: not-a-number and infinities
+/// `coordinate` mirrored into 0 .. `last`, the last sample's number. Takes any float: not-a-number and infinities
 /// count as 0, and far beyond the table the position has the float's own resolution.
 inline MirroredCoordinate mirrored(float coordinate, float last) {
   const float period = last + last;
@@ -65,11 +65,12 @@ struct CubicWeights {
   float value[4], slope[4];
 };
 
-/// The sum over four by four coefficients, which `coefficient` gives by row and column.
+/// The weighted sum over four by four coefficients; `coefficient` gives them by row and column.
 template <class Coefficient>
 SplineSample sample_among(const Coefficient& coefficient, const CubicWeights& across, const CubicWeights& down) {
   float value = 0.0f, along_a = 0.0f, along_b = 0.0f;
-  const auto add_row = [&](int j) {  // no loop: compilers vectorise over lanes only where there is none within
+  // No loop over rows: compilers vectorise the loop over lanes only if there is none inside.
+  const auto add_row = [&](int j) {
     const float c0 = coefficient(j, 0), c1 = coefficient(j, 1), c2 = coefficient(j, 2), c3 = coefficient(j, 3);
     const float row_value =
         (across.value[0] * c0 + across.value[1] * c1) + (across.value[2] * c2 + across.value[3] * c3);
@@ -86,7 +87,7 @@ SplineSample sample_among(const Coefficient& coefficient, const CubicWeights& ac
   return {value, along_a, along_b};
 }
 
-/// The spline at (a, b) samples from the centre of its first sample, a along rows.
+/// The spline at (a, b): a along rows and b down columns, in samples from the centre of the first sample.
 inline SplineSample sample_of(const Spline& spline, float a, float b) {
   const MirroredCoordinate column = mirrored(a, spline.last_column);
   const MirroredCoordinate row = mirrored(b, spline.last_row);

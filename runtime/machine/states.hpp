@@ -5,12 +5,12 @@
 
 namespace wale {
 
-/// Runs `enter` over registers that hold the hand already, and sets the state registers.
+/// Runs `enter` over registers that already hold the hand, and sets the state registers.
 /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw. The caller holds a
 /// `FloatingPointMode`.
 void enter_lane(const DecodedProgram& program, float* registers) noexcept;
 
-/// The same over a block. The caller holds a `FloatingPointMode`.
+/// As `enter_lane`, for a block. The caller holds a `FloatingPointMode`.
 void enter_block(const DecodedProgram& program, Block& block, const float* registers);
 
 }  // namespace wale

@@ -6,13 +6,13 @@
 #include "runtime/machine/lane_spline.hpp"
 #include "runtime/machine/meaning.hpp"
 
-// Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973), each handler a function that ends by jumping to
-// the next one. Values that all handlers need stay in the registers of the calling convention, each handler saves only
-// the registers that it uses, and the processor predicts each handler's jump by itself.
+// Direct-threaded code (J. R. Bell, "Threaded code", CACM 16(6), 1973). Each handler is a function that ends with a
+// jump to the next one. Values that all handlers need stay in the registers of the calling convention, each handler
+// saves only the registers that it uses, and the processor predicts each handler's jump separately.
 
-// A function must end in a jump to the next one, or the stack would grow with the program. GCC and Clang make that jump
-// when they optimise and no work is left at the function's end, as sanitizers leave some. Elsewhere, and with
-// WALE_PORTABLE_DISPATCH, only the switch is built. tests/machine/threaded_code.cpp checks the stack.
+// A function must end with a jump to the next one, or the stack would grow with the program. GCC and Clang make that
+// jump when they optimise and no work is left at the function's end; sanitizers leave some. With sanitizers, other
+// compilers or WALE_PORTABLE_DISPATCH only the switch is built. tests/machine/threaded_code.cpp checks the stack.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WALE_SANITIZED
 #elif defined(__has_feature)
@@ -27,7 +27,7 @@
 namespace wale {
 namespace {
 
-/// A handler for each operation and each choice of operands that are the last result: a counts 1, b 2.
+/// Each operation has a handler for each choice of operands that are the last result: a counts 1, b 2.
 constexpr unsigned forwardings = 4;
 /// No operation has this number: it ends the code.
 constexpr unsigned stop = 0;
@@ -58,9 +58,9 @@ template <Operation operation, unsigned forwarded>
   } else if constexpr (operation == Operation::select) {
     return *results = registers[a != 0.0f ? i.b : i.c];
   } else if constexpr (operation == Operation::peak) {
-    return last;  // setup's alone, which is not decoded
+    return last;  // only setup has peaks, and it is not decoded
   } else if constexpr (operation == Operation::limit) {
-    // A value within stays unchanged. The processor predicts the branch, but would wait for a minimum and a maximum.
+    // The processor predicts this branch; the next instruction would have to wait for a minimum and a maximum.
     if (absolute(a) <= b) [[likely]]
       return *results = a;
     return *results = limited(a, b);
@@ -106,7 +106,7 @@ constexpr std::size_t handlers = [] {
 using Handler = void (*)(const ThreadedInstruction* at, const LaneLookups& lookups, float* registers,
                          float last) noexcept;
 
-// `at` is incremented in place: GCC would copy a next one and move it.
+// The asm keeps the increment of `at` in place; without it GCC computes the next pointer in a copy and moves it back.
 #define WALE_RUN_FROM_HERE                                          \
   last = step<operation, forwarded>(*at, last, registers, lookups); \
   ++at;                                                             \
@@ -179,10 +179,10 @@ Dispatch fastest_dispatch() {
 
 ThreadedCode decode_threaded(std::span<const Instruction> code, Dispatch dispatch) {
   ThreadedCode decoded;
-  decoded.dispatch = dispatch = std::max(dispatch, fastest_dispatch());  // in their order, what is there
+  decoded.dispatch = dispatch = std::max(dispatch, fastest_dispatch());  // fastest first
   decoded.instructions.resize(code.size() + 1);
   ThreadedInstruction* next = decoded.instructions.data();
-  constexpr unsigned nothing = register_limit;  // no register: what comes before the first instruction
+  constexpr unsigned nothing = register_limit;  // no register: the first instruction has no last result
   unsigned last = nothing;
   for (const Instruction& i : code) {
     const int operands = operation_table[i.operation].operands;

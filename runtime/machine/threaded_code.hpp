@@ -12,14 +12,14 @@
 
 namespace wale {
 
-/// The machine's way from one instruction to the next. All give the same bits.
+/// How the machine gets from one instruction to the next. All ways give the same bits.
 enum class Dispatch {
   wide_tail_calls,  ///< as `tail_calls`, with AVX instructions, which not every processor has
-  tail_calls,       ///< each instruction holds the address of the function that runs it, which jumps to the next one's
+  tail_calls,       ///< each instruction holds the address of its function, which jumps to the next instruction's
   portable_switch,  ///< each instruction holds a number, and one switch chooses
 };
 
-/// The best that this build and this processor have.
+/// The fastest that this build and this processor have.
 Dispatch fastest_dispatch();
 
 /// An instruction decoded for one lane: its handler and its registers. Each handler is made for a choice of operands

@@ -39,7 +39,8 @@ Force tick(Bank& bank, Memory& memory, const Hand& hand) noexcept {
 
 namespace {
 
-/// More than this, in units of cost over all hands, is worth another thread: about a millisecond in blocks.
+/// In units of cost, summed over all hands. More work than this (about a millisecond in blocks) is divided among
+/// threads.
 constexpr double worth_a_thread = 4e6;
 
 void tick_some(const Bank& bank, std::span<const Hand> hands, std::span<Force> forces) {

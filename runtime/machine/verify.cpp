@@ -15,7 +15,7 @@ using Instructions = std::span<const Instruction>;
 /// Inputs as a set: bit number n for register n.
 using Inputs = std::uint32_t;
 
-/// Those of which `may` is true in the table of inputs.
+/// The inputs for which `may` is true in the table of inputs.
 constexpr Inputs those(bool InputFacts::*may) {
   Inputs set = 0;
   for (std::size_t number = 0; number < input_table.size(); ++number)
@@ -28,11 +28,11 @@ constexpr Inputs picture_inputs = those(&InputFacts::picture);
 constexpr Inputs tick_inputs = those(&InputFacts::tick);
 constexpr Inputs prediction_inputs = those(&InputFacts::prediction);
 
-/// What an operand names.
+/// The kind of thing that an operand names.
 enum class Field : std::uint8_t { nothing, reg, table, grid, peak };
 constexpr std::size_t field_kinds = 5;
 
-/// What the fields of an operation's instruction may hold, by number; of numbers that no operation has nothing.
+/// What the fields of an instruction may hold. The table has one for each operation number, known or not.
 struct LegalFields {
   bool known = false;
   std::uint8_t results = 0;
@@ -60,17 +60,17 @@ constexpr auto legal_fields = [] {
 
 /// Which registers the code of one section may write and read.
 struct Registers {
-  RegisterNumber first_destination = 0;  ///< it writes from here
-  std::size_t destination_count = 0;     ///< on, so many
-  std::uint32_t stamp = 0;               ///< what `Verifier::readable_` says of what it alone may read
+  RegisterNumber first_destination = 0;  ///< the first register that it may write
+  std::size_t destination_count = 0;     ///< how many, from there on
+  std::uint32_t stamp = 0;               ///< marks in `Verifier::readable_` the registers that only it may read
 };
 
 /// What the code of one section may do.
 struct Section {
   std::string name;
   CodeSection kind = CodeSection::setup;
-  std::size_t index = 0;  ///< of the peak or the prediction
-  Inputs inputs = 0;      ///< that it may read
+  std::size_t index = 0;  ///< of the peak or the percept
+  Inputs inputs = 0;      ///< those that it may read
   Registers registers;
   bool peaks = false;   ///< it may hold `peak` instructions
   bool grids = false;   ///< it may hold `recall` and `cell` instructions
@@ -130,14 +130,14 @@ class Verifier {
       note_ceiling(instruction);
     }
     for (std::size_t i = 0; i < invoked.size(); ++i) {
-      if (!invoked[i]) refuse("peak ", i, " is run by no instruction of setup");
+      if (!invoked[i]) refuse("no instruction of setup runs peak ", i);
     }
     for (std::size_t i = 0; i < program_.setup_registers; ++i) {
       if (readable_[first_setup_ + i] != always) refuse("setup leaves register ", first_setup_ + i, " undefined");
     }
   }
 
-  /// A peak sees the setup registers as they are when its instruction runs it.
+  /// A peak reads the setup registers that are defined when its instruction runs it.
   void verify_peak(std::size_t index) {
     const Peak& peak = program_.peaks[index];
     const Section section =
@@ -151,7 +151,7 @@ class Verifier {
     require_result(section, peak.value, "value");
   }
 
-  /// States begin with what `enter` leaves, which knows of no states.
+  /// `enter` computes the first values of the states, so it cannot read states.
   void verify_enter() {
     const Section section = temporary_section("enter", CodeSection::enter, 0, tick_inputs);
     run(section, program_.enter);
@@ -169,7 +169,7 @@ class Verifier {
     for (std::size_t i = 0; i < program_.writes.size(); ++i) {
       const GridWrite& write = program_.writes[i];
       if (write.grid >= program_.grids.size()) {
-        refuse("write ", i, " goes to grid ", write.grid, " of ", program_.grids.size());
+        refuse("write ", i, " goes to grid ", write.grid, ", but the program has ", program_.grids.size());
       }
       require_result(section, write.u, "column of write ", i);
       require_result(section, write.v, "row of write ", i);
@@ -200,8 +200,8 @@ class Verifier {
     const Section section =
         temporary_section("percept " + std::to_string(index), CodeSection::prediction, index, prediction_inputs);
     if (percept.amplitude < first_constant || percept.amplitude >= first_state_) {
-      refuse(section.name, " finds its amplitude in register ", percept.amplitude,
-             ", which is neither a constant, a parameter nor set up");
+      refuse(section.name, " takes the amplitude from register ", percept.amplitude,
+             ", expected a constant, a parameter or a setup register");
     }
     run(section, percept.prediction);
     require_result(section, percept.magnitude, "magnitude");
@@ -210,14 +210,14 @@ class Verifier {
 
   void run(const Section& section, Instructions code) {
     begin(section);
-    const Registers registers = section.registers;  // a copy, which nothing that is written below can change
+    const Registers registers = section.registers;  // a copy: the compiler knows that no write below changes it
     for (std::size_t number = 0; number < code.size(); ++number) {
       if (!is_legal(code[number], registers)) refuse_illegal(section, code, number);
       define(code[number], registers.stamp);
     }
   }
 
-  /// From now on, inputs and states are readable that the section may read, and what earlier sections wrote is not.
+  /// Makes the section's inputs and states readable, and the temporaries of earlier sections unreadable.
   void begin(const Section& section) {
     for (RegisterNumber input = 0; input < first_constant; ++input)
       readable_[input] = (section.inputs >> input & 1) != 0 ? section.registers.stamp : never;
@@ -230,7 +230,7 @@ class Verifier {
     ends_[static_cast<std::size_t>(Field::peak)] = section.peaks ? program_.peaks.size() : 0;
   }
 
-  /// The instruction against the table of legal fields and what the section at work may do.
+  /// Whether the instruction agrees with the table of legal fields and with what the current section may do.
   bool is_legal(const Instruction& instruction, const Registers& registers) const {
     const LegalFields& legal = legal_fields[instruction.operation];
     const std::uint32_t* const readable = readable_.data();
@@ -265,31 +265,33 @@ class Verifier {
           break;
         case Field::table:
           if (operand >= program_.tables.size()) {
-            refuse_here(" looks into table ", operand, " of ", program_.tables.size());
+            refuse_here(" reads table ", operand, ", but the program has ", program_.tables.size());
           }
           break;
         case Field::grid:
-          if (!section.grids) refuse_here(" looks into a grid, which only tick, picture and frame may");
+          if (!section.grids) refuse_here(" reads a grid, which only tick, picture and frame may do");
           if (operand >= program_.grids.size()) {
-            refuse_here(" looks into grid ", operand, " of ", program_.grids.size());
+            refuse_here(" reads grid ", operand, ", but the program has ", program_.grids.size());
           }
           break;
         case Field::peak:
-          if (!section.peaks) refuse_here(" runs a peak, which only setup may");
-          if (operand >= program_.peaks.size()) refuse_here(" runs peak ", operand, " of ", program_.peaks.size());
+          if (!section.peaks) refuse_here(" runs a peak, which only setup may do");
+          if (operand >= program_.peaks.size()) {
+            refuse_here(" runs peak ", operand, ", but the program has ", program_.peaks.size());
+          }
           break;
         case Field::nothing:
           if (operand != 0) {
-            refuse_here(" has ", operand, " for operand ", "abc"[i], ", which it does not use and must be zero");
+            refuse_here(" has ", operand, " for operand ", "abc"[i], ", which it does not use, expected 0");
           }
       }
     }
     refuse_at(section, code, number, place(section, number, instruction), " writes register ", instruction.destination,
-              legal.results > 1 ? " and those after it" : "", ", and ", section.name, " may write only ",
+              legal.results > 1 ? " and those after it" : "", ", but ", section.name, " may write only ",
               section.registers.destination_count, " registers from ", section.registers.first_destination, " on");
   }
 
-  /// Whether the register has a meaning for the section at this point of its code.
+  /// Whether the section may read the register at this point of its code.
   bool may_read(const Section& section, RegisterNumber number) const {
     return number < register_count_ && readable_[number] >= section.registers.stamp;
   }
@@ -298,26 +300,26 @@ class Verifier {
   std::string unreadable(const Section& section, RegisterNumber number) const {
     const std::string name = std::to_string(number);
     if (number >= register_count_) {
-      return "register " + name + ", and the program has " + std::to_string(register_count_);
+      return "register " + name + ", but the program has " + std::to_string(register_count_);
     }
     if (number < first_constant) return "input " + name + ", which " + section.name + " does not have";
-    return "register " + name + ", which nothing before it writes";
+    return "register " + name + ", which no earlier instruction writes";
   }
 
   template <typename... What>
   void require_result(const Section& section, RegisterNumber number, const What&... what) const {
     if (!may_read(section, number)) {
-      refuse(section.name, " finds its ", what..., " in ", unreadable(section, number));
+      refuse(section.name, " takes the ", what..., " from ", unreadable(section, number));
     }
   }
 
   void define(const Instruction& instruction, std::uint32_t stamp) {
     std::uint32_t* result = readable_.data() + instruction.destination;
-    *result = stamp;  // nearly always that is all
+    *result = stamp;  // most operations have one result
     for (int i = legal_fields[instruction.operation].results; --i > 0;) *++result = stamp;
   }
 
-  /// Keeps up to date below what the setup registers are proved to lie.
+  /// Updates the proved bound of the setup register that the instruction writes.
   void note_ceiling(const Instruction& instruction) {
     const int results = legal_fields[instruction.operation].results;
     float* proved = proved_.data() + (instruction.destination - first_setup_);
@@ -327,19 +329,19 @@ class Verifier {
     }
   }
 
-  /// What a setup register is proved to lie below, or 0.
+  /// The proved bound of a setup register, or 0 for none.
   float proved(RegisterNumber number) const {
     return number >= first_setup_ && number < first_state_ ? proved_[number - first_setup_] : 0;
   }
 
-  /// A constant that may be a ceiling, or 0.
+  /// The value of a constant that may be a ceiling, or 0 for none.
   float ceiling_constant(RegisterNumber number) const {
     if (number < first_constant || number >= program_.first_parameter()) return 0;
     const float value = program_.constants[number - first_constant];
     return value > 0 ? value : 0;
   }
 
-  /// A program pushes or vibrates, as its device does.
+  /// Checks that the program pushes or vibrates, as its device does.
   void verify_outputs() const {
     const bool vibrates = program_.vibrates();
     const std::array<std::string, 2> names = vibrates ? std::array<std::string, 2>{"amplitude", "frequency"}
@@ -351,17 +353,17 @@ class Verifier {
                    : output.quantity == OutputQuantity::force;
       if (!known || output.axis > (vibrates ? 0 : 1)) {
         refuse("an output is neither ", names[0], " nor ", names[1],
-               vibrates ? ", which are all that the device has" : "");
+               vibrates ? ", the only outputs of this device" : "");
       }
       ++seen[output.component()];
       verify_output(output, "output " + names[output.component()]);
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (seen[i] != 1) refuse("output ", names[i], " is given ", seen[i], " times and must be given once");
+      if (seen[i] != 1) refuse("output ", names[i], " occurs ", seen[i], " times, expected once");
     }
   }
 
-  /// The most that the device gives of an output, as a program's constants have it.
+  /// The greatest value that the device can give for an output, rounded to a float as a program's constants are.
   float device_limit(const Output& output) const {
     const DeviceProfile& device = program_.device;
     return static_cast<float>(output.quantity == OutputQuantity::frequency ? device.shaker->frequency_high
@@ -375,23 +377,23 @@ class Verifier {
     const Section tick{"tick", CodeSection::tick};
     const Instruction& limit = code[*last];
     if (limit.operation != static_cast<std::uint8_t>(Operation::limit)) {
-      refuse_at(tick, code, *last, name, " is written last by ", place(tick, *last, limit), ", which is no limit");
+      refuse_at(tick, code, *last, name, " is written last by ", place(tick, *last, limit), ", expected a `limit`");
     }
     if (limit.b != output.ceiling) {
-      refuse_at(tick, code, *last, name, " is limited by register ", limit.b, " and declares register ", output.ceiling,
-                " its ceiling");
+      refuse_at(tick, code, *last, name, " is limited by register ", limit.b, " but declares register ", output.ceiling,
+                " as its ceiling");
     }
     const float most = device_limit(output),
                 ceiling_value = std::max(ceiling_constant(output.ceiling), proved(output.ceiling));
     if (ceiling_value > 0 && ceiling_value <= most) return;
     const auto ceiling = [&](const auto&... parts) {
-      // Where setup makes the ceiling, that is what went wrong.
+      // If setup computes the ceiling, the fault is in setup.
       const auto made = last_writer(program_.setup, program_.setup.size(), output.ceiling);
       if (made) refuse_at({"setup"}, program_.setup, *made, parts...);
       refuse_at(tick, code, *last, parts...);
     };
-    ceiling(name, " has register ", output.ceiling, " for its ceiling, which is neither a constant above 0 and up to ",
-            most, unit_of(output.quantity), " nor limited by one in setup");
+    ceiling(name, " has register ", output.ceiling, " as its ceiling, expected a constant above 0 and up to ", most,
+            unit_of(output.quantity), ", or a register that setup limits by such a constant");
   }
 
   static std::string_view unit_of(OutputQuantity quantity) {
@@ -415,7 +417,7 @@ class Verifier {
     return std::nullopt;
   }
 
-  /// Refuses an instruction, and shows it with those that its operands come from: the nearest first, as many as fit.
+  /// Refuses an instruction, and shows it with those that its operands come from, nearest first up to the limit.
   template <typename... Parts>
   [[noreturn]] void refuse_at(const Section& section, Instructions code, std::size_t number, const Parts&... parts) const {
     std::vector<std::size_t> shown = {number};
@@ -437,13 +439,13 @@ class Verifier {
     throw error;
   }
 
-  /// "corduroy.wale:9", where the program says.
+  /// "corduroy.wale:9", or empty if the program does not record it.
   std::string line_of(const Section& section, std::size_t number) const {
     const auto line = program_.place_of(section.kind, section.index, number);
     return line ? line->file + ":" + std::to_string(line->line) : std::string();
   }
 
-  /// "r45 = multiply r45 r41", as far as the operation is known.
+  /// "r45 = multiply r45 r41"; an unknown operation is shown by its number.
   static std::string listed(const Instruction& instruction) {
     const LegalFields& legal = legal_fields[instruction.operation];
     std::string text = "r" + std::to_string(instruction.destination) + " = ";
@@ -463,12 +465,12 @@ class Verifier {
   const PatchProgram& program_;
   const RegisterNumber first_setup_, first_state_, first_temporary_;
   const std::size_t register_count_;
-  /// Who may read a register: `always` all, as constants and what setup wrote; else the section of that stamp. What a
-  /// section wrote means nothing to the next, whose stamp is higher, so that nothing is cleared in between.
+  /// Which sections may read a register: all if `always` (constants, parameters, registers that setup wrote), otherwise
+  /// the one with that stamp. Later sections have higher stamps, so nothing need be cleared in between.
   std::vector<std::uint32_t> readable_;
-  std::array<std::size_t, field_kinds> ends_{};  ///< by field: operands of the section at work are below
+  std::array<std::size_t, field_kinds> ends_{};  ///< by field: operands of the current section are less
   std::uint32_t stamp_ = never;
-  std::vector<float> proved_;  ///< by setup register: what it is proved to lie below, 0 for nothing
+  std::vector<float> proved_;  ///< by setup register: its proved bound, 0 for none
 };
 
 }  // namespace

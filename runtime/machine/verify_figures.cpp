@@ -13,12 +13,12 @@ namespace {
 /// Refuses a value outside low .. high, not-a-number included.
 template <typename... What>
 void require_within(double value, double low, double high, const What&... what) {
-  if (!(value >= low && value <= high)) refuse(what..., " is ", value, " and must be in ", low, " .. ", high);
+  if (!(value >= low && value <= high)) refuse(what..., " is ", value, ", expected ", low, " .. ", high);
 }
 
 void verify_registers(const PatchProgram& program) {
   if (program.register_count() > register_limit) {
-    refuse("the program has ", program.register_count(), " registers and may have ", register_limit);
+    refuse("the program has ", program.register_count(), " registers, expected at most ", register_limit);
   }
 }
 
@@ -27,25 +27,25 @@ void verify_parameters(const PatchProgram& program) {
   for (std::size_t i = 0; i < program.parameters.size(); ++i) {
     const Parameter& parameter = program.parameters[i];
     if (parameter.name.empty()) refuse("parameter ", i, " has no name");
-    if (!names.insert(parameter.name).second) refuse("parameter ", i, " is the second of the name ", parameter.name);
+    if (!names.insert(parameter.name).second) refuse("parameter ", i, " is the second with the name ", parameter.name);
     if (!std::isfinite(parameter.low) || !std::isfinite(parameter.high) ||
         !(parameter.low <= parameter.value && parameter.value <= parameter.high)) {
       refuse("parameter ", parameter.name, " has the value ", parameter.value, " and the range ", parameter.low, " .. ",
-             parameter.high);
+             parameter.high, ", expected a value within a finite range");
     }
     if (!(parameter.low <= parameter.soft_low && parameter.soft_low <= parameter.soft_high &&
           parameter.soft_high <= parameter.high)) {
       refuse("parameter ", parameter.name, " has the usual range ", parameter.soft_low, " .. ", parameter.soft_high,
-             ", which is not one within ", parameter.low, " .. ", parameter.high);
+             ", which is not a range within ", parameter.low, " .. ", parameter.high);
     }
     if (!std::isfinite(parameter.unit_in_si) || !(parameter.unit_in_si > 0)) {
-      refuse("parameter ", parameter.name, " has a unit of ", parameter.unit_in_si);
+      refuse("parameter ", parameter.name, " has a unit of ", parameter.unit_in_si, ", expected more than 0");
     }
   }
 }
 
 void require_at_most(std::size_t count, std::size_t most, std::string_view what) {
-  if (count > most) refuse("the program has ", count, " ", what, " and may have ", most);
+  if (count > most) refuse("the program has ", count, " ", what, ", expected at most ", most);
 }
 
 void verify_states(const PatchProgram& program) {
@@ -54,9 +54,10 @@ void verify_states(const PatchProgram& program) {
   for (std::size_t i = 0; i < program.states.size(); ++i) {
     const State& state = program.states[i];
     if (state.name.empty()) refuse("state ", i, " has no name");
-    if (!names.insert(state.name).second) refuse("state ", i, " is the second of the name ", state.name);
+    if (!names.insert(state.name).second) refuse("state ", i, " is the second with the name ", state.name);
     if (!std::isfinite(state.low) || !std::isfinite(state.high) || !(state.low <= state.high)) {
-      refuse("state ", state.name, " has the range ", state.low, " .. ", state.high);
+      refuse("state ", state.name, " has the range ", state.low, " .. ", state.high,
+             ", expected a finite range in rising order");
     }
   }
 }
@@ -69,13 +70,14 @@ void verify_grids(const PatchProgram& program) {
   for (std::size_t i = 0; i < program.grids.size(); ++i) {
     const Grid& grid = program.grids[i];
     if (grid.name.empty()) refuse("grid ", i, " has no name");
-    if (!names.insert(grid.name).second) refuse("grid ", i, " is the second of the name ", grid.name);
+    if (!names.insert(grid.name).second) refuse("grid ", i, " is the second with the name ", grid.name);
     require_within(grid.columns, 1, grid_side_limit, "grid ", grid.name, "'s number of columns");
     require_within(grid.rows, 1, grid_side_limit, "grid ", grid.name, "'s number of rows");
     cells += std::size_t{grid.columns} * grid.rows;
     if (!std::isfinite(grid.low) || !std::isfinite(grid.high) ||
         !(grid.low <= grid.initial && grid.initial <= grid.high)) {
-      refuse("grid ", grid.name, " begins at ", grid.initial, " and has the range ", grid.low, " .. ", grid.high);
+      refuse("grid ", grid.name, " begins at ", grid.initial, " and has the range ", grid.low, " .. ", grid.high,
+             ", expected a value within a finite range");
     }
   }
   require_at_most(cells, cells_limit, "cells in its grids");
@@ -88,9 +90,9 @@ void verify_marks(const PatchProgram& program) {
     const std::size_t operands = mark_operands(marks[i].kind);
     if (operands == 0) refuse("mark ", i, " is of a kind that this Wale does not know");
     for (std::size_t beyond = operands; beyond < marks[i].operands.size(); ++beyond) {
-      if (marks[i].operands[beyond] != 0) refuse("mark ", i, " has ", operands, " operands, and one beyond them is not zero");
+      if (marks[i].operands[beyond] != 0) refuse("mark ", i, " has ", operands, " operands; the others must be 0");
     }
-    if (marks[i].colour > 0xffffff) refuse("mark ", i, " has a colour beyond red, green and blue");
+    if (marks[i].colour > 0xffffff) refuse("mark ", i, " has a colour above 0xffffff");
   }
 }
 
@@ -112,7 +114,7 @@ void verify_lattices(const PatchProgram& program) {
     const std::string name = "peak " + std::to_string(i);
     require_within(peak.points, 1, peak_points_limit, name, "'s number of points");
     if (!(peak.percentile > 0 && peak.percentile <= 1)) {
-      refuse(name, "'s percentile is ", peak.percentile, " and must be above 0 and at most 1");
+      refuse(name, "'s percentile is ", peak.percentile, ", expected more than 0 and at most 1");
     }
   }
 }
@@ -121,28 +123,31 @@ void verify_patch(const PatchProgram& program) {
   const double most = program.device.widest_patch();
   const auto side = [most](float value, std::string_view what) {
     if (!(value >= 2 * arithmetic::least_normal && value <= most)) {  // the machine flushes half of a smaller one to zero
-      refuse("the patch's ", what, " is ", value, " m and must be above 0 and at most the workspace's ", most, " m");
+      refuse("the patch's ", what, " is ", value, " m, expected more than 0 and at most the workspace's ", most, " m");
     }
   };
   side(program.patch_width, "width");
   side(program.patch_height, "height");
   const float half = 0.5f * std::min(program.patch_width, program.patch_height);
   if (!(program.patch_rim >= 0 && program.patch_rim < half)) {
-    refuse("the patch's rim is ", program.patch_rim, " m and must be less than half of its smaller side, ", 2 * half, " m");
+    refuse("the patch's rim is ", program.patch_rim, " m, expected 0 or more and less than ", half,
+           " m, half of its smaller side");
   }
   if (!(program.active_watt >= 0 && program.active_watt <= most_active_watt)) {
-    refuse("the program declares that it gives ", program.active_watt, " W by itself, and the range is 0 .. ", most_active_watt);
+    refuse("the program declares that it gives ", program.active_watt, " W by itself, expected 0 .. ",
+           most_active_watt);
   }
 }
 
-/// A pad's vibration: every acceleration that a program may ask for has a command.
+/// Checks a pad's vibration: there is a command for every acceleration that a program may ask for.
 void verify_vibration(const Shaker& vibration) {
   require_within(vibration.frequency_low, 1e-3, 1e5, "the device's least frequency (Hz)");
   require_within(vibration.frequency_high, vibration.frequency_low, 1e5, "the device's greatest frequency (Hz)");
   require_within(vibration.command_steps, 0, 1e9, "the device's number of command steps");
   require_within(vibration.spin_up, 0, 10, "the device's spin-up (s)");
   const bool has_position = vibration.position != PositionSource::none;
-  if (vibration.position > PositionSource::touch) refuse("the device has a source of its position that this Wale does not know");
+  if (vibration.position > PositionSource::touch)
+    refuse("the device has a position source that this Wale does not know");
   require_within(vibration.exploring_speed, has_position ? 0 : 1e-3, 100, "the device's exploring speed (m/s)");
   require_within(static_cast<double>(vibration.response.size()), 1, 4096, "the number of frequencies in its response");
   double frequency = 0;
@@ -184,7 +189,7 @@ void verify_device(const DeviceProfile& device) {
   require_within(device.continuous_newton, 0, device.force_newton, "the device's continuous force (N)");
   require_within(device.heating_seconds, device.continuous_newton > 0 ? DeviceProfile::least_heating_seconds : 0, 1e6,
                  "the device's time constant of heating (s)");
-  require_within(device.active_watt, 0, most_active_watt, "the device's power for what is active (W)");
+  require_within(device.active_watt, 0, most_active_watt, "the device's power for active programs (W)");
   require_within(device.velocity_window, 0, 1e4, "the device's velocity window (ticks)");
   require_within(device.velocity_noise_counts, 0, 1e6, "the device's velocity noise (counts)");
   require_within(device.patch_width, 0, 10, "the device's patch width (m)");
@@ -208,14 +213,16 @@ void verify_percepts(const PatchProgram& program) {
     const std::string name = "percept " + std::to_string(i);
     if (percept.name.empty()) refuse(name, " has no name");
     if (percept.parameter && *percept.parameter >= program.parameters.size()) {
-      refuse(name, " is set by parameter ", *percept.parameter, " of ", program.parameters.size());
+      refuse(name, " is set by parameter ", *percept.parameter, ", but the program has ", program.parameters.size());
     }
     if (!std::isfinite(percept.valid_high) || !(percept.valid_low >= 0 && percept.valid_low <= percept.valid_high)) {
-      refuse(name, "'s map is valid in ", percept.valid_low, " .. ", percept.valid_high);
+      refuse(name, "'s map is valid in ", percept.valid_low, " .. ", percept.valid_high,
+             ", expected a finite range from 0 on");
     }
     require_within(percept.scatter, 0, 100, name, "'s scatter");
     if (!(percept.period_low >= 0 && percept.period_low <= percept.period_high)) {
-      refuse(name, " is read at periods of ", percept.period_low, " .. ", percept.period_high, " m");
+      refuse(name, " is read at periods of ", percept.period_low, " .. ", percept.period_high,
+             " m, expected a range from 0 on");
     }
     require_within(percept.one, 0, 1e9, name, "'s level 1");
     require_within(percept.near_threshold, 0, 1, name, "'s near threshold");
@@ -261,7 +268,7 @@ void verify_costs(const PatchProgram& program) {
   const auto check = [period](const std::string& name, std::span<const Instruction> code) {
     const auto cost = static_cast<double>(cost_of(code));
     if (cost > period) {
-      refuse(name, " costs ", cost, " units and the device's period has room for ", std::floor(period));
+      refuse(name, " costs ", cost, " units, expected at most ", std::floor(period), " in the device's period");
     }
   };
   check("tick", program.tick);
@@ -276,7 +283,7 @@ void verify_costs(const PatchProgram& program) {
     setup += static_cast<double>(peak.points) * (1.0 + static_cast<double>(cost_of(peak.code)));
   }
   if (setup > setup_cost_limit) {
-    refuse("setup and its peaks cost ", setup, " units and may cost ", setup_cost_limit);
+    refuse("setup and its peaks cost ", setup, " units, expected at most ", setup_cost_limit);
   }
 }
 

@@ -5,18 +5,18 @@
 
 namespace wale {
 
-/// Ends verifying with a sentence made of `parts`, thrown as an `Error` that `verify` returns.
+/// Ends the verification: throws an `Error` with a sentence made of `parts`, which `verify` returns.
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
   fail(Code::refused_program, parts...);
 }
 
-/// The part of `verify` that checks figures and not code: the size of the register space and of tables, parameters,
-/// states, grids, marks, the lattices of peaks, the patch, the device, percepts. Throws as `refuse` does.
+/// The part of `verify` that checks figures: the number of registers, tables, parameters, states, grids, marks, the
+/// lattices of peaks, the patch, the device, percepts and fates. Throws as `refuse` does.
 void verify_figures(const PatchProgram& program);
 
-/// The part that checks the cost of code: each run within its share of the period, setup within its limit. Throws as
-/// `refuse` does.
+/// The part of `verify` that checks the cost of code: each section within its share of the period, setup within its
+/// limit. Throws as `refuse` does.
 void verify_costs(const PatchProgram& program);
 
 }  // namespace wale

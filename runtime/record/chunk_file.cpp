@@ -17,8 +17,7 @@ using namespace recording_format;
 
 constexpr std::size_t least_page = 4096;
 
-/// The reason why the file cannot be recorded in, and what to do about it. The place names the file; the sentence does
-/// not.
+/// Why nothing can be recorded in the file, and what to do about it.
 Error unwritable(const std::string& path, int error) {
   const auto because = [&](const std::string& reason, const std::string& mend) {
     return Error{.code = Code::unwritable_file, .sentence = reason, .mend = mend, .place = {.name = path}};
@@ -29,12 +28,12 @@ Error unwritable(const std::string& path, int error) {
                      "delete it or choose another name");
     case ENOENT: return because("there is no such folder", "make it first");
     case EACCES:
-    case EROFS: return because("this folder cannot be written to", "choose another folder");
+    case EROFS: return because("no file can be written in this folder", "choose another folder");
     case EFBIG:
       return because("the file would exceed the limit on its size (ulimit -f)", "raise the limit or record elsewhere");
     case ENOSPC:
     case EDQUOT: return because("the disk is full", "make room or record elsewhere");
-    default: return because("cannot be recorded in: " + std::generic_category().message(error), "");
+    default: return because("the file cannot be written: " + std::generic_category().message(error), "");
   }
 }
 

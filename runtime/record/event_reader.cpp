@@ -36,11 +36,11 @@ void EventReader::read_whole(const EventHeader& header, std::span<const std::byt
 void EventReader::read_header(Bytes& in, std::span<const std::byte> payload) {
   RecordingHeader& header = contents_.header;
   header.most_newton = in.f64();
-  if (!(header.most_newton > 0)) damaged("the largest force is ", header.most_newton, " N, and must be positive");
+  if (!(header.most_newton > 0)) damaged("the largest force is ", header.most_newton, " N, expected more than 0");
   header.virtual_time = in.boolean("whether time is virtual");
   header.hand = in.text("the hand");
   const std::uint32_t size = in.u32();
-  if (size != in.remaining()) damaged("the device's profile should have ", size, " bytes and has ", in.remaining());
+  if (size != in.remaining()) damaged("the device's profile has ", in.remaining(), " bytes, expected ", size);
   Result<DeviceProfile> device = read_profile(payload.last(size));
   if (!device) throw std::move(device).error();
   header.device = *std::move(device);

@@ -13,7 +13,7 @@ namespace wale {
 Result<FileBytes> FileBytes::map(const std::string& path) {
   const auto unreadable = [&](int error) {
     return Error{.code = Code::unreadable_file,
-                 .sentence = "cannot be read: " + std::generic_category().message(error),
+                 .sentence = "the file cannot be read: " + std::generic_category().message(error),
                  .place = {.name = path}};
   };
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);

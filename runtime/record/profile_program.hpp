@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// A device's profile is stored as a patch program for the device that does nothing, so profiles have one stored form
-/// and one check. Errors: those of `Program::load`.
+/// A device's profile is stored in a patch program that does nothing, so profiles have only one stored form and one
+/// check. Errors: those of `Program::load`.
 Result<std::vector<std::byte>> write_profile(const DeviceProfile& profile);
 Result<DeviceProfile> read_profile(std::span<const std::byte> bytes);
 

@@ -80,7 +80,7 @@ bool RecordWriter::next_chunk() noexcept {
   }
   std::byte* const next = ahead_[place].exchange(nullptr, std::memory_order_acquire);
   if (next == nullptr) return false;
-  // The place is free: its last chunk was unmapped before the one taken now was mapped.
+  // The place is free: its last chunk was unmapped before the present one was mapped.
   if (chunk_ != nullptr) full_[place].store(chunk_, std::memory_order_release);
   chunk_ = next;
   used_ = 0;

@@ -46,7 +46,7 @@ class RecordWriter final : public TickSink {
   void move(std::size_t patch, glm::vec2 position) noexcept;
   /// All changes so far reach the loop as this revision. Call it before they are handed over.
   void publish(std::uint32_t revision) noexcept;
-  /// The run is over and no more ticks come: the recording is complete.
+  /// Marks the recording as complete: the run is over and no more ticks come.
   void end() noexcept;
 
   /// Why the recording ended before the run, if it did. Call it when no more ticks come.

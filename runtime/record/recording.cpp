@@ -21,7 +21,7 @@ bool all_zero(std::span<const std::byte> bytes) {
   return std::ranges::all_of(bytes, [](std::byte byte) { return byte == std::byte{0}; });
 }
 
-/// Larger than in any run, and small enough that sums of them do not overflow.
+/// Larger than in any run, and small enough that sums of two do not overflow.
 constexpr std::int32_t most_counts = 1 << 29;
 constexpr std::int64_t most_periods = std::int64_t{1} << 53;
 
@@ -37,7 +37,7 @@ class RecordingReader {
     read_events();
     read_ticks();
     if (!problem_ && contents_.said_ticks && contents_.ticks != *contents_.said_ticks && most_ticks_ > contents_.ticks)
-      note(sentence("its end declares ", *contents_.said_ticks, " ticks, and it has ", contents_.ticks), bytes_.size());
+      note(sentence("its end declares ", *contents_.said_ticks, " ticks, but it has ", contents_.ticks), bytes_.size());
     if (!problem_ || most_ticks_ <= contents_.ticks) return {};
     problem_->mend = contents_.ticks == 0
                          ? "no tick of it can be read; record again"
@@ -61,7 +61,7 @@ class RecordingReader {
             .place = {.name = {}, .number = byte}};
   }
 
-  /// Notes damage at a byte of the file, in place of any that was noted before.
+  /// Notes damage at a byte of the file; it replaces earlier damage.
   void note(std::string sentence, std::size_t byte) { problem_ = damaged_at(byte, std::move(sentence)); }
 
   Result<> read_file_header() const {
@@ -73,7 +73,7 @@ class RecordingReader {
     if (!begins(std::min(magic.size(), bytes_.size()))) {
       if (bytes_.size() >= 4 && begins(4))
         return damaged_at(4, "a transfer as text has damaged the recording", "copy it as binary");
-      return damaged_at(0, "this is not a recording: the first bytes of one are missing",
+      return damaged_at(0, "this is not a recording: its first bytes are not those of a .wrec file",
                         "make one with `wale feel FILE --record NAME.wrec`");
     }
     if (bytes_.size() < first_chunk)
@@ -82,7 +82,7 @@ class RecordingReader {
     const auto header = at<FileHeader>(0);
     if (header.version > version && header.check == check_of(header))
       return Error{.code = Code::newer_file,
-                   .sentence = sentence("its format is ", header.version, ", and this Wale reads up to ", version),
+                   .sentence = sentence("its format is ", header.version, ", but this Wale reads only up to ", version),
                    .mend = "update Wale"};
     if (header.check != check_of(header) || header.version != version || header.first_chunk != first_chunk ||
         header.chunk_size != chunk_size || header.tick_size != sizeof(TickEntry))
@@ -158,7 +158,8 @@ class RecordingReader {
 
   std::string what_is_wrong(const TickEntry& entry, std::size_t number, const RecordedTick& before) const {
     if (entry.sequence != number + 1 || entry.check != check_of(entry)) return "is damaged";
-    if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost)) return "has a contact with the device that does not exist";
+    if ((entry.flags & contact_mask) > static_cast<std::uint32_t>(Contact::lost))
+      return "has an unknown state of contact with the device";
     if (entry.period < 0 || entry.period > most_periods) return "has a period outside any run";
     if (number > 0 && (entry.elapsed == 0 || entry.period <= before.period))
       return "does not come after the tick before it";

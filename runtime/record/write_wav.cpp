@@ -74,7 +74,7 @@ Result<> write_wav(std::ostream& out, const Recording& recording) {
     const auto most_ticks =
         static_cast<std::int64_t>(static_cast<double>(most_frames) * device.rate / samples_per_second);
     return Error{.code = Code::unwritable_file,
-                 .sentence = sentence("a WAV file holds 4 GiB, and this sound needs ",
+                 .sentence = sentence("a WAV file holds 4 GiB, but this sound needs ",
                                       frames * frame_bytes + wav_header_bytes, " bytes"),
                  .mend = sentence("take fewer ticks, as in --ticks ", most_ticks)};
   }

@@ -14,7 +14,7 @@
 namespace wale {
 namespace {
 
-/// A device that answers as the recorded one did.
+/// A device that gives the recorded answers.
 class RecordedDevice final : public Device {
  public:
   explicit RecordedDevice(const DeviceProfile& profile) : profile_(profile) {}
@@ -56,7 +56,7 @@ class Replaying final : public RecordedRun {
   Replaying(const Recording& recording, RecordedDevice& device, Stage& stage)
       : recording_(recording), device_(device), stage_(stage), programs_(recording.programs().size()) {}
 
-  /// All changes before `revision` was handed over. Throws `Error`, which `replay` returns.
+  /// Makes all changes of the stage up to the hand-over of `revision`. Throws `Error`, which `replay` returns.
   void act_until(std::uint32_t revision) {
     while (revision_ < revision && acted_ < recording_.events().size()) act(recording_.events()[acted_++]);
   }
@@ -113,10 +113,10 @@ class Replaying final : public RecordedRun {
   }
 
   void set(std::size_t patch, std::size_t parameter, float value) {
-    if (patch >= placed_.size()) damaged("a parameter of patch ", patch, " was set, and there is no such patch");
+    if (patch >= placed_.size()) damaged("a parameter of patch ", patch, " was set, but there is no such patch");
     const auto& parameters = program(placed_[patch]).description().parameters;
     if (parameter >= parameters.size())
-      damaged("parameter ", parameter, " of patch ", patch, " was set, and it has ", parameters.size());
+      damaged("parameter ", parameter, " of patch ", patch, " was set, but the patch has ", parameters.size());
     require(stage_.set(patch, parameters[parameter].name, value));
   }
 
@@ -131,7 +131,7 @@ class Replaying final : public RecordedRun {
         const std::vector<float> defaults = added.default_parameters();
         if (defaults.size() != event.parameters.size())
           damaged("patch ", placed_.size(), " was placed with ", event.parameters.size(),
-                 " parameters, and its program has ", defaults.size());
+                  " parameters, but its program has ", defaults.size());
         stage_.add(added, event.position, event.size, event.layer);
         placed_.push_back(event.program);
         for (std::size_t i = 0; i < defaults.size(); ++i)

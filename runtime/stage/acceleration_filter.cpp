@@ -10,7 +10,7 @@ namespace {
 
 constexpr long long most_ticks = 64;
 
-/// A sample as the parabola sees it: ticks before the newest sample, and counts above it.
+/// A sample relative to the newest one: ticks before it, and counts above it.
 struct Point {
   double age, rise;
 };
@@ -48,7 +48,7 @@ class LeastSquares {
 };
 
 bool fits(const Parabola& parabola, std::span<const Point> points, double noise) {
-  constexpr double rounding = 1e-9;  // so that samples exactly on the band's edge count as within
+  constexpr double rounding = 1e-9;  // counts; samples exactly on the band's edge count as within
   return std::ranges::all_of(points, [&](const Point& point) {
     const double off = point.rise - (parabola.place + point.age * (parabola.slope + point.age * parabola.curve));
     return std::abs(off) <= noise + rounding;
@@ -73,7 +73,7 @@ double AccelerationFilter::operator()(int counts, long periods) noexcept {
   std::array<Point, most_ticks + 1> points;
   std::array<Parabola, most_ticks + 1> parabolas;  // through the newest point and those up to this one
   LeastSquares sums;
-  std::size_t first = 0, count = 0;  // of the points that may be a window's oldest
+  std::size_t first = 0, count = 0;  // of the points at which a window may begin
   for (; count < held_; ++count) {
     const Sample& sample = samples_[count <= newest_ ? newest_ - count : newest_ + samples_.size() - count];
     const long long age = tick - sample.tick;

@@ -7,11 +7,11 @@
 namespace wale {
 
 /// Acceleration from encoder counts, for one axis: twice the curvature of the least-squares parabola over the longest
-/// window in which the parabola passes within the noise of all samples. It is `VelocityFilter` one order higher: the
-/// window is short where the motion turns sharply and long where it is smooth.
+/// window in which the parabola passes within the noise of all samples. This is `VelocityFilter` with one order more:
+/// the window is short where the motion turns sharply and long where it is smooth.
 ///
 /// A second difference of counts is useless (at 900 Hz one count is 45 m/s^2 on a 0.23 m workspace of 4096 counts), and
-/// the noise of a parabola's curvature falls with the power 5/2 of its length. So windows are longer than a velocity's:
+/// the noise of a parabola's curvature falls with the power 5/2 of its length. So windows are longer than for velocity:
 /// at least half of the profile's `velocity_window`, at most twice it, and at most 64 ticks. The estimate holds for
 /// the window's middle, so it lags by half the window: 17 ms for 15 ticks of velocity window at 900 Hz.
 class AccelerationFilter {

@@ -7,8 +7,8 @@
 namespace wale {
 namespace {
 
-/// W, negligible: a hundredth of the power that a hand absorbs while it circles slowly. It makes rounding errors of the
-/// sum over ticks fade, whatever their sign.
+/// W, negligible: a hundredth of the power that a hand absorbs while it circles slowly. It makes rounding errors of
+/// either sign fade from the sum over ticks.
 constexpr double negligible_watt = 0.002;
 
 }  // namespace
@@ -24,7 +24,7 @@ Force EnergyMeter::operator()(Force force, glm::dvec2 position, long periods) no
   glm::dvec2 field(force);
   const double before = given_ + 0.5 * glm::dot(field_, step) - active_ * elapsed, along = 0.5 * glm::dot(field, step);
   if (before + along > range_ && along > 0) {
-    // This tick's force may do the work, over half a step, that brings the sum to its limit, and never less than 0.
+    // Over half a step, this tick's force may do the work that brings the sum to its limit.
     const double allowed = std::max(0.0, range_ - before);
     field -= step * (2 * (along - std::min(along, allowed)) / glm::dot(step, step));
     ++held_;

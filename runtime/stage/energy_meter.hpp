@@ -8,7 +8,7 @@
 
 namespace wale {
 
-/// Meters the energy that a program's own force gives to the hand, and holds back any that it may not give.
+/// Meters the energy that a program's own force gives to the hand, and holds back energy beyond its allowance.
 ///
 /// The force of a potential only returns energy that it was given, so it never gives more than the range of that
 /// potential, counted from its lowest point; friction and viscosity only take. A force that gives more is a source: its
@@ -16,9 +16,9 @@ namespace wale {
 ///
 ///   E <- max(0, E + (f(n-1) + f(n)) dx / 2 - P t)
 ///
-/// falls at the rate P. Once it exceeds the range, the part of the force along the hand's motion is reduced until it
-/// gives no more than P. A force that does not move the hand is never held back. The `PassivityObserver`, not this
-/// meter, counts the energy from holding the force between ticks.
+/// falls at the rate P; f is the force (N), dx the hand's step (m), t the time since the last call (s). Once E exceeds
+/// the range, the part of the force along the hand's motion is reduced until it gives no more than P. A force that does
+/// not move the hand is never held back. `PassivityObserver` counts the energy from holding the force between ticks.
 class EnergyMeter {
  public:
   explicit EnergyMeter(const DeviceProfile& profile) : period_(1 / profile.rate) {}

@@ -19,7 +19,7 @@ ForceSize size_of(std::vector<float> magnitudes) {
   return {*rank, *std::max_element(rank, magnitudes.end()), static_cast<float>(std::sqrt(squares / n))};
 }
 
-/// Per tick: whether the hand moved at most `distance` on either axis within `ticks` ticks around it.
+/// For each tick, whether the hand moved at most `distance` (m) on each axis within `ticks` ticks around it.
 std::vector<bool> find_stuck(std::span<const TickRecord> record, std::ptrdiff_t ticks, double distance) {
   const auto n = static_cast<std::ptrdiff_t>(record.size());
   std::vector<bool> stuck(record.size());
@@ -44,7 +44,7 @@ int main_axis(std::span<const TickRecord> record) {
 
 int sign_of(float value) { return (value > 0) - (value < 0); }
 
-/// Counts swings of the force from beyond +threshold to beyond -threshold and back, and the swings during which the
+/// Counts swings of the force from beyond +threshold to beyond -threshold or back, and those of them during which the
 /// hand keeps its direction.
 void count_swings(std::span<const TickRecord> record, float threshold, Felt& felt) {
   const int axis = main_axis(record);
@@ -118,8 +118,8 @@ Result<float> size_from_rubbing(const PerceptRecord& percept, const Felt& felt, 
     return not_measured(percept, "other forces push besides the " + percept.carrier +
                                      ", so the force at the handle does not give the level of " + percept.name);
   if (felt.crossings < least_crossings)
-    return not_measured(percept, "the hand crossed the texture " + std::to_string(felt.crossings) + " times, and " +
-                                     std::to_string(least_crossings) + " are needed");
+    return not_measured(percept, "the hand crossed the texture " + std::to_string(felt.crossings) +
+                                     " times, expected at least " + std::to_string(least_crossings));
   return felt.force_rubbing.p99;
 }
 
@@ -130,7 +130,7 @@ Felt measure(const Record& record, const MeasureOptions& options) {
                                   [&](const TickRecord& tick) { return tick.time >= options.settling; });
   const std::span<const TickRecord> ticks(first, record.ticks.end());
   const auto window = static_cast<std::ptrdiff_t>(std::round(options.stuck_seconds / record.seconds_per_tick));
-  // Half a count more, because positions are rounded to float.
+  // Half a count more allows for positions rounded to float.
   const double distance = (options.stuck_counts + 0.5) * options.position_step;
   const std::vector<bool> stuck = find_stuck(ticks, window, distance);
 

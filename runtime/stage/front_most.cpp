@@ -9,10 +9,11 @@
 namespace wale {
 namespace {
 
-/// Finer cells are no faster (measured with 10 to 100 000 patches, moving and random points).
+/// Cells along a side, per square root of the number of patches. Finer cells are no faster (measured with 10 to 100 000
+/// patches, moving and random points).
 constexpr double cells_a_side_per_root = 2;
 constexpr std::uint32_t most_cells_a_side = 512;
-/// The lists may hold so many entries for each patch, and so many more.
+/// The most entries of all lists: so many for each patch, plus a constant.
 constexpr std::size_t entries_per_patch = 32, more_entries = 4096;
 
 /// A rectangle's extent along one axis, with rounding: a little wider than any point that `contains` accepts, and a
@@ -43,7 +44,7 @@ std::uint32_t open_from(std::vector<std::uint32_t>& next_open, std::size_t row, 
 
 }  // namespace
 
-/// Drops all but the front one of equal rectangles: only that can be felt.
+/// Of equal rectangles, keeps only the front one; the hand can feel no other.
 void FrontMost::drop_repeated(std::vector<Entry>& front_first) {
   const auto hash = [](const PatchOutline& each) {
     std::size_t mixed = 0;
@@ -97,14 +98,14 @@ std::uint32_t FrontMost::cell(double coordinate, int axis) const noexcept {
 bool FrontMost::list(std::span<const Entry> front_first) {
   const std::size_t cells = std::size_t{side_} * side_;
   const std::size_t most = side_ == 1 ? front_first.size() : entries_per_patch * front_first.size() + more_entries;
-  // Patches skip the cells of a row that a patch in front of them covers.
+  // A patch skips the cells of a row that a patch in front of it covers.
   const std::size_t links = side_ + 1;
   std::vector<std::uint32_t> next_open(side_ * links);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> placed;  // cell, place in front_first
   for (std::size_t row = 0; row < side_; ++row)
     std::iota(next_open.begin() + static_cast<std::ptrdiff_t>(row * links),
               next_open.begin() + static_cast<std::ptrdiff_t>((row + 1) * links), 0u);
-  // Whether the interval between two coordinates covers the whole cell: it then reaches into both neighbours.
+  // Whether the interval between two coordinates covers the whole cell: then it reaches into both neighbouring cells.
   const auto covers = [this](double inner_low, double inner_high, std::uint32_t cell_number, int axis) {
     if (!(inner_low < inner_high)) return false;
     const bool from = cell_number == 0 ? inner_low <= low_[axis] : cell(inner_low, axis) < cell_number;

@@ -7,7 +7,7 @@
 namespace wale {
 namespace {
 
-constexpr float furthest = 1e6f;  ///< N; a larger number is no force of any device, and its energy is not metered
+constexpr float furthest = 1e6f;  ///< N, more than any device gives; the energy of a larger force is not metered
 
 }  // namespace
 

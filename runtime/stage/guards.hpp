@@ -11,20 +11,19 @@
 
 namespace wale {
 
-/// Limits a program's force before it reaches the device, whatever the program does. In order: a force that is not a
-/// number becomes zero; a force that gives more energy than it may is reduced; its size is clamped to what the user
-/// allows and each axis to the device's peak force and to what its motor bears without overheating; after a call of
-/// `slew` the force moves no faster than the profile's slew, until it reaches the wanted one; the passivity observer
-/// takes away the energy that the sampled loop gained, within the same limits. Begins at zero force, slewing.
-/// On a pad, which gives no energy, the amplitude is clamped between 0 and the lesser of the user's limit and the
-/// greatest acceleration, and slews likewise; the frequency is clamped to the pad's range, and is its least one where
-/// nothing is wanted.
+/// Limits the force of any program before it reaches the device. In order: a force that is not a number becomes zero; a
+/// force that gives more energy than allowed is reduced; its size is clamped to the user's limit, and each axis to the
+/// device's peak force and to the force that its motor bears without overheating; after a call of `slew` the force
+/// moves no faster than the profile's slew, until it reaches the wanted one; the passivity observer takes away the
+/// energy that the sampled loop gained, within the same limits. Begins at zero force, slewing. On a pad, which gives no
+/// energy, the amplitude is clamped between 0 and the lesser of the user's limit and the greatest acceleration, and
+/// slews likewise; the frequency is clamped to the pad's range, and is its least one while the wanted amplitude is 0.
 class Guards {
  public:
   /// A profile without a slew (zero) does not limit the rate. `most` is the largest force that the user allows, N.
   explicit Guards(const DeviceProfile& profile, double most = HUGE_VAL);
 
-  /// Something changed that may make the wanted force jump.
+  /// Slews from now on: call it when a change may make the wanted force jump.
   void slew() noexcept { slewing_ = max_step_ > 0; }
 
   /// The hand is on another program now. Its force may give the energy `range` (J) and the power `active` (W), but no
@@ -36,7 +35,7 @@ class Guards {
   /// `periods` after the last call. Call `commanded` next, with the force that the actuator exerts.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force operator()(Force wanted, glm::dvec2 position, long periods) noexcept;
-  /// Commands zero force at once, from which the force slews back. Counted by its reason.
+  /// Returns zero force, from which the force slews back, and counts the reason.
   /// Real-time likewise.
   enum class Reason { overrun, stale, lost };
   Force cut(Reason reason, glm::dvec2 position, long periods) noexcept;
@@ -52,7 +51,7 @@ class Guards {
   Force within_user(Force wanted) const noexcept;
   /// Clamped to the limits of the device, the user and the motors' heat.
   Force bounded(Force wanted) const noexcept;
-  /// The same, and counts each limit that changed the force.
+  /// As `bounded`; also counts each limit that changed the force.
   Force within_limits(Force wanted) noexcept;
   Force slewed(Force wanted) noexcept;
 

@@ -42,7 +42,7 @@ Lag::Answer Lag::arriving() const noexcept {
 
 Lag::Answer Lag::over(const Answer& held, long periods) noexcept {
   if (prompt_) return held;
-  // More periods than answers are held would add only `held` again.
+  // Periods beyond the number of kept answers would only add `held` again.
   const long count = std::clamp(periods, 1L, static_cast<long>(answers_.size()));
   Answer sum;
   for (long period = 0; period < count; ++period) {

@@ -21,7 +21,7 @@ class Lag {
   /// Allocates room for the commands under way, a thousand at most.
   explicit Lag(const DeviceProfile& profile);
 
-  /// Begins as if this had always been the answer.
+  /// Begins as if this had been the answer for ever.
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   void begin(const Answer& answer) noexcept;
 

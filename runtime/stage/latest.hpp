@@ -22,7 +22,7 @@ class Latest {
     std::memcpy(words.data(), &value, sizeof value);
     const std::uint64_t version = version_.load(std::memory_order_relaxed);
     version_.store(version + 1, std::memory_order_relaxed);  // odd: under way
-    // Each word is released after the version, so a reader of a new word also sees that the version has changed.
+    // Each word is stored with release order after the version, so a reader of a new word also sees the new version.
     for (std::size_t i = 0; i < words.size(); ++i) words_[i].store(words[i], std::memory_order_release);
     version_.store(version + 2, std::memory_order_release);
   }

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// One period that is served.
+/// One served period.
 struct Beat {
   long period = 0;            ///< its number since the run began, from 0
   long elapsed = 0;           ///< periods since the last beat; 0 for the first
@@ -20,7 +20,7 @@ struct MonotonicClock {
   void sleep_until(std::int64_t when) noexcept;  ///< ns; signals do not end the sleep
 };
 
-/// A clock that only sleeping advances, so that no tick is ever late.
+/// A clock that advances only by sleeping, so that no tick is late.
 struct VirtualClock {
   std::int64_t now() noexcept { return now_; }
   void sleep_until(std::int64_t when) noexcept { now_ = when; }
@@ -29,8 +29,8 @@ struct VirtualClock {
   std::int64_t now_ = 0;
 };
 
-/// Serves `periods` periods of 1 / `rate` seconds at absolute deadlines that do not drift, or until `stopped()`. A
-/// period that has wholly passed when the loop wakes is skipped, so served periods never follow each other in a burst.
+/// Serves `periods` periods of 1 / `rate` seconds (`rate` in Hz) at absolute deadlines that do not drift, or until
+/// `stopped()`. A period that has wholly passed when the loop wakes is skipped, so there are no bursts of late periods.
 /// Returns how many were skipped.
 /// Real-time: does nothing besides the clock's calls, `stopped()` and `serve(Beat)`.
 template <class Clock, class Stopped, class Serve>

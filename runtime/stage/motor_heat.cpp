@@ -6,8 +6,7 @@
 namespace wale {
 namespace {
 
-/// e^-x for 0 <= x <= 10, by Taylor's series of its 64th root. It does not call libm, whose bits depend on the
-/// processor.
+/// e^-x for 0 <= x <= 10, by the Taylor series of its 64th root: the bits of libm's result depend on the processor.
 double decayed(double x) {
   double sum = 1;
   for (int n = 16; n > 0; --n) sum = 1 - sum * x / (64.0 * n);

@@ -16,8 +16,8 @@ namespace wale {
 ///   F^2 <= Fc^2 + (Fc^2 - h) tau / r
 ///
 /// This limit is far above the peak force until h is near Fc^2. Then h approaches Fc^2 at the rate 1 / tau + 1 / r and
-/// does not exceed it, while F falls to Fc. The time r is the peak force over twice the slew, so F falls no faster than
-/// the slew.
+/// does not exceed it, while F falls to Fc. The time r is the peak force divided by twice the slew, so F falls no
+/// faster than the slew.
 class MotorHeat {
  public:
   /// The motors are cold. A profile without a continuous force limits nothing.
@@ -39,7 +39,7 @@ class MotorHeat {
   double kept_ = 1;           // share of the heat after one period
   double reserve_ = 0;        // tau / r
   glm::dvec2 held_{0}, heat_{0};
-  glm::dvec2 most_{HUGE_VAL};  // N^2, what each axis bears now
+  glm::dvec2 most_{HUGE_VAL};  // N^2, the square of the force that each axis bears now
 };
 
 }  // namespace wale

@@ -10,9 +10,9 @@ namespace {
 constexpr double least_joule = 20e-6;
 constexpr double share_of_impedance = 0.1;  ///< of m/T
 constexpr double memory_seconds = 0.1;
-constexpr double most_gained = 2;  ///< of what is allowed
+constexpr double most_gained = 2;  ///< times the allowed energy
 
-/// The lag that is counted: none where the damping is assumed.
+/// The lag that counts: none if the damping is assumed.
 Lag lag_of(DeviceProfile profile) {
   if (!profile.damping_known) profile.delay_x = profile.delay_y = profile.bandwidth_x = profile.bandwidth_y = 0;
   return Lag(profile);

@@ -18,21 +18,21 @@ namespace wale {
 ///   W <- max(0, W + u(n-1) dx - (f(n-1) + f(n)) dx / 2 - b dx^2 / T)
 ///
 /// u(n-1) is the force that the actuator exerts. On a device that lags by d periods (its delay and its bandwidth's time
-/// constant) it is the command of d periods before. The lag counts only where the device's damping was measured: with
-/// an assumed one, a late device would be blamed for energy that the hand absorbs (no grade is given then either).
+/// constant) it is the command of d periods before. The lag counts only if the device's damping was measured: with an
+/// assumed damping, a late device would be blamed for energy that the hand absorbs (then no grade is given either).
 /// On a spring the two works differ by the stretch over the time from a sample to the middle of its force's period,
-/// (1/2 + d) T. The speed at which b absorbs energy is taken over the same time, so an encoder's error is the same on
-/// both sides, and they cancel at the stiffness that is just passive, b / (T / 2 + d T). On a texture the difference
-/// alternates: at a constant speed over a slope up and a slope down it sums to zero, and on the way it is at most
-/// (1 + 2 d) |f| |dx|. That much, at the largest force and step of the last tenth of a second (plus one encoder
-/// count, the error of a step), is no gain yet. Beyond it the observer damps, by the energy gained and at most by
-/// 0.1 m/T / (1 + 2 d), with m the moving mass at the handle: more damping would itself be unstable, and the later it
-/// acts the sooner. The form, the 20 uJ and the 0.1 are from simulations (tests/reference/closed_loop.md). They allowed
-/// 20 uJ alone, which fires on a passive corduroy that is moved at more than 0.1 m/s.
+/// (1/2 + d) T. The speed at which b absorbs energy is taken over the same time, so an encoder's error is the same in
+/// both terms, and they cancel at the stiffness that is just passive, b / (T / 2 + d T). On a texture the difference
+/// alternates: at a constant speed over a slope up and a slope down it sums to zero, and between it is at most
+/// (1 + 2 d) |f| |dx|. An energy up to that, at the largest force and step of the last tenth of a second (plus one
+/// encoder count, the error of a step), does not count as a gain. Beyond it the observer damps by the gained energy, at
+/// most by 0.1 m/T / (1 + 2 d), with m the moving mass at the handle: more damping would itself be unstable, and a
+/// larger lag lowers that limit. The form, the 20 uJ and the 0.1 are from simulations (tests/reference/closed_loop.md),
+/// which allowed 20 uJ only. That alone would damp a passive corduroy that is moved at more than 0.1 m/s.
 class PassivityObserver {
  public:
-  /// The profile's rate and encoder are known. A mass or damping that it does not declare is 0; without a mass the
-  /// observer meters and does not act.
+  /// The profile must have a rate and an encoder. A mass or damping that it does not declare is 0; without a mass the
+  /// observer meters but does not act.
   explicit PassivityObserver(const DeviceProfile& profile);
 
   /// The force to command in place of `field` (N, after limits and slew), with the handle at `position` (m from the

@@ -19,7 +19,7 @@ struct Placement {
   float layer;
   std::vector<float> parameters;
   std::shared_ptr<Memory> memory;
-  bool moves = false;  ///< it has been moved, so it is searched apart from the patches that stay
+  bool moves = false;  ///< it has been moved, so it is searched separately from the patches that stay
 
   Placement(const Program& placed, glm::vec2 where, PatchSize how_large, float how_far_in_front)
       : program(placed),
@@ -29,7 +29,7 @@ struct Placement {
         parameters(placed.default_parameters()),
         memory(std::make_shared<Memory>(placed)) {}
 
-  /// The same patch with another program. It keeps the values that were set of parameters with the same name and unit.
+  /// The same patch with another program. Parameters of the same name and unit keep their values if they were set.
   Placement(const Placement& old, const Program& replacing)
       : program(replacing),
         position(old.position),

@@ -6,7 +6,7 @@
 namespace wale {
 namespace {
 
-/// s; a force that was not renewed for longer no longer fits the hand's position.
+/// s; a force that has been held for longer no longer fits the hand's position.
 constexpr double longest_hold = 0.02;
 
 /// The guards that acted between the two counts.

@@ -40,8 +40,8 @@ struct MovedPatch {
 };
 
 /// All patches on the workspace, as the control side hands them over. Successive values share the patches that did not
-/// change. Only the real-time thread uses the patches; it leaves freeing them to the control side. Patches that have
-/// been moved are searched apart from those that stay, so the cost of a move does not grow with the others' number.
+/// change. Only the real-time thread uses the patches; the control side frees them. Patches that have been moved are
+/// searched separately from those that stay, so the cost of a move does not grow with the number of the others.
 class PlacedPatches {
  public:
   using Patches = std::vector<std::shared_ptr<PlacedPatch>>;
@@ -155,7 +155,7 @@ class Player {
   double position_step_;  // m per count
   AxisFilters filters_x_, filters_y_;
   Guards guards_;
-  const Memory* inside_ = nullptr;  // the memory of the patch that the hand was on at the last beat
+  const Memory* inside_ = nullptr;  // the memory of the patch under the hand at the last beat
   PlacedPatches::Found felt_;       // that patch and its position
   long restored_ = 0;
   TimeHistogram lateness_;

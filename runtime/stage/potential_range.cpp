@@ -20,7 +20,7 @@ bool goes_by_place_alone(const Program& program) {
          });
 }
 
-/// The middle of part `index` of the `count` equal parts of a length, from the middle of the whole.
+/// The middle of part `index` of `count` equal parts of a length, relative to the middle of the whole.
 float middle(std::size_t index, std::size_t count, float length) {
   return length * ((static_cast<float>(index) + 0.5f) / static_cast<float>(count) - 0.5f);
 }

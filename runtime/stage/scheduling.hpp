@@ -8,9 +8,9 @@ namespace wale {
 /// and migration threads (99). Threads that serve a device should have one just below it.
 inline constexpr int loop_priority = 80;
 
-/// Makes the calling thread as punctual as the system permits: SCHED_FIFO, the process's memory that is mapped now
-/// locked, its stack touched, the processors kept from sleep states that are slow to leave. Its end releases memory and
-/// processors. `status` says in one line what was granted.
+/// Makes the calling thread as punctual as the system permits: SCHED_FIFO, all memory that the process has mapped now
+/// locked, the stack touched, the processors kept out of sleep states that are slow to leave. The destructor releases
+/// memory and processors. `status` says in one line what the system granted.
 class RealTimeClaim {
  public:
   RealTimeClaim();

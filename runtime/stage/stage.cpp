@@ -62,7 +62,7 @@ Result<> complete(const DeviceProfile& profile) {
   return {};
 }
 
-/// An error unless both push or both vibrate.
+/// Checks that the program and the device both push or both vibrate. Error: `other_device`.
 Result<> fits(const PatchProgram& program, const DeviceProfile& device) {
   if (program.vibrates() == device.shaker.has_value()) return {};
   return Error{.code = Code::other_device,
@@ -72,7 +72,7 @@ Result<> fits(const PatchProgram& program, const DeviceProfile& device) {
                .mend = "build it for " + device.name};
 }
 
-/// The error of a value that the caller must not give.
+/// The error for a wrong argument.
 Error malformed(std::string name, std::string sentence) {
   return {.code = Code::malformed_value, .sentence = std::move(sentence), .place = {.name = std::move(name)}};
 }
@@ -148,7 +148,7 @@ struct Stage::Parts {
   /// With the mutex held.
   bool has_news() const { return !changed.empty() || moved; }
 
-  /// With the mutex held: all patches stay where they are until one is moved.
+  /// With the mutex held: makes all patches stay where they are until one is moved.
   void begin_anew() {
     cleared = true;
     changed.clear();
@@ -203,9 +203,9 @@ struct Stage::Parts {
     patches.publish(published);
   }
 
-  /// With the mutex held: the recording begins with the patches on the stage.
+  /// With the mutex held: begins a recording, with the patches on the stage.
   Result<> begin_recording(const RunOptions& options);
-  /// Why the recording ended before the run; nothing where it did not.
+  /// Why the recording ended before the run; nothing if it did not.
   std::optional<Error> end_recording();
   TickSink* sink() { return recorder.get(); }
 
@@ -392,7 +392,7 @@ Result<> Stage::set(std::size_t patch, std::string_view parameter, float value) 
     for (const Parameter& one : known) names += (names.empty() ? "" : ", ") + one.name;
     return Error{.code = Code::unknown_name,
                  .sentence = program.description().material + " has no parameter " + std::string(parameter),
-                 .mend = names.empty() ? "it has none at all" : "it has " + names,
+                 .mend = names.empty() ? "it has no parameters" : "it has " + names,
                  .place = {.name = std::string(parameter)}};
   }
   const Parameter& range = known[*index];

@@ -14,8 +14,8 @@ const VelocityFilter::Sample& VelocityFilter::earlier(std::size_t age) const noe
   return samples_[(newest_ + samples_.size() - age) % samples_.size()];
 }
 
-/// Whether the line from the newest sample to the one `age` before it passes within the noise of all between. Compared
-/// without a division, so that samples exactly on the band's edge always count as within.
+/// Whether the line from the newest sample to the one `age` before it passes within the noise of all between. The
+/// comparison does not divide, so that samples exactly on the band's edge always count as within.
 bool VelocityFilter::line_fits(std::size_t age) const noexcept {
   const Sample &newest = earlier(0), &oldest = earlier(age);
   const auto ticks = static_cast<double>(newest.tick - oldest.tick);
@@ -35,7 +35,7 @@ double VelocityFilter::operator()(int counts, long periods) noexcept {
   held_ = std::min(held_ + 1, samples_.size());
   if (held_ < 2) return 0;
 
-  std::size_t age = 1;  // the sample before the newest always counts, whatever its age
+  std::size_t age = 1;  // the window always has at least two samples
   while (age + 1 < held_ && tick - earlier(age + 1).tick <= window_ && line_fits(age + 1)) ++age;
   const Sample& oldest = earlier(age);
   return (static_cast<double>(counts) - oldest.counts) / static_cast<double>(tick - oldest.tick);

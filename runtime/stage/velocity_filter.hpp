@@ -6,9 +6,9 @@
 
 namespace wale {
 
-/// Velocity from encoder counts, for one axis: the slope over the longest window for which the straight line between
-/// the newest sample and the oldest passes within the noise of all samples between (Janabi-Sharifi, Hayward, Chen 2000,
-/// "first-order adaptive windowing", end-fit). The window is long while the hand moves steadily and short where it
+/// Velocity from encoder counts, for one axis: the slope over the longest window in which the straight line from the
+/// oldest to the newest sample passes within the noise of all samples between (Janabi-Sharifi, Hayward, Chen 2000,
+/// "first-order adaptive windowing", end-fit). The window is long while the hand moves steadily and short when it
 /// turns.
 class VelocityFilter {
  public:

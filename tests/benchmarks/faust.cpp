@@ -2,7 +2,7 @@
 
 #include "tests/benchmarks/yardstick.hpp"
 
-// What the translation derives from and reports to, as little of it as it calls.
+// The base classes of the translation, with only the functions that it calls.
 struct Meta {
   void declare(const char*, const char*) {}
 };

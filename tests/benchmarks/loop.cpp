@@ -1,4 +1,4 @@
-// The real-time loop by itself, for tests/benchmarks/loop and tests/benchmarks/soak.
+// Runs only the real-time loop, for tests/benchmarks/loop and tests/benchmarks/soak.
 //
 //   bench_loop lateness SECONDS   runs corduroy on the simulated joystick; a line for each tick: how late it began, ns
 //   bench_loop soak SECONDS       changes everything all the time; fails when something is lost or memory grows
@@ -44,7 +44,7 @@ void lateness(double seconds) {
   for (const TickRecord& tick : run.record.ticks) std::printf("%.0f\n", 1e9 * static_cast<double>(tick.lateness));
 }
 
-/// Memory of this process that is in use, bytes.
+/// The memory in use by this process, in bytes.
 long resident() {
   std::ifstream file("/proc/self/statm");
   long all = 0, used = 0;
@@ -52,7 +52,7 @@ long resident() {
   return used * sysconf(_SC_PAGESIZE);
 }
 
-/// A handle at rest that shows what it was told last.
+/// A handle at rest that records its last command.
 class Shown : public Device {
  public:
   const DeviceProfile& profile() const noexcept override { return profile_; }
@@ -85,7 +85,7 @@ void soak(double seconds) {
       if (n % 3 == 0) change(stage.move(1 + static_cast<std::size_t>(n) % 20, {0.05f, 0.04f})), ++moves;
       const float value = 0.001f * static_cast<float>(n % 997);
       change(stage.set("push", value)), ++changes;
-      // It has arrived when it is what the handle is told, and nothing else comes before it has.
+      // A change has arrived when the handle gets the new force. No other change comes before that.
       const auto told = Clock::now();
       while (device.commanded.load(std::memory_order_relaxed) != value) {
         if (Clock::now() - told > std::chrono::minutes(1)) {
@@ -98,7 +98,7 @@ void soak(double seconds) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   });
-  // What grows does so in the last nine tenths; what is set up in the first is not looked at.
+  // The check covers the last nine tenths. Memory for the set-up, in the first tenth, does not count.
   long before = 0, after = 0;
   const auto look = [&](const Progress& now) {
     after = resident();

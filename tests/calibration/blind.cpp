@@ -1,4 +1,4 @@
-// wale feel --blind: what a score says, against closed forms and tables, and how a session goes.
+// wale feel --blind: scores against closed forms and published tables, and the course of a session.
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ TEST(BlindScore, HasTheIntervalOfWilson) {
   // 9 of 10. Wilson 1927 in closed form with z = 1.959964: (p + z^2/2n -+ z sqrt(p q/n + z^2/4n^2)) / (1 + z^2/n).
   const BlindScore nine = blind_score(9, 10);
   EXPECT_DOUBLE_EQ(nine.proportion, 0.9);
-  EXPECT_NEAR(nine.low, 0.5958, 1e-4);  // as tabled: Brown, Cai and DasGupta 2001
+  EXPECT_NEAR(nine.low, 0.5958, 1e-4);  // Brown, Cai and DasGupta 2001
   EXPECT_NEAR(nine.high, 0.9821, 1e-4);
-  // All right: n / (n + z^2) .. 1; none: the same seen from the other side.
+  // All correct: n / (n + z^2) .. 1. None correct: 0 .. z^2 / (n + z^2).
   const double z2 = 1.959963984540054 * 1.959963984540054;
   EXPECT_NEAR(blind_score(12, 12).low, 12 / (12 + z2), 1e-12);
   EXPECT_EQ(blind_score(12, 12).high, 1);
@@ -27,7 +27,7 @@ TEST(BlindScore, HasTheIntervalOfWilson) {
 }
 
 TEST(BlindScore, HasTheSensitivityOfForcedChoice) {
-  // Macmillan and Creelman 2005, two-alternative forced choice: 76 % right is d' = 1, 50 % none.
+  // Macmillan and Creelman 2005, two-alternative forced choice: 76 % correct is d' = 1, 50 % is d' = 0.
   EXPECT_NEAR(blind_score(76, 100).sensitivity, 1, 0.002);
   EXPECT_NEAR(blind_score(6, 12).sensitivity, 0, 1e-12);
   EXPECT_NEAR(blind_score(9, 12).sensitivity, 0.9538725524, 1e-9);
@@ -41,14 +41,14 @@ TEST(BlindScore, HasTheSensitivityOfForcedChoice) {
   EXPECT_NEAR(proportion_right(blind_score(9, 12).sensitivity), 0.75, 1e-9);
 }
 
-TEST(BlindScore, SaysHowFarGuessingGets) {
+TEST(BlindScore, HasTheProbabilityOfTheScoreByChance) {
   EXPECT_NEAR(blind_score(10, 10).by_chance, 1 / 1024.0, 1e-12);
   EXPECT_NEAR(blind_score(9, 10).by_chance, 11 / 1024.0, 1e-12);
   EXPECT_NEAR(blind_score(8, 12).by_chance, (495 + 220 + 66 + 12 + 1) / 4096.0, 1e-12);
   EXPECT_NEAR(blind_score(0, 5).by_chance, 1, 1e-12);
 }
 
-/// Two textures and a stick.
+/// Two textures and a simulated joystick.
 struct TwoTextures {
   BlindMaterial a = material("perceptual { roughness 0.2 } physical { force = lateral(grating(x, period: 2 mm)) }");
   BlindMaterial b = material("perceptual { roughness 0.8 } physical { force = lateral(grating(x, period: 2 mm)) }");
@@ -63,7 +63,7 @@ struct TwoTextures {
   }
 };
 
-/// Says "the first" whatever is felt, and notes what it is told.
+/// Always answers "the first", and notes everything that it is told.
 class First final : public BlindPerson {
  public:
   void introduce(bool is_a) override { introduced_ += is_a ? 'A' : 'B'; }
@@ -74,7 +74,7 @@ class First final : public BlindPerson {
   std::string introduced_, felt_, learnt_;
 };
 
-TEST(BlindSession, DrawsEveryOrderForItself) {
+TEST(BlindSession, DrawsTheOrderOfEachTrialIndependently) {
   TwoTextures setup;
   First person;
   const BlindSession session = feel_blind(*setup.joystick, setup.a, setup.b, setup.options(64, 7), person);
@@ -94,7 +94,7 @@ TEST(BlindSession, DrawsEveryOrderForItself) {
   // Within four standard deviations of a fair coin's 32 (4) and 31.5 (4).
   EXPECT_NEAR(first, 32, 16);
   EXPECT_NEAR(alternations, 31.5, 16);
-  // The seed is the order.
+  // The seed determines the order.
   TwoTextures again;
   First same;
   const BlindSession second = feel_blind(*again.joystick, again.a, again.b, again.options(64, 7), same);
@@ -109,7 +109,7 @@ TEST(BlindSession, DrawsEveryOrderForItself) {
   EXPECT_GT(differ, 0);
 }
 
-TEST(BlindSession, AsksInLinesAndEndsWithThem) {
+TEST(BlindSession, ReadsAnswersAsLinesAndEndsWithThem) {
   TwoTextures setup;
   std::istringstream in("1\n 2 \nfirst\n\n2\r\n");
   std::ostringstream out;
@@ -122,7 +122,7 @@ TEST(BlindSession, AsksInLinesAndEndsWithThem) {
   ASSERT_TRUE(session.ended);
   EXPECT_EQ(session.ended->sentence, "no further answer");
   EXPECT_NE(out.str().find("A is velvet"), std::string::npos);
-  // What is shown before an answer is the same whatever the order: a person who has read two sessions knows nothing.
+  // The text before an answer does not depend on the order, so it reveals nothing.
   const auto shown = [](std::uint64_t seed) {
     TwoTextures fresh;
     std::istringstream none("");

@@ -9,7 +9,8 @@
 
 namespace wale::calibrating {
 
-/// A text of Wale, checked: its declarations, and the programs of its materials on any device.
+/// A checked Wale text: its declarations, and the programs of its materials on any device. Throws std::runtime_error
+/// with the diagnostics when there are errors.
 class Declared {
  public:
   explicit Declared(const std::string& text)
@@ -30,14 +31,14 @@ class Declared {
     throw std::runtime_error("no map is called " + name);
   }
 
-  /// A material's program. Throws what is wrong; warnings are kept.
+  /// A material's program. Throws std::runtime_error with the diagnostics when there are errors; keeps warnings.
   Program program(const std::string& material = "", const std::string& device = default_device) {
     const auto built = compile_material(module_, material, device, sources_, source_, *resolver_, diagnostics_);
     refuse_errors();
     return built.value();
   }
 
-  /// The codes of what was said so far, such as "W0407 W0421", in the order in which it was said.
+  /// The codes of all diagnostics so far, in their order, such as "W0407 W0421".
   std::string codes() const {
     std::string all;
     for (const auto& each : diagnostics_.all()) all += (all.empty() ? "" : " ") + code_name(each.code);
@@ -59,15 +60,15 @@ class Declared {
   CheckedModule module_;
 };
 
-/// Which of a program's percepts has that name.
+/// The index of the program's percept of that name.
 inline std::size_t percept_index(const Program& program, const std::string& name) {
   const auto& percepts = program.description().percepts;
   for (std::size_t i = 0; i < percepts.size(); ++i)
     if (percepts[i].name == name) return i;
-  throw std::runtime_error("the program tells no " + name);
+  throw std::runtime_error("the program has no percept " + name);
 }
 
-/// A bank with some parameters set, by name, in SI.
+/// A bank with some parameters set, by name, in SI units.
 inline Bank bank_at(const Program& program, const std::map<std::string, double>& values) {
   auto parameters = program.default_parameters();
   for (const auto& [name, value] : values) parameters.at(program.parameter(name).value()) = static_cast<float>(value);

@@ -1,5 +1,5 @@
-// What becomes of a percept follows the parameters, and where it becomes another is told: against the closed forms of
-// the publications and what is left of the device's 10 N.
+// Fates of percepts follow the parameters, and `describe` gives the values at which they change. The expectations come
+// from the closed forms of the publications and the device's 10 N.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace {
 using calibrating::bank_at;
 using calibrating::Declared;
 
-// N, of levels on the joystick of 1995: what it pushes at level 1 and the exponent, as printed; a viscosity counts at
-// 0.25 m/s and a spring at 40 mm.
+// The force of each level on the joystick of 1995, in N, by level 1 and the exponent of the publication. Viscosity
+// counts at 0.25 m/s, springiness at 40 mm.
 double roughness_newton(double level) { return 194 * 10.0 / 512 * std::pow(level, 1 / 0.759593); }
 double viscosity_newton(double level) { return 0.25 * 10 * std::pow(level, 1 / 0.44); }
 double springiness_newton(double level) { return 0.04 * 200 * level; }
@@ -23,7 +23,7 @@ double springiness_newton(double level) { return 0.04 * 200 * level; }
 const DescribedFate& fate(const std::vector<DescribedFate>& all, const std::string& name) {
   for (const DescribedFate& each : all)
     if (each.record.name == name) return each;
-  throw std::runtime_error("nothing is said of " + name);
+  throw std::runtime_error("there is no fate of " + name);
 }
 
 const FateChange* change(const DescribedFate& fate, const std::string& parameter, bool above) {
@@ -40,7 +40,7 @@ TEST(FatesAt, FollowTheParameters) {
     EXPECT_EQ(each.record.fate, Fate::approximated) << each.record.name;
     EXPECT_EQ(each.record.reason.find("gives no more"), std::string::npos);
   }
-  // The last gives way where one of the others leaves less than it needs.
+  // The last percept saturates where the others leave less force than it needs.
   const DescribedFate& viscosity = fate(usual, "viscosity");
   const double left = 10 - viscosity_newton(0.9);
   const FateChange* springier = change(viscosity, "springiness", true);
@@ -60,7 +60,7 @@ TEST(FatesAt, FollowTheParameters) {
       << less.reason;
   EXPECT_FLOAT_EQ(less.asked, 0.9f);
   EXPECT_NEAR(viscosity_newton(less.given), 10 - roughness_newton(0.4) - springiness_newton(0.9), 1e-3);
-  // And is whole again below what is left.
+  // Below the level that the rest of the force allows, it is not saturated.
   const FateChange* milder = change(fate(springy, "viscosity"), "viscosity", false);
   ASSERT_TRUE(milder);
   EXPECT_EQ(milder->fate, Fate::approximated);
@@ -86,7 +86,7 @@ TEST(FatesAt, AreThoseOfTheProgramAtItsDefaults) {
     }
 }
 
-TEST(FatesAt, TellAParameterOfTheAuthorsInItsUnit) {
+TEST(FatesAt, GiveAParameterInItsUnit) {
   Declared declared(
       "material m { perceptual { roughness 1 }\n  physical {\n    param b = 1 N s/m in 0 N s/m .. 60 N s/m\n"
       "    force ribs = lateral(grating(x, period: 2 mm))\n    force oil = viscous(b)\n  }\n}\n");

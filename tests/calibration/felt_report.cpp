@@ -1,4 +1,4 @@
-// What is said of a run: every guard by its name and its count, every step of a tick by what it cost.
+// The report of a run: the count of each guard, and the cost of each step of a tick.
 #include "calibration/feel/felt_report.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(FeltReport, CountsEachGuardByItsName) {
                                                           {"stale", &GuardCounts::stale},
                                                           {"lost", &GuardCounts::lost},
                                                           {"restored", &GuardCounts::restored}};
-  ASSERT_EQ(guards.size() * sizeof(long), sizeof(GuardCounts)) << "one that is not looked at here";
+  ASSERT_EQ(guards.size() * sizeof(long), sizeof(GuardCounts)) << "a guard is missing here";
   long count = 1001;
   for (const auto& [name, guard] : guards) report.guards.*guard = count++;
   const auto json = nlohmann::json::parse(felt_json(report));
@@ -35,9 +35,9 @@ TEST(FeltReport, CountsEachGuardByItsName) {
   EXPECT_EQ(json.at("guards").size(), guards.size());
 }
 
-TEST(FeltReport, TellsWhatATickCostsAndTheMostOfIt) {
+TEST(FeltReport, HasTheCostOfATickAndItsLargestStep) {
   FeltReport report;
-  EXPECT_FALSE(nlohmann::json::parse(felt_json(report)).contains("cost")) << "in virtual time nothing is measured";
+  EXPECT_FALSE(nlohmann::json::parse(felt_json(report)).contains("cost")) << "there are no costs in virtual time";
   EXPECT_EQ(felt_text(report).find("  cost"), std::string::npos);
   TickCosts costs{.whole = {50e-6, 90e-6, 120e-6}, .of = {}};
   costs.of[TickCosts::sample] = {30e-6, 60e-6, 70e-6};

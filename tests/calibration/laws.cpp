@@ -1,5 +1,4 @@
-// Every law and its inverse against the closed form that one would write by hand; the shipped maps against the
-// exponents that their publications print.
+// Every law and its inverse against closed forms, and the shipped maps against the exponents of their publications.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +14,7 @@ namespace {
 
 using calibrating::Declared;
 
-/// A map of `grit` from the amplitude of `lateral`, level 1 at `one`.
+/// A percept `grit` with level 1 at the amplitude `one`, and a map `test.map` with the given law.
 Declared grit(const std::string& law, const std::string& one = "4 N", const std::string& more = "") {
   return Declared(
       "percept grit { one lateral amplitude " + one +
@@ -46,7 +45,7 @@ TEST(LogLinearLaw, AndItsInverse) {
   }
 }
 
-TEST(LinearLaw, WithWhatIsLeftWhereNothingIs) {
+TEST(LinearLaw, WithAMagnitudeAboveZeroAtNoForce) {
   const Declared declared = grit("law magnitude = 2 + 3 * amplitude / 1 N", "1 N");
   const Law law(declared.map("test.map"), declared.percept("grit"));
   for (const double size : {0.05, 0.3, 1.0, 4.0}) {
@@ -55,7 +54,7 @@ TEST(LinearLaw, WithWhatIsLeftWhereNothingIs) {
     EXPECT_NEAR(law.carrier_of((2 + 3 * size) / 5), size, 1e-12);
   }
   EXPECT_TRUE(law.reaches(0.4));
-  EXPECT_FALSE(law.reaches(0.39)) << "2 of 5 is left where nothing pushes";
+  EXPECT_FALSE(law.reaches(0.39)) << "without force the level is 2 / 5";
   EXPECT_NEAR(law.exponent_at(1), 3.0 / 5, 1e-6);
 }
 
@@ -73,10 +72,10 @@ TEST(QuadraticLaw, OnEitherBranch) {
       EXPECT_NEAR(law.carrier_of(level), std::pow(10, u), 1e-9 * std::pow(10, u)) << level << rising;
       EXPECT_NEAR(law.level_of(std::pow(10, u)), level, 1e-9);
     }
-    // The most that it reaches is at its vertex: 10^(1/32).
+    // The largest level is that of the vertex, 10^(1/32).
     EXPECT_TRUE(law.reaches(std::pow(10, 1.0 / 32) - 1e-3));
     EXPECT_FALSE(law.reaches(std::pow(10, 1.0 / 32) + 1e-3));
-    EXPECT_NEAR(law.carrier_of(2), std::pow(10, 0.125), 1e-9) << "as near as it gets";
+    EXPECT_NEAR(law.carrier_of(2), std::pow(10, 0.125), 1e-9) << "the vertex is nearest";
     EXPECT_NEAR(law.exponent_at(1), 0.5, 1e-6);
   }
 }
@@ -84,7 +83,7 @@ TEST(QuadraticLaw, OnEitherBranch) {
 TEST(QuadraticLaw, NeedsABranchWhereItTurnsWithinItsRange) {
   const Declared turning = grit(inverted);
   EXPECT_TRUE(std::isnan(Law(turning.map("test.map"), turning.percept("grit")).carrier_of(0.5)));
-  // One that rises all over its range needs none: the vertex of this one is at 10^1.25 N.
+  // A law that rises over its whole range needs no branch; the vertex of this one is at 10^1.25 N.
   const Declared rising = grit("law log10(magnitude) = log10(amplitude / 1 N) - 0.4 * log10(amplitude / 1 N)^2");
   const Law law(rising.map("test.map"), rising.percept("grit"));
   for (const double size : {0.1, 0.5, 1.0, 4.0}) EXPECT_NEAR(law.carrier_of(law.level_of(size)), size, 1e-9);
@@ -96,7 +95,7 @@ TEST(QuadraticLaw, NeedsABranchWhereItTurnsWithinItsRange) {
 TEST(TabulatedLaw, IsStraightInLogarithms) {
   const Declared declared = grit("table 0.1 N = 0.2, 1 N = 2, 4 N = 3");
   const Law law(declared.map("test.map"), declared.percept("grit"));
-  const double last = std::log(3.0 / 2) / std::log(4.0);  // the slope of the last line; the first has 1
+  const double last = std::log(3.0 / 2) / std::log(4.0);  // the exponent of the last segment; that of the first is 1
   const auto magnitude = [&](double size) { return size < 1 ? 2 * size : 2 * std::pow(size, last); };
   for (const double size : {0.05, 0.1, 0.3, 1.0, 2.0, 4.0, 6.0}) {
     EXPECT_NEAR(law.magnitude_of(size), magnitude(size), 1e-9) << size;
@@ -113,7 +112,7 @@ TEST(TabulatedLaw, MayFallButNotTurnBack) {
   EXPECT_TRUE(std::isnan(Law(turning.map("test.map"), turning.percept("grit")).carrier_of(0.5)));
 }
 
-TEST(CoupledLaw, HoldsTheOtherSizeWhereItIs) {
+TEST(CoupledLaw, UsesTheSizeOfTheOtherCarrier) {
   const Declared declared =
       grit("law magnitude = (amplitude / 1 N)^0.8 * (1 + viscosity / 10 N s/m)", "4 N", "couples viscosity viscosity");
   const Law law(declared.map("test.map"), declared.percept("grit"));
@@ -125,14 +124,14 @@ TEST(CoupledLaw, HoldsTheOtherSizeWhereItIs) {
   EXPECT_EQ(law.carrier_of(0.5), law.carrier_of(0.5, {0.0}));
 }
 
-/// A shipped map's exponent, as its publication prints it, and the size of level 1 in SI.
+/// The exponent of a shipped map as published, and the carrier's size at level 1 in SI units.
 struct Published {
   std::string percept;
   double exponent, one;
-  bool of_carrier = true;  ///< not of what stands for it on a pad
+  bool of_carrier = true;  ///< of the percept's own carrier, not of a vibration in its place
 };
 
-/// Kept here a second time, by name.
+/// Independent of calibration/maps; by the name of the map.
 const std::map<std::string, Published> published = {
     {"minsky1995.figure19", {"roughness", 0.759593, 194 * 10.0 / 512}},
     {"estimates.bumps", {"bumpiness", 0.76, 3}},
@@ -169,7 +168,7 @@ TEST(ShippedMaps, AreTheClosedFormsOfTheirExponents) {
   EXPECT_EQ(tied, published.size());
 }
 
-TEST(ShippedMaps, LevelOneIsWhatWasMeasuredOrDefined) {
+TEST(ShippedMaps, LevelOneIsThatOfThePublicationOrDefinition) {
   const Declared declared("");
   std::map<std::string, double> ones;
   declared.declarations().percepts.each([&](const std::string& name, const Percept& percept) {
@@ -188,7 +187,7 @@ TEST(ShippedMaps, LevelOneIsWhatWasMeasuredOrDefined) {
   EXPECT_FALSE(declared.percept("regularity").has_reference);
 }
 
-TEST(ShippedMaps, WhatIsNotTiedToTheReferenceOnlyOrders) {
+TEST(ShippedMaps, MapsThatAreNotTiedToTheReferenceHaveTheirExponents) {
   const Declared declared("");
   const Map& groove = declared.map("kornbrot2007.groove");
   EXPECT_FALSE(groove.tied);
@@ -200,8 +199,8 @@ TEST(ShippedMaps, WhatIsNotTiedToTheReferenceOnlyOrders) {
   EXPECT_NEAR(Law(declared.map("minsky1995.with_earplugs"), declared.percept("roughness")).exponent_at(1), 1.2, 1e-6);
 }
 
-/// Eleven observers at 0.6, three at 0.9 and one at 2.1 (sections 5.3.1 and 5.6.1, the earplugs' 1.2 being the mean of
-/// the last four): their mean is the pooled slope, and their spread what the map carries.
+/// Eleven observers have 0.6, three 0.9 and one 2.1 (sections 5.3.1 and 5.6.1; 1.2 with earplugs is the mean of the
+/// last four). Their mean is the pooled slope, and their standard deviation is the spread of the map.
 TEST(Minsky1995, SpreadOfTheObserversExponents) {
   double sum = 0, squares = 0;
   const auto add = [&](int count, double exponent) { sum += count * exponent, squares += count * exponent * exponent; };
@@ -212,8 +211,9 @@ TEST(Minsky1995, SpreadOfTheObserversExponents) {
   EXPECT_NEAR(declared.map("minsky1995.figure19").spread, std::sqrt((squares - sum * sum / 15) / 14), 0.005);
 }
 
-/// Where height stays the same the force of a grating goes as 1 / period, so Minsky's map must fall as Kornbrot's does.
-TEST(CrossCheck, ConstantHeightFallsAsKornbrotFound) {
+/// At constant height the force of a grating is proportional to 1 / period, so Minsky's map must have nearly the
+/// exponent of Kornbrot's.
+TEST(CrossCheck, ConstantHeightHasNearlyTheExponentOfKornbrot) {
   Declared declared(
       "material grooves {\n  physical {\n    param period = 2 mm in 0.7 mm .. 10 mm\n"
       "    force = lateral(grating(x, period: period), amplitude: 1 N mm / period)\n  }\n}\n");

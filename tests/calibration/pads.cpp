@@ -1,5 +1,4 @@
-// Devices that only vibrate: what the shipped materials become there, and the four words for what becomes of each
-// thing.
+// Devices that only vibrate: the shipped materials on them, and the four fates of percepts and forces.
 
 #include <gtest/gtest.h>
 
@@ -20,10 +19,10 @@ using calibrating::percept_index;
 const FateRecord& fate(const Program& program, const std::string& name, bool percept) {
   for (const FateRecord& each : program.description().fates)
     if (each.name == name && each.percept == percept) return each;
-  throw std::runtime_error("nothing is said of " + name);
+  throw std::runtime_error("there is no fate of " + name);
 }
 
-/// The fates by name, percepts first, "roughness approximated, force kept".
+/// The fates with their names, percepts first, such as "roughness approximated, force kept".
 std::string fates(const Program& program) {
   std::string text;
   const char* words[] = {"", "kept", "approximated", "saturated", "lost"};
@@ -39,8 +38,8 @@ std::string corduroy() {
   return text.str().substr(text.str().find("material"));
 }
 
-// The level of `estimates.shaken_roughness` is (a / 12 m/s^2)^0.76; ribs pass at speed / period, and below 20 mm/s the
-// shaking fades in proportion.
+// The level of `estimates.shaken_roughness` is (a / 12 m/s^2)^0.76. The frequency is speed / period, and below 20 mm/s
+// the amplitude is proportional to the speed.
 TEST(Pads, CorduroyShakesAsItsRibsPass) {
   Declared file(corduroy());
   const Program program = file.program("corduroy", "touch_pad");
@@ -77,7 +76,7 @@ TEST(Pads, WithoutAPositionTheHandExploresAtTheDeclaredSpeed) {
   EXPECT_EQ(file.codes(), "W0415") << "the places are lost";
 }
 
-TEST(Pads, TheShippedOnesAreWholeAndEstimated) {
+TEST(Pads, TheShippedOnesAreCompleteAndEstimated) {
   Declared declared("");
   for (const char* name : {"touch_pad", "gamepad"}) {
     const DeviceDeclaration& device = *declared.declarations().devices.find(name);
@@ -120,16 +119,17 @@ TEST(Pads, TheFourFatesOfAForceDevice) {
       "device weak { class force_plane; workspace disc(200 mm); position 4096 counts; force 0.5 N, 2048 counts\n"
       "  rate 900 Hz; speed 1 m/s; slew 200 N/s; velocity_filter 15, 1 counts; patch 100 mm, 100 mm, 5 mm }\n");
   EXPECT_EQ(fates(file.program("own")), "roughness kept, force kept");
-  EXPECT_EQ(fates(file.program("own", "falcon")), "roughness approximated, force kept") << "a map off its own handle";
+  EXPECT_EQ(fates(file.program("own", "falcon")), "roughness approximated, force kept")
+      << "the map was measured on another device";
   EXPECT_EQ(fates(file.program("left")), "roughness approximated") << "the device's own ridges";
-  // 40 mm of spring, 0.25 m/s of oil: more than a falcon's 8 N, so that what was put last has least.
+  // A spring at 40 mm and oil at 0.25 m/s need more than the Falcon's 8 N, so the last percept gets the least.
   const Program reduced = file.program("much", "falcon");
   EXPECT_EQ(fate(reduced, "stickiness", true).fate, Fate::approximated) << "essential, so it comes first";
   const FateRecord& oil = fate(reduced, "viscosity", true);
   EXPECT_EQ(oil.fate, Fate::saturated);
   EXPECT_NEAR(oil.asked, 0.9, 1e-6);
   EXPECT_LT(oil.given, 0.6);
-  // One that the device cannot reach alone. By its own map, at 0.5 N.
+  // A percept that the device cannot reach alone gets the level of 0.5 N by its map.
   const Program weak = file.program("most", "weak");
   const FateRecord& sticky = fate(weak, "stickiness", true);
   EXPECT_EQ(sticky.fate, Fate::saturated);
@@ -137,7 +137,7 @@ TEST(Pads, TheFourFatesOfAForceDevice) {
   EXPECT_NEAR(sticky.given, predict(Bank(weak), 0, 0.5f).level, 1e-5);
 }
 
-TEST(Pads, WhatCannotBePushedIsLost) {
+TEST(Pads, ForcesThatAPadCannotRenderAreLost) {
   Declared file(
       "material mixed {\n"
       "  perceptual { roughness 0.5; springiness 0.3 }\n"
@@ -151,17 +151,16 @@ TEST(Pads, WhatCannotBePushedIsLost) {
             "roughness approximated, springiness lost, lateral amplitude approximated, texture period kept, "
             "spring stiffness lost, firm stiffness lost, other forces lost, place of features approximated");
   EXPECT_EQ(file.codes(), "W0415 W0415") << "the percept, and the physics";
-  // What is left of a wall is nothing, and that is said, and a program.
+  // A wall becomes a program without vibration, and its fates say so.
   Bank wall(file.program("wall", "touch_pad"));
   EXPECT_EQ(tick(wall, {.position = {0.03f, 0}, .velocity = {0.2f, 0}}), Force(0));
   EXPECT_EQ(fates(wall.program()), "firm stiffness lost, place of features lost");
-  EXPECT_EQ(fates(file.program("oil", "touch_pad")), "viscous viscosity lost") << "which has no place";
+  EXPECT_EQ(fates(file.program("oil", "touch_pad")), "viscous viscosity lost") << "oil has no features";
   EXPECT_THROW(file.program("needs", "gamepad"), std::runtime_error) << "W0404";
 }
 
-// A force of the author's own size is as rough on the pad as Minsky's figure 19 says that it is: (1.2 N / 194
-// pu)^0.759593.
-TEST(Pads, AForceOfTheAuthorsOwnIsToldByWhatItFeelsLike) {
+// A force with a fixed amplitude gets the roughness of Minsky's figure 19 on the pad: (1.2 N / 194 pu)^0.759593.
+TEST(Pads, AFixedForceIsRenderedByItsRoughness) {
   Declared file("material fixed { physical { force = lateral(grating(x, period: 2 mm), amplitude: 1.2 N) } }\n");
   const Program program = file.program("fixed", "touch_pad");
   const double level = std::pow(1.2 / (194 * 10.0 / 512), 0.759593);
@@ -184,9 +183,9 @@ TEST(Pads, TwoPerceptsShareTheActuator) {
   for (const PerceptRecord& record : program.description().percepts) EXPECT_FALSE(record.alone);
 }
 
-// A gamepad that explores ribs of 2.5 mm at 0.1 m/s shakes 40 times a second, where it gives 10 m/s^2: a third of the
-// way from 8 m/s^2 at 30 Hz to 14 m/s^2 at 60 Hz. A buzz shakes 120 times: up to 15 m/s^2. Together they have 16 m/s^2.
-TEST(Pads, SaturateWhereTheActuatorHasNoMore) {
+// A gamepad renders ribs of 2.5 mm at 0.1 m/s with 40 Hz, where it gives 10 m/s^2: a third of the way from 8 m/s^2 at
+// 30 Hz to 14 m/s^2 at 60 Hz. A vibration of 120 Hz has up to 15 m/s^2. Both together have 16 m/s^2.
+TEST(Pads, SaturateAtTheLimitOfTheActuator) {
   Declared file(
       "material ribs { perceptual { roughness 1 } }\nmaterial soft { perceptual { roughness 0.5 } }\n"
       "material both { perceptual { roughness 0.8; vibration 1 } }\n");
@@ -221,9 +220,10 @@ TEST(Pads, DeclarationsThatDoNotFitAreReported) {
                        "all rising"));
   EXPECT_TRUE(contains(complaint("device p { acceleration 60 Hz, 100 % = 5 N\n" + pad + "}"), "acceleration expected"));
   EXPECT_TRUE(contains(complaint("device p { force 3 N, 100 counts\n" + row + pad + "}"), "no setting `force`"));
-  EXPECT_TRUE(contains(complaint("device p { realise roughness = shaking, rate = speed\n" + row + pad +
-                                 "}\nmaterial m { perceptual { roughness 0.5 } }"),
-                       ""));
+  EXPECT_EQ(complaint("device p { realise roughness = shaking, rate = speed\n" + row + pad +
+                      "}\nmaterial m { perceptual { roughness 0.5 } }"),
+            "")
+      << "a realisation is checked when a material uses it";
 }
 
 TEST(Pads, TheDimensionsOfARealisationAreChecked) {
@@ -243,7 +243,7 @@ TEST(Pads, TheDimensionsOfARealisationAreChecked) {
   EXPECT_EQ(said("  realise roughness = shaking, rate = speed / period, period 2 mm\n"), "fine");
   EXPECT_NE(said("  realise roughness = shaking, rate = speed\n").find("frequency expected"), std::string::npos);
   EXPECT_NE(said("  realise roughness = 2 N, rate = 100 Hz\n").find("acceleration expected"), std::string::npos);
-  // A rule that needs to know where the hand is has nothing to go by.
+  // A realisation that needs the hand's place is lost on a device without a position.
   Declared blind(device + "  realise roughness = shaking * (0.5 + x / 1 m), rate = 100 Hz\n" + material);
   EXPECT_EQ(fate(blind.program("m", "p"), "roughness", true).fate, Fate::lost);
 }

@@ -1,5 +1,5 @@
-// Several percepts in one material, each solved through its own carrier: the sizes against the closed forms of the
-// publications (worked out here a second time), the forces against the textbook's.
+// Several percepts in one material, each with its own carrier: sizes against the closed forms of the publications,
+// computed independently here, and forces against textbook formulas.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using calibrating::bank_at;
 using calibrating::Declared;
 using calibrating::percept_index;
 
-/// The carrier's size at a level, by the exponents and reference stimuli that are printed.
+/// The carrier's size at a level, by the published exponents and reference stimuli, in SI units.
 double size_of(const std::string& percept, double level) {
   static const std::map<std::string, std::pair<double, double>> closed_forms = {
       {"roughness", {194 * 10.0 / 512, 0.759593}},
@@ -52,12 +52,12 @@ TEST(FivePercepts, AreEachTheClosedFormOfTheirLevel) {
     EXPECT_NEAR(predict(bank, i, amplitude(bank, i)).level, level, 1e-5) << name;
     EXPECT_FALSE(program.description().percepts[i].alone);
   }
-  // In the order in which the author asks.
+  // Percepts are in the order of the file.
   EXPECT_EQ(program.description().percepts[0].name, "roughness");
   EXPECT_EQ(program.description().percepts[1].name, "viscosity");
 }
 
-TEST(FivePercepts, StayTrueAtEveryCornerOfTheirSliders) {
+TEST(FivePercepts, KeepTheirLevelsAtEveryCornerOfTheirRanges) {
   const Program program = Declared(five).program();
   for (int corner = 0; corner < 32; ++corner) {
     const auto level = [&](int i) { return corner >> i & 1 ? 0.35 : 0.15; };
@@ -85,31 +85,31 @@ Hand moving(double x, double v, double a = 0) {
   return hand;
 }
 
-/// The x force of a percept alone, rendered as the device pleases.
+/// The force along x, in N, of a percept alone, rendered by the rule of the device.
 double force_of(const std::string& percept, double level, const Hand& hand, const std::string& device = "sandpaper") {
   Declared declared("material m { perceptual { " + percept + " " + std::to_string(level) + " } }\n");
   Bank bank(declared.program("", device));
   return tick(bank, hand).x;
 }
 
-TEST(DeviceRules, GiveTheForceOfTheTextbook) {
+TEST(DeviceRules, GiveTheForcesOfTextbookFormulas) {
   for (const std::string device : {"sandpaper", "falcon"}) {
     const double b = size_of("viscosity", 0.5), k = size_of("springiness", 0.3), drag = size_of("stickiness", 0.6);
     EXPECT_NEAR(force_of("viscosity", 0.5, moving(0, 0.2), device), -b * 0.2, 1e-5);
     EXPECT_NEAR(force_of("springiness", 0.3, moving(0.02, 0.2), device), -k * 0.02, 1e-5);
-    // The same at every speed, against the motion.
+    // Friction is the same at every speed and opposes the motion.
     for (const double v : {0.1, 0.3, 0.9}) EXPECT_NEAR(force_of("stickiness", 0.6, moving(0, v), device), -drag, 1e-5);
     EXPECT_NEAR(force_of("stickiness", 0.6, moving(0, -0.2), device), drag, 1e-5);
     EXPECT_NEAR(force_of("heaviness", 0.4, moving(0, 0, 3), device), -3 * size_of("heaviness", 0.4), 1e-5);
-    // A wall right of 20 mm.
+    // The wall is right of 20 mm.
     EXPECT_NEAR(force_of("hardness", 0.4, moving(0.022, 0), device), -0.002 * size_of("hardness", 0.4), 1e-5);
     EXPECT_EQ(force_of("hardness", 0.4, moving(0.019, 0), device), 0);
     EXPECT_NEAR(force_of("crispness", 0.5, moving(0.021, 0.3), device), -0.3 * size_of("crispness", 0.5), 1e-5);
-    EXPECT_EQ(force_of("crispness", 0.5, moving(0.021, -0.3), device), 0) << "it lets go freely";
+    EXPECT_EQ(force_of("crispness", 0.5, moving(0.021, -0.3), device), 0) << "it is free on the way out";
   }
 }
 
-/// What 99 % of the places on a patch, less its rim, are pushed with at most.
+/// The 99th percentile of the force along the patch without its rim, in N.
 double pushed_over_the_patch(const std::string& percept, double level, const std::string& device) {
   Declared declared("material m { perceptual { " + percept + " " + std::to_string(level) + " } }\n");
   Bank bank(declared.program("", device));
@@ -121,7 +121,7 @@ double pushed_over_the_patch(const std::string& percept, double level, const std
   return forces[static_cast<std::size_t>(0.99 * places)];
 }
 
-TEST(DeviceRules, TexturesAndBumpsPushAsHardAsTheirLevelSays) {
+TEST(DeviceRules, TexturesAndBumpsHaveTheForceOfTheirLevel) {
   for (const std::string device : {"sandpaper", "falcon"}) {
     for (const double level : {0.2, 0.6, 0.9}) {
       const double rough = size_of("roughness", level), bumpy = size_of("bumpiness", level);
@@ -160,7 +160,7 @@ TEST(DeviceRules, AddTheirForcesAndAreNamed) {
 TEST(DeviceRules, OneFileBuildsForEachDevice) {
   Declared declared("material m { perceptual { roughness 0.6 } }\n");
   const Program here = declared.program("", "sandpaper"), there = declared.program("", "falcon");
-  // 0.6 of the magnitude at 194 pu is 1.934 N wherever it is felt; off the joystick it was measured on, with doubt.
+  // Level 0.6 is 1.934 N on every device. On other devices than the one of the experiment, the evidence is weaker.
   EXPECT_NEAR(amplitude(Bank(here), 0), 1.934, 5e-4);
   EXPECT_NEAR(amplitude(Bank(there), 0), 1.934, 5e-4);
   EXPECT_EQ(here.description().percepts[0].handle, Evidence::measured);
@@ -176,7 +176,7 @@ TEST(Antonyms, AreTheSameScaleFromItsOtherEnd) {
   EXPECT_TRUE(soft.parameter("hardness"));
   EXPECT_FALSE(soft.parameter("softness"));
 
-  // A level's name is a place on the scale, from whichever end it is seen; so is a percept given as an argument.
+  // The name of a level is the same place of the scale from either end. An antonym may also be an argument.
   Declared named(
       "material by_name { perceptual { softness soft } }\nmaterial firm { perceptual { hardness firm } }\n"
       "material softer = firm(softness: 0.8)\n");
@@ -196,7 +196,7 @@ TEST(Choice, OfAMapIsTheAuthors) {
   EXPECT_NEAR(amplitude(Bank(declared.program("theirs")), 0), size_of("roughness", 0.5), 1e-5);
 }
 
-TEST(FixedCarriers, AreToldWhereTheyStandAsTheyAre) {
+TEST(FixedCarriers, HaveAPerceptWhereTheyStandAlone) {
   Declared declared(
       "material oil { physical { force = viscous(3 N s/m) } }\n"
       "material rubbing { physical { force = hold(viscous(3 N s/m), 0.5 N) } }\n"
@@ -211,8 +211,8 @@ TEST(FixedCarriers, AreToldWhereTheyStandAsTheyAre) {
     EXPECT_TRUE(declared.program(name).description().percepts.empty()) << name;
 }
 
-/// roughness, viscosity, springiness in this order: what is left of 10 N goes to the last.
-TEST(Reduction, FollowsTheAuthorsOrderWhereverTheSlidersStand) {
+/// The order is roughness, viscosity, springiness. Each gets at most what those before it leave of 10 N.
+TEST(Reduction, FollowsTheOrderOfTheFileForAllParameters) {
   Declared declared(
       "material m { perceptual { roughness 1; viscosity 1; springiness 0.8 } }\n"
       "material e { perceptual { roughness 1; viscosity 1; essential springiness 0.8 } }\n");
@@ -260,10 +260,10 @@ TEST(Couples, KeepTheLevelTrueWhileTheOtherMoves) {
   EXPECT_NEAR(amplitude(Bank(declared.program("fixed")), 0), 0.5 / 1.25, 1e-6);
 }
 
-/// A drag that matters more counts on a viscosity that matters less, of which the device's force leaves only a part:
-/// with v for the viscosity, the drag is s / (1 + v / 20), both come to what roughness and springiness leave of 10 N,
-/// and v is the positive root of a quadratic.
-TEST(Couples, CountOnWhatIsLeftOfTheOther) {
+/// The drag comes before the viscosity that its map couples, and the device's force allows only a part of that
+/// viscosity. With v for the viscosity, the drag is s / (1 + v / 20). Both together are the force that roughness and
+/// springiness leave of 10 N, so v is the positive root of a quadratic.
+TEST(Couples, UseTheReducedSizeOfTheOther) {
   Declared declared(
       "map stickiness from drag {\n  couples viscosity viscosity\n"
       "  law magnitude = drag / 1 N * (1 + viscosity / 20 N s/m)\n  valid drag 0.1 N .. 3 N\n  scatter 0.1\n"
@@ -293,7 +293,7 @@ TEST(Couples, CountOnWhatIsLeftOfTheOther) {
         EXPECT_NEAR(predict(bank, sticky, amplitude(bank, sticky)).level, std::min(s, left), 2e-5) << where;
       }
   EXPECT_TRUE(met_part && met_whole && met_none);
-  // In the other order the viscosity comes first, and takes all that is left.
+  // In the other order the viscosity comes first and takes all the force that is left.
   const Program turned = declared.program("turned");
   const Bank bank(turned);
   const double left = 10 - size_of("roughness", 1) - 0.04 * size_of("springiness", 0.6);
@@ -301,8 +301,8 @@ TEST(Couples, CountOnWhatIsLeftOfTheOther) {
   EXPECT_NEAR(amplitude(bank, percept_index(turned, "stickiness")), 0, 1e-5);
 }
 
-/// One just noticeable difference of a force, by those who tell the most apart (Pang, Tan and Durlach 1991): 7 % at
-/// 75 %, which is 7.3 % at d' = 1 and more than the least force that is noticed. The map is made to be surer than that.
+/// One just noticeable difference of a force by the smallest published threshold (Pang, Tan and Durlach 1991): 7 % at
+/// 75 % correct, which is 7.3 % at d' = 1 and above the threshold's floor. The map's scatter is smaller.
 TEST(Conflict, IsBeyondOneJustNoticeableDifference) {
   const auto agrees = [](double newton) {
     try {
@@ -346,7 +346,7 @@ TEST(Overdetermined, TwoPerceptsOfOneCarrierMustAgree) {
                std::runtime_error);
 }
 
-TEST(Lost, IsNoErrorUnlessItIsEssential) {
+TEST(Lost, IsAnErrorOnlyWhereItIsEssential) {
   const std::string poor =
       "device poor {\n  workspace disc(100 mm)\n  position 2048 counts\n  force 5 N, 1024 counts\n  rate 1 kHz\n"
       "  speed 1 m/s\n  slew 100 N/s\n  velocity_filter 15, 1 counts\n  patch 80 mm, 80 mm, 4 mm\n"
@@ -361,7 +361,7 @@ TEST(Lost, IsNoErrorUnlessItIsEssential) {
       Declared(poor + "material b { perceptual { viscosity 0.5; essential heaviness 0.5 } }\n").program("b"));
 }
 
-TEST(Sliders, SayWhatTheyDecalibrate) {
+TEST(Sliders, NameThePerceptThatTheyDecalibrate) {
   Declared declared(
       "material m {\n  perceptual { roughness 0.5 }\n  physical {\n"
       "    param wear = 0.5 in 0 .. 1 \"so far\"\n    param period = 2 mm in 1 mm .. 5 mm \"from ridge to ridge\"\n"
@@ -372,7 +372,7 @@ TEST(Sliders, SayWhatTheyDecalibrate) {
   EXPECT_EQ(parameters[*program.parameter("period")].description, "from ridge to ridge");
 }
 
-TEST(Records, CarryWhatDescribingNeeds) {
+TEST(Records, HoldTheFiguresForDescriptions) {
   const Program program = Declared(five).program();
   const PerceptRecord& roughness = program.description().percepts[percept_index(program, "roughness")];
   EXPECT_EQ(roughness.unit, "N");
@@ -381,7 +381,7 @@ TEST(Records, CarryWhatDescribingNeeds) {
   EXPECT_FLOAT_EQ(roughness.period_high, 0.01f);
   EXPECT_FLOAT_EQ(roughness.one, 194 * 10.0f / 512);
   EXPECT_EQ(roughness.observers, 15);
-  // Pang, Tan and Durlach 1991 tell the most apart; the least force is that of Tan 1992.
+  // The smallest fraction is that of Pang, Tan and Durlach 1991; the floor is that of Tan 1992.
   EXPECT_NEAR(roughness.weber, 0.07 / (std::sqrt(2.0) * 0.6744897501960817), 1e-6);
   EXPECT_FLOAT_EQ(roughness.floor, 0.1f);
   EXPECT_EQ(roughness.weber_evidence, Evidence::transferred);

@@ -1,5 +1,5 @@
-// A program knows the figures of the device that it was built for. A plugged device whose declaration has other figures
-// would turn the program's forces and places into others, so it does not get the program.
+// A program holds the figures of the device that it was built for. On a plugged device whose declaration has other
+// figures, forces and places would be wrong, so the program is refused.
 
 #include <gtest/gtest.h>
 
@@ -16,17 +16,17 @@ namespace {
 
 using Change = std::function<void(DeviceProfile&)>;
 
-/// A driver whose devices say that they were asked, and cannot be opened: a program that comes so far was accepted.
+/// A driver whose devices cannot be opened. Its error shows that the program was accepted.
 const Driver reached{
     .name = "reached",
     .is_chosen_by_auto = false,
     .is_felt = true,
     .find = [](const Connections&, const PluggedIn*) { return std::vector<PluggedIn>{}; },
     .open = [](const Connections&, const PluggedIn&, const DeviceProfile&, const DeviceOptions&) -> OpenedDevice {
-      return Error{Code::lost_device, "it was asked"};
+      return Error{Code::lost_device, "the driver was asked"};
     }};
 
-const Error suited{Code::lost_device, "it was asked"};
+const Error suited{Code::lost_device, "the driver was asked"};
 
 PatchProgram built_for(const std::string& device) {
   return calibrating::Declared(
@@ -36,7 +36,7 @@ PatchProgram built_for(const std::string& device) {
       .description();
 }
 
-/// What comes of a program whose device's figures were changed after it was built, on that device as it is declared.
+/// The error of feeling a program on its device as declared, after `change` to the device's figures in the program.
 Error on_plugged(PatchProgram program, const Change& change) {
   DeviceToFeel device;
   device.connections = Connections{.usb = Error{Code::unusable_device, "no USB here"}};
@@ -69,7 +69,7 @@ TEST(SuitedDevice, OtherFiguresOfForceAndPlaceAreRefused) {
   for (const auto& [figure, change] : changes) {
     const Error error = on_plugged(program, change);
     EXPECT_EQ(code_name(error.code), "W0607") << figure << ": " << error.sentence;
-    EXPECT_EQ(error.sentence, "`wall` is built for a `openffboard` with other figures than its declaration has");
+    EXPECT_EQ(error.sentence, "`wall` is built for a `openffboard` with other figures than in its declaration");
     EXPECT_FALSE(error.mend.empty()) << figure;
   }
 }
@@ -92,7 +92,7 @@ TEST(SuitedDevice, OtherFiguresOfVibrationAreRefused) {
   }
 }
 
-// Forces and places stay the same when somebody weighs the handle.
+// The mass, damping and friction of the handle change neither forces nor places.
 TEST(SuitedDevice, FiguresThatScaleNothingMayDiffer) {
   const Error error = on_plugged(built_for("openffboard"), [](DeviceProfile& profile) {
     profile.mass += 0.1;

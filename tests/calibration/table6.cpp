@@ -1,7 +1,7 @@
 // The published regression (Minsky 1995, figure 19) against the amplitudes of its stimuli (table 6). The thesis prints
-// no ratings, so nothing can be fitted again; but least squares ties the printed figures to the amplitudes, and the
-// ties hold in one unit of force only. All printed figures are quoted here from the thesis; slope and constant are read
-// from the map that the compiler uses.
+// no ratings, so the fit cannot be repeated. But the printed sums of squares and standard errors follow from the
+// amplitudes by least squares, and only in one unit of force. Printed figures are quoted here from the thesis; slope
+// and constant are read from the map of the compiler.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,12 +79,12 @@ PrintedLaw published_law() {
   const std::regex law(
       R"(\n\s*law\s+log10\(magnitude\) = ([0-9.]+) \* log10\(amplitude / 1 pu\) ([-+]) ([0-9.]+)\s*\n)");
   std::smatch found;
-  EXPECT_TRUE(std::regex_search(text, found, law)) << "the law is written differently now";
+  EXPECT_TRUE(std::regex_search(text, found, law)) << "the map does not have the form that this test reads";
   if (found.empty()) return {};
   return {std::stod(found[1]), (found[2] == "-" ? -1 : 1) * std::stod(found[3])};
 }
 
-/// What least squares says of a regression on log10 of these abscissae whose residuals are figure 19's.
+/// Least squares on log10 of the amplitudes, with the residuals of figure 19.
 struct Regression {
   double mean = 0, squares = 0;  ///< of the abscissae: their mean, and the sum of squares about it
   double slope_error = 0, constant_error = 0;
@@ -142,7 +142,8 @@ TEST(Table6, PrintedGramsAreOfTwentyEightToTheOunce) {
   for (std::size_t i = 0; i < units.size(); ++i) {
     const double true_grams = units[i] * 10.0 / 512 / 0.00980665;
     EXPECT_NEAR(grams[i], true_grams * 28 / 28.349523125, 1.0) << units[i];
-    const double tolerance = table6().at("printed_oz")[i] == "1.9" ? 0.5 : 0.15;  // 1.9 is the slip beside 41 g
+    const double tolerance =
+        table6().at("printed_oz")[i] == "1.9" ? 0.5 : 0.15;  // the printed 1.9 oz beside 41 g is an error of the thesis
     EXPECT_NEAR(ounces[i], true_grams / 28.349523125, tolerance) << units[i];
   }
 }
@@ -178,8 +179,8 @@ TEST(Figure19, StandardErrorsAndRatios) {
   EXPECT_NEAR(100 * explained / (explained + residual_squares), 96.6, 0.05);
 }
 
-/// The slope's standard error is the same in every unit. The constant's is not: it says what the amplitudes were
-/// measured in, which the thesis does not.
+/// The standard error of the slope is the same in every unit. That of the constant depends on the unit, so it shows the
+/// unit of the amplitudes, which the thesis does not state.
 TEST(Figure19, TheUnitIsTheProgramUnitAndNoOther) {
   const std::vector<double> units = numbers("program_units");
   const double newton = 10.0 / 512, gram = newton / 0.00980665, ounce = newton / 0.27801385095378125;
@@ -203,7 +204,7 @@ TEST(Figure19, TheUnitIsTheProgramUnitAndNoOther) {
   }
 }
 
-TEST(Figure19, CompiledProgramsCarryThisLaw) {
+TEST(Figure19, CompiledProgramsHaveThisLaw) {
   const PrintedLaw law = published_law();
   const Bank bank(with_roughness("0.6"));
   for (const double units : numbers("program_units")) {
@@ -221,8 +222,8 @@ TEST(Roughness, LevelsComeOutInNewtons) {
     EXPECT_NEAR(amplitude(Bank(with_roughness(level)), 0), force_for(std::stod(level)), 1e-5) << level;
 }
 
-/// Table 6 in, as levels by the printed regression; physical force out.
-TEST(Roughness, EveryStimulusOfTable6ComesOutAsItsForce) {
+/// Each amplitude of table 6, converted to a level by the printed regression, gives a program with that amplitude.
+TEST(Roughness, EveryStimulusOfTable6HasItsForce) {
   for (const double units : numbers("program_units")) {
     const double newton = units * 10 / 512;
     calibrating::Declared declared("material ribs {\n  perceptual { roughness " +
@@ -233,8 +234,8 @@ TEST(Roughness, EveryStimulusOfTable6ComesOutAsItsForce) {
   }
 }
 
-/// The exponent is data: besides tests, which may quote the thesis, only the map knows it.
-TEST(Figure19, StandsInNoProgram) {
+/// The exponent is data of the map; no C++ outside of tests contains it.
+TEST(Figure19, StandsInNoSource) {
   const std::string slope = std::to_string(published_law().slope);
   ASSERT_EQ(slope, "0.759593");
   int searched = 0;

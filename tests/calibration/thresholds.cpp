@@ -1,4 +1,4 @@
-// Discrimination thresholds brought to d' = 1, and the rules by which stimuli are classed, against their publications.
+// Discrimination thresholds converted to d' = 1, and the rules of texture classes, against their publications.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,8 @@ namespace {
 using calibrating::Declared;
 
 TEST(Sensitivity, IsThatOfTheTables) {
-  // Two-alternative forced choice: p = Phi(d' / sqrt 2), Macmillan and Creelman, Detection Theory, 2nd ed. (2005), ch. 7.
+  // Two-alternative forced choice: p = Phi(d' / sqrt 2), Macmillan and Creelman, Detection Theory, 2nd ed. (2005),
+  // ch. 7.
   EXPECT_NEAR(sensitivity(Task::forced_choice, 0.707), 0.77, 0.005);
   EXPECT_NEAR(sensitivity(Task::forced_choice, 0.75), 0.95, 0.005);
   EXPECT_NEAR(sensitivity(Task::forced_choice, 0.794), 1.16, 0.005);
@@ -24,10 +25,10 @@ TEST(Sensitivity, IsThatOfTheTables) {
   EXPECT_NEAR(normal_quantile(0.5), 0, 1e-12);
 }
 
-/// Weber fractions as published and z of their criteria: 75 % where none is told.
+/// z of the criteria 71, 75 and 84 % correct. 75 % holds where a publication states none.
 constexpr double z71 = 0.5533847195556727, z75 = 0.6744897501960817, z84 = 0.9944578832097531;
 
-/// The publication that counts on a device for sizes near this one, SI.
+/// The threshold that is used on a device for sizes near this one, in SI units.
 const Threshold* chosen(const Declared& declared, const char* cue, const char* device, double size) {
   return Discrimination(declared.declarations(), cue, device, 0).threshold(size, 1.01 * size);
 }
@@ -76,7 +77,7 @@ TEST(ShippedThresholds, OneSensitivityAtTwoCriteria) {
   EXPECT_EQ(chosen(declared, "orientation", "sandpaper", 1), nullptr);
 }
 
-TEST(Threshold, CountsRatiosAndNearNothingDifferences) {
+TEST(Threshold, CountsRatiosAndSmallDifferencesByTheFloor) {
   Threshold threshold;
   threshold.weber = 0.25;
   EXPECT_NEAR(threshold.distance(1, 1.25), 1, 1e-12);
@@ -85,11 +86,11 @@ TEST(Threshold, CountsRatiosAndNearNothingDifferences) {
   EXPECT_TRUE(std::isinf(threshold.distance(0, 1)));
   threshold.floor = 0.5;
   EXPECT_NEAR(threshold.distance(0, 1), 2, 1e-12);
-  EXPECT_NEAR(threshold.distance(0.1, 0.2), 0.2, 1e-12) << "twice as much, but both next to nothing";
-  EXPECT_NEAR(threshold.distance(10, 12.5), 1, 1e-12) << "where the share is more than the floor";
+  EXPECT_NEAR(threshold.distance(0.1, 0.2), 0.2, 1e-12) << "both sizes are below the floor";
+  EXPECT_NEAR(threshold.distance(10, 12.5), 1, 1e-12) << "the fraction is above the floor";
 }
 
-TEST(ShippedThresholds, TheDeviceAtHandGoesFirst) {
+TEST(ShippedThresholds, OneOfTheSameDeviceComesFirst) {
   const Declared declared(
       "threshold viscosity {\n  quantity viscosity\n  weber 0.5\n  task yes_no\n  criterion 75 %\n"
       "  evidence slope estimated, handle measured\n  on sandpaper\n  source \"a test\"\n}\n");
@@ -98,24 +99,25 @@ TEST(ShippedThresholds, TheDeviceAtHandGoesFirst) {
   EXPECT_NE(chosen(declared, "viscosity", "falcon", 10)->source, "a test");
 }
 
-/// By size, in one's own words: those who compared such sizes first, of them the better known, of them the least share.
-TEST(ShippedThresholds, OfSeveralTheOneCountsThatComparedSuchSizes) {
+/// The threshold for a size is one whose publication compared such sizes; among these the one with the best evidence;
+/// among these the one with the smallest fraction.
+TEST(ShippedThresholds, TheOneThatComparedSuchSizesIsUsed) {
   const Declared declared("");
-  // Jones and Hunter 1993 compared 2 to 1024 N s/m, Jones, Hunter and Lafontaine 1997 4 to 512; at d' = 1 the former
-  // find 24.2 % and the latter 24.3 %. Beauregard and Srinivasan, who do not say what they compared, are only recalled.
+  // Jones and Hunter 1993 compared 2 to 1024 N s/m and found 24.2 % at d' = 1. Jones, Hunter and Lafontaine 1997
+  // compared 4 to 512 N s/m and found 24.3 %. The figures of Beauregard and Srinivasan are recalled, without a range.
   EXPECT_EQ(chosen(declared, "viscosity", "sandpaper", 10)->source, "Jones and Hunter 1993, abstract");
   EXPECT_EQ(chosen(declared, "viscosity", "sandpaper", 3)->source, "Jones and Hunter 1993, abstract");
   EXPECT_EQ(chosen(declared, "viscosity", "sandpaper", 1)->source, "Beauregard and Srinivasan 1997, recalled");
   const Discrimination people(declared.declarations(), "viscosity", "sandpaper", 0.25);
-  EXPECT_EQ(people.threshold(0, 10)->source, "Jones and Hunter 1993, abstract") << "nothing is no size";
+  EXPECT_EQ(people.threshold(0, 10)->source, "Jones and Hunter 1993, abstract") << "0 is not a size that was compared";
   EXPECT_EQ(people.evidence(*people.threshold(3, 10)), Evidence::transferred);
   EXPECT_NEAR(*people.distance(10, 12.5), std::log(1.25) / std::log1p(0.34 / (std::sqrt(2.0) * z84)), 1e-9);
-  // 0.1 N are the least force that differs, and 1 N s/m pushes 0.25 N: 0.4 N s/m.
+  // The floor is 0.1 N, and 1 N s/m gives 0.25 N, so the floor of a viscosity is 0.4 N s/m.
   EXPECT_NEAR(people.floor(*people.threshold(3, 10)), 0.4, 1e-12);
   EXPECT_NEAR(*people.distance(0, 6), 15, 1e-9);
-  EXPECT_NEAR(*people.distance(-3, 3), 15, 1e-9) << "what pushes on and what holds back are no matter of ratio";
+  EXPECT_NEAR(*people.distance(-3, 3), 15, 1e-9) << "figures of opposite sign have no ratio";
   EXPECT_EQ(people.distance(5, 5), 0.0);
-  // What is no force has no least one, and of nothing there is no ratio.
+  // A cue that is no force has no floor, and there is no ratio to 0.
   const Discrimination periods(declared.declarations(), "period", "sandpaper", 0);
   EXPECT_FALSE(periods.distance(0, 1e-3));
   EXPECT_FALSE(Discrimination(declared.declarations(), "orientation", "sandpaper", 0).distance(1, 2));

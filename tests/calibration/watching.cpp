@@ -1,4 +1,4 @@
-// A file that is watched while it is felt: whatever way it is saved, and with errors.
+// Watching a file while it is felt: every way of saving it, and files with errors.
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 using Outcome = MaterialWatch::Outcome;
 
-/// Long enough on any machine; nobody waits for it but where something is wrong.
+/// A time limit for changes that must be noticed. A passing test does not wait that long.
 constexpr std::chrono::seconds long_enough{60};
-/// For what should not happen.
+/// The waiting time where no change may be noticed. The test cannot fail because the machine is slow.
 constexpr std::chrono::milliseconds short_while{40};
 
-/// As most editors do: beside it, then renamed.
+/// Writes another file in the folder and renames it, as most editors do.
 void write_and_rename(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
   const std::string beside = folder.write("." + name + ".swp", text);
   fs::rename(beside, folder / name);
@@ -34,7 +34,7 @@ std::string pushing(double newton, const std::string& more = {}) {
          " N in -5 N .. 5 N\n    force = vector(push, 0 N)\n" + more + "  }\n}\n";
 }
 
-/// A stage that feels a file, and the watch that keeps it to it.
+/// A stage with the program of a file, and the watch of that file.
 struct Watched {
   explicit Watched(const std::string& file)
       : program(compiled(file)),
@@ -53,7 +53,7 @@ struct Watched {
     return *program;
   }
 
-  /// N, what is felt now.
+  /// The value of the first parameter of the active program, in N.
   float felt() const { return stage.bank()->registers()[program.description().first_parameter()]; }
   std::string take_said() { return std::exchange(said, {}); }
 
@@ -64,7 +64,7 @@ struct Watched {
   MaterialWatch watch;
 };
 
-TEST(Watching, AFileThatIsSavedInAnyWayIsFeltAnew) {
+TEST(Watching, EveryWayOfSavingActivatesTheNewVersion) {
   const TemporaryFolder folder;
   Watched watched(folder.write("m.wale", pushing(1)));
   EXPECT_EQ(watched.felt(), 1);
@@ -85,11 +85,11 @@ TEST(Watching, AFileThatIsSavedInAnyWayIsFeltAnew) {
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced);
   EXPECT_EQ(watched.felt(), 5);
   folder.write("other.wale", pushing(0.5));
-  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << "what the link leads to";
+  EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << "the target of the link changed";
   EXPECT_EQ(watched.felt(), 0.5);
 }
 
-TEST(Watching, OtherFilesAndSavesThatChangeNothingAreNone) {
+TEST(Watching, OtherFilesAndUnchangedTextChangeNothing) {
   const TemporaryFolder folder;
   Watched watched(folder.write("m.wale", pushing(1)));
   folder.write("another.wale", pushing(2));
@@ -100,7 +100,7 @@ TEST(Watching, OtherFilesAndSavesThatChangeNothingAreNone) {
   EXPECT_EQ(watched.said, "");
 }
 
-TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
+TEST(Watching, ErrorsKeepTheOldVersionAndAreReportedOnce) {
   const TemporaryFolder folder;
   Watched watched(folder.write("m.wale", pushing(1)));
   folder.write("m.wale", "wale 1\nmaterial m {\n  physical {\n    force = 3 m\n  }\n}\n");
@@ -112,7 +112,7 @@ TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
   EXPECT_TRUE(said.ends_with("wale: the previous version stays active\n")) << said;
   folder.write("m.wale", "wale 1\nmaterial m {\n  physical {\n    force = 3 m\n  }\n}\n");
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
-  EXPECT_EQ(watched.take_said(), "") << "no news";
+  EXPECT_EQ(watched.take_said(), "") << "the errors are the same";
   fs::remove(folder / "m.wale");
   EXPECT_EQ(watched.watch.attend(long_enough), Outcome::refused);
   EXPECT_NE(watched.take_said().find("no such file"), std::string::npos);
@@ -124,7 +124,7 @@ TEST(Watching, WithErrorsTheOldFeelStaysAndTheyAreSaidOnce) {
   EXPECT_EQ(watched.felt(), 2);
 }
 
-TEST(Watching, WhatIsImportedIsWatchedTooAlsoBeforeItIsThere) {
+TEST(Watching, ImportsAreWatchedTooEvenBeforeTheyExist) {
   const TemporaryFolder folder;
   folder.write("strength.wale", "wale 1\nexport let strength = 1 N\n");
   const std::string text =
@@ -144,7 +144,7 @@ TEST(Watching, WhatIsImportedIsWatchedTooAlsoBeforeItIsThere) {
   EXPECT_EQ(watched.felt(), 3);
 }
 
-TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
+TEST(Watching, ANewVersionIsActiveInTheNextTickAndKeepsStatesAndParameters) {
   const TemporaryFolder folder;
   const auto counting = [](const std::string& gain, const std::string& more, const std::string& state) {
     return "wale 1\nmaterial m {\n  physical {\n    param gain = " + gain + " in 0 N/s .. 5 N/s\n" + more +
@@ -154,11 +154,11 @@ TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
   Watched watched(folder.write("m.wale", counting("0.5 N/s", "", seconds)));
   ASSERT_TRUE(watched.stage.set("gain", 0.25f));
   const auto save = [&](const Progress& now) {
-    if (now.ticks_run == 900) {  // one parameter more, and another default for the one that was set
+    if (now.ticks_run == 900) {  // a further parameter, and another default of the one that was set
       write_and_rename(folder, "m.wale", counting("0.75 N/s", "    param more = 2 mm in 0 mm .. 5 mm\n", seconds));
       EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
     }
-    if (now.ticks_run == 1800) {  // the state is of another dimension now
+    if (now.ticks_run == 1800) {  // the state has another dimension
       folder.write("m.wale", counting("0.75 N/s", "",
                                       "u : length = 0 m in 0 m .. 100 m\n    u' = 1 m/s\n    let t = u / (1 m/s)"));
       EXPECT_EQ(watched.watch.attend(long_enough), Outcome::replaced) << watched.said;
@@ -169,9 +169,9 @@ TEST(Watching, IsFeltFromTheNextTickOnWithStatesAndParametersThatStayTheSame) {
   const auto& ticks = result->record.ticks;
   const double step = 10.0 / 2048;  // of the force
   EXPECT_NEAR(ticks[899].force.x, 0.25 * 899 / 900, step);
-  EXPECT_NEAR(ticks[900].force.x, 0.25 * 900 / 900, step) << "its state and its parameter, in the very next tick";
+  EXPECT_NEAR(ticks[900].force.x, 0.25 * 900 / 900, step) << "the state and the parameter are kept";
   EXPECT_NEAR(ticks[1799].force.x, 0.25 * 1799 / 900, step);
-  EXPECT_NEAR(ticks[1810].force.x, 0.25 * 10 / 900, 0.05) << "begins anew, and slews there";
+  EXPECT_NEAR(ticks[1810].force.x, 0.25 * 10 / 900, 0.05) << "the state begins anew; the force slews";
   EXPECT_NEAR(ticks[2699].force.x, 0.25 * 899 / 900, step);
 }
 

@@ -1,4 +1,4 @@
-// Help, versions, exit statuses, and files that are not what they should be.
+// Help, versions, exit statuses, and files that are wrong.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 const std::vector<std::string> verbs{"check",  "explain", "format", "build",  "describe", "find",   "compare",
                                      "levels", "feel",    "replay", "sample", "preview",  "devices"};
 
-TEST(Help, TellsADesignerACuratorAndAProgrammerWhereToStart) {
+TEST(Help, NamesTheStartForDesignersCuratorsAndProgrammers) {
   const Outcome help = wale({"--help"});
   EXPECT_EQ(help.status, 0);
   const std::string first_lines = help.out.substr(0, 800);
@@ -37,8 +37,8 @@ TEST(Version, NamesProgramAndLanguage) {
   EXPECT_TRUE(contains(version.out, "language version 1"));
 }
 
-// Linked with OpenImageIO every command would take a quarter of a second longer: compiler/image/image_library.hpp.
-TEST(Version, IsToldWithoutTheLibraryOfPictures) { EXPECT_FALSE(contains(bytes_of(WALE_BINARY), "libOpenImageIO")); }
+// With OpenImageIO linked, every command would take a quarter of a second longer (compiler/image/image_library.hpp).
+TEST(Version, NeedsNoPictureLibrary) { EXPECT_FALSE(contains(bytes_of(WALE_BINARY), "libOpenImageIO")); }
 
 TEST(Misuse, IsStatus2AndSaysSo) {
   const std::vector<std::vector<std::string>> misuses{{},
@@ -61,7 +61,7 @@ TEST(Misuse, IsStatus2AndSaysSo) {
 
 TEST(Misuse, NearestVerbIsProposed) { EXPECT_TRUE(contains(wale({"chekc", corduroy}).err, "`check`")); }
 
-TEST(Files, EveryVerbRefusesWhatCannotBeRead) {
+TEST(Files, EveryVerbRefusesUnreadableFiles) {
   const TemporaryFolder folder;
   const std::string folder_itself = folder / ".", missing = folder / "missing.wale";
   for (const auto& file : {folder_itself, missing}) {
@@ -80,7 +80,7 @@ TEST(Files, EveryVerbRefusesWhatCannotBeRead) {
   }
 }
 
-TEST(Files, TextThatIsNoneIsADiagnostic) {
+TEST(Files, InvalidTextIsADiagnostic) {
   const TemporaryFolder folder;
   const std::string empty = folder.write("empty.wale", ""),
                     binary = folder.write("binary.wale", std::string("\x7f"
@@ -146,7 +146,7 @@ TEST(Check, JsonHasEveryFieldOfADiagnostic) {
   EXPECT_EQ(wale({"check", "--json", corduroy}).json(), nlohmann::json::array());
 }
 
-TEST(Devices, AreTheSimulatedOneAndThoseToBuildFor) {
+TEST(Devices, IncludeTheSimulatedOneAndThoseToBuildFor) {
   EXPECT_TRUE(contains(wale({"devices"}).out, "sandpaper"));
   EXPECT_TRUE(contains(wale({"devices"}).out, "plugged in"));
   const auto devices = wale({"devices", "--json"}).json();

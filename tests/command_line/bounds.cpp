@@ -1,4 +1,4 @@
-// Files that are too large, too deep, broken or lying: each is one clear diagnostic, within bounded memory.
+// Files that are too large, too deep, broken or malicious. Each gives one clear diagnostic within bounded memory.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -10,8 +10,8 @@ namespace {
 
 constexpr long most_megabytes = 1500;
 
-/// `wale check` of the file, within bounds of memory and output. Time is not measured: a step that grows with the
-/// square of such a file would not come to an end.
+/// Runs `wale check` on the file and expects bounded memory and output. Time is not measured: a step that is quadratic in
+/// such a file would not end.
 Outcome check_within_bounds(const std::string& file) {
   const Outcome outcome = wale({"check", file});
   EXPECT_LT(outcome.out.size(), 1u << 20) << file;
@@ -22,7 +22,7 @@ Outcome check_within_bounds(const std::string& file) {
   return outcome;
 }
 
-/// What `check` says of a text.
+/// The outcome of `wale check` on a text.
 Outcome check_text(const std::string& text) {
   const TemporaryFolder folder;
   return check_within_bounds(folder.write("hostile.wale", text));
@@ -34,7 +34,7 @@ std::string repeated(const std::string& part, std::size_t bytes) {
   return text;
 }
 
-/// One line after another with a number in each.
+/// Lines with their numbers.
 template <class Line>
 std::string numbered(std::size_t lines, Line line) {
   std::string text;
@@ -53,7 +53,7 @@ TEST(Bounds, AHundredMegabytesAreOneDiagnostic) {
   }
 }
 
-TEST(Bounds, BytesThatAreNoTextAreOneDiagnostic) {
+TEST(Bounds, BytesThatAreNotUtf8AreOneDiagnostic) {
   const struct {
     std::string text;
     const char* said;
@@ -155,11 +155,11 @@ TEST(Bounds, ImportsThousandsDeepAreOneDiagnostic) {
   for (int i = 0; i < files; ++i)
     folder.write("m" + std::to_string(i) + ".wale", "wale 1\nimport m" + std::to_string(i + 1) + "\n");
   const Outcome outcome = check_within_bounds(folder / "m0.wale");
-  EXPECT_TRUE(contains(outcome.out, "error[W0108]: more than 64 files import one another in a row")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "error[W0108]: imports are nested more than 64 files deep")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "1 file: 1 error,")) << outcome.out;
 }
 
-TEST(Bounds, AThousandImportsAreTheMost) {
+TEST(Bounds, MoreThanAThousandImportsAreOneDiagnostic) {
   const TemporaryFolder folder;
   std::string imports = "wale 1\n";
   for (int i = 1; i <= 1001; ++i) {

@@ -1,4 +1,4 @@
-// Many materials at once, and libraries from elsewhere.
+// Building many materials at once, and libraries in other folders.
 
 #include <gtest/gtest.h>
 
@@ -25,12 +25,12 @@ TEST(BuildAll, EveryMaterialIsAProgramOfItsName) {
     EXPECT_EQ(bytes_of(program), bytes_of(alone)) << name;
   }
   EXPECT_TRUE(outcome.out.ends_with("3 of 3 materials built\n")) << outcome.out;
-  EXPECT_EQ(wale({"build", "--all", file, "-o", out}).status, 0) << "a second time they are replaced";
+  EXPECT_EQ(wale({"build", "--all", file, "-o", out}).status, 0) << "the programs are replaced";
 }
 
-TEST(BuildAll, OneThatFailsKeepsNoOtherFromBeingBuilt) {
+TEST(BuildAll, AnErrorDoesNotStopTheOthers) {
   const TemporaryFolder folder;
-  // A percept that contradicts the amplitude is an error of this material alone, found when it is solved.
+  // A percept that contradicts the amplitude is an error of this material only, found when it is solved.
   const std::string file =
       folder.write("two.wale",
                    "wale 1\nmaterial bad { perceptual { roughness 0.5 } physical { height h = grating(x, 2 mm)\n"
@@ -45,7 +45,7 @@ TEST(BuildAll, OneThatFailsKeepsNoOtherFromBeingBuilt) {
   EXPECT_FALSE(fs::exists(folder / "out/bad.wpp"));
 }
 
-TEST(BuildAll, RefusesWhatIsNoFolderAndWhatHasNoMaterials) {
+TEST(BuildAll, RefusesAFileAsFolderAndFilesWithoutMaterials) {
   const TemporaryFolder folder;
   const std::string file = folder.write("three.wale", three), taken = folder.write("taken", "mine");
   const Outcome outcome = wale({"build", "--all", file, "-o", taken});

@@ -1,4 +1,4 @@
-// wale compare, as a person runs it.
+// `wale compare`, `levels` and `feel --blind` on the command line.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ TEST(Compare, TwoMaterialsCueByCue) {
   EXPECT_TRUE(contains(run.out, "people can tell them apart, most easily by their")) << run.out;
 }
 
-TEST(Compare, AMaterialIsHardlyToldApartFromItself) {
+TEST(Compare, AMaterialIsAlikeToItself) {
   const Outcome run = wale({"compare", "--json", corduroy, corduroy + ":corduroy"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
@@ -30,7 +30,7 @@ TEST(Compare, AMaterialIsHardlyToldApartFromItself) {
   EXPECT_NEAR(json["materials"][0]["cues"]["period"]["value"].get<double>(), 2.5e-3, 0.03e-3);
 }
 
-TEST(Compare, OneIsNotEnoughAndWhatIsNotThereIsSaid) {
+TEST(Compare, OneMaterialOrAMissingFileIsAnError) {
   const Outcome alone = wale({"compare", corduroy});
   EXPECT_EQ(alone.status, 1);
   EXPECT_TRUE(contains(alone.err, "only one material")) << alone.err;
@@ -39,7 +39,7 @@ TEST(Compare, OneIsNotEnoughAndWhatIsNotThereIsSaid) {
   EXPECT_TRUE(contains(missing.err, "nowhere.wale")) << missing.err;
 }
 
-TEST(Compare, ManyAreAListOfThoseThatAreHardlyToldApart) {
+TEST(Compare, ManyAreAListOfPairsThatAreHardToTellApart) {
   const Outcome run = wale({"compare", library + "sandpaper/chapter5.wale"});
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "30 materials")) << run.out;
@@ -64,7 +64,7 @@ TEST(Compare, TheJsonOfManyHasAllDistancesAndTheNearestPairs) {
   EXPECT_EQ(json["nearest"][0], json["pairs"][0]["a"]);
 }
 
-TEST(Compare, FilesComeInTheirOrderWhateverThreadReadsThem) {
+TEST(Compare, FilesKeepTheirOrder) {
   const std::vector<std::string> names = {"velvet", "corduroy", "denim", "canvas", "jersey"};
   std::vector<std::string> words = {"compare", "--json"};
   for (const auto& name : names) words.push_back(library + "fabric/" + name + ".wale:" + name);
@@ -75,7 +75,7 @@ TEST(Compare, FilesComeInTheirOrderWhateverThreadReadsThem) {
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(json["materials"][i]["name"], names[i]);
 }
 
-TEST(Compare, WhatIsWrongIsSaidOfEachFileInTheirOrder) {
+TEST(Compare, ErrorsOfAllFilesAreShownInTheirOrder) {
   const TemporaryFolder folder;
   const std::string one = folder.write("one.wale", "wale 1\nmaterial m { physical { force = 1 m } }\n");
   const std::string two = folder.write("two.wale", "wale 1\nmaterial m { physical { force = nothing } }\n");
@@ -88,7 +88,7 @@ TEST(Compare, WhatIsWrongIsSaidOfEachFileInTheirOrder) {
   EXPECT_NE(third, std::string::npos) << run.err;
 }
 
-TEST(Compare, WhatIsOnlyRecalledWarns) {
+TEST(Compare, ARecalledThresholdIsAWarning) {
   const TemporaryFolder folder;
   const auto heavy = [&](const std::string& name, const std::string& mass) {
     return folder.write(name + ".wale", "wale 1\nmaterial " + name + " { physical { force = heavy(" + mass + ") } }\n");
@@ -99,7 +99,7 @@ TEST(Compare, WhatIsOnlyRecalledWarns) {
   EXPECT_TRUE(contains(run.err, "Beauregard and Srinivasan 1997, recalled")) << run.err;
 }
 
-TEST(Levels, AreProposedAsALineThatCanBePasted) {
+TEST(Levels, AreProposedAsADeclaration) {
   const Outcome run = wale({"levels", "roughness", "--steps", "5", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
@@ -113,13 +113,13 @@ TEST(Levels, AreProposedAsALineThatCanBePasted) {
   const Outcome checked = wale({"check", file});
   EXPECT_EQ(checked.status, 0);
   EXPECT_TRUE(contains(checked.out, "0 errors, 0 warnings")) << checked.out;
-  // Materials of two neighbours compare as the proposal says: read from their forces, and not from their levels.
+  // Materials with two adjacent levels, compared by their forces, differ as much as the proposal states.
   const auto compared = wale({"compare", "--json", file}).json();
   EXPECT_NEAR(compared["pairs"][0]["cues"]["amplitude"]["noticeable"].get<double>(),
               json["levels"][2]["apart"].get<double>(), 0.2);
 }
 
-TEST(Levels, WhatCannotBeProposedIsExplained) {
+TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_EQ(wale({"levels", "vibration"}).status, 1);
   EXPECT_TRUE(contains(wale({"levels", "vibration"}).err, "unknown: no published threshold"));
   EXPECT_TRUE(contains(wale({"levels", "rougness"}).err, "did you mean `roughness`?"));
@@ -148,11 +148,11 @@ TEST(Blind, PlaysAsksAndScores) {
     right += trial["right"].get<bool>();
   }
   EXPECT_EQ(json["right"], right);
-  // What compare says of the two.
+  // The prediction is that of `wale compare`.
   const auto compared = wale({"compare", "--json", corduroy, library + "fabric/denim.wale:denim"}).json();
   EXPECT_NEAR(json["predicted"]["d_prime"].get<double>(), compared["pairs"][0]["noticeable"].get<double>(), 1e-9);
   EXPECT_FALSE(json.contains("ended"));
-  EXPECT_EQ(wale(words, "1\nneither\n2\n1\n").out, run.out) << "the seed is the order";
+  EXPECT_EQ(wale(words, "1\nneither\n2\n1\n").out, run.out) << "the seed determines the order";
 }
 
 TEST(Blind, EndsWithTheAnswers) {

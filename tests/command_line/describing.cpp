@@ -1,4 +1,4 @@
-// What `wale describe` tells of documentation, ranges, memory, marks and modules, and `wale feel` of what was mended.
+// `wale describe` on documentation, ranges, memories, marks and modules; `wale feel` on restored states and limits.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ TEST(Describe, ProvesABoundAndGrades) {
                {"describe", folder.write("m.wale", "wale 1\nmaterial m { physical { " + physical + " } }\n"), "--json"})
         .json();
   };
-  // A spring on a patch of 80 mm: at most 40 N/m * 0.2286 m along each axis, were the patch as wide as the workspace.
+  // The bound of a spring is 40 N/m * 0.2286 m along each axis, as places are within the workspace, not the patch.
   const auto spring = of("patch 80 mm, 80 mm; force = -40 N/m * hand");
   EXPECT_NEAR(spring.at("force").at("bound_newton").get<double>(), 40 * 0.2286 * std::sqrt(2.0), 0.02);
   EXPECT_NEAR(spring.at("stiffness").at("max_newton_per_metre").get<double>(), 40, 1e-3);
@@ -59,7 +59,7 @@ TEST(Describe, ProvesABoundAndGrades) {
   EXPECT_EQ(spring.at("grade").at("name"), "ungraded");
   EXPECT_FALSE(spring.at("force").at("limit_matters").get<bool>());
   EXPECT_GT(spring.at("cost").get<int>(), 0);
-  // Over the device's 10 N: the limit is what bounds it.
+  // Above the device's 10 N, the bound is the limit.
   const auto stiff = of("force = -400 N/m * hand");
   EXPECT_NEAR(stiff.at("force").at("bound_newton").get<double>(), 10 * std::sqrt(2.0), 0.01);
   EXPECT_TRUE(stiff.at("force").at("limit_matters").get<bool>());
@@ -68,7 +68,7 @@ TEST(Describe, ProvesABoundAndGrades) {
   EXPECT_NEAR(ice.at("grade").at("required_damping").get<double>(), 2, 0.01);
 }
 
-TEST(Describe, TellsWhatAProgramRemembersAndShows) {
+TEST(Describe, HasStatesMemoriesAndMarks) {
   const TemporaryFolder folder;
   const std::string file = folder.write("sledge.wale", sledge);
   const auto described = wale({"describe", file, "--json"}).json();
@@ -98,7 +98,7 @@ TEST(Describe, TellsWhatAProgramRemembersAndShows) {
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
 }
 
-TEST(Describe, UsualRangesAreToldWhereTheyAreNarrower) {
+TEST(Describe, HasUsualRangesWhereTheyAreNarrower) {
   const TemporaryFolder folder;
   const std::string file = folder.write("sledge.wale", sledge);
   const auto parameters = wale({"describe", file, "--json"}).json().at("parameters");
@@ -110,7 +110,7 @@ TEST(Describe, UsualRangesAreToldWhereTheyAreNarrower) {
   EXPECT_FALSE(contains(text, "usually 0 .. 5")) << text;
 }
 
-TEST(Describe, SaysWhyNoPerceptIsTold) {
+TEST(Describe, SaysWhyThereIsNoPercept) {
   const TemporaryFolder folder;
   const auto reason = [&](const std::string& force) {
     const std::string file = folder.write("a.wale", "wale 1\nmaterial a { physical { force = " + force + " } }\n");
@@ -123,7 +123,7 @@ TEST(Describe, SaysWhyNoPerceptIsTold) {
   EXPECT_FALSE(wale({"describe", corduroy, "--json"}).json().contains("no_percept"));
 }
 
-TEST(Describe, AModuleTellsWhatItExports) {
+TEST(Describe, ListsTheExportsOfAModule) {
   const TemporaryFolder folder;
   const std::string file = folder.write("module.wale", module);
   const Outcome outcome = wale({"describe", file, "--json"});
@@ -156,23 +156,23 @@ TEST(Describe, AModuleTellsWhatItExports) {
   EXPECT_FALSE(contains(text, "hidden =")) << text;
 }
 
-TEST(Describe, WhatEveryFileKnowsIsAModuleToo) {
+TEST(Describe, ReadsTheFilesOfTheLanguageAsModules) {
   const auto described = wale({"describe", std::string(WALE_SOURCE_DIR) + "/schema/units.wale", "--json"}).json();
   EXPECT_EQ(described.at("functions").size(), 0u);
   EXPECT_EQ(described.at("dimensions").at(0).at("name"), "length");
   EXPECT_EQ(described.at("units").at(0).at("name"), "m");
 }
 
-TEST(Describe, ExportsOfAFileWithMaterialsAreToldWhenAsked) {
+TEST(Describe, ListsExportsOfAFileWithMaterialsOnRequest) {
   const TemporaryFolder folder;
   const std::string file = folder.write("both.wale", module + "material a { physical { force = viscous(2 N s/m) } }\n");
   EXPECT_EQ(wale({"describe", file, "--json"}).json().at("material"), "a");
   EXPECT_EQ(wale({"describe", file, "--exports", "--json"}).json().at("functions").size(), 2u);
-  // Nothing at all to tell is an error as before.
+  // A file with neither materials nor exports is an error.
   EXPECT_EQ(wale({"describe", folder.write("none.wale", "wale 1\n")}).status, 1);
 }
 
-TEST(Feel, TellsHowOftenAStateWasMended) {
+TEST(Feel, CountsRestoredStates) {
   const TemporaryFolder folder;
   const std::string file = folder.write("broken.wale", R"(wale 1
 material broken {
@@ -201,11 +201,11 @@ TEST(Set, OutsideTheUsualRangeIsAWarning) {
   EXPECT_TRUE(contains(outcome.err, "warning[W0308]")) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, "from 30 N/m to 120 N/m")) << outcome.err;
   EXPECT_DOUBLE_EQ(outcome.json().at("parameters").at(0).at("value").get<double>(), 150);
-  EXPECT_EQ(wale({"describe", file, "--set", "k=30 N/m"}).err, "") << "the range's own ends are usual";
+  EXPECT_EQ(wale({"describe", file, "--set", "k=30 N/m"}).err, "") << "the ends of the range belong to it";
   EXPECT_EQ(wale({"describe", file, "--set", "k=250 N/m"}).status, 2);
 }
 
-TEST(Describing, KeepsWordsThatNobodyInterprets) {
+TEST(Describing, KeepsWordsOfFeels) {
   const TemporaryFolder folder;
   const std::string file =
       folder.write("m.wale",

@@ -1,4 +1,4 @@
-// `wale find`: the library by its words.
+// `wale find`: materials of libraries by words.
 #include <gtest/gtest.h>
 
 #include "tests/command_line/running.hpp"
@@ -6,7 +6,7 @@
 namespace wale::command_line::finding_test {
 namespace {
 
-/// A library of one's own.
+/// A library in a temporary folder.
 struct Shelf {
   Shelf() {
     folder.write("glass/marbles.wale",
@@ -21,7 +21,7 @@ struct Shelf {
   TemporaryFolder folder;
 };
 
-TEST(Find, TellsWhereAMaterialIsAndWhatItsWordWasFoundIn) {
+TEST(Find, ShowsTheFileAndTheMatchingText) {
   const Outcome outcome = Shelf().find({"--kind", "glass", "ball bearings"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 1);
@@ -30,7 +30,7 @@ TEST(Find, TellsWhereAMaterialIsAndWhatItsWordWasFoundIn) {
     EXPECT_TRUE(contains(outcome.out, part)) << part << outcome.out;
 }
 
-TEST(Find, KnowsWhatIsShippedToo) {
+TEST(Find, SearchesTheShippedLibraryToo) {
   const Outcome outcome = Shelf().find({"--kind", "fabric", "corduroy", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   bool has_corduroy = false;
@@ -42,7 +42,7 @@ TEST(Find, KnowsWhatIsShippedToo) {
   EXPECT_TRUE(has_corduroy);
 }
 
-TEST(Find, FailsOverNothingAndSaysWhatMayHaveBeenMeant) {
+TEST(Find, FailsWithoutAMatchAndProposesWords) {
   const Shelf shelf;
   const Outcome misspelt = shelf.find({"marbels"});
   EXPECT_EQ(misspelt.status, 1);

@@ -1,4 +1,4 @@
-// wale format: which files it writes, and what it says and returns.
+// `wale format`: which files it writes, its output and its status.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 const std::string untidy = "wale 1\nlet a=1//one\n", tidy = "wale 1\nlet a = 1   // one\n";
 
-TEST(Formatting, WritesWhatChangesAndNothingElse) {
+TEST(Formatting, WritesOnlyFilesThatChange) {
   const TemporaryFolder folder;
   const std::string one = folder.write("one.wale", untidy), two = folder.write("two.wale", tidy);
   fs::permissions(one, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
@@ -35,7 +35,7 @@ TEST(Formatting, FollowsALinkAndLeavesItALink) {
   EXPECT_EQ(bytes_of(file), tidy);
 }
 
-TEST(Formatting, ACheckListsWhatWouldChangeAndWritesNothing) {
+TEST(Formatting, ACheckListsFilesThatWouldChangeAndWritesNothing) {
   const TemporaryFolder folder;
   const std::string one = folder.write("one.wale", untidy), two = folder.write("two.wale", tidy);
   const Outcome outcome = wale({"format", "--check", one, two});

@@ -1,4 +1,4 @@
-// What the verbs make of a material: programs, descriptions, samples, records, pictures.
+// The outputs of the verbs for a material: programs, descriptions, samples, records, pictures.
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(PatchPrograms, DescribeAndSampleAsTheirSourceDoes) {
             wale({"sample", corduroy, "--at", "10.6 mm, 5 mm"}).out);
 }
 
-TEST(Describe, JsonHasWhatTheIssueAsksFor) {
+TEST(Describe, JsonHasPerceptsForceAndParameters) {
   const Outcome outcome = wale({"describe", corduroy, "--json"});
   EXPECT_EQ(outcome.status, 0);
   const auto description = outcome.json();
@@ -105,7 +105,7 @@ TEST(Describe, SeveralMaterialsAreAnArray) {
   EXPECT_TRUE(wale({"describe", two, "--json", "--material", "b"}).json().is_object());
 }
 
-TEST(Describe, TextSpeaksOfAllThreeLayers) {
+TEST(Describe, TextHasAllThreeLayers) {
   const std::string text = wale({"describe", corduroy}).out;
   for (const char* part : {"Wide-wale corduroy", "roughness", "0.6", "1.93", "measured", "Minsky 1995", "wale", "mm"})
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
@@ -142,7 +142,7 @@ TEST(Set, ErrorsSayWhatIsWrong) {
 }
 
 TEST(Sample, AtAPlace) {
-  // A quarter of a period right of a ridge's middle the ground falls steepest: the push is downhill, the whole
+  // A quarter of a period right of a ridge's middle the slope is steepest, so the force is downhill with the full
   // amplitude.
   const Outcome outcome = wale({"sample", corduroy, "--at", "0.625 mm, 0 mm"});
   EXPECT_EQ(outcome.status, 0);
@@ -158,11 +158,11 @@ TEST(Sample, AtAPlace) {
   EXPECT_NEAR(json[0].at("vx").get<double>(), 0.1, 1e-6);
 }
 
-TEST(Sample, OutsideThePatchNothingPushes) {
+TEST(Sample, TheForceOutsideThePatchIsZero) {
   EXPECT_EQ(last_line(wale({"sample", corduroy, "--at", "90.6 mm, 0 mm"}).out).at(5), 0);
 }
 
-TEST(Sample, PlacesThatAreNoneAreErrors) {
+TEST(Sample, InvalidPlacesAreErrors) {
   for (const char* at : {"", "10 mm", "10, 5", "10 mm, 5 N", "1 mm, 2 mm, 3 m/s", "ten mm, 5 mm", "x, y"}) {
     const Outcome outcome = wale({"sample", corduroy, "--at", at});
     EXPECT_EQ(outcome.status, 2) << at;
@@ -191,7 +191,7 @@ TEST(Sample, ThroughATrace) {
   EXPECT_EQ(wale({"sample", corduroy, "--trace", folder / "missing.csv"}).status, 1);
 }
 
-TEST(Feel, MeasuresWhatWasAskedFor) {
+TEST(Feel, MeasuresTheAskedLevel) {
   const auto felt = wale({"feel", corduroy, "--virtual-time", "--json"}).json();
   EXPECT_EQ(felt.at("ticks").at("run"), 4500);
   EXPECT_EQ(felt.at("ticks").at("missed"), 0);
@@ -215,7 +215,7 @@ TEST(Feel, AnotherPeriodIsTheSameRoughness) {
   EXPECT_NEAR(felt.at("actuator_rubbing").at("p99_newton").get<double>(), 1.934, 0.01934 + 10.0 / 2048);
 }
 
-TEST(Feel, AtRestNoLevelIsGivenBack) {
+TEST(Feel, AtRestThereIsNoMeasuredLevel) {
   const Outcome rest = wale({"feel", corduroy, "--virtual-time", "--hand", "rest", "--json"});
   EXPECT_EQ(rest.status, 0);
   EXPECT_EQ(rest.json().at("alternations"), 0);
@@ -229,7 +229,7 @@ TEST(Feel, VirtualTimeIsTheSameBytesTwice) {
     EXPECT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--hand", hand, "--record", one}).status, 0);
     EXPECT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "2", "--hand", hand, "--record", two}).status, 0);
     const std::string record = bytes_of(one);
-    EXPECT_EQ(std::count(record.begin(), record.end(), '\n'), 1801) << "a header and a line a tick";
+    EXPECT_EQ(std::count(record.begin(), record.end(), '\n'), 1801) << "a header, and one line per tick";
     for (const char* unit : {"(s)", "(m)", "(m/s)", "(N)"})
       EXPECT_TRUE(contains(record.substr(0, record.find('\n')), unit)) << unit;
     EXPECT_EQ(record, bytes_of(two));
@@ -243,7 +243,7 @@ TEST(Feel, ARecordIsATraceToFollow) {
   EXPECT_EQ(wale({"sample", corduroy, "--trace", folder / "run.csv"}).status, 0);
 }
 
-TEST(Feel, TimesThatAreNoneAreRefused) {
+TEST(Feel, InvalidTimesAreRefused) {
   for (const char* seconds : {"0", "-1", "1e9", "nan"}) {
     const Outcome outcome = wale({"feel", corduroy, "--virtual-time", "--seconds", seconds});
     EXPECT_NE(outcome.status, 0) << seconds;
@@ -262,7 +262,7 @@ TEST(Preview, WritesAPicture) {
   EXPECT_EQ(picture, bytes_of(two));
 }
 
-TEST(Preview, FormatsThatNobodyWritesAreRefused) {
+TEST(Preview, UnknownFormatsAreRefused) {
   const TemporaryFolder folder;
   const Outcome outcome = wale({"preview", corduroy, "-o", folder / "out.wall"});
   EXPECT_EQ(outcome.status, 1);

@@ -1,4 +1,4 @@
-// Materials by name, wherever a FILE is asked for.
+// Names of materials in place of a FILE.
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,14 @@
 namespace wale::command_line::naming_test {
 namespace {
 
-/// Of the shipped library, by its name in a file.
+/// The path of a shipped file.
 const std::string denim = std::string(WALE_SOURCE_DIR) + "/library/fabric/denim.wale";
 
 std::string own(const std::string& name, const std::string& more = {}) {
   return "wale 1\nmaterial " + name + " {\n  representative { " + more + " }\n  perceptual { roughness 0.3 } }\n";
 }
 
-TEST(Names, AreAsGoodAsTheirFiles) {
+TEST(Names, GiveTheSameAsTheirFiles) {
   const TemporaryFolder folder;
   EXPECT_EQ(wale({"describe", "denim"}).out, wale({"describe", denim}).out);
   EXPECT_EQ(wale({"sample", "denim", "--at", "1 mm, 0 mm"}).out, wale({"sample", denim, "--at", "1 mm, 0 mm"}).out);
@@ -26,20 +26,20 @@ TEST(Names, AreAsGoodAsTheirFiles) {
   EXPECT_EQ(wale({"feel", "denim", "--virtual-time", "--seconds", "0.1"}).status, 0);
 }
 
-TEST(Names, AreModulesKindsTitlesAndOtherNamesToo) {
+TEST(Names, IncludeModulesTitlesAndOtherNames) {
   const Outcome named = wale({"describe", "denim"});
   for (const char* other : {"fabric.denim", "blue jeans", "Denim", "denim:denim", "fabric.denim:denim"})
     EXPECT_EQ(wale({"describe", other}).out, named.out) << other;
 }
 
-TEST(Names, OfTheLibrarysFilesOpenWithoutACheckout) {
+TEST(Names, IncludePathsInTheShippedLibrary) {
   const TemporaryFolder folder;
   EXPECT_EQ(wale({"describe", "library/fabric/denim.wale"}).status, 0);
   EXPECT_EQ(wale({"describe", "library/fabric/denim.wale:denim"}).status, 0);
-  EXPECT_EQ(wale({"describe", "slate"}).status, 0) << "its picture is part of the binary too";
+  EXPECT_EQ(wale({"describe", "slate"}).status, 0) << "its picture is in the binary too";
 }
 
-TEST(Names, OfOnesOwnLibraryGoBeforeTheShipped) {
+TEST(Names, InAGivenLibraryComeBeforeShippedOnes) {
   const TemporaryFolder folder;
   folder.write("cloth.wale", own("denim"));
   const Outcome outcome = wale({"describe", "denim", "--library", folder / ".", "--json"});
@@ -57,17 +57,17 @@ TEST(Names, OfSeveralMaterialsAreListed) {
     EXPECT_TRUE(contains(outcome.err, part)) << part << outcome.err;
 }
 
-TEST(Names, UnknownComeBackWithTheNearestAndTheWayOn) {
+TEST(Names, ThatAreUnknownGiveTheNearestAndWaleFind) {
   for (const char* verb : {"describe", "feel", "compare"}) {
     const Outcome outcome = wale({verb, "corderoy"});
     EXPECT_EQ(outcome.status, 1) << verb;
     for (const char* part : {"W0201", "`corderoy` is neither a file nor a material", "`corduroy`", "wale find"})
       EXPECT_TRUE(contains(outcome.err, part)) << part << outcome.err;
   }
-  EXPECT_TRUE(contains(wale({"describe", "corderoy.wale"}).err, "no such file")) << "a path is no name";
+  EXPECT_TRUE(contains(wale({"describe", "corderoy.wale"}).err, "no such file")) << "a path is not a name";
 }
 
-TEST(Names, GiveWayToFilesAndSaySo) {
+TEST(Names, YieldToFilesWithANote) {
   const TemporaryFolder folder;
   const fs::path before = fs::current_path();
   fs::current_path(folder / ".");

@@ -1,4 +1,4 @@
-// Devices that only vibrate, from the command line: built for, felt, described, sampled, drawn, and refused.
+// Devices that only vibrate, on the command line: building, feeling, describing, sampling, drawing, and refusals.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ TEST(Pads, AMaterialIsFeltOnEach) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto felt = outcome.json();
     EXPECT_EQ(felt.at("profile"), device);
-    // Level 0.6 is 12 m/s^2 * 0.6^(1/0.76), and comes back.
+    // Level 0.6 is 12 m/s^2 * 0.6^(1/0.76), and the measurement gives it back.
     EXPECT_NEAR(felt.at("vibration").at("p99_m_per_s2"), 6.127, 0.05);
     EXPECT_NEAR(felt.at("percepts").at("roughness").at("level"), 0.6, 0.01);
     EXPECT_LE(felt.at("vibration").at("lowest_hz"), felt.at("vibration").at("highest_hz"));
@@ -22,7 +22,7 @@ TEST(Pads, AMaterialIsFeltOnEach) {
   EXPECT_TRUE(contains(wale({"feel", corduroy, "--device", "gamepad", "--virtual-time"}).out, "place        lost"));
 }
 
-TEST(Pads, AProgramTellsItsFatesByItself) {
+TEST(Pads, AProgramHoldsItsFates) {
   const TemporaryFolder folder;
   const std::string program = folder / "pad.wpp";
   ASSERT_EQ(wale({"build", corduroy, "--device", "gamepad", "-o", program}).status, 0);
@@ -37,7 +37,7 @@ TEST(Pads, AProgramTellsItsFatesByItself) {
   EXPECT_TRUE(contains(text, "does not apply: it only vibrates")) << text;
   const auto joystick = wale({"describe", corduroy, "--json"}).json();
   EXPECT_EQ(joystick.at("fates").at("percepts").at("roughness").at("fate"), "kept");
-  // What was built for one cannot be felt on another.
+  // A program is felt only on the device that it was built for.
   EXPECT_EQ(wale({"feel", program, "--device", "sandpaper", "--virtual-time"}).status, 1);
   EXPECT_EQ(wale({"feel", program, "--virtual-time"}).status, 0);
 }
@@ -63,7 +63,7 @@ TEST(Pads, EveryVerbTakesTheirPrograms) {
   }
 }
 
-TEST(Pads, AllDevicesBesideOneAnother) {
+TEST(Pads, DescribeComparesAllDevices) {
   const Outcome table = wale({"describe", corduroy, "--device", "all"});
   ASSERT_EQ(table.status, 0) << table.err;
   for (const char* part : {"sandpaper", "falcon", "touch_pad", "gamepad", "roughness", "place of features", "lost"})
@@ -75,11 +75,14 @@ TEST(Pads, AllDevicesBesideOneAnother) {
 
 TEST(Pads, AreAmongTheDevices) {
   const auto devices = wale({"devices", "--json"}).json();
+  int pads = 0;
   for (const auto& device : devices)
     if (device.at("name") == "touch_pad") {
+      ++pads;
       EXPECT_EQ(device.at("axes"), 1);
       EXPECT_EQ(device.at("position"), "touch");
     }
+  EXPECT_EQ(pads, 1);
   const std::string text = wale({"devices"}).out;
   EXPECT_TRUE(contains(text, "no position: assumed to explore at 0.1 m/s")) << text;
 }

@@ -1,4 +1,4 @@
-// Runs that are recorded, replayed, and felt anew while their file is edited.
+// Recording and replaying runs, and feeling a file while it is edited.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Outcome feel(std::vector<std::string> words) {
   return wale(words);
 }
 
-TEST(Record, WhatWasRecordedReplaysTheSame) {
+TEST(Record, ARecordingReplaysTheSame) {
   const TemporaryFolder folder;
   const std::string file = folder / "corduroy.wrec";
   const Outcome felt = feel({corduroy, "--set", "wale=4mm", "--max-force", "1.5 N", "--record", file});
@@ -46,7 +46,7 @@ TEST(Record, IsWrittenAsATableAndAsSound) {
   ASSERT_EQ(feel({corduroy, "--record", direct}).status, 0);
   const Outcome replayed = wale({"replay", file, "--csv", csv, "--wav", wav});
   ASSERT_EQ(replayed.status, 0) << replayed.err;
-  // Virtual time is the same each time, so each line of the one begins with that of the other.
+  // Both runs are the same in virtual time, so each line of the long table begins with the line of the short one.
   std::istringstream lines(bytes_of(csv)), direct_lines(bytes_of(direct));
   std::size_t count = 0;
   for (std::string line, begin; std::getline(direct_lines, begin); ++count) {
@@ -56,7 +56,7 @@ TEST(Record, IsWrittenAsATableAndAsSound) {
   EXPECT_EQ(count, 1801u);
   EXPECT_EQ(bytes_of(wav).substr(0, 4), "RIFF");
   EXPECT_EQ(bytes_of(wav).size(), 58u + 2 * 44100 * 8);
-  // A recording's table is a hand's trace.
+  // The table of a recording serves as the trace of a hand.
   EXPECT_EQ(feel({corduroy, "--hand", csv}).status, 0);
 }
 
@@ -72,7 +72,7 @@ TEST(Record, ShippedMaterialsOfEveryKindReplayTheSame) {
   }
 }
 
-TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
+TEST(Record, ExistingFilesMissingFoldersAndOtherNamesAreRefused) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.wrec";
   ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
@@ -90,12 +90,12 @@ TEST(Record, NamesAndPlacesThatWillNotDoAreRefused) {
   EXPECT_TRUE(contains(odd.err, "NAME.wrec")) << odd.err;
 }
 
-TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
+TEST(Replay, DamagedFilesAndOtherFilesAreRefused) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.wrec";
   ASSERT_EQ(feel({corduroy, "--record", file}).status, 0);
   std::string bytes = bytes_of(file);
-  // The tick number 1000 begins with its number and one, and its period.
+  // Tick 1000 begins with its number plus 1, then its period.
   std::string begin(16, '\0');
   begin[0] = static_cast<char>(1001 & 0xff), begin[1] = 1001 >> 8;
   begin[8] = static_cast<char>(1000 & 0xff), begin[9] = 1000 >> 8;
@@ -112,7 +112,7 @@ TEST(Replay, WhatIsDamagedOrNoneIsRefused) {
   EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "this is not a recording"));
   const std::string missing = folder / "none.wrec";
   EXPECT_EQ(wale({"replay", missing}).err,
-            "wale: error[W0501]: " + missing + ": cannot be read: No such file or directory\n");
+            "wale: error[W0501]: " + missing + ": the file cannot be read: No such file or directory\n");
   EXPECT_EQ(wale({"replay"}).status, 2);
 }
 
@@ -123,7 +123,7 @@ TEST(Blind, AllowsALargestForce) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-/// A `wale` that runs until it is told to stop.
+/// A `wale` process that runs until it gets a signal.
 class Started {
  public:
   Started(std::vector<std::string> words, const std::string& out, const std::string& err) {
@@ -155,7 +155,7 @@ class Started {
   pid_t child_ = 0;
 };
 
-/// Until it is so, or a minute has passed.
+/// Waits until the condition holds. Returns false after a minute.
 template <class Condition>
 bool eventually(Condition&& condition) {
   for (int i = 0; i < 3000; ++i) {
@@ -165,7 +165,7 @@ bool eventually(Condition&& condition) {
   return false;
 }
 
-TEST(Watch, FeelsTheFileAnewAtEverySaveUntilInterrupted) {
+TEST(Watch, ActivatesEverySavedVersionUntilInterrupted) {
   const TemporaryFolder folder;
   const std::string file = folder.write("c.wale", bytes_of(corduroy)), err = folder / "err", out = folder / "out",
                     recording = folder / "a.wrec";
@@ -194,7 +194,7 @@ TEST(Watch, FeelsTheFileAnewAtEverySaveUntilInterrupted) {
   EXPECT_EQ(replayed.json()["complete"], true);
 }
 
-TEST(Watch, EndsByItselfWhenSecondsAreSaid) {
+TEST(Watch, EndsAfterTheGivenSeconds) {
   EXPECT_EQ(wale({"feel", corduroy, "--watch", "--seconds", "0.3"}).status, 0);
   EXPECT_EQ(wale({"feel", corduroy, "--watch", "--blind", "--against", corduroy}).status, 2);
 }

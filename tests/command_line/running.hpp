@@ -16,7 +16,7 @@
 
 #include "tests/temporary_folder.hpp"
 
-/// The `wale` binary run as a person runs it.
+/// Runs the `wale` binary.
 namespace wale::command_line {
 
 namespace fs = std::filesystem;
@@ -28,9 +28,9 @@ inline std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What a command left behind.
+/// The status and outputs of a command.
 struct Outcome {
-  int status = -1;  ///< 128 and more: ended by a signal
+  int status = -1;  ///< 128 or more: ended by a signal
   std::string out, err;
 
   nlohmann::json json() const { return nlohmann::json::parse(out); }
@@ -42,7 +42,7 @@ inline std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Runs `wale` with these words and what is typed; colours are off.
+/// Runs `wale` with these arguments and with `typed` as standard input. Colours are off, since outputs are files.
 inline Outcome wale(const std::vector<std::string>& words, const std::string& typed = {}) {
   const TemporaryFolder folder;
   std::string command = quoted(WALE_BINARY);
@@ -55,7 +55,7 @@ inline Outcome wale(const std::vector<std::string>& words, const std::string& ty
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// The corduroy with `from` replaced by `to`.
+/// The text of library/fabric/corduroy.wale with `from` replaced by `to`.
 inline std::string corduroy_with(const std::string& from, const std::string& to) {
   std::string text = bytes_of(corduroy);
   const auto at = text.find(from);

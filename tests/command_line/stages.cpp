@@ -1,4 +1,4 @@
-// `wale build --emit`: what a stage makes of a material, as text.
+// `wale build --emit`: the results of the compiler's stages as text.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(Emit, WritesEachStageToStandardOutputOrAFile) {
   }
 }
 
-TEST(Emit, OfAPatchProgramShowsWhatIsLeft) {
+TEST(Emit, AcceptsAPatchProgramForLaterStages) {
   const TemporaryFolder folder;
   const std::string program = folder / "corduroy.wpp";
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
@@ -37,7 +37,7 @@ TEST(Emit, OfAPatchProgramShowsWhatIsLeft) {
   }
 }
 
-TEST(Emit, UnknownStagesAndSenselessWordsAreMisuse) {
+TEST(Emit, UnknownStagesAndConflictingOptionsAreMisuse) {
   const Outcome unknown = wale({"build", corduroy, "--emit", "assembly"});
   EXPECT_EQ(unknown.status, 2);
   for (const char* stage : {"tree", "checked", "ir", "listing", "cpp"})
@@ -48,7 +48,7 @@ TEST(Emit, UnknownStagesAndSenselessWordsAreMisuse) {
   EXPECT_TRUE(contains(neither.err, "expected the name of the file to write")) << neither.err;
 }
 
-TEST(Emit, StopsWhereTheMaterialIsWrong) {
+TEST(Emit, StopsAtTheFirstStageWithErrors) {
   const TemporaryFolder folder;
   const std::string open =
       folder.write("open.wale", "wale 1\nmaterial a { physical { force = lateral(grating(x, period: 2 mm)) } }\n");
@@ -58,7 +58,7 @@ TEST(Emit, StopsWhereTheMaterialIsWrong) {
   const Outcome ir = wale({"build", open, "--emit", "ir"});
   EXPECT_EQ(ir.status, 1);
   EXPECT_EQ(ir.out, "");
-  EXPECT_TRUE(contains(ir.err, "nothing says how hard this pushes")) << ir.err;
+  EXPECT_TRUE(contains(ir.err, "the size of this force is not given")) << ir.err;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is typed for options that take a value: sense is read, and nonsense is refused in words.
+// Values of options: valid ones are read, and invalid ones are refused with an explanation.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace wale::command_line::values_test {
 namespace {
 
 struct ValueOption {
-  std::vector<std::string> words;  ///< of the command, before the option
+  std::vector<std::string> words;  ///< the command before the option
   std::string option;
 };
 
@@ -25,10 +25,10 @@ const std::vector<ValueOption> options{
     {{"describe", corduroy}, "--set"},
 };
 
-TEST(Values, NonsenseIsRefusedWithWhatWasTypedAndAnExample) {
+TEST(Values, InvalidValuesAreRefusedWithTheirTextAndAnExample) {
   for (const ValueOption& each : options)
     for (const std::string typed : {"", "5x", "-1", "nan", "inf", "1e999", " ", "0x10", "١"}) {
-      if (each.option == "--seconds" && typed == "inf") continue;  // until Ctrl-C
+      if (each.option == "--seconds" && typed == "inf") continue;  // valid: until Ctrl-C
       std::vector<std::string> words = each.words;
       words.push_back(each.option);
       words.push_back(each.option == "--set" ? "wale=" + typed : typed);
@@ -43,7 +43,7 @@ TEST(Values, NonsenseIsRefusedWithWhatWasTypedAndAnExample) {
     }
 }
 
-TEST(Values, SenseIsRead) {
+TEST(Values, ValidValuesAreRead) {
   EXPECT_EQ(wale({"levels", "roughness", "--steps", "3", "--jnd", "1.5"}).status, 0);
   for (const char* seconds : {"0.2", "0.2 s", "200 ms", "200ms"}) {
     const Outcome felt = wale({"feel", corduroy, "--virtual-time", "--json", "--seconds", seconds});
@@ -53,12 +53,12 @@ TEST(Values, SenseIsRead) {
   EXPECT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--max-force", "500 mN"}).status, 0);
 }
 
-TEST(Values, RangesAreToldWhole) {
+TEST(Values, ErrorsStateTheRange) {
   EXPECT_TRUE(contains(wale({"levels", "roughness", "--steps", "1"}).err, "a whole number from 2 to 1000"));
   EXPECT_TRUE(contains(wale({"levels", "roughness", "--jnd", "0"}).err, "a number from 0.01 to 1000"));
 }
 
-/// A command, its exit status, and what it says.
+/// A command, its expected exit status, and a part of its expected message.
 struct Refused {
   std::vector<std::string> words;
   int status;
@@ -92,10 +92,10 @@ TEST(Values, EmptyTextsAreRefusedByTheirOption) {
                   {{"levels", ""}, 2, "PERCEPT: expected"}});
 }
 
-TEST(Values, NamesThatMeanNothingAreRefused) {
+TEST(Values, UnknownNamesAreRefused) {
   expect_refused(
-      {{{"describe", "brick:"}, 1, "behind its colon"},
-       {{"compare", "denim:", "velvet"}, 1, "behind its colon"},
+      {{{"describe", "brick:"}, 1, "after its colon"},
+       {{"compare", "denim:", "velvet"}, 1, "after its colon"},
        {{"describe", corduroy + ":corduroy", "--material", "other"}, 1, "names `corduroy`, and --material `other`"},
        {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
        {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},
@@ -110,7 +110,7 @@ TEST(Values, NamesThatMeanNothingAreRefused) {
        {{"describe", corduroy, "--set", "wale=4mm", "--set", "wale=5mm"}, 2, "`wale` is set twice"}});
 }
 
-TEST(Values, NumbersThatCannotBeDoneAreRefused) {
+TEST(Values, NumbersOutOfRangeAreRefused) {
   expect_refused({{{"replay", "a.wrec", "--ticks", "99999999999999999999"}, 2, "to 18446744073709551615"},
                   {{"levels", "roughness", "--jnd", "1e-30"}, 2, "from 0.01"},
                   {{"levels", "bumpiness", "--steps", "50"}, 1, "error["},
@@ -118,7 +118,7 @@ TEST(Values, NumbersThatCannotBeDoneAreRefused) {
                   {{"feel", corduroy, "--virtual-time", "--record", "x.txt"}, 2, "--record"}});
 }
 
-TEST(Values, APatchProgramIsWhatItWasBuiltAs) {
+TEST(Values, APatchProgramKeepsItsDeviceAndMaterial) {
   const TemporaryFolder folder;
   const std::string program = folder / "c.wpp";
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);

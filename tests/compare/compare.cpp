@@ -1,4 +1,4 @@
-// wale compare: differences in just noticeable differences, against their definition worked out by hand.
+// wale compare: differences in just noticeable differences, against the definition computed by hand.
 
 #include "compiler/compare/compare.hpp"
 
@@ -24,8 +24,8 @@ Cues cues(const std::string& statements) {
   return cues_of(Bank(material("material m { physical {\n" + statements + "\n} }", "m")), declarations());
 }
 
-/// What Tan 1992 (calibration/thresholds/tan1992.wale) says at d' = 1: 0.1 at three right answers of four, of two.
-constexpr double three_of_four = 0.67448975;  // standard deviations, any table of the normal distribution
+/// d' of three correct answers of four in a choice of two: sqrt(2) z(0.75).
+constexpr double three_of_four = 0.67448975;  // z(0.75), from a table of the normal distribution
 const double d_prime = std::sqrt(2.0) * three_of_four;
 
 Comparison compare(const Cues& a, const Cues& b) { return Comparer(declarations(), a.device).compare(a, b); }
@@ -49,7 +49,7 @@ TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
   EXPECT_EQ(comparison.plainest(), amplitude);
 }
 
-TEST(Compare, WhatDiffersReadsDifferently) {
+TEST(Compare, DifferentFiguresAreWrittenWithEnoughDigits) {
   Cues a{"a", "sandpaper", {}}, b{"b", "sandpaper", {}};
   a[CueKind::orientation] = 0.6 * std::numbers::pi / 180, b[CueKind::orientation] = 1.4 * std::numbers::pi / 180;
   a[CueKind::amplitude] = 1.001, b[CueKind::amplitude] = 1.0049;
@@ -63,7 +63,7 @@ TEST(Compare, WhatDiffersReadsDifferently) {
     EXPECT_NE(far.find(part), std::string::npos) << part << '\n' << far;
 }
 
-TEST(Compare, SmallForcesAreNotToldApartByTheirRatio) {
+TEST(Compare, SmallForcesAreComparedWithTheFloorOfTheThreshold) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::amplitude] = 0.02, b[CueKind::amplitude] = 0.05;
   const Comparison comparison = compare(a, b);
@@ -72,7 +72,7 @@ TEST(Compare, SmallForcesAreNotToldApartByTheirRatio) {
   EXPECT_EQ(comparison.verdict, Verdict::alike);
 }
 
-TEST(Compare, WhatOneHasAndTheOtherHasNotIsComparedByForce) {
+TEST(Compare, ACueThatOneMaterialLacksIsComparedByForce) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::stiffness] = 100;
   const Comparison comparison = compare(a, b);
@@ -81,12 +81,12 @@ TEST(Compare, WhatOneHasAndTheOtherHasNotIsComparedByForce) {
   EXPECT_EQ(comparison.verdict, Verdict::apart);
 }
 
-TEST(Compare, NothingAtAllIsNoSizeThatAPublicationHadToCompare) {
+TEST(Compare, ThePublishedThresholdHoldsForAMissingCue) {
   Cues a{"a", "sandpaper", {}}, b = a;
   a[CueKind::viscosity] = 6;
   const Comparison comparison = compare(a, b);
   ASSERT_TRUE(comparison.cues.front().threshold);
-  // Jones and Hunter compared 2 to 1024 N s/m; a figure that is only recalled is not taken instead.
+  // Jones and Hunter compared 2 to 1024 N s/m. Their figure is used, and not one that is only recalled.
   EXPECT_EQ(comparison.cues.front().threshold->evidence, Evidence::published);
 }
 
@@ -99,7 +99,7 @@ TEST(Compare, ACueWithoutAThresholdIsUnknownAndNeverTheSame) {
   EXPECT_FALSE(cue(comparison, CueKind::regularity)->noticeable);
   b[CueKind::regularity] = 0.9;
   EXPECT_EQ(compare(a, b).verdict, Verdict::alike);
-  // Where something else tells them apart it does not matter.
+  // An unknown cue does not matter where another cue tells them apart.
   b[CueKind::regularity] = 0.2, b[CueKind::amplitude] = 4;
   EXPECT_EQ(compare(a, b).verdict, Verdict::apart);
 }
@@ -112,7 +112,7 @@ TEST(Compare, OrientationsAreTheSameAfterHalfATurn) {
   EXPECT_EQ(compare(a, b).verdict, Verdict::unknown);
 }
 
-TEST(Compare, CuesAreWhatTheMaterialIsMadeOf) {
+TEST(Compare, CuesAreTheFiguresOfTheMaterial) {
   const Cues grating = cues("force = vector(1.2 N * sin(2 * pi * x / 2.5 mm), 0 N)");
   EXPECT_NEAR(*grating[CueKind::amplitude], 1.2, 0.05);
   EXPECT_NEAR(*grating[CueKind::period], 2.5e-3, 0.05e-3);
@@ -127,12 +127,12 @@ TEST(Compare, CuesAreWhatTheMaterialIsMadeOf) {
 }
 
 TEST(Compare, AFieldThatNoOtherCueReadsIsComparedByItsForce) {
-  // |p|^1.5 1 N at 40 mm, as the thesis's Bowl, over 200 mm.
+  // 1 N (p / 40 mm)^1.5 along each axis, like the thesis's Bowl, on a patch of 200 mm.
   const std::string bowl = "let u = x / 40 mm\nlet v = y / 40 mm\npatch 200 mm, 200 mm\nforce = ";
   const std::string outward = "1 N * vector(u * sqrt(abs(u)), v * sqrt(abs(v)))";
   const Cues nothing = cues("force = vector(0 N, 0 N)"), dish = cues(bowl + "-" + outward), dome = cues(bowl + outward);
   ASSERT_TRUE(dish[CueKind::other_force] && dome[CueKind::other_force]);
-  // Its largest: at the corners of the patch less its rim of 5 mm, of which a percentile leaves 1 % off.
+  // The largest force is at the corners of the patch without its rim of 5 mm; the 99th percentile is a little lower.
   const double corner = std::pow((100.0 - 5) / 40, 1.5) * std::sqrt(2.0);
   EXPECT_GT(*dish[CueKind::other_force], 0.85 * corner);
   EXPECT_LT(*dish[CueKind::other_force], corner);
@@ -144,18 +144,18 @@ TEST(Compare, AFieldThatNoOtherCueReadsIsComparedByItsForce) {
   const Cues constant = cues("force = vector(2 N, 0 N)");
   EXPECT_NEAR(*constant[CueKind::other_force], 2, 1e-6);
   EXPECT_EQ(compare(nothing, constant).verdict, Verdict::apart);
-  // Held back along x and pushed on along y by 4 N s/m: the mean over all strokes is none.
+  // 4 N s/m resist along x and push along y, so the mean over all strokes is 0.
   const Cues askew = cues("active 0.1 W\nforce = 4 N s/m * vector(-velocity.x, velocity.y)");
   EXPECT_FALSE(askew[CueKind::viscosity]);
   // Strokes of 0.05, 0.1 and 0.2 m/s along either axis: 4 N s/m times the root of the mean square of their speeds.
   EXPECT_NEAR(*askew[CueKind::other_force], 4 * std::sqrt((0.0025 + 0.01 + 0.04) / 3), 1e-3);
   EXPECT_EQ(compare(nothing, askew).verdict, Verdict::apart);
-  // What another cue reads is not counted twice.
+  // A force that another cue describes is not counted twice.
   for (const char* force : {"vector(1.2 N * sin(2 * pi * x / 2.5 mm), 0 N)", "-120 N/m * hand", "-7 N s/m * velocity"})
     EXPECT_FALSE(cues(std::string("force = ") + force)[CueKind::other_force]) << force;
 }
 
-TEST(Compare, TheNearestPairIsTheOneThatIsToldApartTheLeast) {
+TEST(Compare, TheNearestPairHasTheSmallestDifference) {
   std::vector<Cues> materials;
   for (const double amplitude : {1.0, 3.0, 3.1, 6.0}) {
     materials.push_back({std::to_string(amplitude), "sandpaper", {}});
@@ -174,7 +174,7 @@ TEST(Compare, TheNearestPairIsTheOneThatIsToldApartTheLeast) {
   EXPECT_EQ(matrix.nearest(99).size(), 6u);
 }
 
-TEST(Compare, AMatrixHoldsWhatItsPairsCompareTo) {
+TEST(Compare, AMatrixHoldsTheComparisonsOfItsPairs) {
   std::vector<Cues> materials;
   for (int i = 0; i < 23; ++i) {
     materials.push_back({std::to_string(i), "sandpaper", {}});

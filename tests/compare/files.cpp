@@ -1,5 +1,5 @@
-// Files are read on all cores: what comes out is what one after the other gives, in their order. Run it under the
-// preset `tsan` too.
+// Files are read on all cores. The results are the same, and in the same order, as when files are read one by one. Run
+// this with the preset `tsan` too.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ const Declarations& known() {
   return common->declarations;
 }
 
-/// The plain way: one file, one material at a time.
+/// The cues, computed one file and one material at a time.
 std::vector<Cues> one_by_one(const std::vector<std::string>& names) {
   std::vector<Cues> all;
   for (const std::string& name : names) {
@@ -29,8 +29,8 @@ std::vector<Cues> one_by_one(const std::vector<std::string>& names) {
 }
 
 TEST(ComparedFiles, AreReadAsOneAfterTheOther) {
-  // Files that import one another, one with several materials, and the same twice. None with a picture: the thread
-  // sanitizer takes OpenImageIO, which is built without it, for a race.
+  // Files that import one another, a file with several materials, and the same file twice. None reads a picture, since
+  // the thread sanitizer reports races in OpenImageIO, which is built without it.
   const std::vector<std::string> names = {library + "fabric/workwear.wale", library + "fabric/velvet.wale",
                                           library + "fabric/canvas.wale",   library + "fabric/denim.wale:denim",
                                           library + "fluid/oil.wale",       library + "fabric/workwear.wale"};
@@ -49,7 +49,7 @@ TEST(ComparedFiles, AreReadAsOneAfterTheOther) {
   }
 }
 
-TEST(ComparedFiles, SayWhatIsWrongEachOfItself) {
+TEST(ComparedFiles, HaveTheirErrorsEach) {
   const std::vector<ComparedFile> files =
       read_cues({library + "fabric/denim.wale:velvet", "nowhere.wale", library + "sandpaper/perlin.wale",
                  library + "fabric/denim.wale:denim"},

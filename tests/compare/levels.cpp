@@ -1,4 +1,4 @@
-// wale levels: what is proposed, against the definition of a just noticeable difference worked out by hand.
+// wale levels: proposed levels against the definition of a just noticeable difference, computed by hand.
 
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ std::string reason(const Result<LevelProposal>& proposed) {
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Levels, OfASpringAreAGeometricSeries) {
-  // Magnitude in proportion to stiffness, 200 N/m at level 1, measured from 20 N/m; Weber fraction 0.22 at three of
-  // four. So 20 .. 200 N/m are ln(10) / ln(1 + 0.2306) = 11.1 just noticeable differences.
+  // The magnitude is proportional to the stiffness, level 1 is 200 N/m, and the map begins at 20 N/m. The Weber
+  // fraction is 0.22 at three of four, so 20 .. 200 N/m are ln(10) / ln(1 + 0.2306) = 11.1 just noticeable differences.
   const double whole = std::log(10.0) / std::log1p(0.22 / d_prime_of_three_of_four);
   const LevelProposal four = proposal("springiness", 4);
   ASSERT_EQ(four.levels.size(), 4u);
@@ -55,9 +55,9 @@ TEST(Levels, OfASpringAreAGeometricSeries) {
             1 + static_cast<std::size_t>(std::floor(whole / 3)));
 }
 
-TEST(Levels, AreSpacedByTheLeastForceWhereForcesAreSmall) {
-  // Level = (F / 194 pu)^0.759593 from the level 0.1, near threshold, on; a share of 0.07 at three of four, but no less
-  // than 0.1 N: below 1.36 N even steps of force, above it even ratios.
+TEST(Levels, AreSpacedByTheFloorWhereForcesAreSmall) {
+  // Level = (F / 194 pu)^0.759593, from level 0.1, which is near the threshold. A just noticeable difference is 0.07 of
+  // the force at three of four, but at least 0.1 N: below 1.36 N steps of force are equal, above it ratios are.
   const LevelProposal all = proposal("roughness", std::nullopt);
   const double one = 194 * 10.0 / 512, share = std::log1p(0.07 / d_prime_of_three_of_four);
   const auto force = [&](double level) { return one * std::pow(level, 1 / 0.759593); };
@@ -72,7 +72,7 @@ TEST(Levels, AreSpacedByTheLeastForceWhereForcesAreSmall) {
   }
   EXPECT_DOUBLE_EQ(all.levels.front().level, 0.1);
   EXPECT_DOUBLE_EQ(all.levels.back().level, 1);
-  // As many as that: the whole is worth no step more than a whole number of them.
+  // The number of levels is that of whole steps in the range.
   const double knee = 0.1 / (std::exp(share) - 1);
   const double whole = (knee - force(0.1)) / 0.1 + std::log(one / knee) / share;
   EXPECT_NEAR(static_cast<double>(all.most), 1 + whole, 1.01);
@@ -80,9 +80,9 @@ TEST(Levels, AreSpacedByTheLeastForceWhereForcesAreSmall) {
 }
 
 TEST(Levels, EndWhereTheDeviceDoes) {
-  // 3 N at level 1 on either; a spring of 200 N/m pushes 8 N at the end of a hand's reach, which the Falcon just has.
+  // A spring of 200 N/m pushes with 8 N at 40 mm, which is the Falcon's largest force.
   EXPECT_NEAR(proposal("springiness", 3, 1, "falcon").levels.back().size, 200, 0.1);
-  // What was measured of viscosity ends at 20 N s/m, beyond level 1; of hardness it begins at 100 N/m.
+  // The map of viscosity ends at 20 N s/m, above level 1. The map of hardness begins at 100 N/m.
   EXPECT_NEAR(proposal("viscosity", 3).levels.back().size, 10, 1e-9);
   EXPECT_GE(proposal("hardness", 2).levels.front().size, 100 * (1 - 1e-9));
 }
@@ -97,7 +97,7 @@ TEST(Levels, OfAnAntonymAreTheScaleFromItsOtherEnd) {
   EXPECT_TRUE(levels_line(rough).starts_with("levels roughness { level_1 0.1; level_2 ")) << levels_line(rough);
 }
 
-TEST(Levels, ThatThereAreNoneIsExplained) {
+TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_TRUE(contains(reason(propose("rougness", 3)), "did you mean `roughness`?"));
   EXPECT_TRUE(contains(reason(propose("roughness", 3, 1, "sandpapr")), "did you mean `sandpaper`?"));
   EXPECT_TRUE(contains(reason(propose("vibration", 3)), "unknown: no published threshold"));
@@ -106,11 +106,11 @@ TEST(Levels, ThatThereAreNoneIsExplained) {
   EXPECT_TRUE(contains(reason(propose("springiness", 4, 5)),
                        "less than 5 just noticeable differences apart; ask for 3 levels"));
   EXPECT_TRUE(contains(reason(propose("springiness", 2, 50)), "no two levels"));
-  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "expected two levels or more"));
+  EXPECT_TRUE(contains(reason(propose("springiness", 1)), "expected at least two levels"));
   EXPECT_TRUE(contains(reason(propose("springiness", 3, 0)), "must be above 0"));
 }
 
-/// The codes of what is said of a text's levels on a device, and the messages.
+/// The diagnostics of a text's levels on a device, as text.
 std::string said_of_levels(const std::string& text, const std::string& device) {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -123,8 +123,8 @@ std::string said_of_levels(const std::string& text, const std::string& device) {
   return all;
 }
 
-TEST(Levels, OfWhatOnlyShakesAreOfShaking) {
-  // Nobody has published how small a difference of a pad's acceleration is noticed, so that nothing is proposed.
+TEST(Levels, OfAVibrationDeviceNeedAThreshold) {
+  // No threshold for a pad's acceleration is published, so no levels are proposed.
   for (const char* percept : {"roughness", "vibration"}) {
     const auto proposed = propose_levels(percept, "touch_pad", std::nullopt, 1, common_modules()->declarations);
     ASSERT_FALSE(proposed) << percept;
@@ -135,11 +135,12 @@ TEST(Levels, OfWhatOnlyShakesAreOfShaking) {
   const auto spring = propose_levels("springiness", "touch_pad", std::nullopt, 1, common_modules()->declarations);
   ASSERT_FALSE(spring);
   EXPECT_EQ(spring.error().code, Code::percept_unrealised);
-  EXPECT_EQ(spring.error().sentence, "`touch_pad` only shakes, and has no realisation of springiness");
+  EXPECT_EQ(spring.error().sentence, "`touch_pad` only vibrates, and has no realisation of springiness");
 }
 
-TEST(CloseLevels, AreJudgedOnTheDeviceAtHand) {
-  // 8.4 N and 9.6 N: ln(9.6 / 8.4) / ln(1 + 0.0734) = 1.9 on the Sandpaper joystick; on the Falcon 8 N both.
+TEST(CloseLevels, AreJudgedOnTheGivenDevice) {
+  // 8.4 N and 9.6 N are ln(9.6 / 8.4) / ln(1 + 0.0734) = 1.9 apart on the Sandpaper joystick. The Falcon limits both to
+  // 8 N.
   const std::string text =
       "percept grit { one lateral amplitude 12 N on sandpaper\n  cue amplitude }\n"
       "map grit from amplitude {\n  law magnitude = amplitude / 1 N\n  valid amplitude 0.1 N .. 12 N\n  scatter 0.05\n"
@@ -149,14 +150,14 @@ TEST(CloseLevels, AreJudgedOnTheDeviceAtHand) {
   EXPECT_TRUE(contains(said_of_levels(text, "falcon"), "warning[W0423]")) << said_of_levels(text, "falcon");
 }
 
-TEST(CloseLevels, WhatWouldDoIsOneApart) {
-  // Springiness is in proportion to stiffness: 0.5 (1 + w).
+TEST(CloseLevels, TheProposalIsOneApart) {
+  // Springiness is proportional to stiffness, so the next level is 0.5 (1 + w).
   const double share = 1 + 0.22 / d_prime_of_three_of_four;
   const std::string said = said_of_levels("levels springiness {\n  a 0.5\n  b 0.6\n}\n", "sandpaper");
   EXPECT_TRUE(contains(said, "`b 0.616` would be one apart")) << said;
   EXPECT_NEAR(0.5 * share, 0.616, 0.001);
   EXPECT_EQ(said_of_levels("levels springiness {\n  a 0.5\n  b 0.616\n}\n", "sandpaper"), "");
-  EXPECT_EQ(said_of_levels("levels vibration {\n  a 0.5\n  b 0.51\n}\n", "sandpaper"), "") << "nobody knows";
+  EXPECT_EQ(said_of_levels("levels vibration {\n  a 0.5\n  b 0.51\n}\n", "sandpaper"), "") << "there is no threshold";
 }
 
 TEST(CloseLevels, NoneAreShipped) {

@@ -11,7 +11,7 @@
 
 namespace wale::compiling {
 
-/// Files by name, in memory.
+/// Files in memory, by name.
 class Files final : public Resolver {
  public:
   std::map<std::string, std::string> contents;
@@ -24,7 +24,7 @@ class Files final : public Resolver {
   }
 };
 
-/// A text and the programs of all its materials. Throws with the diagnostics when something is wrong.
+/// A text and the programs of all its materials. Throws std::runtime_error with the diagnostics when there are errors.
 struct Compiled {
   std::map<std::string, Program> programs;
 
@@ -47,7 +47,8 @@ struct Compiled {
   const Program& only() const { return programs.begin()->second; }
 };
 
-/// One material of the physical block `physical`, perhaps asked for a percept, among other declarations.
+/// The program of a material with the block `physical`, beside other declarations, and with the block `perceptual`
+/// unless that is empty.
 inline Program compiled(const std::string& physical, const std::string& declarations = "",
                         const std::string& perceptual = "", Files files = {}) {
   const std::string percept = perceptual.empty() ? "" : "  perceptual { " + perceptual + " }\n";

@@ -32,7 +32,7 @@ Hand somewhere(std::mt19937& random) {
   return {{0.06f * uniform(), 0.06f * uniform()}, {0.3f * uniform(), 0.3f * uniform()}};
 }
 
-/// The same force everywhere.
+/// Expects the same force of both programs, in N, at 500 random hands.
 void expect_same(const Program& a, const Program& b, double tolerance = 0) {
   Bank one(a), other(b);
   std::mt19937 random(7);
@@ -44,7 +44,7 @@ void expect_same(const Program& a, const Program& b, double tolerance = 0) {
   }
 }
 
-/// A material of those of `base` and `more`, and the same written out.
+/// Expects that material `name` of `base` and `more` has the same force as the only material of `written_out`.
 void expect_means(const std::string& more, const std::string& name, const std::string& written_out,
                   double tolerance = 0) {
   const Compiled made(std::string(base) + more), plain("wale 1\n" + written_out);
@@ -72,7 +72,7 @@ TEST(Instances, MayBlocksFollow) {
 })");
 }
 
-TEST(Like, ReplacesWhatItSaysItself) {
+TEST(Like, ReplacesTheDeclarationsThatItRepeats) {
   expect_means(R"(material crossed {
   representative { like ribbed }
   perceptual { roughness 0.5 }
@@ -179,16 +179,16 @@ material mixed = 0.75 ribbed + 0.25 ringed
     const Force sum = tick(ribs, hand) * static_cast<float>(0.75 / rib_amplitude) +
                       tick(rings, hand) * static_cast<float>(0.25 / ring_amplitude);
     const Force force = tick(bank, hand);
-    if (glm::length(sum) > 0.7 || glm::length(sum) < 0.2) continue;  // not held at its amplitude, and not noise
+    if (glm::length(sum) > 0.7 || glm::length(sum) < 0.2) continue;  // not limited, and well above rounding
     if (scale == 0) scale = glm::length(force) / glm::length(sum);
-    // Where one of the textures is held the sum of the held ones differs a little.
+    // Where one of the textures is limited, the sum of the limited forces differs a little.
     EXPECT_NEAR(force.x, scale * sum.x, 0.06) << i;
     EXPECT_NEAR(force.y, scale * sum.y, 0.06) << i;
   }
 }
 
-/// Turned weights and levels give the force and the level of a file that was written with these.
-TEST(Blends, AreTurnedLiveByTheirWeightsAndTheirComponentsLevels) {
+/// Weights and levels set at run time give the same force and level as a file with these weights and levels.
+TEST(Blends, FollowWeightsAndComponentLevelsAtRunTime) {
   const std::string parts = std::string(base) + R"(
 material ringed { perceptual { roughness 0.2 }
  physical { height rings = 1 mm * grating(length(hand), period: 4 mm)
@@ -248,7 +248,7 @@ material all = 0.5 mixed + 0.7 ribbed
                              {"pulled_weight", 0.9f},
                              {"ringed_roughness", 0.3f}}),
               Bank(written.programs.at("all")));
-  // Nothing of anything is nothing, and not not-a-number.
+  // With all weights 0 the force is 0 and not not-a-number.
   Bank none = turned("mixed", {{"ribbed_weight", 0}, {"ringed_weight", 0}, {"pulled_weight", 0}});
   std::mt19937 random(12);
   for (int i = 0; i < 50; ++i) EXPECT_EQ(tick(none, somewhere(random)), Force(0));
@@ -282,7 +282,7 @@ material level = mixed(roughness: 0.7)
   EXPECT_THROW(Compiled(parts + "material other = mixed(velvet_weight: 0.2)"), std::runtime_error);
 }
 
-TEST(Blends, OfBlendsAndWithMoreOnTop) {
+TEST(Blends, OfBlendsAndWithMoreForces) {
   expect_means(R"(
 material a { physical { force = spring(20 N/m) } }
 material b { physical { force = viscous(4 N s/m) } }

@@ -1,4 +1,4 @@
-// The same text gives the same bytes, and work is linear in what is written.
+// The same text gives the same bytes, and the size of a program is linear in the size of its text.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -29,12 +29,12 @@ TEST(Determinism, OtherMaterialsOfTheFileChangeNothing) {
   PatchProgram first = alone.programs.at("a").description(), second = both.programs.at("a").description();
   EXPECT_EQ(first.place_of(CodeSection::tick, 0, 0), (SourceLine{"test.wale", 2}));
   EXPECT_EQ(second.place_of(CodeSection::tick, 0, 0), (SourceLine{"test.wale", 3}));
-  first.places = second.places = {};  // but the lines, of course
+  first.places = second.places = {};  // lines differ
   EXPECT_EQ(write_patch_program(first), write_patch_program(second));
 }
 
 TEST(Sharing, AChainOfLetsIsLinear) {
-  // Written out, the last of them would have 2^10000 terms. Each is two instructions and shares all before it.
+  // Expanded, the last `let` would have 2^10000 terms. Each `let` is two instructions and shares those before it.
   constexpr int links = 10000;
   std::string body = "    let a0 = x / 1 m\n";
   for (int i = 1; i <= links; ++i) body += fmt::format("    let a{} = 0.25 * a{} + a{} / 4\n", i, i - 1, i - 1);
@@ -44,7 +44,7 @@ TEST(Sharing, AChainOfLetsIsLinear) {
 }
 
 TEST(Sharing, AChainOfSumsOfOneIsLinear) {
-  // An operation for each link, of the hand and so in every tick; twenty links are 2^20 times as much.
+  // Each link depends on the hand and is one operation of the tick. Twenty links multiply by 2^20.
   const auto chain = [](int links) {
     std::string body = "    let a0 = x\n";
     for (int i = 1; i <= links; ++i) body += fmt::format("    let a{} = a{} + a{}\n", i, i - 1, i - 1);
@@ -63,7 +63,7 @@ TEST(Sharing, AChainThroughFunctionsIsLinear) {
   const Program program = compiled(body + fmt::format("    force = vector(a{} * 1 N, 0 N)", links),
                                    "function half(a, b) = 0.25 * a + b / 4\n"
                                    "function bent(a, b) = half(a, sin(b)) + half(sin(a), b)");
-  // By hand: two products and a sum in one, and in the other these twice and a sum, and a sine of two.
+  // By hand: `half` has two products and a sum; `bent` has these twice, a sum and two sines.
   EXPECT_LE(program.description().tick.size(), 6u * links + 10);
   EXPECT_GE(program.description().tick.size(), 2u * links);
 }

@@ -1,4 +1,4 @@
-// Random materials give the same force in the machine as in the slow reference evaluator, which knows nothing of terms,
+// Random materials give the same force in the machine as in the slow evaluator of tests/reference/, which has no terms,
 // graphs, folding or sharing.
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(RandomMaterials, MachineAndReferenceAgree) {
         ++undecided;
         continue;
       }
-      // The bound adds up the worst of every rounding; where it says nothing, nothing is compared.
+      // `error` is a bound on the sum of all roundings. Above 0.01 N it is too wide for a comparison.
       if (std::max(expected.error[0], expected.error[1]) > 0.01) {
         ++vague;
         continue;
@@ -135,7 +135,7 @@ TEST(Rates, ATableMayBeReadWhereNothingMoves) {
   EXPECT_NEAR(tick(other, {{0.01f, -0.02f}, {0, 0}}).x, 1 + 1, 1e-4);
 }
 
-TEST(Rates, ASolvedAmplitudeIsSetupWhateverSetsIt) {
+TEST(Rates, ASolvedAmplitudeIsComputedInSetup) {
   const auto asked = compiled("    force = lateral(grating(x, period: 2 mm))", "", "roughness 0.6");
   const auto given = compiled(
       "    param push = 1.934 N in 0 N .. 5 N\n    force = lateral(grating(x, period: 2 mm), amplitude: push)");
@@ -143,7 +143,7 @@ TEST(Rates, ASolvedAmplitudeIsSetupWhateverSetsIt) {
 }
 
 TEST(Arguments, AreEvaluatedWhereTheyAreWritten) {
-  // A formal named like a name of the material means the formal, inside only.
+  // Inside the function, `k` is its parameter; outside, it is the material's `k`.
   const Program program = compiled("    let k = 2 N/m\n    force = scaled(3, 1 N/m) * hand + k * hand",
                                    "function scaled(k, unit) = k * unit");
   Bank bank(program);

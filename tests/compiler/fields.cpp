@@ -1,4 +1,4 @@
-// Curves, tables and reliefs against straight lines and pictures worked out here in double precision.
+// Curves, tables and reliefs against interpolation in double precision, and against pictures at other places.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct Point {
 };
 using Points = std::vector<Point>;
 
-/// From point to point, level beyond the first and the last.
+/// Linear interpolation between the points, constant beyond the first and the last.
 double interpolated(const Points& points, double place) {
   if (place <= points.front().place) return points.front().value;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -62,7 +62,7 @@ Force push(Bank& bank, double x, double y = 0) {
   return tick(bank, hand);
 }
 
-/// The points, places all over the patch, and beyond the ends.
+/// The points, random places on the patch, and places beyond the ends.
 std::vector<double> places(const Points& points, std::mt19937& random) {
   std::vector<double> all{-0.08, 0.08};
   for (const auto& point : points) all.push_back(static_cast<float>(point.place));
@@ -70,7 +70,7 @@ std::vector<double> places(const Points& points, std::mt19937& random) {
   return all;
 }
 
-/// Places are floats, good to 4 nm at 60 mm, and so are the points; each stretch rounds its share of a few newtons.
+/// Places and points are floats, precise to 4 nm at 60 mm; forces of a few newtons are rounded in each segment.
 double tolerance(const Points& points) { return 2e-6 + 2e-8 * steepest(points); }
 
 TEST(Curves, RunStraightFromPointToPoint) {
@@ -86,7 +86,7 @@ TEST(Curves, RunStraightFromPointToPoint) {
   }
 }
 
-TEST(Curves, HaveTheSlopeOfTheirStretch) {
+TEST(Curves, HaveTheSlopeOfTheirSegment) {
   std::mt19937 random(12);
   for (int each = 0; each < 60; ++each) {
     const Points points = random_points(random);
@@ -104,7 +104,7 @@ TEST(Curves, HaveTheSlopeOfTheirStretch) {
   }
 }
 
-TEST(Curves, FollowTheParametersThatTheirPointsAre) {
+TEST(Curves, FollowTheParametersInTheirPoints) {
   const Program program = compiled(R"(
     param edge = 10 mm in 5 mm .. 20 mm
     param rise = 1 N in -2 N .. 2 N
@@ -150,17 +150,17 @@ TEST(Tables, GoThroughTheirSamples) {
     }
     const Program program = tabled(csv);
     Bank bank(program);
-    // 16 bits of up to 4 N are 6e-5; the spline swings by three times as much.
+    // 16 bits of up to 4 N are steps of 6e-5 N; the spline overshoots by three times as much.
     for (const auto& [place, value] : points) ASSERT_NEAR(push(bank, place).x, value, 3e-4) << csv << place;
     ASSERT_NEAR(push(bank, -0.07).x, points.front().value, 3e-4);
     ASSERT_NEAR(push(bank, 0.079).x, points.back().value, 3e-4);
   }
 }
 
-TEST(Tables, OfAStraightLineAreThatLine) {
+TEST(Tables, OfAStraightLineFollowIt) {
   const Program program = tabled("x (mm), force (N)\n-40, -2\n-20, -1\n0, 0\n20, 1\n40, 2\n60, 3\n");
   Bank bank(program);
-  // Mirrored beyond its ends, a spline bends within some four samples of them.
+  // The spline is mirrored at its ends, so it bends within about four samples of them.
   EXPECT_NEAR(push(bank, 0.010).x, 0.5, 0.05);
   EXPECT_NEAR(push(bank, 0.020).x, 1, 3e-4);
 }
@@ -171,13 +171,13 @@ TEST(Tables, WithUnequalSpacingAreSampledFromPointToPoint) {
   for (const auto& [place, value] : points) csv += fmt::format("{:.1f}, {}\n", place * 1e3, value);
   const Program program = tabled(csv);
   Bank bank(program);
-  // As finely as the closest two: 63 mm in steps of 1 mm are 64 samples, and each is on the line. It kinks, so that the
-  // spline overshoots in between by a share of each kink.
+  // The spacing is that of the closest two points: 63 mm in steps of 1 mm are 64 samples, each on the line. At kinks of
+  // the line, the spline overshoots between samples.
   for (int i = 0; i < 64; ++i) {
     const double place = -0.03 + i * 1e-3;
     ASSERT_NEAR(push(bank, place).x, interpolated(points, place), 5e-4) << place;
   }
-  // A sample changes by 1.3 N at the one steep stretch and by 0.2 N elsewhere.
+  // Samples change by 1.3 N in the steep segment and by at most 0.2 N elsewhere.
   for (int i = 0; i < 63; ++i) {
     const double place = -0.03 + (i + 0.5) * 1e-3;
     ASSERT_NEAR(push(bank, place).x, interpolated(points, place), i < 8 ? 0.25 : 0.03) << place;
@@ -233,7 +233,7 @@ TEST(Reliefs, AreImagesAtAnotherPlace) {
   std::mt19937 random(15);
   for (int i = 0; i < 500; ++i) {
     const double x = 0.05 * uniform(random), y = 0.05 * uniform(random);
-    // Up to 1.3 N over a pixel; places are good to some nm.
+    // The force changes by up to 1.3 N per pixel; places are precise to a few nm.
     ASSERT_NEAR(push(moved, x, y).x, push(image, x - 0.007, y + 0.003).x, 1e-4) << x << " " << y;
     ASSERT_NEAR(push(rotated, x, y).x, push(image, -y, x).x, 1e-4) << x << " " << y;
   }
@@ -249,7 +249,7 @@ TEST(Reliefs, PushByTheSlopeOfThePicture) {
   std::mt19937 random(16);
   for (int i = 0; i < 300; ++i) {
     const double x = 0.05 * uniform(random), y = 0.05 * uniform(random);
-    // By hand: the place asked is (4 mm - y, x), so that its slope (p, q) is felt as (q, -p).
+    // By hand: the relief is read at (4 mm - y, x), so its slope (p, q) there becomes the force (q, -p).
     const Force slope = push(flat, 0.004 - y, x), felt = push(turned, x, y);
     ASSERT_NEAR(felt.x, slope.y, 1e-4) << x << " " << y;
     ASSERT_NEAR(felt.y, -slope.x, 1e-4) << x << " " << y;

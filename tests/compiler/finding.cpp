@@ -1,4 +1,4 @@
-// What is found in a library by what is written in its materials.
+// Finding materials of a library by their names, titles, words, kinds and documentation.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 LibraryIndex library() {
   LibraryIndex index;
   SourceSet sources;
-  Diagnostics diagnostics;  // none of them says how it feels, which is no matter here
+  Diagnostics diagnostics;  // warnings about missing percepts do not matter here
   const auto add = [&](const std::string& module, const std::string& text) {
     index.add(module, module + ".wale", parse(sources, sources.add(module + ".wale", "wale 1\n" + text), diagnostics));
   };
@@ -36,7 +36,7 @@ material plain { }
   return index;
 }
 
-/// Name and by what, in their order.
+/// The names of the materials found and the text that matched, in their order.
 std::vector<std::string> found(const std::vector<std::string>& texts, const std::string& kind = "") {
   const LibraryIndex index = library();
   std::vector<std::string> names;
@@ -54,20 +54,20 @@ TEST(Finding, IsByTheBeginningsOfWords) {
   EXPECT_EQ(found({"ord"}), Names{});
 }
 
-TEST(Finding, TakesCapitalsAndWhatIsBetweenWordsForTheSame) {
+TEST(Finding, IgnoresCapitalsAndSeparators) {
   for (const char* text : {"ribbed cotton", "RIBBED COTTON", "ribbed-cotton", " ribbed  cotton "})
     EXPECT_EQ(found({text}), (Names{"old_cord by called Ribbed Cotton"})) << text;
   EXPECT_EQ(found({"old cord"}), (Names{"old_cord by name old_cord"}));
   EXPECT_EQ(found({"fabric woven fine"}), (Names{"cord by kind fabric.woven.fine"}));
 }
 
-TEST(Finding, NeedsAllOfSeveralTextsAndTellsTheFarthest) {
+TEST(Finding, NeedsAllOfSeveralTextsAndNamesTheWeakestMatch) {
   EXPECT_EQ(found({"cord", "pleasant"}), (Names{"cord by feels pleasant", "old_cord by feels pleasant"}));
   EXPECT_EQ(found({"pleasant", "sofas"}), (Names{"old_cord by documentation What sofas are covered with."}));
   EXPECT_EQ(found({"fine", "sofas"}), Names{});
 }
 
-TEST(Finding, OfAKindIsOfTheKindsInIt) {
+TEST(Finding, OfAKindIncludesItsSubkinds) {
   EXPECT_EQ(found({}, "fabric"), (Names{"cord by name cord", "old_cord by name old_cord"}));
   EXPECT_EQ(found({}, "fabric.woven.fine"), (Names{"cord by name cord"}));
   EXPECT_EQ(found({}, "fab"), Names{});
@@ -76,14 +76,14 @@ TEST(Finding, OfAKindIsOfTheKindsInIt) {
       << "by module, then by name";
 }
 
-TEST(Finding, KnowsWhatCouldBeFound) {
+TEST(Finding, ListsKindsAndWordsThatCanBeFound) {
   EXPECT_EQ(kinds_in(library()), (Names{"fabric", "fabric.woven", "fabric.woven.fine", "fabrication"}));
   const Names words = findable_words(library());
   for (const char* word : {"pleasant", "ribbed", "bearings", "cord", "fabric"})
     EXPECT_TRUE(std::ranges::binary_search(words, word)) << word;
 }
 
-TEST(Finding, OfTextsOfSignsAloneIsNothing) {
+TEST(Finding, OfSeparatorsAloneFindsNothing) {
   for (const char* text : {"", " ", "_", "."}) EXPECT_EQ(found({text}), Names{}) << '"' << text << '"';
 }
 

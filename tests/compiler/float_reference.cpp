@@ -1,5 +1,5 @@
 // The machine, in one lane and in blocks, against the slow evaluator of terms in 32-bit floats: every bit of forces,
-// states and memories, for all that is shipped and for random materials.
+// states and memories, for all shipped materials and for random ones.
 
 #include <gtest/gtest.h>
 
@@ -107,7 +107,7 @@ std::vector<std::uint32_t> bits(std::span<const float> values) {
 
 std::vector<std::uint32_t> bits(const Force& force) { return bits(std::array{force.x, force.y}); }
 
-/// Holds a material's machine to its terms. `what` names it where they differ.
+/// Expects the same bits of the machine and the evaluator. `what` names the material in failures.
 void compare(const Solved::Material& material, std::mt19937& random, const std::string& what) {
   const PatchProgram& program = material.program.description();
   std::vector<float> parameters = material.program.default_parameters();
@@ -120,7 +120,7 @@ void compare(const Solved::Material& material, std::mt19937& random, const std::
   reference::FloatSimulation simulation(material.solved, parameters, inputs_of({}, program));
   const std::vector<Hand> hands = random_hands(random);
 
-  // One hand after the other, with all that is remembered.
+  // One hand after the other, with one memory.
   Memory memory(material.program);
   memory.enter(bank, hands[0]);
   simulation.enter(inputs_of(hands[0], program));
@@ -158,8 +158,8 @@ TEST(FloatReference, AgreesWithTheMachineOnAllThatIsShipped) {
   const auto resolver = file_resolver({});
   for (const auto& path : library_files()) {
     const Solved solved(path, read_file(path)->bytes, *resolver);
-    // The thesis's many stimuli differ in their figures only, and each peak takes the evaluator half a second: a
-    // twentieth of them at a time, or all with WALE_ALL_STIMULI.
+    // The stimuli of library/sandpaper differ only in their figures, and the evaluator needs half a second for each
+    // peak, so only every twentieth is compared. With WALE_ALL_STIMULI in the environment, all are.
     const bool stimuli = solved.materials.size() > 25 && !std::getenv("WALE_ALL_STIMULI");
     for (std::size_t i = 0; i < solved.materials.size(); i += stimuli ? 20 : 1) {
       const auto& material = solved.materials[i];
@@ -187,7 +187,7 @@ TEST(FloatReference, AgreesWithTheMachineOnRandomMaterials) {
   }
 }
 
-// Random expressions hold no heights; these slopes of slopes and peaks do.
+// Random materials have no heights; these have peaks and slopes of heights.
 TEST(FloatReference, AgreesWithTheMachineOnHeights) {
   std::mt19937 random(1997);
   Files none;
@@ -213,7 +213,7 @@ TEST(FloatReference, AgreesWithTheMachineOnHeights) {
   }
 }
 
-// Operations that choose among their operands, where these are subnormal; a quotient shows the sign of a zero.
+// Operations that choose among their operands, with subnormal operands. The quotient depends on the sign of a zero.
 TEST(FloatReference, AgreesWithTheMachineOnSubnormalNumbers) {
   std::mt19937 random(1999);
   Files none;

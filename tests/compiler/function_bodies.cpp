@@ -1,4 +1,5 @@
-// What every file knows is written out once; what a file says itself is read at each call. Both must come to the same.
+// A function of the language is expanded once, and a function of the file at each call. Both must give the same
+// program.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@
 namespace wale::compiling::written_out_test {
 namespace {
 
-/// As schema/functions.wale has them, under names of the file's own.
+/// Functions of schema/functions.wale under other names, as functions of the file.
 constexpr const char* own_functions =
     "function own_clamp(value, low, high) = min(max(value, low), high)\n"
     "function own_smoothstep(t) = own_clamp(t, 0, 1)^2 * (3 - 2 * own_clamp(t, 0, 1))\n"
@@ -29,15 +30,15 @@ std::string bytes_of(std::string force, const std::string& prefix) {
   for (auto at = force.find('$'); at != std::string::npos; at = force.find('$')) force.replace(at, 1, prefix);
   PatchProgram program =
       compiled("    param k = 2 mm in 1 mm .. 5 mm\n    force = " + force, own_functions).description();
-  program.places = {};  // where it is written
-  program.layers = {};  // and how
+  program.places = {};  // names differ, so columns of the text may too
+  program.layers = {};  // the text differs
   const auto bytes = write_patch_program(program);
   return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-TEST(WrittenOut, ComesToWhatTheBodyComesToWhateverTheArgumentsAre) {
-  // The same functions, with arguments that are known, that a slider turns, that follow the hand, that are one another;
-  // of several dimensions; and twice each, since the first call may be the one that is read.
+TEST(WrittenOut, GivesTheSameProgramAsTheBodyForAllArguments) {
+  // Arguments are constants, parameters, inputs of the hand, or equal to each other, and of several dimensions. Each is
+  // compiled twice, since the first call may be the one that expands the body.
   for (int round = 0; round < 2; ++round)
     for (const char* force : {
              "vector($smoothstep(0.3) * 1 N, $smoothstep(x / k) * 1 N)",
@@ -52,7 +53,7 @@ TEST(WrittenOut, ComesToWhatTheBodyComesToWhateverTheArgumentsAre) {
       EXPECT_EQ(bytes_of(force, ""), bytes_of(force, "own_")) << force;
 }
 
-/// What is wrong with a force; empty if nothing is.
+/// The errors of a material with this force; empty when it compiles.
 std::string complaint(const std::string& force) {
   try {
     compiled("    param k = 2 mm in 1 mm .. 5 mm\n    force = " + force);
@@ -62,8 +63,8 @@ std::string complaint(const std::string& force) {
   }
 }
 
-TEST(WrittenOut, IsNotWhatCountsWhereAnArgumentIsWrong) {
-  // What has been written out for right arguments serves no wrong ones of the same kind, whichever come first.
+TEST(WrittenOut, StillChecksArguments) {
+  // A body that was expanded for valid arguments is not used for invalid ones of the same rate, in either order.
   for (int round = 0; round < 2; ++round) {
     EXPECT_EQ(complaint("lateral(grating(x, period: k), 1 N)"), "");
     EXPECT_EQ(complaint("lateral(grating(x, period: k, smooth: 0.3), 1 N)"), "");
@@ -74,7 +75,7 @@ TEST(WrittenOut, IsNotWhatCountsWhereAnArgumentIsWrong) {
                 std::string::npos)
           << smooth;
     EXPECT_NE(complaint("lateral(grating(x + 1 mm * sin(time / 1 s), period: k), 1 N)")
-                  .find("`peak` takes a height that depends on the place only, and this changes with time"),
+                  .find("`peak` takes a height that depends on the place only, but this changes with time"),
               std::string::npos);
   }
 }

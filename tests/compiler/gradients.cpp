@@ -1,4 +1,4 @@
-// What `grad` and `lateral` push with, against heights written out here in double precision.
+// The forces of `grad` and `lateral` against the same heights in double precision.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ using Height = std::function<double(double, double)>;
 
 double normal(double t) { return 0.5 * std::erfc(-t / std::sqrt(2.0)); }
 
-/// A square wave of that period, 1 where a hill is (one is centred at 0), blurred by a Gaussian of `smooth` periods.
+/// A square wave of that period, 1 on its hills and 0 between them, blurred by a Gaussian whose standard deviation is
+/// `smooth` periods. One hill is centred at 0. `along` and `period` are in m.
 double grating(double along, double period, double duty = 0.5, double smooth = 24.0 / 256) {
   const double t = along / period;
   double sum = 0;
@@ -26,13 +27,13 @@ double grating(double along, double period, double duty = 0.5, double smooth = 2
   return sum;
 }
 
-/// Slopes by central differences whose error is far below that of 32-bit arithmetic.
+/// The slope by central differences, whose error is far below that of 32-bit arithmetic.
 std::array<double, 2> slope(const Height& height, double x, double y, double step = 1e-7) {
   return {(height(x + step, y) - height(x - step, y)) / (2 * step),
           (height(x, y + step) - height(x, y - step)) / (2 * step)};
 }
 
-/// Places all over the patch, away from its rim.
+/// Random places on the patch, in m, outside of its rim.
 std::vector<glm::vec2> places(int count) {
   std::mt19937 random(42);
   const auto coordinate = [&] { return static_cast<float>(0.07 * (random() / 2147483648.0 - 1)); };
@@ -44,7 +45,7 @@ std::vector<glm::vec2> places(int count) {
   return all;
 }
 
-/// Holds `grad` of the expression, in 1/m, to the slope of `height` at many places.
+/// Expects that `grad` of the expression, in 1/m, is the slope of `height` at 500 places.
 void expect_gradient(const std::string& expression, const Height& height, double tolerance_per_metre) {
   const Program program = compiled("    force = grad(" + expression + ") * 1 N * 1 mm");
   Bank bank(program);
@@ -57,7 +58,7 @@ void expect_gradient(const std::string& expression, const Height& height, double
   }
 }
 
-// At 70 mm a float of x is good to 4 nm; slopes bend by up to some 1e7 /m^2 at these periods.
+// At 70 mm a float of x is precise to 4 nm, and at these periods slopes change by up to about 1e7 /m^2.
 
 TEST(Gradient, OfAGrating) {
   expect_gradient(
@@ -102,8 +103,8 @@ TEST(Gradient, OfEveryFunctionThatHasOne) {
   for (const auto& [text, height] : cases) expect_gradient(text, height, 0.02);
 }
 
-TEST(Gradient, TakesTheSideThatCounts) {
-  // Slopes of 1/20 mm on one side and 1/50 mm on the other; the kink itself is at places that are not drawn.
+TEST(Gradient, TakesTheSlopeOfTheChosenSide) {
+  // The slopes are 1 / (20 mm) on one side and 1 / (50 mm) on the other; no random place lies on the kink.
   const auto expect_slopes = [](const std::string& text,
                                 const std::function<std::array<double, 2>(double, double)>& expected) {
     const Program program = compiled("    force = grad(" + text + ") * 1 N * 1 mm");
@@ -128,7 +129,7 @@ TEST(Gradient, TakesTheSideThatCounts) {
   expect_slopes("x / 20 mm + floor(y / 1 mm)", [](double, double) { return Pair{50, 0}; });
 }
 
-/// The 99th percentile of the slope over the default patch of 160 mm less its rim of 5 mm, by 200 000 random places.
+/// The 99th percentile of the slope at 200 000 random places of the default patch, 160 mm wide with a rim of 5 mm.
 double peak_of(const Height& height) {
   std::mt19937 random(5);
   std::vector<double> sizes;
@@ -159,7 +160,7 @@ TEST(Lateral, PushesDownhillScaledByItsPeakAndHeldAtItsAmplitude) {
       const auto s = slope(height, place.x, place.y);
       const double size = amplitude * std::hypot(s[0], s[1]) / peak;
       const double held = std::min(1.0, amplitude / size);
-      // One percent: both peaks are percentiles of samples.
+      // Both peaks are percentiles of samples, hence 1 %.
       ASSERT_NEAR(force.x, -amplitude * s[0] / peak * held, 0.01 * amplitude)
           << text << " at " << place.x << " " << place.y;
       ASSERT_NEAR(force.y, -amplitude * s[1] / peak * held, 0.01 * amplitude)
@@ -177,7 +178,7 @@ std::string picture() {
   return text + "\n";
 }
 
-TEST(Gradient, OfAnImageIsThatOfOneSpline) {
+TEST(Gradient, OfAnImageIsTheSlopeOfItsRelief) {
   Files files;
   files.contents["stone.pgm"] = picture();
   // 12 px of 5 mm: 60 mm across. The relief is the height in m; the force shows the slope of the same.
@@ -194,14 +195,14 @@ TEST(Gradient, OfAnImageIsThatOfOneSpline) {
     std::array<float, 4> heights{};
     relief_all(bank, around, heights);
     const Force force = tick(bank, {place, {0, 0}});
-    // Up to 2 mm within a pixel of 5 mm: slopes of about 0.4; heights are good to 1e-7 of 2 mm.
+    // Heights change by up to 2 mm per pixel of 5 mm, slopes are about 0.4, and heights are precise to 1e-7 of 2 mm.
     EXPECT_NEAR(force.x, (heights[0] - heights[1]) / (around[0].x - around[1].x), 1e-3);
     EXPECT_NEAR(force.y, (heights[2] - heights[3]) / (around[2].y - around[3].y), 1e-3);
   }
 }
 
 TEST(Gradient, OfAnImageRunsTheRightWayUp) {
-  // Brighter to the right and to the top of the picture: uphill along +x and +y.
+  // The picture is brighter to the right and to the top, so the height rises along +x and +y.
   std::string ramp = "P2\n8 8\n255\n";
   for (int row = 0; row < 8; ++row)
     for (int column = 0; column < 8; ++column) ramp += fmt::format("{} ", 10 * column + 20 * (7 - row));

@@ -1,4 +1,4 @@
-// Materials are found that no file imports: by name, by what people call them, by their kind.
+// Finding materials without an import: by name, by the names that people use (`called`), by kind.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace wale::compiling::likes_test {
 namespace {
 
-/// A library of files by module name, which can be listed, and how often that was done.
+/// A library in memory, by module name. `listed` counts how often its modules were listed.
 class Shelf final : public Resolver {
  public:
   explicit Shelf(std::map<std::string, std::string> modules) : modules_(std::move(modules)) {}
@@ -61,7 +61,7 @@ struct Checked {
     return all;
   }
 
-  /// N, on a hand 1 mm to the right: a spring's stiffness in N/mm, negated.
+  /// The force of material `m` along x, in N, at x = 1 mm. For a spring it is the negated stiffness in N/mm.
   float force() {
     const auto program = compile_material(module, "m", default_device, sources, source, shelf, diagnostics);
     if (!program) throw std::runtime_error(said());
@@ -85,18 +85,18 @@ TEST(Likes, AreFoundByNameWithoutAnImport) {
   EXPECT_FLOAT_EQ(Checked(like("denim"), files).force(), -0.05f);
   // It keeps the constants of its own file.
   EXPECT_FLOAT_EQ(Checked("let k = 1 N\n" + like("stiff"), files).force(), -0.07f);
-  // What the file itself declares comes first.
+  // Declarations of the file come first.
   EXPECT_FLOAT_EQ(Checked(spring("denim", 20) + like("denim"), files).force(), -0.02f);
 }
 
-TEST(Likes, AreFoundByWhatPeopleCallThemAndByTheirKind) {
+TEST(Likes, AreFoundByTheNamesPeopleUseAndByTheirKind) {
   const std::map<std::string, std::string> files{
       {"cloth", spring("denim", 50, "title \"Blue denim\"; called \"jeans\", \"Serge de Nimes\"; kind fabric.twill") +
                     spring("felt", 30, "kind fabric.felted")}};
   for (const char* words : {"\"jeans\"", "\"serge de nimes\"", "\"Blue Denim\"", "fabric.twill", "\"denim\""})
     EXPECT_FLOAT_EQ(Checked(like(words), files).force(), -0.05f) << words;
   EXPECT_FLOAT_EQ(Checked(like("fabric.felted"), files).force(), -0.03f);
-  // In the file itself too, where a material does not mean itself.
+  // They are found in the file itself too, and a material does not find itself.
   const std::string own =
       spring("loden", 10, "called \"jeans\"") + "material m { representative { called \"jeans\"; like \"jeans\" } }\n";
   EXPECT_FLOAT_EQ(Checked(own, files).force(), -0.01f);
@@ -122,12 +122,12 @@ TEST(Likes, ThatMayBeSeveralAreAnErrorThatNamesThem) {
             "W0217 `denim` may be 2 materials of the library: `denim` of `new.cloth`, `denim` of `old.cloth`; name the "
             "one that you mean, as in `new.cloth.denim`");
   EXPECT_FLOAT_EQ(Checked(like("old.cloth"), files).force(), -0.03f);
-  // The mend does.
+  // An import decides as well.
   EXPECT_FLOAT_EQ(Checked("import old.cloth\n" + like("denim"), files).force(), -0.03f);
   EXPECT_FLOAT_EQ(Checked("import old.cloth\n" + like("test.twill"), files).force(), -0.03f);
 }
 
-TEST(Likes, OfNothingAreAnErrorWithWhatIsNearest) {
+TEST(Likes, OfUnknownNamesAreAnErrorWithTheNearestName) {
   const std::string said = Checked(like("corduroi"), {{"cloth", spring("corduroy", 50, "called \"cord\"")}}).said();
   EXPECT_EQ(said, "W0201 no material is called `corduroi`; did you mean `corduroy` (`import cloth`)?");
   EXPECT_NE(Checked(like("\"zzzzzz\""), {}).said().find("W0201 no material is called `zzzzzz`"), std::string::npos);
@@ -142,7 +142,7 @@ TEST(Likes, ThatComeBackToThemselvesAreAnError) {
   EXPECT_NE(itself.find("W0413 `m` is made from itself"), std::string::npos) << itself;
 }
 
-TEST(Likes, CostNothingWhereNothingIsLookedFor) {
+TEST(Likes, ListNoModulesWhereNoSearchIsNeeded) {
   Checked file("import cloth\nmaterial m { representative { like denim } }\n", {{"cloth", spring("denim", 50)}});
   EXPECT_FLOAT_EQ(file.force(), -0.05f);
   EXPECT_EQ(file.shelf.listed, 0);
@@ -160,7 +160,7 @@ const std::map<std::string, std::string> two_springs{
                   "export function softened(k) = k / 2\n"}};
 
 // Forces of springs add, so each expected force is the weighted sum of the stiffnesses, times 1 mm.
-TEST(MaterialNames, MayStandWhereverAMaterialIsMadeFromOthers) {
+TEST(MaterialNames, MayStandInEveryWayToDeriveAMaterial) {
   const auto force = [](const std::string& what) {
     return Checked("material m = " + what + "\n", two_springs).force();
   };
@@ -178,13 +178,13 @@ TEST(MaterialNames, AreTheFilesOwnBeforeTheLibrarys) {
   EXPECT_FLOAT_EQ(Checked(spring("denim", 20) + "material m = 0.5 denim + 0.5 felt\n", two_springs).force(), -0.025f);
 }
 
-TEST(MaterialNames, ThatPeopleUseGiveTheWeightTheMaterialsOwnName) {
+TEST(MaterialNames, ThatPeopleUseNameTheWeightAfterTheMaterial) {
   const Checked file("material m = 0.5 * \"jeans\" + 0.5 felt\n", two_springs);
   ASSERT_EQ(file.said(), "");
   EXPECT_EQ(file.module.material("m")->parameters.front().name, "denim_weight");
 }
 
-TEST(MaterialNames, ThatNothingHasComeWithTheNearestThreeAndTheirImports) {
+TEST(MaterialNames, ThatAreUnknownComeWithTheNearestThreeAndTheirImports) {
   const std::map<std::string, std::string> files{
       {"a", spring("quilt", 1)}, {"b", spring("quilp", 2)}, {"c.d", spring("quilts", 3)}, {"e", spring("quarts", 4)}};
   for (const char* what : {"quil", "quil(k: 1)", "0.5 quil", "2 * quil", "between(quil, quilt, 0.5)"})
@@ -192,7 +192,7 @@ TEST(MaterialNames, ThatNothingHasComeWithTheNearestThreeAndTheirImports) {
               "W0201 no material is called `quil`; did you mean `quilt` (`import a`), `quilp` (`import b`) or `quilts` "
               "(`import c.d`)?")
         << what;
-  // What the file itself has needs no import.
+  // A material of the file needs no import.
   const std::string own = Checked(spring("quils", 1) + "material m = quil\n", {}).said();
   EXPECT_TRUE(own.starts_with("W0201 no material is called `quil`; did you mean `quils`, ")) << own;
 }
@@ -203,7 +203,7 @@ TEST(MaterialNames, MayBeGivenWithTheirModules) {
     EXPECT_EQ(Checked(std::string("material m = ") + what + "\n", files).said(), "") << what;
 }
 
-TEST(MaterialNames, OfWhatIsNoMaterialSayWhatItIs) {
+TEST(MaterialNames, OfOtherDeclarationsSayTheirSort) {
   EXPECT_EQ(Checked("material m = softened\n", two_springs).said(),
             "W0201 no material is called `softened`; `softened` is a function of `cloth`; to use it in an expression, "
             "write `import cloth`");
@@ -227,7 +227,7 @@ TEST(MaterialNames, OnACommandLineFollowTheSameRule) {
   EXPECT_EQ(meant_material(index, "oak").error().code, Code::ambiguous_material);
   EXPECT_EQ(meant_material(index, "oak").error().sentence,
             "`oak` may be 2 materials: `oak` of `other`, `oak` of `third`");
-  // Where one name is not enough, the module tells them apart.
+  // A name with its module is not ambiguous.
   ASSERT_TRUE(meant_material(index, "third.oak"));
   EXPECT_EQ((*meant_material(index, "third.oak"))->module, "third");
   ASSERT_TRUE(meant_material(index, "third"));

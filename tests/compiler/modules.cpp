@@ -1,4 +1,4 @@
-// Imports: what a file offers, what it keeps to itself, and where it is found.
+// Imports: exported names, private names, and the search for modules.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace wale::compiling::modules_test {
 namespace {
 
-/// Files by module name, and how often each was asked for.
+/// Files in memory by module name. `asked` counts the requests for each.
 class Library final : public Resolver {
  public:
   explicit Library(std::map<std::string, std::string> modules) : modules_(std::move(modules)) {}
@@ -31,7 +31,7 @@ class Library final : public Resolver {
   std::map<std::string, std::string> modules_;
 };
 
-/// A file among modules, and what became of it.
+/// A file that is checked with a library of modules.
 struct Checked {
   Library library;
   SourceSet sources;
@@ -44,7 +44,7 @@ struct Checked {
         source(sources.add("test.wale", "wale 1\n" + text)),
         module(check_source(sources, source, library, diagnostics)) {}
 
-  /// Codes of errors, in the order of the report, each with the name of the file.
+  /// The errors in the order in which they were reported, each as its code and the name of its file.
   std::vector<std::string> errors() const {
     std::vector<std::string> all;
     for (const auto& diagnostic : diagnostics.all())
@@ -53,7 +53,7 @@ struct Checked {
     return all;
   }
 
-  /// The force of material `m` at a hand.
+  /// The force of a material, in N, at the place (x, y) in m.
   Force force(double x, double y = 0, const std::string& material = "m") {
     const auto program = compile_material(module, material, default_device, sources, source, library, diagnostics);
     if (!program) {
@@ -86,7 +86,7 @@ export let offered = waste * 8
 export unit ell = 5 span
 )";
 
-TEST(Modules, OfferWhatTheyExportAndUseWhatTheyDoNot) {
+TEST(Modules, OfferExportsAndUseTheirPrivateNames) {
   Checked file("import tools\n" + newtons("plane(3) + offered / 100 + 1 ell / 100 m"), {{"tools", tools}});
   EXPECT_EQ(file.errors(), Codes{});
   EXPECT_FLOAT_EQ(file.force(0).x, 2.5f + 0.04f + 5 * 9 * 0.0254f / 100);
@@ -113,7 +113,7 @@ TEST(Modules, KeepDimensionsToThemselvesInStatesToo) {
 }
 
 TEST(Modules, MayBeGivenNamesThatOthersKeepToThemselves) {
-  // What is private elsewhere is free here.
+  // Private names of other modules are free in this file.
   Checked file("import tools\nlet waste = 7\nfunction hidden(t) = t + waste\nunit span = 1 mm\n" +
                    newtons("plane(2) + hidden(1) / 10 + 1 span / 1 m"),
                {{"tools", tools}});
@@ -121,7 +121,7 @@ TEST(Modules, MayBeGivenNamesThatOthersKeepToThemselves) {
   EXPECT_FLOAT_EQ(file.force(0).x, 2 + 0.8f + 0.001f);
 }
 
-TEST(Modules, WithPrivateNamesAlikeDoNotMeetEachOther) {
+TEST(Modules, WithEqualPrivateNamesDoNotClash) {
   Checked file("import one\nimport two\n" + newtons("first(1) + second(1) / 100"),
                {{"one", "let k = 2\nfunction inner(t) = k * t\nexport function first(t) = inner(t)"},
                 {"two", "let k = 3\nfunction inner(t) = k * t + 1\nexport function second(t) = inner(t)"}});
@@ -129,14 +129,14 @@ TEST(Modules, WithPrivateNamesAlikeDoNotMeetEachOther) {
   EXPECT_FLOAT_EQ(file.force(0).x, 2.04f);
 }
 
-TEST(Modules, ThatExportNamesAlikeClash) {
+TEST(Modules, ThatExportEqualNamesClash) {
   Checked file("import one\nimport two\n" + newtons("inner(1)"),
                {{"one", "export function inner(t) = 2 * t"}, {"two", "export function inner(t) = 3 * t"}});
   EXPECT_EQ(file.errors(), Codes{"W0202 test.wale"});
 }
 
 TEST(Modules, AreLoadedOnceHoweverManyImportThem) {
-  // Read twice, `wear` would be two dimensions, and what one of the two makes of it no wear for the other.
+  // If `base` were loaded twice, `wear` would be two dimensions, and `total` could not add `worn` and `torn`.
   Checked file("import left\nimport right\nimport base\n" + newtons("total(worn(2), torn(3)) / 1 rub"),
                {{"base", "export dimension wear\nexport unit rub : wear"},
                 {"left", "import base\nexport function worn(t) = t * 1 rub"},
@@ -148,7 +148,7 @@ TEST(Modules, AreLoadedOnceHoweverManyImportThem) {
   EXPECT_EQ(file.module.modules.modules.size(), 4u);
 }
 
-TEST(Modules, HandOnNoImports) {
+TEST(Modules, DoNotExportTheirImports) {
   const std::map<std::string, std::string> modules{{"far", "export let distance = 4"},
                                                    {"near", "import far\nexport let half = distance / 2"}};
   Checked good("import near\n" + newtons("half"), modules);
@@ -183,7 +183,7 @@ TEST(Modules, KeepTheirBaseDimensionsApart) {
   EXPECT_FLOAT_EQ(file.force(0).x, 3.25f);
   EXPECT_EQ(Checked("import cloth\nimport stove\n" + newtons("(worn(6) + warm(1)) / worn(1)"), modules).errors(),
             Codes{"W0302 test.wale"});
-  // Not the same dimension, though both files call it `wear`: neither knows of the other.
+  // Both files declare a dimension `wear`, independently of each other, so these are two dimensions.
   EXPECT_EQ(Checked("import cloth\nimport shoe\n" + newtons("(worn(6) + trodden(1)) / worn(1)"), modules).errors(),
             Codes{"W0302 test.wale"});
 }
@@ -197,7 +197,7 @@ material elastic { physical {
 } }
 )";
 
-TEST(Modules, LendMaterialsToBeMadeIntoOthers) {
+TEST(Modules, OfferMaterialsToDeriveFrom) {
   Checked file(R"(import fabric
 material soft = elastic(k: 5 N/m)
 material m { representative { like elastic }
@@ -207,7 +207,7 @@ material middle = between(soft, elastic, 0.5)
 )",
                {{"fabric", fabric}});
   EXPECT_EQ(file.errors(), Codes{});
-  // The file's own, and no more.
+  // Only the file's own materials are listed.
   std::vector<std::string> names;
   for (const auto& material : file.module.materials) names.push_back(material.name);
   EXPECT_EQ(names, (Codes{"soft", "m", "mixed", "middle"}));
@@ -218,7 +218,7 @@ material middle = between(soft, elastic, 0.5)
 }
 
 TEST(Modules, NamesOfADerivedMaterialAreThoseOfItsFile) {
-  // `pull` and `customary` mean something else here, and the imported material does not know.
+  // `pull` and `customary` have another meaning in this file, which does not change the imported material.
   Checked file(
       "import fabric\nlet customary = 1 N/m\nfunction pull(k) = k * hand\n"
       "material m = elastic\nmaterial own { physical { force = pull(customary) } }\n",
@@ -247,7 +247,7 @@ TEST(Modules, BesideAFileComeBeforeThoseOfTheLanguage) {
   EXPECT_FLOAT_EQ(file.force(0).x, 6);
 }
 
-TEST(Modules, ThatAreNowhereAreAnErrorAndSoAreCircles) {
+TEST(Modules, ThatAreMissingOrCircularAreErrors) {
   EXPECT_EQ(Checked("import nowhere\n" + newtons("1"), {}).errors(), Codes{"W0212 test.wale"});
   EXPECT_EQ(Checked("import one\n" + newtons("a"),
                     {{"one", "import two\nexport let a = b"}, {"two", "import one\nexport let b = 1"}})

@@ -1,5 +1,4 @@
-// The noises of schema/functions.wale against their definition, worked out here in double precision from the values of
-// the lattice alone.
+// The noises of schema/functions.wale against their definitions, computed in double precision from values of `lattice`.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,8 @@
 namespace wale::compiling::noise_test {
 namespace {
 
-// A cell is 1/1024 m wide, so that every whole place and most in between are floats: x * 1024.
+// A cell is 1/1024 m wide, so that whole places, and those at multiples of 1/1024 of a cell, are exact floats of
+// metres.
 constexpr double cells_per_metre = 1024;
 
 Hand at(double u, double v, double w = 0) {
@@ -27,7 +27,7 @@ Hand at(double u, double v, double w = 0) {
 
 const std::string inputs = "    let u = 1024 * (x / 1 m)\n    let v = 1024 * (y / 1 m)\n    let w = time / 1 s\n";
 
-/// What a plain expression of u, v and w comes to.
+/// The value of a dimensionless expression of u, v and w.
 class Evaluated {
  public:
   explicit Evaluated(const std::string& expression)
@@ -51,7 +51,7 @@ Bank slope_of(const std::string& expression) {
 double bent(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 double mixed(double a, double b, double way) { return a + way * (b - a); }
 
-/// lattice(u, v, seed) for whole numbers up to 70 either way.
+/// lattice(arguments) at whole numbers, computed once for each place.
 class Lattice {
  public:
   explicit Lattice(const std::string& arguments) : corner_("lattice(" + arguments + ")") {}
@@ -104,7 +104,7 @@ TEST(Noise, IsTheLatticeAtWholePlaces) {
   for (int u = -60; u <= 60; ++u) ASSERT_EQ(three(u, 3, 2), second(u, 3));
 }
 
-TEST(Noise, IsWhatItsDefinitionSaysInBetween) {
+TEST(Noise, FollowsItsDefinitionBetweenWholePlaces) {
   Evaluated one("noise(u, 4)"), two("noise2(u, v, 4)"), slopes("gradient_noise(u, v, 4)"), three("noise3(u, v, w, 4)");
   Lattice line("u, 4"), plane("u, v, 4"), layer("u, v, 4 + 303"), above("u, v, 4 + 404");
   std::mt19937 random(21);
@@ -147,7 +147,7 @@ TEST(Noise, DoesNotJumpFromCellToCell) {
     const double step = 1.0 / 4096;
     for (int cell = -50; cell < 50; ++cell) {
       const double v = 0.37 * cell;
-      // Values differ by no more than the slope there times the step, which is level for all but Perlin's.
+      // Values differ by at most the slope at the edge times the step. The slope is 0 except for gradient noise.
       const double steep = std::hypot(slope(bank, cell, v, 5)[0], slope(bank, v, cell, 5)[1]);
       ASSERT_NEAR(value(cell - step, v, 5), value(cell, v, 5), step * (steep + 0.02)) << text << cell;
       ASSERT_NEAR(value(v, cell - step, 5), value(v, cell, 5), step * (steep + 0.02)) << text << cell;
@@ -194,10 +194,10 @@ TEST(Noise, IsAnotherForEachSeed) {
       first_by_second += p * q;
       first_squared += p * p;
       second_squared += q * q;
-      ASSERT_EQ(first(u, v, w), again(u, v, w)) << name;  // what is behind the seed's point is dropped
+      ASSERT_EQ(first(u, v, w), again(u, v, w)) << name;  // the fraction of a seed is dropped
     }
     EXPECT_LT(alike, 60) << name;
-    // A line of 120 cells has some 100 values of its own: by chance their correlation is 0.1.
+    // A line of 120 cells has about 100 independent values, whose correlation is about 0.1 by chance.
     EXPECT_LT(std::abs(first_by_second) / std::sqrt(first_squared * second_squared), 0.3) << name;
   }
 }

@@ -135,7 +135,8 @@ TEST(OutputFile, AnOpenDescriptorIsWrittenWhereItStands) {
   const int descriptor = open((folder / "log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
   ASSERT_GE(descriptor, 0);
   ASSERT_EQ(write(descriptor, "one ", 4), 4);
-  for (const std::string& name : {"/dev/fd/" + std::to_string(descriptor), "/proc/self/fd/" + std::to_string(descriptor)})
+  for (const std::string& name :
+       {"/dev/fd/" + std::to_string(descriptor), "/proc/self/fd/" + std::to_string(descriptor)})
     EXPECT_TRUE(write_file(name, "two ", {}));
   close(descriptor);
   EXPECT_EQ(bytes_of(folder / "log"), "one two two ");

@@ -9,18 +9,18 @@
 
 namespace wale::compiling {
 
-/// Writes materials whose dimensions fit, of everything that expressions can be made of. The same seed writes the same
-/// text everywhere.
+/// Writes random materials with consistent dimensions, which use every sort of expression. The same seed writes the
+/// same text on every platform.
 class RandomMaterial {
  public:
   explicit RandomMaterial(std::uint32_t seed) : random_(seed) {}
 
-  /// A parameter: what it is set to when it is not inlined.
+  /// A parameter with its default.
   struct Param {
     std::string name, value, unit;
   };
 
-  /// A file with one material; its parameters are constants instead where `inlined`.
+  /// A file with one material. Where `inlined`, its parameters are constants.
   std::string text(bool inlined) const {
     std::string params;
     for (const auto& param : params_)
@@ -44,7 +44,7 @@ class RandomMaterial {
       names_.push_back({name, dimension, false});
     }
     for (int i = below(3); i >= 0; --i) {
-      hand_ = one_in(2);  // functions know of inputs and of nothing else of the material's
+      hand_ = one_in(2);  // functions may use inputs, but no names of the material
       write_function();
     }
     hand_ = false;
@@ -56,7 +56,7 @@ class RandomMaterial {
     hand_ = true;
     if (with_states) write_states();
     for (int i = below(4); i >= 0; --i) write_let();
-    // Brought under the device's limit, whatever its size.
+    // The sum of all layers stays below the device's limit.
     const int layers = 1 + below(3);
     for (int i = 0; i < layers; ++i) {
       if (one_in(3)) write_update();
@@ -97,13 +97,13 @@ class RandomMaterial {
     names_.push_back({name, dimension, vector});
   }
 
-  /// Where a state begins says nothing of states; so they get known all at once.
+  /// Initial values may not name states, so states become known only after all are declared.
   void write_states() {
     for (int i = 0, count = 1 + below(4); i < count; ++i) {
       const Name state{fmt::format("s{}", i), small_dimension(), one_in(3)};
       const std::string in = unit(state.dimension), zero = in.empty() ? "0" : "0 " + in;
       const std::string nought = state.vector ? fmt::format("vector({0}, {0})", zero) : zero;
-      // Bounds of about the size of what comes; a start that the compiler knows has to lie within them.
+      // Bounds of about the size of typical values. An initial value that the compiler knows must lie within them.
       const std::string begin = one_in(2) ? nought : named_input(state.dimension, state.vector);
       body_ += fmt::format("    state {} = {} in -{} .. {}\n", state.text, begin.empty() ? nought : begin,
                            literal(state.dimension), literal(state.dimension));
@@ -112,7 +112,7 @@ class RandomMaterial {
     names_.insert(names_.end(), unmoved_.begin(), unmoved_.end());
   }
 
-  /// One of the updates that are left, or none for that state.
+  /// Writes the update of a state that has none so far; sometimes leaves the state without one.
   void write_update() {
     if (unmoved_.empty()) return;
     const auto which = unmoved_.begin() + below(static_cast<int>(unmoved_.size()));
@@ -122,7 +122,7 @@ class RandomMaterial {
     const bool rate = one_in(2);
     Dimension dimension = state.dimension;
     if (rate) --dimension[2];
-    // A tick is a nine-hundredth of a second: some rates are fast enough to get somewhere.
+    // A tick is 1/900 s, so some rates are made fast enough to reach the bounds.
     const std::string faster = rate && one_in(2) ? "300 * " : "";
     body_ += fmt::format("    {}{}{} = {}{}\n", rate ? "" : "next ", state.text, rate ? "'" : "", faster,
                          state.vector ? vector_of(dimension, 3) : number_of(dimension, 3));
@@ -135,10 +135,10 @@ class RandomMaterial {
     return common[static_cast<std::size_t>(below(static_cast<int>(common.size())))];
   }
 
-  /// "2.75": no float holds most of these exactly.
+  /// Such as "2.75". Most of these are not exact as floats.
   std::string figure() { return fmt::format("{}.{:02}", below(9) + (one_in(3) ? 1 : 0), 1 + below(99)); }
 
-  /// "mm", "N s/m", "kg m^2/s": some way to write the dimension, of about unit size.
+  /// A unit of that dimension, such as "mm", "N s/m" or "kg m^2/s".
   std::string unit(const Dimension& dimension) {
     static const std::vector<std::pair<Dimension, std::vector<std::string>>> known{
         {length, {"m", "cm", "inch", "mm"}}, {{0, 1, 0}, {"kg", "g"}},        {{0, 0, 1}, {"s", "ms"}},
@@ -181,7 +181,7 @@ class RandomMaterial {
     functions_.push_back(function);
   }
 
-  /// The name of something of that dimension, or nothing.
+  /// A known name of that dimension, or an empty text.
   std::string named(const Dimension& dimension, bool vector) {
     std::vector<std::string> fitting;
     for (const auto& name : names_)
@@ -194,7 +194,7 @@ class RandomMaterial {
     return fitting.empty() ? "" : fitting[static_cast<std::size_t>(below(static_cast<int>(fitting.size())))];
   }
 
-  /// Likewise of the inputs.
+  /// An input of that dimension, or an empty text.
   std::string named_input(const Dimension& dimension, bool vector) {
     if (!hand_) return "";
     std::vector<std::string> fitting;
@@ -264,7 +264,7 @@ class RandomMaterial {
     const Dimension b = small_dimension(), a{d[0] + b[0], d[1] + b[1], d[2] + b[2]};
     return fmt::format("({} / ({}))", number_of(a, depth - 1), number_of(b, depth - 1));
   }
-  /// Whole powers and roots, and of plain numbers any power.
+  /// Whole powers and roots, and any power of plain numbers.
   std::string power(const Dimension& d, int depth) {
     const Dimension half{d[0] / 2, d[1] / 2, d[2] / 2}, twice{2 * d[0], 2 * d[1], 2 * d[2]},
         inverse{-d[0], -d[1], -d[2]};
@@ -346,7 +346,7 @@ class RandomMaterial {
     std::vector<Dimension> formals;
   };
 
-  std::mt19937 random_;  // its numbers are the same everywhere; distributions' are not, so none is used
+  std::mt19937 random_;  // unlike distributions, it gives the same numbers on every platform
   std::vector<Name> names_;
   std::vector<std::string> conditions_;
   std::vector<Name> unmoved_;  ///< states without an update so far

@@ -30,7 +30,7 @@ reference::HandState as_reference(const Hand& hand) {
           .button = hand.button};
 }
 
-/// Jumps about, so that the next tick's hand says nothing of the last one's.
+/// A random hand, independent of the hand of the tick before.
 Hand next_hand(std::mt19937& random, int tick) {
   const auto in = [&](double size) { return static_cast<float>(size * uniform(random)); };
   Hand hand;
@@ -42,13 +42,13 @@ Hand next_hand(std::mt19937& random, int tick) {
   return hand;
 }
 
-/// How far a run came, and whether a state lay at one of its bounds on the way.
+/// The ticks that a run compared, whether a state changed, and whether one reached a bound.
 struct Outcome {
   int ticks = 0;
   bool moved = false, at_bound = false;
 };
 
-/// Runs both until the reference cannot say what comes next, or only with an error that means nothing.
+/// Runs both until the reference is undecided or its error bound is above 0.01 N.
 void run(const std::string& text, std::uint32_t seed, Outcome& outcome) {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -56,7 +56,7 @@ void run(const std::string& text, std::uint32_t seed, Outcome& outcome) {
   const Program program = Compiled(text).only();
   Bank bank(program);
   Memory memory(program);
-  // Parameters as the machine has them, which are floats.
+  // The machine's parameters are floats, so the reference takes the same floats.
   std::map<std::string, double> values;
   for (const auto& parameter : program.description().parameters) values[parameter.name] = parameter.value;
   reference::Simulation simulation(tree, values);
@@ -76,7 +76,7 @@ void run(const std::string& text, std::uint32_t seed, Outcome& outcome) {
         ASSERT_NEAR(force[axis], expected.value[axis], expected.error[axis] + 1e-12)
             << "seed " << seed << ", axis " << axis << ", tick " << i << "\n"
             << text;
-      // Scalars and vectors by name: a vector is two states in a row.
+      // States in the order of declaration; a vector is two states in a row.
       std::size_t index = 0;
       const auto& declared = program.description().states;
       for (const auto& [name, state] : simulation.states()) {
@@ -114,7 +114,7 @@ TEST(RandomStates, MachineAndReferenceAgreeTickByTick) {
   RecordProperty("whole", std::to_string(whole));
   RecordProperty("moved", std::to_string(moved));
   RecordProperty("at_bound", std::to_string(at_bound));
-  // Most runs come to something that 32 bits cannot decide; enough of them go on to the end.
+  // Most runs reach a comparison that 32 bits cannot decide, but enough continue to the end.
   EXPECT_GT(ticks, static_cast<int>(materials) * ticks_each / 4);
   EXPECT_GT(whole, static_cast<int>(materials) / 8);
   EXPECT_GT(moved, static_cast<int>(materials) / 4);

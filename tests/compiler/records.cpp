@@ -1,4 +1,4 @@
-// What a record's settings say besides their figures.
+// The word `assumed` in a device record.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace wale::records_test {
 namespace {
 
-TEST(DeviceRecord, AFigureIsAssumedWhicheverSideTheWordStands) {
+TEST(DeviceRecord, TheWordAssumedMayStandBeforeOrAfterTheFigure) {
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver({});

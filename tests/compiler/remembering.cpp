@@ -1,5 +1,5 @@
-// States, memories, time and phase: what a material remembers, held against the language's own order of evaluation as
-// the reference evaluator walks it, and against recurrences written out here.
+// States, memories, time and phase, against the evaluator of tests/reference/, which follows the language's order of
+// evaluation, and against recurrences and closed forms.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double dt = 1.0 / 900;
 
-/// A program as it runs.
+/// A program with its bank and memory.
 struct Running {
   explicit Running(const Program& compiled) : program(compiled), bank(program), memory(program) {}
 
@@ -44,7 +44,7 @@ const char* const brick = R"(
     p' = v
     force = -pull)";
 
-TEST(States, RunAsTheReferenceEvaluatorWalksThem) {
+TEST(States, AgreeWithTheReferenceEvaluator) {
   const std::string text = std::string("wale 1\nmaterial m { physical {") + brick + "\n} }\n";
   SourceSet sources;
   Diagnostics diagnostics;
@@ -83,7 +83,7 @@ TEST(States, SwingAtTheFrequencyOfMassAndSpring) {
   }
 }
 
-TEST(States, UpdatesReadWhatWasUpdatedAboveThemAndNothingElseDoes) {
+TEST(States, UpdatesReadUpdatesAboveThemAndLetsReadOldValues) {
   Running running(compiled(R"(
     state a = 1 in -1000 .. 1000
     state b = 10 in -1000 .. 1000
@@ -94,7 +94,7 @@ TEST(States, UpdatesReadWhatWasUpdatedAboveThemAndNothingElseDoes) {
     next c = old
     force = vector(1 N * (a / 100), 1 N * (c / 1000)))"));
   running.enter(at(0, 0));
-  // By hand: a counts; b adds the new a; c takes the sum of both as they were when the tick began.
+  // By hand: a counts, b adds the new a, and c is the sum of a and b as they were before the tick.
   const float expected[4][3] = {{1, 10, 100}, {2, 12, 11}, {3, 15, 14}, {4, 19, 18}};
   for (const auto& [a, b, c] : expected) {
     EXPECT_EQ(running.memory.states()[0], a);
@@ -119,7 +119,7 @@ TEST(States, StopAtTheirBoundsAndAtThoseOfTheirDimension) {
   EXPECT_FLOAT_EQ(running.memory.states()[1], 1);  // schema/units.wale: length in -1 m .. 1 m
 }
 
-TEST(States, BeginAsTheHandEntersAndAreRestoredFromNoNumber) {
+TEST(States, BeginAsTheHandEntersAndReplaceNotANumber) {
   Running running(compiled(R"(
     state start : position = hand
     state wild = 0.5 in 0 .. 10
@@ -130,12 +130,12 @@ TEST(States, BeginAsTheHandEntersAndAreRestoredFromNoNumber) {
   EXPECT_FLOAT_EQ(running.memory.states()[1], 0.02f);
   running(at(0.04, 0));
   EXPECT_FLOAT_EQ(running.memory.states()[2], 0.2f);
-  running(at(-0.04, 0));  // the root of less than nothing
+  running(at(-0.04, 0));  // the root of a negative number
   EXPECT_FLOAT_EQ(running.memory.states()[2], 0.5f);
   EXPECT_EQ(running.memory.restored(), 1);
 }
 
-TEST(Phase, IsAWrappedAccumulatorOfItsOwn) {
+TEST(Phase, IsAWrappedAccumulator) {
   Running running(compiled(R"(
     param f = 7 Hz in 1 Hz .. 400 Hz
     force = vector(1 N * phase(f), 1 N * phase(f / 2)))"));
@@ -150,7 +150,7 @@ TEST(Phase, IsAWrappedAccumulatorOfItsOwn) {
   }
 }
 
-TEST(Inputs, ReachThePlacesThatNameThem) {
+TEST(Inputs, ReachTheExpressionsThatNameThem) {
   const Program program = compiled(R"(
     let sum = vector(1 N, 0 N) * (time / 1 s + (if button then 10 else 0) + dt / 1 s)
     force = sum * 0.1 + 0.01 kg * acceleration + 1 N/m * hand_on_workspace)");
@@ -172,7 +172,7 @@ const char* const track = R"(
     next depth = depth + 1 mm
     force = vector(1 N * (depth / 1 mm), 1 N * (depth(vector(9 mm, 1 mm)) / 1 mm)))";
 
-TEST(Memories, KeepWhatIsWrittenUnderTheHandAndNowhereElse) {
+TEST(Memories, ChangeUnderTheHandOnly) {
   const Program program = compiled(track);
   ASSERT_EQ(program.description().grids.size(), 1u);
   EXPECT_EQ(program.description().grids[0].columns, 20u);
@@ -188,15 +188,15 @@ TEST(Memories, KeepWhatIsWrittenUnderTheHandAndNowhereElse) {
       EXPECT_FLOAT_EQ(running.memory.grid(0)[row * 20 + column], static_cast<float>(1e-3 * expected))
           << row << " " << column;
     }
-  // Between cells it is interpolated; elsewhere it can be asked by place.
+  // Values between cells are interpolated, and a place as argument reads the value there.
   EXPECT_NEAR(running(at(0.010, 0.001)).x, 1.5, 1e-5);
   EXPECT_NEAR(running(at(-0.015, 0.005)).y, 3, 1e-5);
-  // A new entry begins states anew and leaves memories as they are.
+  // A new entry does not change memories.
   running.enter(at(0, 0));
   EXPECT_NEAR(running(at(0.009, 0.001)).x, 3, 1e-5);
 }
 
-TEST(Memories, AreSharedOutOverPatchesOfAnySize) {
+TEST(Memories, ScaleWithThePatch) {
   Running running(compiled(track));
   running.bank = Bank(running.program, running.program.default_parameters(), {0.08f, 0.04f, 0.002f});
   running.enter(at(0, 0));

@@ -1,5 +1,5 @@
-// Files with words dropped, doubled, exchanged and borrowed from each other: most are wrong, and whatever is wrong with
-// them is said in words, at a place, with a mend; none crashes a stage or makes a program that the machine refuses.
+// Files with words dropped, doubled, exchanged or taken from other files. Every diagnostic has a message, a place and a
+// mend, no stage crashes, and no program is refused by the machine.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// The library's materials and the cases of all diagnostics but those of damaged text and of size.
+/// The words of each shipped file and each case of a diagnostic, except the cases for damaged text and for size.
 std::vector<std::vector<std::string>> corpus() {
   std::vector<fs::path> files;
   for (const char* folder : {"library", "schema", "calibration", "tests/language/diagnostics"})
@@ -48,7 +48,7 @@ std::vector<std::vector<std::string>> corpus() {
   return texts;
 }
 
-TEST(MangledFiles, AreToldWhatIsWrong) {
+TEST(MangledFiles, HaveDiagnosticsWithPlacesAndMends) {
   const auto texts = corpus();
   ASSERT_GT(texts.size(), 30u);
   std::mt19937 random(1);
@@ -96,10 +96,10 @@ TEST(MangledFiles, AreToldWhatIsWrong) {
     ++(all.empty() ? right : wrong);
   }
   EXPECT_GT(wrong, right);
-  EXPECT_GT(right, 10) << "some changes change nothing that matters";
+  EXPECT_GT(right, 10) << "too few of the changed files are still valid";
 }
 
-/// More constants than 16 bits can count: the registers that it would need are counted all the same.
+/// The material has more constants than 16 bits can count; its registers are counted correctly nevertheless.
 TEST(VastMaterial, IsRefusedForItsRegisters) {
   constexpr int lets = 90, terms = 900;
   std::string physical = "let u = x / 1 m\nlet a0 = u\n";

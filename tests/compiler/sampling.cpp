@@ -1,4 +1,4 @@
-// Running a trace: one memory for all of it, entered when the hand comes inside.
+// Running a trace: there is one memory, entered whenever the hand comes onto the patch.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace wale::sampling_test {
 namespace {
 
-/// force x = what was in the state, which counts ticks from entering on; y = an input.
+/// A program whose force along x is the number of ticks since entering, and along y an input (0 for Input::x).
 Bank counting(Input input) {
   Assembly a({9, 0, 1});
   const RegisterNumber count = a.state("count", 0, 100);
@@ -36,7 +36,7 @@ TEST(Sampling, TimeIsThatOfTheTrace) {
   EXPECT_EQ(samples[2].force.y, 4.0f);
 }
 
-TEST(Sampling, ATraceTellsDifferences) {
+TEST(Sampling, DerivativesComeFromDifferencesOfTheTrace) {
   const std::vector<SampledHand> trace = {at(0, 0, 0.125f), at(0.5, 0.03125f, 0.25f), at(0.75, 0.0625f, 0.5f)};
   const auto last = [&](Input input) { return sample(counting(input), trace)[2].force.y; };
   EXPECT_EQ(last(Input::acceleration_x), 1.0f);

@@ -1,4 +1,4 @@
-// Laws solved for their carriers, against the closed forms one would write by hand.
+// Laws solved for their carriers, against closed forms.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace wale::compiling::solving_test {
 namespace {
 
-/// An equation in one unknown; everything else is a number.
+/// An equation of numbers and one unknown.
 struct Equation {
   Terms terms;
   TermId unknown = terms.add({.kind = TermKind::carrier});
@@ -69,7 +69,7 @@ TEST(Isolate, GivesUpWhereItMust) {
 }
 
 TEST(Isolate, IsLinearInTheSizeOfTheLaw) {
-  // Two to the power 200 ways lead to the constant; walking each would never end.
+  // There are 2^200 paths to the constant, so following each would never end.
   Equation e;
   TermId shared = e.number(0.5);
   for (int i = 0; i < 200; ++i)
@@ -90,7 +90,7 @@ double amplitude_by(const std::string& law, double level) {
 }
 
 TEST(SolvedAmplitude, IsTheClosedForm) {
-  // A level is a share of the magnitude at 4 N.
+  // A level is the magnitude as a fraction of the magnitude at 4 N.
   EXPECT_NEAR(amplitude_by("magnitude = amplitude / 1 N", 0.5), 4 * 0.5, 1e-6);
   EXPECT_NEAR(amplitude_by("magnitude = 3 * (amplitude / 1 N)^0.5", 0.5), 4 * 0.25, 1e-5);
   EXPECT_NEAR(amplitude_by("magnitude = 2 * (amplitude / 1 N)^1.7", 0.5), 4 * std::pow(0.5, 1 / 1.7), 1e-5);
@@ -105,7 +105,7 @@ TEST(SolvedAmplitude, IsTheClosedForm) {
 TEST(SolvedAmplitude, OfMinskysMap) {
   const Program program = compiled("    force = lateral(grating(x, period: 2 mm))", "", "roughness 0.6");
   EXPECT_NEAR(amplitude(Bank(program), 0), 194 * 10.0 / 512 * std::pow(0.6, 1 / 0.759593), 1e-5);
-  // The level stays live: another one is the same law again.
+  // A level that is set at run time is solved by the same law.
   const auto index = program.parameter("roughness");
   ASSERT_TRUE(index);
   auto parameters = program.default_parameters();
@@ -128,7 +128,8 @@ TEST(SolvedAmplitude, OfAPerceptAloneIsTheDevicesOwnRealisation) {
   EXPECT_NEAR(amplitude(Bank(program), 0), 1.934, 0.0005);
 }
 
-/// Whether the percept and an amplitude of the level `level` by Minsky's map may stand together.
+/// Whether a material compiles with this percept and the amplitude of `level` by Minsky's map. Other errors than W0403
+/// fail the test.
 bool agree(const std::string& percept, double level) {
   const double amplitude = 194 * 10.0 / 512 * std::pow(level, 1 / 0.759593);
   try {
@@ -141,7 +142,7 @@ bool agree(const std::string& percept, double level) {
 }
 
 TEST(GivenAmplitude, AgreesWithinTheScatterOfTheMap) {
-  // 0.0519 of log10 either way.
+  // The scatter is 0.0519 in log10.
   for (const double level : {0.5, 0.6, 0.8}) {
     const std::string percept = fmt::format("roughness {}", level);
     EXPECT_TRUE(agree(percept, level));
@@ -152,8 +153,8 @@ TEST(GivenAmplitude, AgreesWithinTheScatterOfTheMap) {
   }
 }
 
-TEST(GivenAmplitude, AgreesWithinWhatIsNoticed) {
-  // Near nothing 0.1 N is the least difference of a force that counts, at d' = 1; the map alone is surer than that.
+TEST(GivenAmplitude, AgreesWithinTheThreshold) {
+  // For small forces the threshold is 0.1 N at d' = 1, which is wider than the scatter of the map.
   const auto level_of = [](double newton) { return std::pow(newton / (194 * 10.0 / 512), 0.759593); };
   const double newton = 194 * 10.0 / 512 * std::pow(0.2, 1 / 0.759593);
   EXPECT_TRUE(agree("roughness 0.2", level_of(newton + 0.095)));
@@ -169,7 +170,7 @@ TEST(GivenAmplitude, AgreesWithinATolerance) {
     EXPECT_FALSE(agree(percept, 0.751)) << percept;
     EXPECT_FALSE(agree(percept, 0.449)) << percept;
   }
-  // The tolerance only ever adds to what the scatter allows: 0.676 is within it.
+  // A tolerance widens the scatter and never narrows it: the scatter alone allows up to 0.676.
   EXPECT_TRUE(agree("roughness 0.6 ± 0.01", 0.67));
   EXPECT_TRUE(agree("roughness 0.6 ± 0.1", 0.69));
   EXPECT_FALSE(agree("roughness 0.6", 0.69));
@@ -177,7 +178,7 @@ TEST(GivenAmplitude, AgreesWithinATolerance) {
   EXPECT_FALSE(agree("roughness 0.6 ± 0.1", 0.49));
 }
 
-TEST(SolvedAmplitude, IsNoOtherForATolerance) {
+TEST(SolvedAmplitude, DoesNotDependOnTheTolerance) {
   const auto at = [](const std::string& percept) {
     Bank bank(compiled("    force = lateral(grating(x, period: 2 mm))", "", percept));
     return amplitude(bank, 0);

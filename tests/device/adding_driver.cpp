@@ -1,5 +1,5 @@
-// A driver is a folder and a row of a table: made_up/ is found, listed, chosen, opened, felt, lost and found again by
-// what serves every driver.
+// A driver is a folder and a row of a table. The code for all drivers finds, lists, chooses, opens, feels, loses and
+// reopens the device of made_up/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,14 +21,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The table of drivers with a row more.
+/// The table of drivers with one more row.
 std::vector<const Driver*> table() {
   std::vector<const Driver*> all(drivers().begin(), drivers().end());
   all.push_back(&made_up_driver);
   return all;
 }
 
-/// The declared devices with one more.
+/// The shipped devices with one more.
 std::vector<DeclaredDevice> known() {
   std::vector<DeclaredDevice> all = *shipped_devices();
   DeclaredDevice device;
@@ -97,10 +97,10 @@ TEST_F(AddingADriver, IsFeltAsItsDeclarationSays) {
   ASSERT_TRUE(ran) << ran.error().sentence;
   const auto& ticks = ran->record.ticks;
   ASSERT_FALSE(ticks.empty());
-  EXPECT_LT(ticks.back().force.x, -1) << "the spring pushes back to the middle";
+  EXPECT_LT(ticks.back().force.x, -1) << "the spring pushes towards the centre";
   float most = 0;
   for (const Force& force : made_up::rails().forces) {
-    EXPECT_GE(force.x, 0) << "along a motor that lies the other way round";
+    EXPECT_GE(force.x, 0) << "this motor is declared as reversed";
     most = std::max(most, force.x);
   }
   EXPECT_NEAR(most, -ticks.back().force.x, 1e-3);
@@ -109,7 +109,7 @@ TEST_F(AddingADriver, IsFeltAsItsDeclarationSays) {
   EXPECT_EQ(made_up::rails().open, 0);
 }
 
-TEST_F(AddingADriver, IsOpenedAgainWithoutTheDescriptorThatWasUsedUp) {
+TEST_F(AddingADriver, IsReopenedWithoutTheGivenDescriptor) {
   const auto choice = chosen("made-up");
   ASSERT_TRUE(choice);
   auto opened = open_device(nowhere, *choice, {.descriptor = 17});

@@ -1,4 +1,4 @@
-// Which device is meant: of what is plugged in, what is declared, and what the program was built for.
+// Choosing a device by the plugged devices, the declared devices, and the device that the program was built for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,8 +44,8 @@ const PluggedIn mouse{
         Error{Code::unlike_device, "it is not a force device: nothing in its report descriptor is of usage page 0F"}};
 
 struct Choice {
-  std::string device;   ///< its port; "simulated"; "absent"; or "refused"
-  std::string profile;  ///< or the mend
+  std::string device;   ///< its port, "simulated", "absent" or "refused"
+  std::string profile;  ///< the mend where there is an error
   std::string said;
 };
 
@@ -58,7 +58,7 @@ Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugge
   return {chosen->plugged ? chosen->plugged->port : "simulated", chosen->declared ? chosen->declared->profile.name : "",
           chosen->said};
 }
-/// The code of the error that a choice ends in.
+/// The code of the error of a choice.
 Code code_of(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {
   return choose_device(request, *shipped_devices(), plugged).error().code;
 }
@@ -72,14 +72,14 @@ TEST(Choosing, AutoTakesTheBestAndSaysWhich) {
   EXPECT_EQ(choice("auto", {}).said, "no force-feedback device is plugged in; using a simulated one");
   EXPECT_EQ(choice("auto", {mouse}).said, "no force-feedback device is plugged in; using a simulated one");
   EXPECT_EQ(choice("auto", {mouse, rhino}).device, "1-2");
-  EXPECT_EQ(choice("auto", {unheard_of, rhino}).profile, "vpforce_rhino") << "what is known goes before what is not";
+  EXPECT_EQ(choice("auto", {unheard_of, rhino}).profile, "vpforce_rhino") << "declared devices come before unknown ones";
   const Choice generic = choice("auto", {unheard_of});
   EXPECT_EQ(generic.profile, "usb_joystick");
   EXPECT_TRUE(contains(generic.said, "no declaration is about it"));
   EXPECT_TRUE(contains(choice("auto", {openffboard, rhino}).said, "also plugged in: Rhino (ffff:2055 at port 1-2)"));
 }
 
-TEST(Choosing, AutoTellsWhyOneThatIsThereIsNotTaken) {
+TEST(Choosing, AutoExplainsWhyAPluggedDeviceIsNotUsed) {
   const Choice choice = choosing_test::choice("auto", {forbidden});
   EXPECT_EQ(choice.device, "simulated");
   EXPECT_EQ(choice.said,
@@ -88,7 +88,7 @@ TEST(Choosing, AutoTellsWhyOneThatIsThereIsNotTaken) {
   EXPECT_EQ(choosing_test::choice("auto", {forbidden, rhino}).device, "1-2");
 }
 
-TEST(Choosing, WhatIsNamedIsTheRealOneWhereThereCanBeOne) {
+TEST(Choosing, ANamedDeviceIsTheRealOneWhereADriverExists) {
   const std::vector<PluggedIn> both{openffboard, rhino};
   EXPECT_EQ(choice("vpforce_rhino", both).device, "1-2");
   EXPECT_EQ(choice("ffff:2055", both).device, "1-2");
@@ -100,10 +100,10 @@ TEST(Choosing, WhatIsNamedIsTheRealOneWhereThereCanBeOne) {
   EXPECT_EQ(choice("simulated:vpforce_rhino", both).device, "simulated");
   EXPECT_EQ(choice("simulated:vpforce_rhino", both).profile, "vpforce_rhino");
   EXPECT_EQ(choice("sandpaper", both).device, "simulated");
-  EXPECT_EQ(choice("sandpaper", both).said, "") << "there is no real one to miss";
+  EXPECT_EQ(choice("sandpaper", both).said, "") << "no real device of that name can exist";
 }
 
-TEST(Choosing, ARealOneThatIsNotThereIsAbsentAndNotSimulated) {
+TEST(Choosing, AMissingRealDeviceIsAbsentAndNotSimulated) {
   for (const char* spelling : {"usb", "hid-pid", "1209:ffb0", "1-7", "arduino_ffb", "usb_joystick"})
     EXPECT_EQ(choice(spelling, {mouse}).device, "absent") << spelling;
   const Choice declared = choice("arduino_ffb", {openffboard, rhino});
@@ -112,7 +112,7 @@ TEST(Choosing, ARealOneThatIsNotThereIsAbsentAndNotSimulated) {
             "no device 1209:ffb0 is plugged in; plug it in, or use `--device simulated`");
 }
 
-TEST(Choosing, WhatCannotBeHadIsRefusedWithWhatToDo) {
+TEST(Choosing, UnusableDevicesAreRefusedWithAMend) {
   EXPECT_TRUE(contains(choice("1-3", {forbidden}).said, "no permission to open it"));
   EXPECT_TRUE(contains(choice("openffboard", {forbidden}).said, "no permission to open it")) << "not simulated instead";
   EXPECT_TRUE(contains(choice("2-1", {mouse}).said, "it is not a force device"));
@@ -125,7 +125,7 @@ TEST(Choosing, WhatCannotBeHadIsRefusedWithWhatToDo) {
   EXPECT_EQ(code_of({.spelling = "1-1", .only_simulated = true}, {openffboard}), Code::malformed_value);
 }
 
-TEST(Choosing, AProgramThatIsBuiltKeepsItsDevice) {
+TEST(Choosing, ABuiltProgramKeepsItsDevice) {
   const auto built = [](const std::string& spelling, const std::string& profile, std::vector<PluggedIn> plugged) {
     return choice(DeviceRequest{.spelling = spelling, .built_for = profile}, plugged);
   };
@@ -137,11 +137,11 @@ TEST(Choosing, AProgramThatIsBuiltKeepsItsDevice) {
   EXPECT_EQ(refused.device, "refused");
   EXPECT_TRUE(contains(refused.said, "wale build FILE --device openffboard -o OUT.wpp")) << refused.said;
   EXPECT_EQ(built("simulated:falcon", "sandpaper", {}).device, "refused");
-  EXPECT_EQ(built("falcon", "sandpaper", {}).device, "refused") << "and not waited for in vain";
+  EXPECT_EQ(built("falcon", "sandpaper", {}).device, "refused") << "it would not help to plug it in";
   EXPECT_EQ(built("simulated", "sandpaper", {openffboard}).device, "simulated");
 }
 
-TEST(Choosing, VirtualTimeAndASimulatedHandAreTheSimulatedDevices) {
+TEST(Choosing, VirtualTimeAndASimulatedHandNeedASimulatedDevice) {
   const auto simulated = [](const std::string& spelling) {
     return choice(DeviceRequest{.spelling = spelling, .only_simulated = true}, {openffboard});
   };
@@ -152,7 +152,7 @@ TEST(Choosing, VirtualTimeAndASimulatedHandAreTheSimulatedDevices) {
     EXPECT_EQ(simulated(spelling).device, "refused") << spelling;
 }
 
-/// A file and what it declares.
+/// A checked file with its declarations.
 struct Declared {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -168,7 +168,7 @@ struct Declared {
   }
 };
 
-TEST(Choosing, OnesOwnDeclarationGoesFirst) {
+TEST(Choosing, TheUsersDeclarationComesFirst) {
   const Declared own(R"(wale 1
 device at_home {
   usb       "1209:ffb0"
@@ -192,7 +192,7 @@ device at_home {
   ASSERT_TRUE(chosen);
   EXPECT_FALSE(chosen->is_generic);
   const DeclaredDevice& device = *chosen->declared;
-  EXPECT_EQ(device.profile, known.front().profile) << "the declared profile goes on to opening as it is";
+  EXPECT_EQ(device.profile, known.front().profile) << "the profile is unchanged";
   EXPECT_EQ(device.profile.name, "at_home");
   EXPECT_EQ(device.wiring.axes, (std::array<SignedAxis, 2>{{{1, 1}, {0, -1}}}));
   EXPECT_EQ(device.wiring.motors, (std::array<SignedAxis, 2>{{{1, -1}, {0, 1}}}));
@@ -201,14 +201,14 @@ device at_home {
   EXPECT_FALSE(known.front().profile.friction_known);
 }
 
-/// A device by that name, whose force is so many newtons.
+/// The declaration of a device with that name and force.
 std::string device_text(const std::string& name, int newton) {
   return "device " + name + " { workspace disc(100 mm); position 1024 counts; force " + std::to_string(newton) +
          " N, 512 counts; rate 500 Hz; speed 1 m/s; slew 100 N/s; velocity_filter 15, 1 counts; "
          "patch 60 mm, 60 mm, 5 mm }\n";
 }
 
-TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
+TEST(Choosing, DevicesOfAProjectAreDeclaredInItsFiles) {
   const TemporaryFolder project;
   const std::string material = "material m { physical { force = spring(20 N/m) } }\n";
   project.write("wale.project", "");
@@ -227,15 +227,15 @@ TEST(Choosing, AProjectsDevicesAreKnownToItsFiles) {
   };
   EXPECT_EQ(force_on("fabric/m.wale", "at_home"), "5");
   EXPECT_EQ(force_on("fabric/m.wale", "of_nobody"), "W0601") << "it is not exported";
-  EXPECT_EQ(force_on("fabric/own.wale", "at_home"), "7") << "what the file says itself goes first";
+  EXPECT_EQ(force_on("fabric/own.wale", "at_home"), "7") << "the file's own declaration comes first";
   EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "10");
   project.write("devices.wale", "");
-  EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "10") << "as while it is being written";
+  EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "10") << "an empty file is no error";
   project.write("devices.wale", "wale 1\nexport " + device_text("sandpaper", 5));
-  EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "W0202") << "and what is wrong in it is said";
+  EXPECT_EQ(force_on("fabric/m.wale", "sandpaper"), "W0202") << "errors of devices.wale are reported";
 }
 
-TEST(Choosing, NoTwoDeclarationsOfOursAreAboutTheSameDeviceAndOneIsGeneric) {
+TEST(Choosing, ShippedDeclarationsHaveDifferentNumbersAndOneIsGeneric) {
   std::vector<UsbNumbers> all;
   int generic = 0;
   for (const DeclaredDevice& device : *shipped_devices()) {
@@ -248,9 +248,9 @@ TEST(Choosing, NoTwoDeclarationsOfOursAreAboutTheSameDeviceAndOneIsGeneric) {
   EXPECT_EQ(generic, 1);
 }
 
-TEST(Choosing, AGainGoesWithItsMotor) {
+TEST(Choosing, AGainBelongsToItsMotor) {
   DeviceWiring before;
-  before.motors = {{{1, -1}, {0, 1}}};  // its y motor pushes to the left: half as hard as it should
+  before.motors = {{{1, -1}, {0, 1}}};  // its y motor pushes to the left with half of the force
   before.gain = {0.5, 2};
   Identified found;
   found.axes_settled = found.motors_settled = std::array<SignedAxis, 2>{{{0, 1}, {1, 1}}};
@@ -262,7 +262,7 @@ TEST(Choosing, AGainGoesWithItsMotor) {
   EXPECT_EQ(rewired(before, found).gain, before.gain);
 }
 
-TEST(Choosing, APrintedDeclarationIsTheDeviceWithItsWiring) {
+TEST(Choosing, APrintedDeclarationReadsBackAsTheDevice) {
   DeviceWiring wiring;
   wiring.usb = {{0x1209, 0xffb0}};
   wiring.axes = {{{1, -1}, {0, 1}}};

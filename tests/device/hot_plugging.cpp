@@ -1,4 +1,4 @@
-// A device that is lost and comes back, without any USB: what is exchanged with the real-time side, and how it lies.
+// A device that is lost and comes back, without USB: readings, commands and the wiring.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What a test and its device, which belongs to somebody else, have in common.
+/// The state that a test shares with its device, which the HotPluggedDevice owns.
 struct Plug {
   std::atomic<bool> is_out{false};
   std::atomic<int> alive{0}, opened{0};
@@ -69,21 +69,21 @@ void await(Condition holds) {
   while (!holds()) std::this_thread::sleep_for(1ms);
 }
 
-TEST(HotPlugging, LiesAsItsWiringSays) {
+TEST(HotPlugging, FollowsItsWiring) {
   Plug plug;
   DeviceWiring wiring;
-  wiring.axes = {{{1, -1}, {0, 1}}};    // to the right is what it calls -y
-  wiring.motors = {{{0, -1}, {1, 1}}};  // and its x motor pushes to the left
+  wiring.axes = {{{1, -1}, {0, 1}}};    // to the right is its -y
+  wiring.motors = {{{0, -1}, {1, 1}}};  // its x motor pushes to the left
   wiring.gain = {0.5, 2};
   HotPluggedDevice device(std::make_unique<Fake>(plug), wiring, reopening(plug), 1ms);
   plug.x = 30;
   plug.y = 4;
   EXPECT_EQ(device.sample().counts, glm::ivec2(-4, 30));
-  EXPECT_EQ(device.command({1, 1}), Force(1, 1)) << "what the handle feels";
-  EXPECT_EQ(plug.commanded.back(), Force(-2, 0.5)) << "twice as much of a motor that gives half";
+  EXPECT_EQ(device.command({1, 1}), Force(1, 1)) << "along the handle's axes";
+  EXPECT_EQ(plug.commanded.back(), Force(-2, 0.5)) << "a motor of gain 0.5 gets twice the command";
 }
 
-TEST(HotPlugging, IsWithoutForceWhileItIsOutAndSetUpAnewWhenItIsBack) {
+TEST(HotPlugging, HasNoForceWhileLostAndIsReopenedWhenBack) {
   Plug plug;
   {
     HotPluggedDevice device(std::make_unique<Fake>(plug), {}, reopening(plug), 1ms);
@@ -92,7 +92,7 @@ TEST(HotPlugging, IsWithoutForceWhileItIsOutAndSetUpAnewWhenItIsBack) {
     plug.is_out = true;
     const Reading lost = device.sample();
     EXPECT_EQ(lost.contact, Contact::lost);
-    EXPECT_EQ(lost.counts.x, 7) << "where it was last";
+    EXPECT_EQ(lost.counts.x, 7) << "its last place";
     const std::size_t before = plug.commanded.size();
     EXPECT_EQ(device.command({3, 3}), Force(0));
     EXPECT_EQ(plug.commanded.size(), before);
@@ -115,12 +115,12 @@ TEST(HotPlugging, IsWithoutForceWhileItIsOutAndSetUpAnewWhenItIsBack) {
     EXPECT_EQ(report.returns, 1);
     EXPECT_EQ(report.reason, "it was unplugged");
     EXPECT_EQ(report.refusal, "");
-    EXPECT_EQ(report.tally, (std::vector<std::pair<std::string, long>>{{"opened", 2}})) << "of both";
+    EXPECT_EQ(report.tally, (std::vector<std::pair<std::string, long>>{{"opened", 2}})) << "the sum over both connections";
   }
   EXPECT_EQ(plug.alive, 0);
 }
 
-TEST(HotPlugging, ComesBackAsOftenAsItGoes) {
+TEST(HotPlugging, ComesBackAfterEachLoss) {
   Plug plug;
   HotPluggedDevice device(std::make_unique<Fake>(plug), {}, reopening(plug), 1ms);
   for (int round = 0; round < 20; ++round) {
@@ -137,7 +137,7 @@ TEST(HotPlugging, ComesBackAsOftenAsItGoes) {
   EXPECT_EQ(device.report().returns, 20);
 }
 
-TEST(HotPlugging, ALostOneThatStaysOutIsSaidToBe) {
+TEST(HotPlugging, TheReasonForStayingLostIsReported) {
   Plug plug;
   HotPluggedDevice device(std::make_unique<Fake>(plug), {}, reopening(plug), 1ms);
   plug.is_out = true;
@@ -168,7 +168,7 @@ TEST(HotPlugging, AStageSlewsInAfterALoss) {
   EXPECT_GT(result.guards.lost, 0);
   const auto& ticks = result.record.ticks;
   const double step = sandpaper().slew / sandpaper().rate;
-  const float full = ticks.back().force.x;  // the spring at its place
+  const float full = ticks.back().force.x;  // the spring's force there
   EXPECT_LT(full, -3);
   long lost = 0;
   float before = 0;

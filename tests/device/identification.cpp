@@ -1,4 +1,5 @@
-// A simulated handle whose axes and motors lie in every way, in a loose hand, with friction, and blocked.
+// Identification of a simulated handle with every orientation of axes and motors: free, in a loose hand, with friction,
+// and blocked.
 #include "runtime/device/identification.hpp"
 
 #include <gtest/gtest.h>
@@ -24,8 +25,8 @@ std::vector<Lie> every_lie() {
   return all;
 }
 
-/// A handle that is built otherwise than its standard says: the position that it tells along its own axis
-/// `axes[i].axis` grows where the handle goes to the right (i = 0) or away (1), and likewise its motors.
+/// A handle with rotated or mirrored axes and motors. Its axis `axes[i].axis` grows, up to the sign, when the handle moves
+/// to the right (i = 0) or away (i = 1). Motors likewise.
 class TurnedHandle {
  public:
   TurnedHandle(DeviceProfile profile, HandModel hand, Lie axes, Lie motors)
@@ -56,7 +57,7 @@ constexpr long longest = 60'000;  // ticks
 
 struct Ran {
   Identified found;
-  double largest = 0;   // N, that was ever commanded
+  double largest = 0;   // N, the largest command
   double steepest = 0;  // N, from tick to tick, while rising
   double furthest = 0;  // m from where it began
 };
@@ -66,7 +67,7 @@ Ran identify(TurnedHandle& handle, const DeviceProfile& profile, const IdentifyO
   Ran ran;
   Force before(0);
   for (long tick = 0; !identification.is_done(); ++tick) {
-    if (tick > longest) throw std::runtime_error("it does not come to an end");
+    if (tick > longest) throw std::runtime_error("the identification does not end");
     const Force force = identification.tick(handle.counts());
     EXPECT_TRUE(force.x == 0 || force.y == 0) << "one motor at a time";
     ran.largest = std::max({ran.largest, double{std::abs(force.x)}, double{std::abs(force.y)}});
@@ -75,12 +76,12 @@ Ran identify(TurnedHandle& handle, const DeviceProfile& profile, const IdentifyO
     ran.furthest = std::max(ran.furthest, glm::length(handle.position()));
     handle.push(before = force);
   }
-  EXPECT_EQ(identification.tick({0, 0}), Force(0)) << "done is done";
+  EXPECT_EQ(identification.tick({0, 0}), Force(0)) << "no force after the end";
   ran.found = identification.result();
   return ran;
 }
 
-/// What the wiring must be: turned by it, a push to the right moves the handle to the right, and it is told so.
+/// Expects a correct wiring: with it, a push to the right moves the handle to the right, and its position says so.
 void expect_right(const Identified& found, const Lie& axes, const Lie& motors) {
   ASSERT_TRUE(found.axes_settled && found.motors_settled) << found.problem;
   TurnedHandle handle(sandpaper(), no_hand, axes, motors);
@@ -101,7 +102,7 @@ void expect_right(const Identified& found, const Lie& axes, const Lie& motors) {
   }
 }
 
-TEST(Identification, FindsEveryOrderAndSignOfTheMotors) {
+TEST(Identification, FindsEveryOrderAndSignOfAxesAndMotors) {
   for (const Lie& axes : every_lie())
     for (const Lie& motors : every_lie()) {
       TurnedHandle handle(sandpaper(), no_hand, axes, motors);
@@ -109,7 +110,7 @@ TEST(Identification, FindsEveryOrderAndSignOfTheMotors) {
     }
 }
 
-TEST(Identification, DoesSoInALooseHandToo) {
+TEST(Identification, WorksInALooseHand) {
   const HandModel loose{.mass = 0.3, .damping = 3, .stiffness = 60};
   for (const Lie& motors : every_lie()) {
     const Lie straight{{{0, 1}, {1, 1}}};
@@ -118,7 +119,7 @@ TEST(Identification, DoesSoInALooseHandToo) {
   }
 }
 
-TEST(Identification, PushesNoHarderThanItMustAndRisesSlowly) {
+TEST(Identification, PushesWithLittleForceThatRisesSlowly) {
   TurnedHandle handle(sandpaper(), no_hand, {{{0, 1}, {1, 1}}}, {{{0, 1}, {1, 1}}});
   const Ran ran = identify(handle, sandpaper());
   EXPECT_LE(ran.largest, 1.0);  // friction is 0.15 N; a fifth of the device's force would be 2 N
@@ -127,7 +128,7 @@ TEST(Identification, PushesNoHarderThanItMustAndRisesSlowly) {
   for (const MotorAnswer& answer : ran.found.motors) EXPECT_GT(answer.newton, sandpaper().friction);
 }
 
-TEST(Identification, FrictionBeyondTheForceIsNoAnswer) {
+TEST(Identification, FrictionAboveTheForceIsAProblem) {
   DeviceProfile stiff = sandpaper();
   stiff.friction = 3;  // N, and a fifth of 10 N is 2 N
   TurnedHandle handle(stiff, no_hand, {{{0, 1}, {1, 1}}}, {{{0, 1}, {1, 1}}});
@@ -147,7 +148,7 @@ TEST(Identification, NeverPushesHarderThanTheUserAllows) {
   EXPECT_FLOAT_EQ(static_cast<float>(ran.largest), 0.5);
 }
 
-/// A handle that somebody steers, whatever pushes it.
+/// Runs an identification on a handle whose place (m) is a function of the force and the tick.
 Ran steered(const std::function<glm::dvec2(Force, long)>& where, const IdentifyOptions& options = {}) {
   const DeviceProfile profile = sandpaper();
   Identification identification(profile, options);
@@ -160,14 +161,14 @@ Ran steered(const std::function<glm::dvec2(Force, long)>& where, const IdentifyO
   return ran;
 }
 
-TEST(Identification, ABlockedAxisIsSaidToBe) {
+TEST(Identification, ABlockedAxisIsReported) {
   const Ran ran = steered([](Force force, long) { return glm::dvec2(0.01 * force.x, 0); });
   EXPECT_TRUE(ran.found.motors[0].moves);
   EXPECT_EQ(ran.found.problem,
             "its y motor: nothing moved: its friction is greater than the force, or the handle is blocked");
 }
 
-TEST(Identification, OneThatIsBlockedOneWayIsToldByTheOther) {
+TEST(Identification, AnAxisThatIsBlockedOneWayIsFoundByTheOther) {
   const Ran ran =
       steered([](Force force, long) { return glm::dvec2(std::min(0.0f, 0.01f * force.x), -0.01 * force.y); });
   ASSERT_TRUE(ran.found.motors_settled);
@@ -175,7 +176,7 @@ TEST(Identification, OneThatIsBlockedOneWayIsToldByTheOther) {
   EXPECT_EQ((*ran.found.motors_settled)[1], (SignedAxis{1, -1}));
 }
 
-TEST(Identification, WhatIsNotPlainIsNotSettled) {
+TEST(Identification, AmbiguousMotionIsNotSettled) {
   const auto problem = [](const std::function<glm::dvec2(Force, long)>& where) { return steered(where).found.problem; };
   EXPECT_EQ(problem([](Force force, long) { return glm::dvec2(0.01 * (force.x + force.y)); }),
             "its x motor: the handle moved along both axes alike");
@@ -185,9 +186,9 @@ TEST(Identification, WhatIsNotPlainIsNotSettled) {
             "both motors moved the handle along the same axis");
 }
 
-TEST(Identification, APersonShowsHowItsAxesLie) {
-  // A stick that stands a quarter turn on the desk: what it calls x grows away from the user, what it calls y to the
-  // left. Its motors push along its own axes.
+TEST(Identification, APersonShowsItsAxes) {
+  // A stick that is turned by a quarter on the desk: its x grows away from the user, its y to the left. Its motors push
+  // along its own axes.
   DeviceProfile profile = sandpaper();
   Identification identification(profile, {.asks = true});
   Force force(0);
@@ -204,7 +205,7 @@ TEST(Identification, APersonShowsHowItsAxesLie) {
   EXPECT_EQ(*found.motors_settled, (Lie{{{1, -1}, {0, 1}}}));
 }
 
-TEST(Identification, APersonWhoDoesNothingLeavesTheAxesAsTheyAre) {
+TEST(Identification, WithoutAnAnswerTheAxesStay) {
   const Ran ran =
       steered([](Force force, long) { return glm::dvec2(-0.01 * force.y, 0.01 * force.x); }, {.asks = true});
   ASSERT_TRUE(ran.found.axes_settled);

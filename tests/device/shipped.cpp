@@ -1,4 +1,4 @@
-// The devices that are data in the runtime are those that the compiler reads from calibration/devices.
+// The runtime's built-in table of devices holds the devices that the compiler reads from calibration/devices.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -37,7 +37,7 @@ TEST(ShippedDevices, AreOneTable) {
   EXPECT_EQ(bytes, std::vector<std::byte>(embedded.begin(), embedded.end()));
 }
 
-TEST(ShippedDevices, SomeJoystickPadAndPointerAreAmongThem) {
+TEST(ShippedDevices, IncludeAJoystickAPadAndUsbDevices) {
   bool has_joystick = false, has_pad = false, has_usb = false;
   for (const DeclaredDevice& device : *shipped_devices()) {
     has_joystick = has_joystick || device.profile.name == "sandpaper";

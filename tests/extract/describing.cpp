@@ -1,4 +1,4 @@
-// What `wale describe` tells of a program whose author only wrote forces, against the thesis.
+// `wale describe` for programs with forces and without percepts, against the thesis.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Description described(const std::string& statements) {
   return describe(Bank(program), common->declarations);
 }
 
-/// A grating of this lateral force in program units and this period in mm, written as a force.
+/// A sine force of this amplitude in program units and this period in mm.
 std::string grating(double units, double period) {
   return "force = vector(" + std::to_string(-units * program_unit) + " N * sin(2 * pi * x / " + std::to_string(period) +
          " mm), 0 N)";
@@ -37,7 +37,7 @@ TEST(DescribingForces, TheRoughestStimulusOfTable6IsLevelOneHoweverItIsWritten) 
   ASSERT_TRUE(roughness);
   EXPECT_TRUE(roughness->extracted);
   EXPECT_NEAR(roughness->level, 1, 0.04);
-  // There everybody agrees, since level 1 is this stimulus.
+  // Level 1 is this stimulus, so individuals do not differ from the mean there.
   EXPECT_NEAR(roughness->individual_high, roughness->high, 0.03);
   EXPECT_NEAR(std::log10(roughness->high / roughness->level), 1.96 * 0.0519, 1e-3);  // s of figure 19
   EXPECT_TRUE(description.no_percept.empty());
@@ -52,12 +52,12 @@ TEST(DescribingForces, AQuarterOfTheForceIsAThirdAsRough) {
   EXPECT_LT(roughness->individual_low, roughness->low / 1.2);
 }
 
-TEST(DescribingForces, AFaintOneIsNearTheThreshold) {
+TEST(DescribingForces, AFaintStimulusIsNearTheThreshold) {
   const DescribedPercept* roughness = nullptr;
   const Description faint = described(grating(7, 2.5));
   ASSERT_TRUE(roughness = percept(faint, "roughness"));
   EXPECT_TRUE(roughness->near_threshold);
-  EXPECT_TRUE(roughness->outside_validity);  // nobody felt less than 9 units
+  EXPECT_TRUE(roughness->outside_validity);  // the experiment began at 9 units
   const Description plain = described(grating(100, 2.5));
   ASSERT_TRUE(roughness = percept(plain, "roughness"));
   EXPECT_FALSE(roughness->near_threshold || roughness->outside_validity);
@@ -72,7 +72,7 @@ TEST(DescribingForces, ClassesAreThoseInWhichTheSubjectsSorted) {
   EXPECT_EQ(described(grating(100, 1.2)).texture->confidence, "high");
 }
 
-TEST(DescribingForces, WhatIsNoTextureHasNoRoughnessAndAReason) {
+TEST(DescribingForces, WithoutATextureHaveNoRoughnessAndAReason) {
   struct Case {
     const char* force;
     const char* kind;
@@ -92,7 +92,7 @@ TEST(DescribingForces, WhatIsNoTextureHasNoRoughnessAndAReason) {
   }
 }
 
-TEST(DescribingForces, EveryCarrierTellsItsOwnPercept) {
+TEST(DescribingForces, HaveAPerceptForEachCarrier) {
   const Description description =
       described(grating(100, 2.5) + "\nforce thick = -10 N s/m * velocity\nforce back = -50 N/m * hand");
   ASSERT_TRUE(percept(description, "roughness") && percept(description, "viscosity") &&

@@ -1,4 +1,4 @@
-// What is read from a program, against materials whose every figure is known in advance.
+// Figures that are extracted from programs, against materials with known figures.
 
 #include "compiler/extract/extract.hpp"
 
@@ -28,7 +28,7 @@ TextureForce texture_of(const Bank& bank, const PeriodBand& band = textures) {
   return texture_force(bank, StaticForce(bank), band);
 }
 
-/// So many values that look like any.
+/// `count` irregular values.
 std::vector<std::complex<float>> any_values(std::size_t count) {
   std::vector<std::complex<float>> values;
   for (std::size_t i = 0; i < count; ++i)
@@ -36,8 +36,8 @@ std::vector<std::complex<float>> any_values(std::size_t count) {
   return values;
 }
 
-// Sides of factors 2, 3, 4 and others, of fewer lines than go at once and of more.
-TEST(Fourier, IsTheSumOfItsDefinitionAndGoesBack) {
+// Sides with factors 2, 3, 4 and others, and with fewer and more lines than are transformed at once.
+TEST(Fourier, IsTheSumOfItsDefinitionAndHasItsInverse) {
   for (const std::size_t side : {1u, 5u, 6u, 8u, 18u, 20u}) {
     const auto values = any_values(side * side);
     const auto coefficients = fourier(side, values);
@@ -109,11 +109,11 @@ TEST(Extract, NoiseDoesNotComeBackAfterAPeriod) {
       texture_of(pushing("height h = 1 mm * noise2(x / 2 mm, y / 2 mm)\n force = lateral(h, amplitude: 1 N)"));
   EXPECT_LT(noise.regularity, 0.5);
   EXPECT_LT(noise.anisotropy, 0.3);
-  EXPECT_GT(noise.period, 2e-3);  // noise on a lattice of 2 mm has no finer component of any strength
+  EXPECT_GT(noise.period, 2e-3);  // noise on a lattice of 2 mm has no strong component below 2 mm
 }
 
-TEST(Extract, WhatIsStrictlyPeriodicComesBackWhateverItsHarmonics) {
-  // The derivative of a Gaussian bar, again and again: of its five waves of any strength the second is the strongest.
+TEST(Extract, APeriodicTextureIsRegularWhateverItsHarmonics) {
+  // Periodic derivatives of a Gaussian bar. Of the five strong harmonics, the second is the strongest.
   const std::string declared =
       "function bar(along: length, spacing: length) = 1 N * (along - spacing * round(along / spacing)) / 0.45 mm *\n"
       "  exp(0.5 - 0.5 * ((along - spacing * round(along / spacing)) / 0.45 mm)^2)";
@@ -121,7 +121,7 @@ TEST(Extract, WhatIsStrictlyPeriodicComesBackWhateverItsHarmonics) {
   EXPECT_GT(ribs.regularity, 0.95);
   EXPECT_NEAR(ribs.period, 5e-3, 0.1e-3);
   EXPECT_NEAR(ribs.anisotropy, 1, 0.05);
-  // A square mesh of them, as it lies and turned.
+  // A square mesh of such bars, along the axes and rotated.
   const TextureForce mesh = texture_of(pushing("force = vector(bar(x, 5 mm), bar(y, 5 mm))", declared));
   EXPECT_GT(mesh.regularity, 0.95);
   EXPECT_NEAR(mesh.period, 5e-3, 0.1e-3);
@@ -153,13 +153,13 @@ TEST(Extract, TheShippedMeshesAreRegular) {
     EXPECT_GT(texture.regularity, 0.9) << name;
     EXPECT_LT(texture.anisotropy, 0.1) << name;
   }
-  // 6 mm from hole to hole and 5 mm from wire to wire by default; the rows of holes are nearer to one another.
+  // By default, holes are 6 mm and wires 5 mm apart. Rows of holes are closer than holes.
   EXPECT_NEAR(texture_of(Bank(standard::made("std.mesh", "perforated_sheet"))).period, 6e-3, 0.15e-3);
   EXPECT_NEAR(texture_of(Bank(standard::made("std.mesh", "wire_mesh"))).period, 5e-3, 0.15e-3);
 }
 
-TEST(Extract, WavesThatDoNotFitOneAnotherAreNoNoise) {
-  // Periods of which no multiples agree come nearly back, the nearer the further on.
+TEST(Extract, IncommensurableWavesAreNotNoise) {
+  // The sum of two incommensurable periods repeats approximately, and better at longer distances.
   const TextureForce texture = texture_of(
       pushing("force = vector(1 N * sin(2 * pi * x / 2.5 mm) + 1 N * sin(2 * pi * x / (2.5 mm * sqrt(2))), 0 N)"));
   EXPECT_GT(texture.regularity, 0.8);
@@ -187,7 +187,7 @@ TEST(Extract, ASpringAndAHillAreNoTexture) {
   EXPECT_EQ(texture_of(spring).amplitude, 0);
   EXPECT_NEAR(StaticForce(spring).slope.stiffness(), 120, 0.1);
   const Bank hill = pushing("force = vector(2 N * sin(2 * pi * x / 40 mm), 0 N)");
-  EXPECT_LT(texture_of(hill).amplitude, 0.1);  // a twentieth, of what ends within the patch
+  EXPECT_LT(texture_of(hill).amplitude, 0.1);  // at most a twentieth, from its end at the patch's edge
   EXPECT_NEAR(texture_of(hill, bumps).amplitude, 2, 0.16);
   EXPECT_NEAR(texture_of(hill, bumps).period, 40e-3, 2e-3);
 }
@@ -200,7 +200,7 @@ TEST(Extract, ATextureIsTheSameOnASpringAndOnAHill) {
   EXPECT_NEAR(texture.period, 2.5e-3, 0.05e-3);
 }
 
-TEST(Extract, FineRibsAreNoBumpsWhereverTheirSamplesFall) {
+TEST(Extract, FineRibsAreNoBumpsAtAnySampling) {
   for (const double period : {0.75, 0.78, 0.8, 0.9, 1.17, 1.27, 1.4, 2.4}) {
     const Bank ribs = pushing("force = vector(1 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)");
     EXPECT_LT(texture_of(ribs, bumps).amplitude, 0.05) << period;
@@ -214,19 +214,19 @@ TEST(Extract, ATextureInOneCornerIsFoundThere) {
   EXPECT_NEAR(texture.period, 1.5e-3, 0.05e-3);
 }
 
-TEST(Extract, ThePrototypesOfMotionAreTheirCoefficients) {
+TEST(Extract, DampingFrictionAndMassAreTheirCoefficients) {
   EXPECT_NEAR(opposing_force(pushing("force = -7 N s/m * velocity")).damping, 7, 0.02);
   EXPECT_NEAR(opposing_force(pushing("force = -7 N s/m * velocity")).friction, 0, 0.02);
   EXPECT_NEAR(inertia(pushing("force = -0.3 kg * acceleration")), 0.3, 1e-3);
   EXPECT_EQ(inertia(pushing("force = -7 N s/m * velocity")), 0);
-  // Place alone opposes nobody, over a stretch there and back.
+  // A force that depends on the place alone opposes no motion, averaged over a stroke to and fro.
   const OpposingForce none =
       opposing_force(pushing("force = vector(2 N * sin(2 * pi * x / 3 mm), 0 N) - 50 N/m * hand"));
   EXPECT_NEAR(none.friction, 0, 0.02);
   EXPECT_NEAR(none.damping, 0, 0.1);
 }
 
-TEST(Extract, FrictionIsReadWhetherItRemembersOrNot) {
+TEST(Extract, FrictionIsReadWithAndWithoutStates) {
   const OpposingForce coulomb =
       opposing_force(pushing("force = coulomb(0.8 N, rise: 200 N s/m) - 2 N s/m * velocity", "import std.friction"));
   EXPECT_NEAR(coulomb.friction, 0.8, 0.02);
@@ -242,7 +242,7 @@ TEST(Extract, AVibrationHasItsAmplitudeAndFrequency) {
   EXPECT_EQ(vibration(pushing("force = -120 N/m * hand")).amplitude, 0);
 }
 
-TEST(Extract, EverythingTogetherIsWhatEachOfItIs) {
+TEST(Extract, ASumHasTheFiguresOfItsParts) {
   const Bank bank =
       pushing("force = vector(-0.8 N * sin(2 * pi * x / 2.5 mm), 0 N) - 40 N/m * hand - 3 N s/m * velocity");
   const Extraction found = extract(bank, textures, bumps);
@@ -256,7 +256,7 @@ TEST(Extract, EverythingTogetherIsWhatEachOfItIs) {
   EXPECT_FALSE(found.wall);
 }
 
-TEST(Extract, ASpringThatGivesWayHasNoOneStiffnessAndIsNoHill) {
+TEST(Extract, ALimitedSpringHasNoStiffnessAndIsNoHill) {
   for (const char* statements : {"force = -300 N/m * hand limit 3 N", "force = -300 N/m * hand"}) {
     const Extraction found = extract(pushing(statements), textures, bumps);
     EXPECT_EQ(found.stiffness, 0) << statements;
@@ -280,10 +280,10 @@ TEST(Extract, AWallHasAFaceAndNothingElseHas) {
   EXPECT_FALSE(wall_face(pushing("force = vector(0 N, 0 N)")));
 }
 
-TEST(Extract, AWallThatGaveWayIsFoundByAHandThatCameTheWholeWay) {
-  // std.wall: stiffness 900 N/m, damping 4 N s/m on the way in, 20 mm right of the middle; it remembers.
+TEST(Extract, AWallWithStatesIsFoundByAHandThatMovesIntoIt) {
+  // std.wall: stiffness 900 N/m, damping 4 N s/m on the way in, face 20 mm right of the centre; it has states.
   const Bank wall(standard::made("std.wall", "wall"));
-  EXPECT_EQ(StaticForce(wall).bent, 0);  // who is set down behind its face feels nothing
+  EXPECT_EQ(StaticForce(wall).bent, 0);  // a hand that enters behind the face feels no force
   const auto face = wall_face(wall);
   ASSERT_TRUE(face.has_value());
   EXPECT_NEAR(face->stiffness, 900, 5);
@@ -300,9 +300,9 @@ TEST(Extract, AWallThatGaveWayIsFoundByAHandThatCameTheWholeWay) {
   EXPECT_NEAR(room->stiffness, 500, 5);
   const auto post = wall_face(Bank(standard::made("std.wall", "post", "stiffness: 700 N/m")));
   ASSERT_TRUE(post.has_value());
-  EXPECT_NEAR(post->stiffness, 700, 20);  // hit off its middle, its face recedes
+  EXPECT_NEAR(post->stiffness, 700, 20);  // the face is curved
   EXPECT_NEAR(extract(wall, textures, bumps).wall->stiffness, 900, 5);
-  // Frictions remember as well, and are none.
+  // Frictions have states too, but are no walls.
   for (const char* name : {"coulomb_friction", "karnopp_friction", "dahl_friction"})
     EXPECT_FALSE(wall_face(Bank(standard::made("std.friction", name)))) << name;
 }

@@ -1,4 +1,4 @@
-// What is told of a picture under the hand, against pictures whose every wave was drawn on purpose.
+// Descriptions of pictures as reliefs, against pictures made of known waves.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr int side = 320;
 constexpr double pixel = 0.4;  // mm, so that the picture is 128 mm wide
 
-/// A picture as a file, a PGM of 16 bits: `height` (0 .. 1) at a place in mm from its upper left corner, y down.
+/// The bytes of a PGM picture of 16 bits. `height` gives 0 .. 1 at a place in mm from the upper left corner, y down.
 std::string picture(const std::function<double(double, double)>& height) {
   std::string file = "P5\n" + std::to_string(side) + " " + std::to_string(side) + "\n65535\n";
   for (int row = 0; row < side; ++row)
@@ -43,7 +43,7 @@ class OnePicture final : public Resolver {
   std::string bytes_;
 };
 
-/// A material whose relief is the picture, 1 mm high, with what is said of how it feels.
+/// The description of a material whose relief is the picture, 1 mm high.
 Description described(const std::string& bytes, const std::string& force = "lateral(face, amplitude: 1 N)",
                       const std::string& perceptual = "") {
   static const auto common = common_modules();
@@ -61,8 +61,8 @@ Description described(const std::string& bytes, const std::string& force = "late
   return describe(Bank(*program), common->declarations);
 }
 
-/// Ribs of one period (mm) that change along `degrees` from x, counted to the left: a row of a picture is lower on the
-/// patch the further down it is.
+/// Ribs of one period (mm) that change along the direction `degrees` from x, counterclockwise on the patch, where y
+/// goes up.
 double ribs(double x, double y, double period, double degrees) {
   const double angle = degrees * pi / 180;
   return std::sin(2 * pi * (x * std::cos(angle) - y * std::sin(angle)) / period);
@@ -83,7 +83,7 @@ TEST(Photographs, ACorduroyHasItsPeriodItsAngleAndOneDirection) {
 }
 
 TEST(Photographs, ANoiseHasNoDirectionAndDoesNotComeBack) {
-  // The mean of many waves of all directions with periods about 2.5 mm.
+  // A sum of many waves of all directions with periods about 2.5 mm.
   std::mt19937 random(7);
   struct Wave {
     double period, degrees, phase;
@@ -108,8 +108,8 @@ TEST(Photographs, ANoiseHasNoDirectionAndDoesNotComeBack) {
   EXPECT_EQ(description.texture->kind, "perlin");
 }
 
-TEST(Photographs, OfTwoPeriodsBothAreToldWithTheirShares) {
-  // Slopes are heights over periods: the coarser waves are so much higher that their slopes are twice the finer ones'.
+TEST(Photographs, OfTwoPeriodsHaveBothWithTheirShares) {
+  // Slopes are proportional to height over period, 0.3 / 6 and 0.05 / 2: the coarse waves are twice as steep.
   const Description description =
       described(picture([](double x, double y) { return 0.5 + 0.3 * ribs(x, y, 6, 0) + 0.05 * ribs(x, y, 2, 90); }));
   const TextureForce& force = description.texture->force;
@@ -118,10 +118,10 @@ TEST(Photographs, OfTwoPeriodsBothAreToldWithTheirShares) {
   EXPECT_NEAR(std::sin(force.waves[0].orientation), 0, 0.03);
   EXPECT_NEAR(force.waves[1].period, 2e-3, 0.04e-3);
   EXPECT_NEAR(force.waves[1].orientation, pi / 2, 0.03);
-  // Of the mean square: 2^2 to 1.
+  // Shares are of the mean square: 2^2 to 1.
   EXPECT_NEAR(force.waves[0].share, 0.8, 0.03);
   EXPECT_NEAR(force.waves[1].share, 0.2, 0.03);
-  EXPECT_NEAR(force.anisotropy, 0.6, 0.05);  // 0.8 one way less 0.2 across it
+  EXPECT_NEAR(force.anisotropy, 0.6, 0.05);  // 0.8 along one direction minus 0.2 across it
   EXPECT_GT(force.regularity, 0.9);
 }
 

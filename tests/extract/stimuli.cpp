@@ -1,4 +1,4 @@
-// Minsky's own stimuli, read from their force alone, against what her subjects and Kornbrot's said of such surfaces.
+// Minsky's stimuli, described from their forces alone, against the reports of her subjects and of Kornbrot's.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,7 @@ Description described(const Program& program) {
 
 /// Minsky 1995, section 6.3.8: "rolling hills (A3P100, A3P50, sometimes A3P25, and A1P7) and moguls (A19P100 and
 /// A10P100). The remaining stimuli fall into a group which can be identified as flat textured surfaces." The twelfth,
-/// A3P25, belongs to two groups by the thesis's own words, "sometimes", so either answer is right of it and any third
-/// is not; the other eleven have one.
+/// A3P25, belongs to either of two groups, by the word "sometimes". The other eleven belong to one.
 TEST(Chapter6, TheTwelveStimuliAreClassedByTheirForceAsTheSubjectsSortedThem) {
   struct Stimulus {
     const char* name;
@@ -47,17 +46,16 @@ TEST(Chapter6, TheTwelveStimuliAreClassedByTheirForceAsTheSubjectsSortedThem) {
         << each.name << ": " << texture.texture_class;
     ASSERT_FALSE(texture.texture_class.empty()) << each.name;
     EXPECT_NEAR(texture.force.period, each.period * 1e-3, 0.02e-3 * each.period) << each.name;
-    // Of the finest only the first wave is in the band.
+    // Of the finest stimuli only the first harmonic is in the band of textures.
     const double newton = each.units * program_unit;
     EXPECT_NEAR(texture.force.amplitude, newton, (each.period < 1 ? 0.15 : 0.05) * newton) << each.name;
     EXPECT_TRUE(texture.force.regular()) << each.name;
   }
 }
 
-/// Ridges of one height whatever their period push in proportion to 1 / period, so what is read from their force must
-/// fall as period^-0.76 by Minsky's map (figure 19), and within 0.06 of the -0.80 that Kornbrot et al. 2007 found with
-/// ridges of one height.
-TEST(CrossCheck, RidgesOfOneHeightFallAsKornbrotFoundWhenReadFromTheirForce) {
+/// Ridges of constant height give a force in proportion to 1 / period, so their level must fall as period^-0.76 by
+/// Minsky's map (figure 19). Kornbrot et al. 2007 found an exponent of -0.80 for ridges of constant height.
+TEST(CrossCheck, RidgesOfOneHeightHaveNearlyTheExponentOfKornbrot) {
   double n = 0, u = 0, v = 0, uu = 0, uv = 0;
   for (const double period : {1.1, 1.7, 2.6, 4.1, 6.3, 9.4}) {
     const Description description =

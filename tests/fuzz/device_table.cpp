@@ -1,5 +1,5 @@
-// A libFuzzer target for tables of declared devices: any bytes at all are refused with a reason, or are the bytes that
-// writing what was read gives. With no seed it begins at the table that is built in.
+// A libFuzzer target for tables of declared devices. Any bytes are refused with a reason, or are read and written back
+// unchanged. Without a seed, it starts with the built-in table.
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,5 @@
-// A libFuzzer target for what a Falcon sends: any bytes, cut in any way, are answers or are skipped, an answer is one
-// that stands in what came, and a session that is given them never pushes before it is homed and always comes to an
-// end.
+// A libFuzzer target for the bytes of a Falcon. Any bytes, split in any way, are answers or are skipped, and each
+// answer occurs in the input. A session with such bytes never pushes before it is homed, and always ends.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,7 @@ void read_answers(std::span<const std::uint8_t> bytes) {
   demand(reader.skipped() + answers * static_cast<long>(packet_bytes) <= static_cast<long>(bytes.size()));
 }
 
-/// The first byte of each piece says how a transfer ends and how long what comes in is.
+/// The first byte of each piece selects how a transfer ends and the length of the incoming data.
 void run_session(std::span<const std::uint8_t> bytes) {
   FalconSessionOptions options;
   options.firmware.assign(70, 0x5a);

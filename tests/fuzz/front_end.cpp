@@ -1,5 +1,5 @@
-// A libFuzzer target for everything that reads Wale: any bytes at all are parsed, printed, reported on, formatted,
-// checked and compiled without a crash, and formatting changes neither what they mean nor, the second time, anything.
+// A libFuzzer target for the parts that read Wale. Any bytes are parsed, printed, reported on, formatted, checked and
+// compiled without a crash. Formatting keeps the meaning, and a second formatting changes nothing.
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,10 +13,10 @@
 
 namespace {
 
-/// Larger inputs find nothing that smaller ones do not, later.
+/// Larger inputs find the same faults as smaller ones, but later.
 constexpr std::size_t largest_input = 4096;
 
-/// Imports and images are nowhere to be found.
+/// Finds no imports and no images.
 class NoFiles final : public wale::Resolver {
  public:
   wale::Result<wale::ResolvedFile> module(const std::string&, const std::string&) override {

@@ -1,9 +1,8 @@
-// A libFuzzer target for what a USB joystick says of itself and sends: any bytes at all are refused, or make a layout
-// by which packets are written that are as long as it says and hold what was asked for, and by which packets of any
-// bytes are read or refused.
+// A libFuzzer target for the descriptors and packets of USB joysticks. Any bytes are refused or make a layout. Packets
+// written by the layout have its length and the given values. Packets of any bytes are read or refused.
 //
-// The first byte selects: a report descriptor as it stands, or one of the layouts of the tests with some of its bytes
-// changed, so that the fuzzer begins with descriptors that are accepted.
+// The first byte selects between a raw report descriptor and one of the tests' layouts with some bytes changed. So the
+// fuzzer starts with descriptors that are accepted.
 
 #include <algorithm>
 #include <cstdlib>

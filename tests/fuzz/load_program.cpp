@@ -1,5 +1,5 @@
-// A libFuzzer target for the loader: any bytes at all are refused with a reason, or make a program that runs and pushes
-// no harder than its device. The checksum is mended first, so that the fuzzer reaches what stands behind it.
+// A libFuzzer target for the loader. Any bytes are refused with a reason, or make a program that runs within the force
+// of its device. The checksum is corrected first, so that the fuzzer reaches the later checks.
 
 #include <cmath>
 #include <cstdlib>

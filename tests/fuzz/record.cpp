@@ -1,10 +1,9 @@
-// A libFuzzer target for recordings: any bytes at all are refused with a reason, or make a recording of which every
-// tick can be had, which is written as CSV and replayed or refused, and whose forces are then within what the device
-// gives.
+// A libFuzzer target for recordings. Any bytes are refused with a reason or make a recording. Every tick of the
+// recording can be read. It is written as CSV, and replayed or refused. Replayed forces are within the device's limit.
 //
-// The fuzzer begins with a recording that a stage made and changes bytes of it: its input is a list of changes, each
-// four bytes of place and one of value, and whether the checks are mended after, so that it reaches what stands behind
-// them.
+// The fuzzer starts with a recording of a stage and changes its bytes. Its input is a list of changes, each with four
+// bytes for the place and one for the value. The input also selects whether the checksums are corrected afterwards, so
+// that the fuzzer reaches the later checks.
 
 #include <unistd.h>
 
@@ -35,10 +34,10 @@ void demand(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Without the emptiness that recordings have: a fuzzer would find nothing in it.
+/// The recording without its unused bytes, in which a fuzzer would find nothing.
 struct Sample {
   std::vector<std::byte> bytes;
-  std::vector<std::size_t> used;  ///< places of bytes that hold something
+  std::vector<std::size_t> used;  ///< places of used bytes
 };
 
 Sample make_sample() {
@@ -79,7 +78,7 @@ void put(std::span<std::byte> bytes, std::size_t place, const Value& value) {
   std::memcpy(bytes.data() + place, &value, sizeof value);
 }
 
-/// Makes every check right, whatever it is of.
+/// Corrects every checksum.
 void mend_checks(std::vector<std::byte>& bytes) {
   if (bytes.size() < first_chunk) return;
   auto header = at<FileHeader>(bytes, 0);
@@ -110,7 +109,7 @@ void mend_checks(std::vector<std::byte>& bytes) {
   }
 }
 
-/// As `load_program.cpp` has it: what would be accepted, and is too slow to fuzz.
+/// As in `load_program.cpp`: valid inputs that are too slow to fuzz.
 bool too_slow(const Recording& recording) {
   long points = 0;
   for (const RecordedProgram& bytes : recording.programs()) {
@@ -136,7 +135,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   }
   for (; rest.size() >= 5; rest = rest.subspan(5)) {
     const std::size_t place = at<std::uint32_t>(std::as_bytes(rest), 0);
-    // Mostly where something stands.
+    // Most changes are at used bytes.
     const std::size_t target = (how & 4) != 0 ? place : sample.used[place % sample.used.size()];
     if (!bytes.empty()) bytes[target % bytes.size()] = std::byte{rest[4]};
   }

@@ -1,7 +1,7 @@
-// A libFuzzer target for the promise that a program which loads stays in its bounds: makes programs, well-formed ones
-// with instructions changed and files with bytes changed, loads them, and runs those that are accepted on ordinary and
-// extreme hands. No force leaves the declared ceiling or the proved bound, no register leaves its proved range, nothing
-// costs more than it declares; that nothing is read outside is the sanitizers' part.
+// A libFuzzer target for the promise that a loaded program stays within its bounds. It changes instructions of valid
+// programs and bytes of files, loads the results, and runs the accepted ones with ordinary and extreme hands. No force
+// exceeds the declared ceiling or the proved bound, no register leaves its proved range, and no cost exceeds its
+// declaration. The sanitizers check all reads.
 
 #include <bit>
 #include <cmath>
@@ -159,7 +159,7 @@ class Bounds {
   const Proof& proof_;
 };
 
-/// All sections, instruction by instruction, from what the bank and the memory hold.
+/// Runs all sections, instruction by instruction, from the contents of the bank and the memory.
 void step_through(const Bank& bank, const Memory& memory, const Hand& hand, const Proof& proof, const Force* force) {
   const DecodedProgram& program = bank.program().decoded();
   stepping::State state{

@@ -1,5 +1,5 @@
-// A libFuzzer target for what a terminal tells: any bytes are reports or are skipped, however they are cut; a report is
-// in range, is the same when the bytes come once more, and its place is one that can be drawn.
+// A libFuzzer target for the reports of a terminal. Any bytes, split in any way, are reports or are skipped. Each
+// report is in range, is the same when the bytes are repeated, and has a place that can be drawn.
 
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// What the grade says of stability, against what the simulated device does: without hand, friction and quantisation the
-// stiffness from which on oscillations grow is the graded one, and in a hand the margin orders the outcomes.
+// The grade's stability against the simulated device. Without hand, friction and quantisation, oscillations grow above
+// the graded stiffness. In a hand, motion grows as the margin falls.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using compiling::Files;
 
-/// A device of which everything is known, that pushes as hard as the loop may ask for and sees what it does.
+/// A device whose figures are all declared, with such a force range and speed limit that neither limits the loop.
 struct Bench {
   double mass = 0.3;    // kg
   double damping = 1;   // N s/m
@@ -36,7 +36,7 @@ struct Bench {
   }
 };
 
-/// A spring K and a viscosity B as live parameters.
+/// A spring k and a viscosity b as parameters.
 Program spring_and_viscosity(const Bench& bench) {
   Files files;
   SourceSet sources;
@@ -60,7 +60,7 @@ Bank bank(const Program& program, double stiffness, double viscosity) {
               program.default_size());
 }
 
-/// The stiffness for which the grade wants just the damping that is there.
+/// The stiffness, in N/m, for which the grade requires exactly the device's damping.
 double graded_stiffness(const Program& program, const Bench& bench, double viscosity) {
   double low = 1, high = 1e6;
   for (int i = 0; i < 24; ++i) {
@@ -70,7 +70,7 @@ double graded_stiffness(const Program& program, const Bench& bench, double visco
   return std::sqrt(low * high);
 }
 
-/// Whether a small oscillation grows over twenty-five seconds. The motion it is looked at in is along x.
+/// Whether a small oscillation along x grows over 25 simulated seconds.
 bool grows(const Program& program, double stiffness, double viscosity) {
   DeviceProfile profile = program.description().device;
   profile.position_counts = profile.force_counts = 1 << 29;
@@ -85,7 +85,7 @@ bool grows(const Program& program, double stiffness, double viscosity) {
     const double counts_per_tick = velocity(joystick.sample().counts.x, 1);
     Hand hand{.position = glm::vec2(position, 0)};
     hand.velocity.x = static_cast<float>(counts_per_tick * profile.position_step() * profile.rate);
-    joystick.command(n < 3 ? Force(0.5, 0) : tick(here, hand));  // some 10 um
+    joystick.command(n < 3 ? Force(0.5, 0) : tick(here, hand));  // a displacement of about 10 um
     if (n >= second && n < 3 * second) early = std::max(early, std::abs(position));
     if (n >= ticks - 2 * second) late = std::max(late, std::abs(position));
     if (std::abs(position) > 0.01) return true;
@@ -107,7 +107,7 @@ TEST(ClosedLoop, OscillationsGrowFromTheGradedStiffnessOn) {
     }
 }
 
-TEST(ClosedLoop, LikewiseWithAViscosityThatPushes) {
+TEST(ClosedLoop, OscillationsGrowFromTheGradedStiffnessWithNegativeViscosity) {
   for (const double viscosity : {-0.2, -0.5, -0.8}) {
     const Bench bench;
     const Program program = spring_and_viscosity(bench);
@@ -129,7 +129,7 @@ TEST(ClosedLoop, WithViscosityItNeverGrowsBelowTheGradedStiffness) {
     }
 }
 
-/// The root mean square of the speed in the last of six seconds after a push, m/s, in a hand that holds still.
+/// The RMS speed, in m/s, in the last of six seconds after a push, in a hand that holds still.
 double unrest(const Program& program, double stiffness) {
   const DeviceProfile& profile = program.description().device;
   SimulatedJoystick joystick(profile, {.mass = 0.55, .damping = 6.5, .stiffness = 135}, Rest{});
@@ -158,7 +158,7 @@ TEST(ClosedLoop, InAHandTheMarginOrdersTheOutcomes) {
       outcomes.push_back(unrest(program, stiffness));
     }
     SCOPED_TRACE(fmt::format("{} s: {}", delay, fmt::join(outcomes, ", ")));
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(outcomes[i], 1e-3) << "at rest, or trembling by a count";
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(outcomes[i], 1e-3) << "at rest within a count";
     EXPECT_GT(outcomes[3], 0.01);
     EXPECT_GT(outcomes[4], outcomes[3]);
     EXPECT_GT(outcomes[5], outcomes[4]);

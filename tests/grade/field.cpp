@@ -1,4 +1,4 @@
-// Values of many hands at once do not depend on which thread works them out.
+// Values of many hands do not depend on the thread that computes them.
 
 #include "compiler/grade/field.hpp"
 
@@ -13,7 +13,7 @@
 namespace wale {
 namespace {
 
-TEST(LiftedField, ManyHandsAtOnceAreAsFewAtATime) {
+TEST(LiftedField, ManyHandsGiveTheSameBitsAsFew) {
   compiling::Files files;
   SourceSet sources;
   Diagnostics diagnostics;
@@ -28,7 +28,7 @@ TEST(LiftedField, ManyHandsAtOnceAreAsFewAtATime) {
   const LiftedTick lifted = lift(bank);
   LiftedField field(lifted.graph, lifted.force, bank);
   ASSERT_TRUE(field.fits());
-  // Enough of them that more than one thread is worth it, and a block that is not full.
+  // Enough hands for several threads, and a last block that is not full.
   const auto hands = hands_in_motion(40'061, {0.08f, 0.08f}, 0.5f);
   std::vector<float> all, some;
   field.evaluate(hands, {}, all);

@@ -16,10 +16,10 @@ constexpr double pi = 3.14159265358979323846;
 
 struct Stimulus {
   double program_units, period_mm;  // as in Minsky 1995, table 6 (calibration/maps/minsky1995_table6.csv)
-  double stiffness, damping, step;  // N/m: 2 pi A / period; N s/m: half a period of the loop of it; N: a count of it
+  double stiffness, damping, step;  // N/m: 2 pi A / period; N s/m: stiffness * T / 2; N: stiffness * one count
 };
 
-/// Sines of the thesis's amplitudes and periods, by the closed forms.
+/// Sines with amplitudes and periods of the thesis, against closed forms.
 class SinesOfTheThesis : public testing::TestWithParam<Stimulus> {};
 
 TEST_P(SinesOfTheThesis, HaveTheGradeOfTheClosedForms) {
@@ -56,8 +56,8 @@ TEST(Grade, KnownDampingDecidesBetweenPassiveHandAndUnstable) {
   EXPECT_EQ(steep.standing, Standing::unstable);  // 11.2 against 1 and 6.5
 }
 
-// K (T / 2 + d + 1 / (2 pi f)), of the axis that is later.
-TEST(Grade, TheDevicesAxesAreAsLateAsItsDeclarationSays) {
+// The required damping is K (T / 2 + d + 1 / (2 pi f)) for the axis with the larger delay.
+TEST(Grade, UsesTheDeclaredDelayAndBandwidthOfTheAxes) {
   const auto needed = [](const std::string& settings) {
     return graded("    force = -100 N/m * hand", device(settings), "bench").required_damping;
   };
@@ -68,12 +68,12 @@ TEST(Grade, TheDevicesAxesAreAsLateAsItsDeclarationSays) {
               1e-4);
 }
 
-TEST(Grade, FrictionHoldsOneCountOrItBuzzes) {
+TEST(Grade, BuzzesWhereFrictionIsBelowHalfAStep) {
   const auto buzzes = [](const std::string& friction) {
     return graded("    force = vector(1 N * sin(2 pi * x / 2.5 mm), 0 N)", device("  friction " + friction), "bench")
         .buzzes;
   };
-  // One count changes 0.1403 N, so that the edge is at 0.0701 N.
+  // One count changes the force by 0.1403 N, so the edge is at 0.0701 N.
   EXPECT_EQ(buzzes("0.08 N"), false);
   EXPECT_EQ(buzzes("0.06 N"), true);
   EXPECT_EQ(buzzes("assumed 0.06 N"), std::nullopt);
@@ -90,7 +90,7 @@ TEST(Grade, SpringsOilAndPotentialsAreNotActive) {
   }
 }
 
-TEST(Grade, NothingAsksForNothing) {
+TEST(Grade, AConstantForceNeedsNoDamping) {
   const Grade grade = graded("    force = vector(0.5 N, 0 N)");
   EXPECT_EQ(grade.standing, Standing::passive);
   EXPECT_EQ(grade.required_damping, 0);
@@ -98,7 +98,7 @@ TEST(Grade, NothingAsksForNothing) {
   EXPECT_TRUE(std::isinf(grade.finest_period));
 }
 
-TEST(Grade, AFieldThatTurnsGivesItsCurlTimesTheArea) {
+TEST(Grade, ARotationalFieldGivesItsCurlTimesTheArea) {
   const Grade grade = graded("    let k = 15 N/m\n    force = vector(-k * y, k * x)");
   EXPECT_EQ(grade.standing, Standing::active);
   EXPECT_FALSE(grade.energy.conservative);
@@ -109,14 +109,14 @@ TEST(Grade, AntiViscosityGivesItsPower) {
   const Grade grade = graded("    force = 2 N s/m * velocity");
   EXPECT_EQ(grade.standing, Standing::active);
   EXPECT_NEAR(grade.required_damping, 2, 0.01);
-  const double speed = 2 * pi * 0.04;  // of the hand along each axis, so that both together are looked at
+  const double speed = 2 * pi * 0.04;  // of the hand along each axis
   EXPECT_NEAR(grade.energy.watt(), 2 * 2 * speed * speed, 0.1 * 2 * 2 * speed * speed);
 }
 
-TEST(Grade, WhatMovesByItselfIsActiveAndWhatTheHandDrivesIsNot) {
+TEST(Grade, MotionByItselfIsActiveAndMotionDrivenByTheHandIsNot) {
   EXPECT_EQ(graded("    force = vector(0.3 N * sin(2 pi * 5 Hz * time), 0 N)").standing, Standing::active);
   EXPECT_EQ(graded("    force = vector(0.3 N * sin(phase(5 Hz)), 0 N)").standing, Standing::active);
-  // A source that drives a state that the hand drives too.
+  // A state that both the hand and an oscillation drive.
   EXPECT_EQ(
       graded(
           "    state p : position = hand\n    next p = p + (hand - p) * 0.1 + vector(1 mm * sin(phase(5 Hz)), 0 mm)\n"
@@ -128,12 +128,12 @@ TEST(Grade, WhatMovesByItselfIsActiveAndWhatTheHandDrivesIsNot) {
                    "    force = -pull")
                 .standing,
             Standing::ungraded);
-  // One that only stays where the hand came in.
+  // A state that stays at the place where the hand entered.
   EXPECT_EQ(graded("    state p : position = hand\n    next p = p\n    force = -50 N/m * (hand - p)").standing,
             Standing::ungraded);
 }
 
-TEST(Grade, WhatGivesMoreThanItWasGivenIsActive) {
+TEST(Grade, AStateThatGivesMoreEnergyThanItTakesIsActive) {
   // A mass that is pushed along its own motion.
   const Grade grade = graded(
       "    state p : position = hand\n    state v : velocity = vector(0 m/s, 0 m/s)\n"
@@ -143,21 +143,21 @@ TEST(Grade, WhatGivesMoreThanItWasGivenIsActive) {
   EXPECT_GT(grade.energy.watt(), 0);
 }
 
-TEST(Grade, AJumpIsSeenByItsStep) {
+TEST(Grade, AJumpIsFoundByItsStep) {
   const Grade grade = graded("    force = vector(if x < 3.21 mm then 1.5 N else -0.5 N, 0 N)");
   EXPECT_TRUE(grade.jumps);
   EXPECT_NEAR(grade.step_newton, 2, 1e-6);
   EXPECT_NEAR(grade.required_damping, 2 / (0.2286 / 4096) / 1800, 0.01);
 }
 
-TEST(Grade, AConeHasNoSlopeAtItsTip) {
+TEST(Grade, ARampToAConstantForceIsFiniteAtItsCentre) {
   const Grade grade = graded("    force = -1 N * normalise(hand) * min(1, length(hand) / 10 mm)");
   EXPECT_TRUE(std::isfinite(grade.required_damping));
   EXPECT_NEAR(grade.stiffness, 100, 1);  // 1 N over 10 mm
 }
 
-TEST(Grade, ATipIsAsSteepAsAnEncoderCanSee) {
-  // A force of one size that points to the middle: at the middle its direction turns within any distance.
+TEST(Grade, StiffnessAtASingularityIsLimitedByTheEncoder) {
+  // A force of constant size towards the centre. Close to the centre its direction reverses within any distance.
   const Grade grade = graded("    force = -1 N * hand / length(hand)");
   const double count = 0.2286 / 4096;
   EXPECT_GT(grade.stiffness, 0.5 / count * 0.1);

@@ -9,10 +9,11 @@
 
 namespace wale::grading {
 
-/// A hand that circles a decimetre a second.
+/// A hand on circles with a radius of 40 mm at 1 Hz.
 inline const GradingHand hand{.damping = 6.5, .radius = 0.04, .frequency = 1, .name = "test"};
 
-/// The grade of one material's physical block, compiled for a device that is declared with it.
+/// The grade of a material with the block `physical`, compiled with other declarations for a device of them or a
+/// shipped one.
 inline Grade graded(const std::string& physical, const std::string& declarations = "",
                     const std::string& device = default_device) {
   compiling::Files files;
@@ -27,7 +28,7 @@ inline Grade graded(const std::string& physical, const std::string& declarations
   return grade(Bank(*program), hand);
 }
 
-/// A joystick like Minsky's of which everything is known; `more` are further settings.
+/// A device `bench` with the figures of Minsky's joystick; `more` are further settings.
 inline std::string device(const std::string& more) {
   return "device bench {\n  workspace disc(228.6 mm)\n  position 4096 counts\n  force 10 N, 2048 counts\n  rate 900 "
          "Hz\n"

@@ -36,14 +36,15 @@ TEST(RequiredDamping, IsThatOfTheVirtualWall) {
           << stiffness << " N/m, " << damping << " N s/m";
 }
 
-// With a delay T / 2 becomes T / 2 + d (Diolaiti et al. 2006; tests/reference/closed_loop.md has 2.78, 7.8 and 12.8 for corduroy).
+// With a delay, T / 2 becomes T / 2 + d (Diolaiti et al. 2006; tests/reference/closed_loop.md: 2.78, 7.8 and 12.8 N s/m
+// for corduroy at 0, 1 and 2 ms).
 TEST(RequiredDamping, GrowsByTheDelay) {
   for (const double delay : {0.0, 0.0005, 0.001, 0.002})
     EXPECT_NEAR(required_damping(wall(5010, 0), LoopTiming(device(delay))), 5010 * (1.0 / 1800 + delay), 1e-6);
 }
 
-// An actuator's low-pass delays what is slow by its time constant. Held against the form itself, frequency by
-// frequency.
+// An actuator's low-pass delays slow signals by its time constant. The expectation is the largest value of the
+// condition over a grid of frequencies.
 TEST(RequiredDamping, GrowsByTheActuatorsLag) {
   DeviceProfile profile = device(0.0007);
   profile.bandwidth_x = profile.bandwidth_y = 60;
@@ -60,8 +61,8 @@ TEST(RequiredDamping, GrowsByTheActuatorsLag) {
   EXPECT_NEAR(needed, 2000 * (T / 2 + d + lag), 1e-9);
 }
 
-// A damper along x alone is as late as x is, whatever y does; a slope may turn up along either axis.
-TEST(RequiredDamping, EveryAxisIsAsLateAsItIs) {
+// A damper along one axis has the delay of that axis. A stiffness may act along either, so it has the larger delay.
+TEST(RequiredDamping, EveryAxisHasItsOwnDelay) {
   const double undelayed = required_damping(wall(0, 4), LoopTiming(device()));
   DeviceProfile late_along_y = device();
   late_along_y.delay_y = 0.003;
@@ -77,20 +78,20 @@ TEST(RequiredDamping, EveryAxisIsAsLateAsItIs) {
 
 TEST(RequiredDamping, CountsTheStiffestDirection) {
   LinearProgram program;
-  program.direct.place = {{{-300, 400}, {400, 300}}};  // of singular values 500 and 500
+  program.direct.place = {{{-300, 400}, {400, 300}}};  // both singular values are 500
   EXPECT_NEAR(required_damping(program, LoopTiming(device())), 500.0 / 1800, 1e-9);
   program.direct.place = {{{-900, 0}, {0, 100}}};
   EXPECT_NEAR(required_damping(program, LoopTiming(device())), 900.0 / 1800, 1e-9);
 }
 
-// The windows of the filter include one tick, which is its worst for a damper.
+// The filter's windows include one tick, which is the worst window for a damper.
 TEST(RequiredDamping, LetsTheFilterChooseItsWindow) {
   EXPECT_NEAR(required_damping(wall(0, 10), LoopTiming(device(0, 15))), 10, 1e-3);
 }
 
 TEST(RequiredDamping, OfTheSecondDifferenceIsItsClosedForm) {
-  // H = M ((1 - 1/z) / T)^2: the form is M / (2 T) Re (1 - e^-ja)^3 / (1 - cos a), greatest at the Nyquist frequency or
-  // inside; found here on a fine grid.
+  // H = M ((1 - 1/z) / T)^2, so the condition is M / (2 T) Re (1 - e^-ja)^3 / (1 - cos a). Its maximum is found on a
+  // fine grid of angles.
   LinearProgram program;
   program.direct.raw_acceleration[0][0] = -0.01;
   double expected = 0;
@@ -102,8 +103,8 @@ TEST(RequiredDamping, OfTheSecondDifferenceIsItsClosedForm) {
   EXPECT_NEAR(required_damping(program, LoopTiming(device())), expected, 0.02 * expected);
 }
 
-/// A mass on a spring and a damper to the hand, as the brick of the language's examples: v' and p' in the order of the
-/// text (semi-implicit Euler), force = -k (hand - p).
+/// A mass m with damping b on a spring k to the hand, in SI units, like the brick of LANGUAGE.md: v' before p'
+/// (semi-implicit Euler), force = -k (hand - p).
 LinearProgram brick(double k, double b, double m, double period) {
   LinearProgram program;
   program.states = 2;  // p, v
@@ -117,7 +118,7 @@ LinearProgram brick(double k, double b, double m, double period) {
   return program;
 }
 
-// Against the response of the same recurrence to a slow sum over a long sine, at every frequency of a grid.
+// Against the response of the same recurrence, run under a long sine at each frequency of a grid.
 TEST(RequiredDamping, OfStatesIsThatOfTheirResponse) {
   const double period = 1.0 / 900, k = 120, m = 0.3;
   for (const double b : {0.8, 4.0}) {
@@ -134,7 +135,7 @@ TEST(RequiredDamping, OfStatesIsThatOfTheirResponse) {
         v += period * (pull - b * v) / m;
         p += period * v;
       }
-      // As in the product, the direct spring counts in full in every direction of energy.
+      // The condition is T / 2 / (1 - cos a) Re ((1 - e^-ja) H), as for the wall.
       const std::complex<double> late = 1.0 - std::polar(1.0, -angle);
       expected = std::max(expected, period / 2 / (1 - std::cos(angle)) * (late * -response).real());
     }
@@ -142,7 +143,7 @@ TEST(RequiredDamping, OfStatesIsThatOfTheirResponse) {
   }
 }
 
-TEST(RequiredDamping, IsInfiniteWhereStatesOnlyGrow) {
+TEST(RequiredDamping, IsInfiniteWhereStatesGrow) {
   LinearProgram program = brick(120, 0.8, 0.3, 1.0 / 900);
   program.carry = {1, 0, 0, 1};
   program.output = {1e300, 0, 0, 0};

@@ -1,4 +1,4 @@
-// Which folder may include which: README.md and schema/CONTRIBUTING.md tell it in prose, this is the rule.
+// Which folder may include which. README.md and schema/CONTRIBUTING.md describe the same rule in prose.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::set<std::string>;
 
-/// By file, all relative to the project's root: the files of the project that it includes.
+/// For each file, the files of the project that it includes. All paths are relative to the project's root.
 using Includes = std::map<std::string, Files>;
 
 bool is_source(const fs::path& path) {
@@ -35,7 +35,7 @@ Files sources() {
   return files;
 }
 
-/// The file that `name` in an include means, or nothing when it is none of the project.
+/// The path of the file that an include of `name` means; empty when the file is not of the project.
 std::string found(const std::string& name, const Files& files) {
   for (const char* root : {"", "runtime/include/", "library/include/"})
     if (files.contains(root + name)) return root + name;
@@ -62,7 +62,7 @@ bool is_under(const std::string& file, const std::vector<std::string>& places) {
   return std::ranges::any_of(places, [&](const std::string& place) { return file.starts_with(place); });
 }
 
-/// Files below `place` may include those below `may`, and those of `place` itself.
+/// Files in `place` may include files in `place` and in the folders and files of `may`.
 struct Rule {
   std::string place;
   std::vector<std::string> may;
@@ -70,7 +70,7 @@ struct Rule {
 
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = [] {
-    // Of the public headers, those that the machine implements; the others are of the stage and of devices.
+    // The public headers that the machine implements. The other public headers belong to the stage and to devices.
     const std::vector<std::string> machine = {
         "schema/",
         "runtime/machine/",
@@ -103,13 +103,13 @@ TEST(Includes, StayWithinWhatAFolderMayKnow) {
   }
 }
 
-/// The part of folder `parent` in which a file lies: a folder in it, taken as a whole, or the file itself.
+/// The name of the entry of folder `parent` that holds the file: a folder in `parent`, or the file itself.
 std::string part_of(const std::string& file, const std::string& parent) {
   const std::string rest = file.substr(parent.size());
   return rest.substr(0, rest.find('/'));
 }
 
-/// The parts of a folder that lie on a circle, in the order in which they are found; empty when there is none.
+/// The parts on the first circle that is found, in the order of the includes; empty when there is no circle.
 std::vector<std::string> circle_in(const std::map<std::string, Files>& graph) {
   std::vector<std::string> path;
   Files done;

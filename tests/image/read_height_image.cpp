@@ -11,7 +11,8 @@
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
-/// OpenImageIO 2.4's PNG reader leaves a damaged file by longjmp, past the destructor of its error's text.
+/// OpenImageIO 2.4's PNG reader leaves damaged files by longjmp, which skips the destructor of its error text and
+/// leaks.
 using LeaksOfPngReader = __lsan::ScopedDisabler;
 #else
 struct LeaksOfPngReader {};
@@ -22,8 +23,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// A picture file in memory, made of `values` (0 .. 1, or codes when `pixels` says an integer type holds them as they
-/// are).
+/// The bytes of a picture file. `values` are 0 .. 1 as floats, or codes of an integer type.
 template <class Value>
 Bytes encode(const std::string& extension, OIIO::ImageSpec spec, const std::vector<Value>& values) {
   std::vector<unsigned char> file;
@@ -54,7 +54,7 @@ std::string problem_of(const Bytes& bytes, const std::string& name, double smoot
   return {};
 }
 
-/// Codes that reach from end to end and differ in every pixel.
+/// Codes that increase over the whole range of the type.
 template <class Value>
 std::vector<Value> ramp(std::size_t count) {
   std::vector<Value> values(count);
@@ -271,7 +271,7 @@ TEST(Image, DeclaredHugePictureIsRefusedBeforeItIsRead) {
   EXPECT_NE(problem_of(bmp, "a.bmp").find("30000 x 30000 pixels, more than 268 million"), std::string::npos);
 }
 
-TEST(Image, WhatIsNoPictureSaysSo) {
+TEST(Image, OtherFilesAreRefused) {
   EXPECT_EQ(problem_of({}, "a.png"), "the file is empty");
   const Bytes words(300, std::byte{'w'});
   EXPECT_EQ(problem_of(words, "a.txt"), "the file is in no picture format that OpenImageIO knows");
@@ -292,7 +292,7 @@ std::vector<std::pair<std::string, Bytes>> one_of_each() {
   return files;
 }
 
-TEST(Image, TruncatedFilesAreRefusedWithWords) {
+TEST(Image, TruncatedFilesAreRefusedWithASentence) {
   [[maybe_unused]] const LeaksOfPngReader leaks;
   for (const auto& [name, bytes] : one_of_each()) {
     read(bytes, name);

@@ -1,4 +1,4 @@
-// One mistake is told once: every shipped file with one token dropped, doubled or exchanged reports few errors.
+// One mistake gives few errors: shipped files with one token dropped, doubled or exchanged.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shipped file under its own name, so that its imports and pictures are found and it is not declared twice.
+/// A shipped file under its own path, so that its imports and pictures are found and it replaces the embedded copy.
 struct Shipped {
   std::string name, text;
   std::vector<Token> tokens;
@@ -59,7 +59,7 @@ struct Mistake {
   std::size_t errors = 0;
 };
 
-/// One change of one token; which, `random` says.
+/// The file with one random change of one token, and its errors.
 Mistake mistake_in(const Shipped& file, std::mt19937& random) {
   const auto below = [&](std::size_t n) { return random() % n; };
   const auto spelling = [&](const Token& token) { return file.text.substr(token.begin, token.end - token.begin); };
@@ -88,7 +88,7 @@ Mistake mistake_in(const Shipped& file, std::mt19937& random) {
   return mistake;
 }
 
-/// All safe fixes, until there are none.
+/// The text after all safe fixes, applied until there are none. `rounds` receives the number of rounds.
 std::string mended(const std::string& name, std::string text, int& rounds) {
   for (rounds = 0; rounds < 50; ++rounds) {
     SourceSet sources;

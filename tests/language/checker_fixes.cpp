@@ -1,4 +1,4 @@
-// What the golden cases cannot say: whole lines that go, and what is not said twice.
+// Fixes that the golden cases cannot express: whole lines that are removed, and errors that are not repeated.
 #include <gtest/gtest.h>
 
 #include "compiler/compile.hpp"
@@ -30,14 +30,14 @@ TEST(CheckerFixes, UnusedImportGoesWithItsLine) {
   EXPECT_EQ(fixed("wale 1\nimport std.friction  // drag\n" + rest), "wale 1\n  // drag\n" + rest);
 }
 
-TEST(CheckerFixes, AppendNoUnitToWhatHasOne) {
+TEST(CheckerFixes, AppendAUnitOnlyToPlainNumbers) {
   EXPECT_EQ(fixed("wale 1\nlet a = 1 mm + 2\n"), "wale 1\nlet a = 1 mm + 2 mm\n");
   EXPECT_EQ(fixed("wale 1\nlet a = 1 mm + 50 %\n"), "no fix");
   EXPECT_EQ(fixed("wale 1\nlet a = 1 mm + (2 + 3)\n"), "no fix");
 }
 
 TEST(CheckerFixes, AreOfTheFileThatTheDiagnosticPointsTo) {
-  // The slip is met inside an embedded function, and the diagnostic points at the call.
+  // The error is found inside an embedded function, and the diagnostic points at the call.
   const auto diagnostics = checked("wale 1\nmaterial a { physical { force = lateral(1 N, amplitude: 2) } }\n");
   EXPECT_TRUE(diagnostics.has_errors());
   for (const auto& diagnostic : diagnostics.all())
@@ -56,7 +56,7 @@ TEST(Imports, AreLookedForOnceInEachPlace) {
   EXPECT_EQ(message.find("nowhere.wale", first + 1), std::string::npos) << message;
 }
 
-/// Supplies a module of any name that imports another, without an end; the project has no devices of its own.
+/// Supplies a module for every name but `devices`; each imports another, without end.
 class Endless final : public Resolver {
  public:
   Result<ResolvedFile> module(const std::string& path, const std::string&) override {
@@ -68,7 +68,7 @@ class Endless final : public Resolver {
   }
 };
 
-TEST(Imports, EndWhoeverSuppliesThem) {
+TEST(Imports, WithoutEndAreRefused) {
   SourceSet sources;
   Endless resolver;
   Diagnostics diagnostics;

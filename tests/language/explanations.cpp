@@ -1,5 +1,5 @@
-// Every code has an explanation, and its examples are what they say they are: the wrong one yields exactly that code,
-// the mended one compiles without an error.
+// Every code has an explanation. Its wrong example yields exactly that code, and its mended example compiles without a
+// diagnostic.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 /// Why the first example of a code does not yield it as it stands.
 const std::map<std::string, std::string> not_as_one_file = {
     {"W0107", "the page itself is UTF-8 without NUL bytes"},
-    {"W0108", "two hundred parentheses would hide what is meant"},
+    {"W0108", "two hundred parentheses would not be readable"},
     {"W0109", "the file would have more than 4 MB"},
     {"W0215", "needs a second file that keeps a name to itself"},
     {"W0216", "needs a second file"},
@@ -29,7 +29,8 @@ const std::map<std::string, std::string> not_as_one_file = {
     {"W0601", "the device is named on the command line"},
 };
 
-/// Codes of files, devices and measurements: no text of a Wale file has them, so they are explained without examples.
+/// Whether the code is about the text of a Wale file. Codes of files, devices and measurements are explained without
+/// examples.
 bool is_of_wale_text(Code code) {
   return code < Code::absent_device && code != Code::unwritable_file && code != Code::damaged_file &&
          code != Code::newer_file && code != Code::refused_program && code != Code::other_device;
@@ -72,13 +73,13 @@ class Itself final : public Resolver {
   std::string text_;
 };
 
-/// The codes of all that is wrong, and a text for people.
+/// The codes of all diagnostics, and the diagnostics as text.
 struct Outcome {
   std::set<std::string> codes;
   std::string shown;
 };
 
-/// Compiles all materials of the file; of a file without any, `needs_material` asks for one.
+/// Compiles all materials of the file. In a file without any, it asks for one where `needs_material`.
 Outcome outcome_of(const std::string& text, bool needs_material) {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -152,7 +153,7 @@ TEST(ExplanationsWithoutExamples, AreAParagraph) {
   }
 }
 
-TEST(CodesByName, AreFoundHoweverTheyAreWritten) {
+TEST(CodesByName, AreFoundInEverySpelling) {
   for (const char* name : {"W0301", "w0301", "W301", "w301", "0301", "301"})
     EXPECT_EQ(*code_named(name), Code::wrong_dimension) << name;
   for (const char* name : {"", "W", "W9999", "W03011", "wrong", "W03O1", "-301", "W-301"})

@@ -23,7 +23,7 @@ TEST(ApplyFixes, ReplacesInsertsAndRemoves) {
   EXPECT_EQ(applied("", {wale::insert_before(span(0, 0), "x")}), "x");
 }
 
-TEST(ApplyFixes, TakesFixesInAnyOrderAndTellsThemInTheOrderOfTheText) {
+TEST(ApplyFixes, TakesFixesInAnyOrderAndReturnsThemInTheOrderOfTheText) {
   const auto fixed = wale::apply_fixes("abc", 0, {wale::replace(span(2, 3), "C"), wale::replace(span(0, 1), "A")});
   EXPECT_EQ(fixed.text, "AbC");
   ASSERT_EQ(fixed.applied.size(), 2u);
@@ -48,7 +48,7 @@ TEST(ApplyFixes, AppliesAFixWholeOrNotAtAll) {
   EXPECT_EQ(applied("abc", {wale::replace(span(2, 9), "x"), wale::replace(span(2, 1), "y"), Fix{}}), "abc");
 }
 
-TEST(ApplyFixes, ThousandsTakeNoTime) {
+TEST(ApplyFixes, TwoHundredThousandAreApplied) {
   std::string text(200000, 'a'), expected(200000, 'b');
   std::vector<Fix> fixes;
   for (std::uint32_t at = 0; at < text.size(); ++at) fixes.push_back(wale::replace(span(at, at + 1), "b"));
@@ -78,8 +78,8 @@ TEST(Respell, IsSafeOnlyForTheOneNameThatIsOneSlipAway) {
   EXPECT_EQ(fix("ribc", {"ribs", "ribs"}), "safe ribs") << "the same name twice is one";
   EXPECT_EQ(fix("Period", {"period", "peroid"}), "safe period") << "capitals are nearer than letters";
   EXPECT_EQ(fix("wavelength", {"period", "duty"}), "none");
-  EXPECT_EQ(fix("k", {"b", "c"}), "none") << "with one letter every name is near";
-  EXPECT_FALSE(wale::respell(span(0, 1), "MN", {"mN"}, false).at(0).safe) << "a billion times as much";
+  EXPECT_EQ(fix("k", {"b", "c"}), "none") << "every name is near to a single letter";
+  EXPECT_FALSE(wale::respell(span(0, 1), "MN", {"mN"}, false).at(0).safe) << "MN is 10^9 mN";
 }
 
 TEST(UnitNames, AreThoseThatPeopleWriteOut) {
@@ -93,7 +93,7 @@ TEST(UnitNames, AreThoseThatPeopleWriteOut) {
     EXPECT_EQ(wale::symbol_of_unit(name), std::nullopt) << name;
 }
 
-/// The text with its safe fixes applied, again and again.
+/// The text after its safe fixes are applied until there are none, at most ten times.
 std::string mended(std::string text) {
   for (int round = 0; round < 10; ++round) {
     const Reading reading(text);
@@ -104,7 +104,7 @@ std::string mended(std::string text) {
   return text;
 }
 
-TEST(ParserFixes, MendWhatIsBeyondDoubt) {
+TEST(ParserFixes, MendUnambiguousMistakes) {
   const struct {
     const char *wrong, *right;
   } cases[] = {

@@ -1,4 +1,4 @@
-// wale format: one style, nothing lost, the same twice.
+// wale format: one style, nothing is lost, and formatting twice changes nothing.
 
 #include "compiler/format/format.hpp"
 
@@ -95,12 +95,12 @@ TEST(Format, CommentsStayWhereTheyBelong) {
   EXPECT_EQ(formatted("wale 1\r\n/* a  \r\n   b */\r\nlet a = 1  \r\n"), "wale 1\n/* a\n   b */\nlet a = 1\n");
 }
 
-TEST(Format, ADocumentationAboveNothingDoesNotBecomeSomeoneElses) {
+TEST(Format, DocumentationOfNothingBecomesAComment) {
   EXPECT_EQ(formatted("wale 1\nlet a = 1 /// of nothing\n;\nlet b = 2"),
             "wale 1\nlet a = 1   // of nothing\nlet b = 2\n");
 }
 
-TEST(Format, BrokenStatementsStayBrokenAndLongOnesBreakAtTheirLoosestBond) {
+TEST(Format, BrokenStatementsStayBrokenAndLongOnesBreakAtTheLoosestOperator) {
   EXPECT_EQ(statement("next v = lateral(\na,\n b(\n2))"), "    next v = lateral(\n      a,\n      b(\n        2))\n");
   EXPECT_EQ(statement("force = f(\na,\n)"), "    force = f(\n      a,\n    )\n");
   const std::string sum = "first_long_name * second_long_name + third_long_name * fourth_long_name";
@@ -120,7 +120,7 @@ TEST(Format, TheShippedFilesAreFormatted) {
   for (const auto& [name, text] : wale::shipped_files()) EXPECT_EQ(formatted(text), text) << name;
 }
 
-/// What must hold of any file: the tree and the comments are the same, and formatting again changes nothing.
+/// Expects that formatting keeps the tree and the comments, and that formatting again changes nothing.
 void expect_kept(const std::string& text, const std::vector<std::string>& comments) {
   const Reading before(text);
   const std::string once = formatted(text);

@@ -1,4 +1,4 @@
-// Every case under tests/language/diagnostics/Wnnnn/ says on its own lines what is wrong with them:
+// Every case under tests/language/diagnostics/Wnnnn/ states the expected diagnostics on its own lines:
 //
 //     force = k * hand * wale       // error W0301: force expected, found energy; drop `* wale`
 //
@@ -6,12 +6,12 @@
 //     let b = (a + 1                // error W0103: expected `)`   // unsafe fix: let b = (a + 1)   // also: opened
 //     here
 //
-// The file is compiled as `wale check` compiles it. Each expectation must meet a diagnostic on its line, of its code,
-// whose message, expectation, finding or mend has each part of the text (parts are parted by "; "), and nothing else
-// may be wrong. `fix` stands behind the diagnostic that offers it and says what a line reads (without comments) once
-// that fix alone is applied; `also` stands on the line of a secondary span and is part of its label. Fixes and
-// secondary spans may be there without being expected. Lines are read raw: an expectation may stand inside a text or
-// comment that does not end.
+// The file is compiled as `wale check` compiles it. Each expectation must match a diagnostic on its line with its code,
+// and each part of its text (separated by "; ") must be in the diagnostic's message, expected, found or help. There may
+// be no other diagnostics. `fix` follows the diagnostic that offers it and gives a line, without comments, after that
+// fix alone is applied. `also` stands on the line of a secondary span and is part of its label. Fixes and secondary
+// spans need not be expected. Lines are read as plain text, so an expectation may stand inside an unterminated text or
+// comment.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -49,13 +49,13 @@ std::vector<std::string> split(std::string text, const std::string& at) {
   return parts;
 }
 
-/// What a line reads after a fix.
+/// A line of the text after a fix.
 struct ExpectedFix {
   bool safe;
   std::string line;
 };
 
-/// What one line of a case says is wrong with it; without a code, what a secondary span on it says.
+/// One expected diagnostic of a line of a case, or, without a code, the label of a secondary span on the line.
 struct Expectation {
   SourceId source;
   unsigned line;
@@ -69,14 +69,14 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
 }
 
-/// The lines of a text without blanks and comments, and how often each stands there.
+/// The lines of a text, trimmed and without comments, with their number of occurrences.
 std::map<std::string, int> lines_of(const std::string& text) {
   std::map<std::string, int> lines;
   for (const std::string& line : split(text, "\n")) ++lines[trimmed(line.substr(0, line.find("//")))];
   return lines;
 }
 
-/// Whether the diagnostic offers a fix that makes such a line.
+/// Whether the diagnostic offers a fix of that safety that produces the line.
 bool offers(const Diagnostic& diagnostic, const ExpectedFix& expected, const std::string& text) {
   return std::ranges::any_of(diagnostic.fixes, [&](const Fix& fix) {
     const FixedText fixed = apply_fixes(text, diagnostic.span.source, {fix});
@@ -103,7 +103,7 @@ std::vector<Expectation> expectations(const SourceSet& sources, SourceId source)
       else if (!result.empty() && result.back().line == line)
         result.back().fixes.push_back({found[i][3] == "fix", parts});
       else
-        ADD_FAILURE() << sources[source].name << ":" << line << ": a fix of nothing";
+        ADD_FAILURE() << sources[source].name << ":" << line << ": a fix without a diagnostic";
     }
   }
   return result;
@@ -131,7 +131,7 @@ bool meets(const Diagnostic& diagnostic, const Expectation& expected, const Sour
          });
 }
 
-/// All that is wrong with the file, as `wale check` finds it.
+/// All diagnostics of the file, as `wale check` reports them.
 std::vector<Diagnostic> checked(SourceSet& sources, SourceId source) {
   const auto resolver = file_resolver({});
   Diagnostics diagnostics;
@@ -180,20 +180,20 @@ TEST_P(GoldenDiagnostics, AreThoseThatTheLinesSay) {
 
   for (const auto& each : expected)
     if (each.code.empty() && !is_secondary(diagnostics, each, sources))
-      ADD_FAILURE() << sources[each.source].name << ":" << each.line << ": nothing points here and says "
-                    << each.parts.front();
+      ADD_FAILURE() << sources[each.source].name << ":" << each.line
+                    << ": no secondary span on this line has the label " << each.parts.front();
   for (const auto& each : expected) {
     if (each.code.empty()) continue;
     const auto found =
         std::ranges::find_if(diagnostics, [&](const auto& diagnostic) { return meets(diagnostic, each, sources); });
     if (found == diagnostics.end())
-      ADD_FAILURE() << sources[each.source].name << ":" << each.line << ": nothing is the expected " << each.code
-                    << ": " << fmt::format("{}", each.parts.front()) << (each.parts.size() > 1 ? "; …" : "");
+      ADD_FAILURE() << sources[each.source].name << ":" << each.line << ": expected " << each.code << ": "
+                    << each.parts.front() << (each.parts.size() > 1 ? "; …" : "") << ", found none";
     else {
       for (const auto& fix : each.fixes)
         EXPECT_TRUE(offers(*found, fix, sources[each.source].text))
             << sources[each.source].name << ":" << each.line << ": no " << (fix.safe ? "safe" : "unsafe")
-            << " fix makes it `" << fix.line << "`";
+            << " fix gives the line `" << fix.line << "`";
       diagnostics.erase(found);
     }
   }
@@ -229,7 +229,7 @@ TEST_P(GoldenDiagnostics, AreFewerOnceTheirSafeFixesAreApplied) {
 INSTANTIATE_TEST_SUITE_P(Cases, GoldenDiagnostics, testing::ValuesIn(cases()), case_name);
 
 TEST(DiagnosticCodes, EachHasACase) {
-  // Those that no file of a few lines can show.
+  // Codes that no short Wale file can show.
   const std::map<std::string, std::string> without_cases{
       {"W0109", "a file of more than 4 MB: LargeFiles.AreRefused below"},
       {"W0601", "the device is named on the command line: Choices.NearestDeviceIsProposed below"},
@@ -249,7 +249,7 @@ TEST(DiagnosticCodes, EachHasACase) {
     EXPECT_NE(fs::exists(folder / code), without_cases.contains(code))
         << code << " needs a folder of cases, or a reason";
   for (const auto& each : fs::directory_iterator(folder))
-    EXPECT_TRUE(codes.contains(each.path().filename())) << each.path() << " is named after no code";
+    EXPECT_TRUE(codes.contains(each.path().filename())) << each.path() << " is not the name of a code";
 }
 
 TEST(LargeFiles, AreRefused) {

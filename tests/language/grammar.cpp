@@ -1,4 +1,4 @@
-// The parser accepts what schema/wale.grammar derives, and nothing else.
+// The parser accepts exactly the texts that schema/wale.grammar derives.
 
 #include "tests/language/grammar.hpp"
 
@@ -21,14 +21,14 @@ const Grammar& grammar() {
   return result;
 }
 
-/// What the parser has against a text; nothing when it is syntax.
+/// The parser's first diagnostic; empty when there is none.
 std::string complaint(const std::string& text) {
   const Reading reading(text);
   return reading.diagnostics.all().empty() ? ""
                                            : render_text(reading.diagnostics.all().front(), reading.sources, false);
 }
 
-/// That a block stands twice is no matter of syntax, and hides what is.
+/// Whether a block stands twice. The parser reports it, though it is no error of syntax.
 bool has_block_twice(const std::string& text) {
   const Reading reading(text);
   return std::any_of(reading.diagnostics.all().begin(), reading.diagnostics.all().end(),
@@ -63,7 +63,7 @@ TEST(TheGrammar, DerivesNoneOfTheseMistakes) {
   }
 }
 
-/// Grammar and parser must agree about the text; says whether it is syntax.
+/// Expects that grammar and parser agree about the text. Returns whether the grammar derives it.
 bool agreed(const std::string& text) {
   if (has_block_twice(text)) return false;
   const bool derived = grammar().recognises(text);

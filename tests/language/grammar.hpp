@@ -7,20 +7,20 @@
 #include <string>
 #include <vector>
 
-/// schema/wale.grammar as a machine reads it: its rules make random sentences and recognise texts. It shares the lexer
-/// with the compiler, and nothing else.
+/// The rules of schema/wale.grammar. They make random sentences and recognise texts. Only the lexer is shared with the
+/// compiler.
 ///
-/// What the rules leave to prose is applied here, each place naming the sentence it comes from.
+/// Rules that the grammar states in prose are implemented here, and each place quotes its sentence.
 class Grammar {
  public:
-  /// Throws std::runtime_error where the file does not keep its own notation.
+  /// Throws std::runtime_error where the text does not follow the notation.
   explicit Grammar(const std::string& text);
 
   /// Whether the text has no syntax error.
   bool recognises(const std::string& text) const;
 
-  /// A random file. Longer with more `effort`; about one in three breaks a rule that stands in prose only. The white
-  /// space is as odd as the language allows. `comments` receives the comments it holds, in order.
+  /// A random file with random white space. It is longer with more `effort`, and about one in three breaks a rule that
+  /// the grammar states in prose. `comments` receives its comments in order.
   std::string sentence(std::mt19937& random, int effort, std::vector<std::string>* comments = nullptr) const;
 
   /// All words in quotes, for a fuzzer's dictionary.
@@ -30,8 +30,8 @@ class Grammar {
   struct Node {
     enum class Kind : std::uint8_t { word, terminal, rule, sequence, choice, optional, repetition, before };
     Kind kind;
-    std::string text;         ///< of a word, terminal, rule or what stands behind
-    std::vector<Node> parts;  ///< of the others
+    std::string text;         ///< of a word, terminal, rule or `before`
+    std::vector<Node> parts;  ///< of the other kinds
   };
   struct Terminal {
     std::string kind;  ///< DOTTED (perhaps a NAME), NUMBER, TEXT, NEWLINE, or the word itself
@@ -45,7 +45,7 @@ class Grammar {
   bool terminals_of(const std::string& text, Terminals& terminals) const;
 
   std::map<std::string, Node> rules_;
-  std::set<std::string> continuing_;  ///< a line that ends in one goes on in the next
-  std::set<std::string> evidence_;    ///< no units in a setting
+  std::set<std::string> continuing_;  ///< a line that ends in one of these continues in the next
+  std::set<std::string> evidence_;    ///< words that are never units in a setting
   std::set<std::string> reserved_;
 };

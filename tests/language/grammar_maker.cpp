@@ -18,7 +18,7 @@ class Grammar::Maker {
  private:
   static constexpr int endless = 1'000'000;
 
-  /// How deep the shallowest sentence of each rule nests.
+  /// Finds the smallest depth of a sentence of each rule.
   void measure() {
     for (const auto& [name, node] : grammar_.rules_) heights_[name] = endless;
     for (bool changed = true; changed;) {
@@ -66,7 +66,7 @@ class Grammar::Maker {
         break;
       case Node::Kind::choice: {
         const Node* chosen = &node.parts[random_() % node.parts.size()];
-        // What stands behind is not made here, so it is seldom there.
+        // A `before` makes no text itself, so the text that it requires seldom follows.
         while (chosen->kind == Node::Kind::before && !chance(60)) chosen = &node.parts[random_() % node.parts.size()];
         if (tired())
           chosen = &*std::min_element(node.parts.begin(), node.parts.end(),
@@ -78,7 +78,7 @@ class Grammar::Maker {
         if (!tired() && chance(3)) make(node.parts[0]);
         break;
       case Node::Kind::repetition:
-        // The outermost repetition is the file's and goes on while there is effort left.
+        // The outermost repetition is that of the file. It continues while there is effort left.
         while (!tired() && (depth_ <= 1 || chance(2))) make(node.parts[0]);
         break;
     }
@@ -111,7 +111,7 @@ class Grammar::Maker {
 std::string Grammar::sentence(std::mt19937& random, int effort, std::vector<std::string>* comments) const {
   const auto words = Maker(*this, random).run(effort);
   const auto chance = [&](unsigned one_in) { return random() % one_in == 0; };
-  static const std::set<std::string> loose = {"(", ")", ",", "{", "}", ";"};  // need no space on either side
+  static const std::set<std::string> loose = {"(", ")", ",", "{", "}", ";"};  // these need no space on either side
   std::string text;
   std::size_t parentheses = 0;
   int noted = 0;
@@ -129,7 +129,7 @@ std::string Grammar::sentence(std::mt19937& random, int effort, std::vector<std:
     text += word == "\n" ? "" : word;
     if (word == "(") ++parentheses;
     if (word == ")" && parentheses > 0) --parentheses;
-    // Where a newline is white space there may be one, and where it ends a statement there is one.
+    // A newline may stand where it is white space, and must stand where it ends a statement.
     const bool free = parentheses > 0 || next == "then" || next == "else" || next == "{" || word == "{" ||
                       word == "}" || word == ";" || continuing_.count(word) > 0;
     if (word == "\n" || next == "\n" || free) {

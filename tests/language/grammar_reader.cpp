@@ -1,4 +1,4 @@
-// From the text of schema/wale.grammar to rules, and from a Wale file to the terminals that the rules are about.
+// Reads the rules of schema/wale.grammar, and converts a Wale file to the terminals of these rules.
 
 #include <regex>
 #include <sstream>
@@ -52,13 +52,13 @@ class Grammar::Reader {
     const char c = body_[at_];
     if (c == '\'' || c == '"' || c == '<') {
       const auto close = body_.find(c == '<' ? '>' : c, at_ + 1);
-      if (close == std::string::npos) throw std::runtime_error("wale.grammar: an open " + std::string(1, c));
+      if (close == std::string::npos) throw std::runtime_error("wale.grammar: expected a closing " + std::string(1, c));
       return body_.substr(at_, close - at_ + 1);
     }
     if (std::string("()[]{}|").find(c) != std::string::npos) return std::string(1, c);
     std::size_t end = at_;
     while (end < body_.size() && (std::isalnum(static_cast<unsigned char>(body_[end])) || body_[end] == '_')) ++end;
-    if (end == at_) throw std::runtime_error("wale.grammar: what is `" + std::string(1, c) + "`?");
+    if (end == at_) throw std::runtime_error("wale.grammar: unexpected character `" + std::string(1, c) + "`");
     return body_.substr(at_, end - at_);
   }
 
@@ -121,7 +121,7 @@ Grammar::Grammar(const std::string& text) {
       bodies[current] += " " + rule;
     }
   }
-  // Rules in capitals are tokens: those are the lexer's.
+  // Rules in capitals are tokens, which the lexer reads.
   for (const auto& [name, body] : bodies) {
     if (std::isupper(static_cast<unsigned char>(name[0]))) continue;
     Reader reader(body);

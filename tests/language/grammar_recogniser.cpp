@@ -1,4 +1,5 @@
-// Whether the rules of the grammar derive a file: every way of reading every rule at every place, remembered.
+// Recognises files by the rules of the grammar: tries every derivation of every rule at every place, and stores
+// results.
 
 #include <algorithm>
 #include <cmath>
@@ -57,13 +58,13 @@ class Grammar::Recogniser {
     return is(at, "(") || is(at, "*") || is(at, "/") || is(at, "^") || is(at, "..");
   }
 
-  /// "The names behind a number, as many as there are": what can be read as part of the suffix is.
+  /// "The names behind a number, as many as there are": the longest suffix is read.
   Ends read_suffix(std::size_t at, Context context) {
     const Node& factor = grammar_.rules_.at("suffix").parts.at(0);
     context.suffix = true;
     for (;;) {
       Ends ends = read(factor, at, context);
-      // A power that follows the name is read with it, or the name is no part of the suffix.
+      // A power belongs to the name before it; otherwise the name is not part of the suffix.
       std::erase_if(ends, [&](std::size_t end) {
         return end == at || (is(end, "^") && (is(end - 1, "DOTTED") || is(end - 1, "%")));
       });

@@ -95,7 +95,7 @@ TEST(Lexing, BracketsKnowTheirPartners) {
   EXPECT_EQ(cut.tokens.tokens[4].value, 5u);
 }
 
-TEST(Lexing, LookalikesAreReadAsWhatTheyMean) {
+TEST(Lexing, LookalikesAreReadAsTheCharacterThatIsMeant) {
   const struct {
     const char *text, *mend;
     Kinds kinds;
@@ -109,8 +109,8 @@ TEST(Lexing, LookalikesAreReadAsWhatTheyMean) {
       {"1 … 2", "write `..`", {number, range, number, end}},
       {"1 .... 2", "write `..`", {number, range, number, end}},
       {"v’ = 1", "write `'`", {name, prime, equals, number, end}},
-      {"“a”", "texts stand between straight quotes: write `\"`", {text, end}},
-      {"„a“", "texts stand between straight quotes: write `\"`", {text, end}},
+      {"“a”", "write texts in straight quotes: `\"`", {text, end}},
+      {"„a“", "write texts in straight quotes: `\"`", {text, end}},
       {"5 µm", "write `um`", {number, name, end}},  // U+00B5, the micro sign
       {"5 μm", "write `um`", {number, name, end}},  // U+03BC, the Greek letter
       {"90°", "write `deg`", {number, name, end}},
@@ -149,7 +149,7 @@ TEST(Lexing, NumbersBeyondTheMachineAreRefused) {
   EXPECT_FALSE(Cut("0 0.0 0e5 1e308 1e-300").diagnostics.has_errors());
 }
 
-TEST(Lexing, WhatIsNoTextGivesOneError) {
+TEST(Lexing, InvalidTextGivesOneError) {
   const struct {
     std::string text;
     std::uint32_t at;

@@ -1,4 +1,4 @@
-// The pages for readers (README.md and those that it links) name only what is there.
+// README.md and the pages that it links name only files and folders that exist.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::string text_of(const fs::path& page) {
   return text.str();
 }
 
-/// Links of a page to files and folders of the project, as they are written, without what follows `#`.
+/// Links of a page to files and folders of the project, as written, without their fragment (`#…`).
 std::vector<std::string> links_of(const std::string& text) {
   static const std::regex link(R"(\]\(([^)#]+)(#[^)]*)?\))");
   std::vector<std::string> links;
@@ -46,7 +46,7 @@ std::set<fs::path> pages() {
   return found;
 }
 
-TEST(Pages, LinkToWhatIsThere) {
+TEST(Pages, LinkToExistingFiles) {
   const auto all = pages();
   EXPECT_GE(all.size(), 9u);
   for (const fs::path& page : all)
@@ -66,7 +66,7 @@ TEST(Pages, TheFrontPageShowsAWholeFile) {
   EXPECT_NE(page.find("```\n" + text_of(root / "library/fabric/corduroy.wale") + "```\n"), std::string::npos);
 }
 
-/// Folders are rooms; each has its line in the page of its folder, as `room/`.
+/// The README of a folder names each folder in it, as `room/`.
 TEST(Pages, NameEveryRoom) {
   for (const char* folder : {"compiler", "runtime", "calibration", "tests"}) {
     const std::string page = text_of(root / folder / "README.md");
@@ -80,10 +80,9 @@ TEST(Pages, NameEveryRoom) {
   }
 }
 
-/// A path in backquotes that begins with a folder of the project is one of its files or folders.
-TEST(Pages, NamePathsThatAreThere) {
-  static const std::regex path(
-      R"(`((?:calibration|compiler|examples|library|runtime|schema|tests)/[A-Za-z0-9_./]+)`)");
+/// A path in backquotes that begins with a folder of the project exists.
+TEST(Pages, NameExistingPaths) {
+  static const std::regex path(R"(`((?:calibration|compiler|examples|library|runtime|schema|tests)/[A-Za-z0-9_./]+)`)");
   for (const fs::path& page : pages()) {
     const std::string text = text_of(page);
     for (std::sregex_iterator match(text.begin(), text.end(), path), end; match != end; ++match) {

@@ -8,7 +8,7 @@
 #include "compiler/parse/parse.hpp"
 #include "compiler/parse/print_tree.hpp"
 
-/// A text and everything that reading it gives.
+/// A text, its tree and its diagnostics.
 struct Reading {
   wale::SourceSet sources;
   wale::Diagnostics diagnostics;
@@ -39,7 +39,7 @@ inline std::string expression(const std::string& text) {
   return constant == nullptr ? "not a constant" : print_expression(reading.tree, constant->value);
 }
 
-/// The tree of a material whose physical section is TEXT, one statement a line, without the material around it.
+/// The tree of the statements of a physical section, or the first error.
 inline std::string physical(const std::string& text) {
   const Reading reading("wale 1\nmaterial m { physical {\n" + text + "\n} }\n");
   if (reading.diagnostics.has_errors()) return reading.diagnostics.all().front().message;

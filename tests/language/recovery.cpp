@@ -40,11 +40,11 @@ TEST(Recovery, EveryStatementReportsItsOwnErrorOnce) {
                                   "W0103 12:19 expected `)` after `b`",
                                   "W0103 14:12 expected `,` or `)` after `mm`",
                                   "W0103 16:28 expected `else` after `2`",
-                                  "W0103 17:5 `h` is defined without saying as what",
+                                  "W0103 17:5 the definition of `h` lacks its keyword",
                                   "W0101 18:15 Wale does not use the character `@`",
                                   "W0103 21:1 no declaration begins with `force`",
                               }));
-  // What could be read is there, and what was defined wrongly is still defined.
+  // The tree has everything that could be read, and names with a wrong definition are defined.
   EXPECT_EQ(reading.printed(),
             "(material m\n"
             "  (perceptual\n"
@@ -65,7 +65,7 @@ TEST(Recovery, EveryStatementReportsItsOwnErrorOnce) {
             "    (force (lateral x))))\n");
 }
 
-TEST(Recovery, AMissingBraceIsReportedWhereTheNextThingBeginsAndNamesItsPartner) {
+TEST(Recovery, AMissingBraceIsReportedAtTheNextBlockAndNamesItsPartner) {
   const Reading reading(
       "wale 1\n"
       "material a {\n"
@@ -86,7 +86,7 @@ TEST(Recovery, AMissingBraceIsReportedWhereTheNextThingBeginsAndNamesItsPartner)
   EXPECT_EQ(reading.tree.declarations.size(), 3u);
 }
 
-TEST(Recovery, AMisspeltWordIsReadAsWhatWasMeant) {
+TEST(Recovery, AMisspeltWordIsReadAsTheNearestOne) {
   const Reading reading("wale 1\nmateriall m { physicl { heigt h = x; force = lateral(h) } }\n");
   EXPECT_EQ(reading.errors(),
             (Errors{"W0103 2:1 no declaration begins with `materiall`", "W0103 2:15 a material has no `physicl`",
@@ -108,7 +108,7 @@ TEST(Recovery, AnUnknownBlockIsSkippedWhole) {
 
 TEST(Recovery, StatementsOutsideTheirSectionAreReportedTogether) {
   const Reading reading("wale 1\nmaterial m {\n  param k = 1 N/m\n  force = k * x\n}\n");
-  EXPECT_EQ(reading.errors(), (Errors{"W0103 3:3 `param` stands outside the sections of the material"}));
+  EXPECT_EQ(reading.errors(), (Errors{"W0103 3:3 `param` is outside the sections of the material"}));
   EXPECT_EQ(reading.diagnostics.all()[0].help, "put it into `physical { … }`");
   EXPECT_EQ(reading.printed(), "(material m\n  (physical\n    (param k [1 N/m])\n    (force (* k x))))\n");
 }
@@ -127,25 +127,25 @@ TEST(Mends, SayWhatToWriteInstead) {
       {"let a = 2 sin(x)", "to multiply, write `2 * sin(…)`"},
       {"let a = k hand", "to multiply, write `k * hand`"},
       {"let a = 2 (k + 1)", "to multiply, write `2 * (…)`"},
-      {"let a = 2,5 * k", "decimals are written with a point: `2.5`"},
-      {"let a = f(x, p: 2,5 mm)", "decimals are written with a point: `2.5`"},
-      {"let a = b < c < d", "comparisons do not chain; join two of them with `and`"},
-      {"let a = [1, 2]", "vectors are written `vector(a, b)`"},
-      {"let a = (1, 2)", "vectors are written `vector(a, b)`"},
-      {"let a = if b = c then 1 else 2", "`=` defines; values are compared with `<`, `<=`, `>` and `>=`"},
-      {"let a = 3)", "there is no `(` that it could close; remove it"},
+      {"let a = 2,5 * k", "write decimals with a point: `2.5`"},
+      {"let a = f(x, p: 2,5 mm)", "write decimals with a point: `2.5`"},
+      {"let a = b < c < d", "comparisons cannot be chained; join two of them with `and`"},
+      {"let a = [1, 2]", "write vectors as `vector(a, b)`"},
+      {"let a = (1, 2)", "write vectors as `vector(a, b)`"},
+      {"let a = if b = c then 1 else 2", "`=` defines; compare values with `<`, `<=`, `>` and `>=`"},
+      {"let a = 3)", "it closes no `(`; remove it"},
       {"let a = (3", "close the `(` in line 4, column 9"},
       {"let a = 0.5 ± 0.1", "a tolerance belongs to a percept; to subtract, write `-`"},
       {"let in = 3", "call the value something else"},
-      {"let 2x = 3", "names begin with a letter"},
-      {"let \"a\" = 3", "names are written without quotes"},
+      {"let 2x = 3", "names must begin with a letter"},
+      {"let \"a\" = 3", "write names without quotes"},
       {"height ribs grating(x)", "write `height ribs = …`"},
       {"param k 3", "write `param k = …`"},
       {"patch = 3 mm", "write `patch 3`"},
       {"q = 3", "write `let q = …`"},
       {"fource = 3", "did you mean `force`?"},
-      {"* 3", "to go on in the next line, end the line above with the operator"},
-      {"let a = 5 mm^b", "if `mm` is no unit, write `* mm^…`"},
+      {"* 3", "to continue on the next line, end the line above with the operator"},
+      {"let a = 5 mm^b", "if `mm` is not a unit, write `* mm^…`"},
   };
   for (const auto& each : cases) {
     const Reading reading("wale 1\nmaterial m {\nphysical {\n" + std::string(each.statement) + "\n} }\n");
@@ -165,7 +165,7 @@ TEST(Version, StandsAtTheHead) {
   EXPECT_EQ(Reading("let a = 1\n").diagnostics.all()[0].help, "write `wale 1` in a line above everything else");
 }
 
-TEST(Version, ANewerOneIsNotGuessedAt) {
+TEST(Version, ANewerFileIsNotParsed) {
   const Reading reading("wale 2\nnew ¬ syntax { (\n");
   EXPECT_EQ(reading.errors(), (Errors{"W0105 1:1 this file is written in wale 2"}));
   EXPECT_TRUE(reading.tree.declarations.empty());

@@ -1,5 +1,4 @@
-// schema/LANGUAGE.md holds what it says: its examples compile, its error is the one it prints, and it names everything
-// that schema/ declares.
+// schema/LANGUAGE.md: its examples compile, its error is the compiler's, and it names every declaration of schema/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +27,8 @@ std::string content(const std::string& name) {
   return text.str();
 }
 
-/// A fenced block: what stands behind its opening fence, its first line in the page, its text, and the file that the
-/// line above calls it, as in "A file `detent.csv`:".
+/// A fenced block: its kind (after the opening fence), its first line in the page, its text, and the file name in the
+/// line above, as in "A file `detent.csv`:".
 struct Block {
   std::string kind;
   int line = 0;
@@ -61,7 +60,7 @@ std::vector<Block> blocks_of(const std::string& page) {
   return blocks;
 }
 
-/// The files that the page shows, and beside them the pictures of library/stone.
+/// Resolves the files that the page shows, and the pictures of library/stone.
 class PageResolver final : public Resolver {
  public:
   explicit PageResolver(const std::vector<Block>& blocks) {
@@ -124,7 +123,7 @@ TEST(Reference, ItsExamplesCompile) {
   EXPECT_GE(compiled, 6);
 }
 
-TEST(Reference, ItsErrorIsWhatTheCompilerSays) {
+TEST(Reference, ItsErrorIsThatOfTheCompiler) {
   const auto blocks = blocks_of(content("schema/LANGUAGE.md"));
   int shown = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {

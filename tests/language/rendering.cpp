@@ -22,7 +22,7 @@ struct Rendering {
   std::string text() const { return render_text(diagnostic, sources, false); }
 };
 
-TEST(Rendering, IsAsTheStyleGuideShows) {
+TEST(Rendering, HasAPlaceALabelAndNotes) {
   Rendering rendering("\n\n\n\n\n\n\n\n    force = k * hand * wale\n", "k * hand * wale");
   rendering.diagnostic.label = "N m";
   rendering.diagnostic.expected = "N    = kg m   s^-2";
@@ -200,7 +200,7 @@ TEST(Rendering, JsonHasSpansFactsAndFixes) {
   EXPECT_EQ(fix["edits"].at(1)["replacement"], "\n");
 }
 
-TEST(Diagnostics, AThingIsSaidOnceAndNoMoreThanAThousandErrors) {
+TEST(Diagnostics, RepeatNothingAndStopAtAThousandErrors) {
   Diagnostics diagnostics;
   const Diagnostic once{.code = Code::unknown_name, .span = {0, 1, 2}, .message = "what"};
   for (int i = 0; i < 3; ++i) diagnostics.report(once);
@@ -211,7 +211,7 @@ TEST(Diagnostics, AThingIsSaidOnceAndNoMoreThanAThousandErrors) {
   EXPECT_TRUE(diagnostics.is_full());
 }
 
-TEST(Rendering, WhatHasNoPlaceHasNoLine) {
+TEST(Rendering, WithoutAPlaceHasNoLine) {
   Diagnostics diagnostics;
   diagnostics.report({Code::unknown_device, {}, "no device is called `tablet`", {}, {}, {}, "see `wale devices`"});
   EXPECT_EQ(render_text(diagnostics.all()[0], SourceSet(), false),

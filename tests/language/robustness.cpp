@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `f(1,` needs the most: a list for every four bytes.
+/// `f(1,` needs the most: one list for every four bytes.
 constexpr double most_allocations_per_byte = 1;
 
 std::string contents(const fs::path& path) {
@@ -34,7 +34,7 @@ std::vector<std::string> shipped() {
   return texts;
 }
 
-/// Reads, prints and renders, as any front end would; what matters is that it comes back.
+/// Reads, prints and renders the text. Expects no crash, an end, and sorted diagnostics within the limit.
 void survive(const std::string& text) {
   const Reading reading(text);
   reading.printed();
@@ -117,22 +117,22 @@ TEST(Robustness, NestingThousandsDeepIsRefused) {
         << opening;
   }
   EXPECT_FALSE(Reading("wale 1\nlet a = " + repeated("(", 150) + "1" + repeated(")", 150)).diagnostics.has_errors());
-  // A long sum nests to the left although nothing in the text is nested; later stages walk it all the same.
+  // The tree of a long sum is nested to the left although the text is not, so it has the same limit.
   EXPECT_FALSE(Reading("wale 1\nlet a = 1" + repeated(" + 1", 900)).diagnostics.has_errors());
   const Reading sum("wale 1\nlet a = 1" + repeated(" + 1", 100000));
   ASSERT_EQ(sum.diagnostics.all().size(), 1u);
   EXPECT_EQ(sum.diagnostics.all()[0].code, wale::Code::nested_too_deep);
 }
 
-TEST(Robustness, AHundredMegabytesAreRefusedAtOnce) {
+TEST(Robustness, AHundredMegabytesAreRefused) {
   const Reading reading(std::string(100u << 20, 'x'));
   ASSERT_EQ(reading.diagnostics.all().size(), 1u);
   EXPECT_EQ(reading.diagnostics.all()[0].code, wale::Code::too_long);
   EXPECT_EQ(reading.diagnostics.all()[0].message, "this file has 100.0 MB; Wale reads up to 4 MB");
 }
 
-// Time itself is not measured: a step that grows with the square of a file of 4 MB would need hours, and never pass.
-TEST(Robustness, TheLargestFilesTakeWorkInProportionToThem) {
+// Allocations are counted instead of time. A step that is quadratic in a file of 4 MB would need hours.
+TEST(Robustness, WorkIsLinearInTheSizeOfTheLargestFiles) {
   for (const char* part :
        {"(", "}", "x ", "let a = 1\n", "let a b\n", "@ ", "(\n", "{ x\n", "f(1,", "µm ", "x = (\n"}) {
     std::string text = "wale 1\n";

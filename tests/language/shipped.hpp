@@ -11,14 +11,14 @@
 
 namespace wale {
 
-/// A file of the project by its path in it.
+/// The text of a file of the project, by its path in the project. Throws std::runtime_error where there is none.
 inline std::string shipped_file(const std::string& name) {
   std::ifstream file(std::filesystem::path(WALE_SOURCE_DIR) / name, std::ios::binary);
-  if (!file) throw std::runtime_error("there is no " + name);
+  if (!file) throw std::runtime_error("no file " + name);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Every Wale file that the project ships: path in it, and text.
+/// Every Wale file that the project ships: its path in the project, and its text.
 inline std::vector<std::pair<std::string, std::string>> shipped_files() {
   namespace fs = std::filesystem;
   std::vector<std::pair<std::string, std::string>> files;

@@ -85,7 +85,7 @@ TEST(Suffixes, DoNotCrossALineUnlessInParentheses) {
   EXPECT_EQ(expression("(5\n  mm)"), "[5 mm]");
 }
 
-TEST(Lines, GoOnAfterAnOperatorACommaOrAnEqualsSign) {
+TEST(Lines, ContinueAfterAnOperatorACommaOrAnEqualsSign) {
   EXPECT_EQ(expression("b +\n  c"), "(+ b c)");
   EXPECT_EQ(expression("\n  b *\n  // why\n  c"), "(* b c)");
   EXPECT_EQ(physical("patch 95 mm,\n  95 mm"), "(patch [95 mm] [95 mm])");
@@ -204,7 +204,7 @@ TEST(Materials, HaveThreeLayers) {
             "    (patch [95 mm] [95 mm])))\n");
 }
 
-TEST(Materials, MoveByTheirStates) {
+TEST(Materials, HaveStatesAndUpdates) {
   EXPECT_EQ(physical("state p : position = hand in -60 mm .. 60 mm\n"
                      "state v = 0 m/s\n"
                      "let pull = k * (hand - p)\n"

@@ -1,4 +1,4 @@
-// The door for programs that ask by name.
+// The interface for programs that ask for materials and levels by name.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Every material of the library for every declared device: it builds, or on a pad says why not, and what is said of it
-// is whole.
+// Every material of the library for every declared device: it compiles, or the pad's diagnostics explain why not, and
+// its fates are complete.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,13 +24,13 @@ const DeviceProfile& profile_of(const std::string& device) {
   return common_modules()->declarations.devices.find(device)->profile;
 }
 
-/// What of a device that only vibrates a material may ask too much of: an essential percept (W0404).
+/// Whether the diagnostics say that a percept is not realised (W0404), the only valid reason on a device that vibrates.
 bool explains(const Diagnostics& diagnostics) {
   return std::ranges::any_of(diagnostics.all(),
                              [](const Diagnostic& each) { return each.code == Code::percept_unrealised; });
 }
 
-/// Whether something is said of the patch, and it is.
+/// Whether the diagnostics say that the patch is cut to the device.
 bool tells_of_cut(const Diagnostics& diagnostics) {
   return std::ranges::any_of(diagnostics.all(), [](const Diagnostic& each) { return each.code == Code::cut_patch; });
 }
@@ -59,7 +59,7 @@ TEST_P(EveryDevice, BuildsEachMaterialOrSaysWhyNot) {
       EXPECT_EQ(description.vibrates(), profile_of(device).shaker.has_value());
       const double widest = profile_of(device).widest_patch();
       EXPECT_LE(double{std::max(description.patch_width, description.patch_height)}, widest);
-      // A fate for each percept that was asked for, by name, and one for the physics where there is some.
+      // There is a fate for each percept by name, and one for the force where there is one.
       std::set<std::string> told;
       for (const FateRecord& fate : description.fates) told.insert(fate.name);
       for (const auto& asked : material.percepts) EXPECT_TRUE(told.contains(asked.name)) << material.name;

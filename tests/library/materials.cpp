@@ -1,4 +1,4 @@
-// Every material of the library is fit to be published: clean, described, compilable, and the same bytes every time.
+// Every material of the library has no diagnostics, is documented, and compiles to the same bytes every time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ TEST_P(LibraryFile, SaysWhatItsMaterialsAre) {
   for (const auto& [name, entry] : checked.module.declarations().materials.own()) {
     const auto& declared = entry.what;
     if (declared.tree->source != checked.source) continue;
-    if (declared.node->name.text == "corduroy") continue;  // the first example: every word of it is explained elsewhere
+    if (declared.node->name.text == "corduroy") continue;  // the first example, which LANGUAGE.md explains
     EXPECT_NE(declared.node->documentation, "") << declared.node->name.text;
   }
   for (const auto& material : checked.module.materials) {
@@ -63,7 +63,7 @@ TEST_P(LibraryFile, SaysWhatItsMaterialsAre) {
       EXPECT_NE(parameter.description, "") << material.name << " " << parameter.name;
       EXPECT_LT(parameter.low, parameter.high) << material.name << " " << parameter.name;
     }
-    // A texture says how it feels, unless its force is fixed, as that of the thesis's stimuli is.
+    // A texture has a percept, unless its force is fixed, as in library/sandpaper.
     const bool is_texture = !material.carriers.empty();
     const bool is_fixed = std::ranges::none_of(material.carriers, &Carrier::open);
     EXPECT_TRUE(is_texture ? is_fixed || !material.percepts.empty() : material.percepts.empty()) << material.name;

@@ -1,4 +1,4 @@
-// The whole library in the simulated hand: the passivity observer has nothing to do on what is passive there.
+// The whole library in the simulated hand: the passivity observer does not act on materials that are passive there.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -16,7 +16,7 @@
 namespace wale::observed_test {
 namespace {
 
-/// What the guards did in four seconds of rubbing to and fro and going round.
+/// The guards' counts in two seconds of rubbing to and fro and two seconds of circling.
 GuardCounts guarded(const Program& program) {
   const HandModel normal{.mass = 0.55, .damping = 6.5, .stiffness = 135};
   GuardCounts all;
@@ -32,7 +32,7 @@ GuardCounts guarded(const Program& program) {
   return all;
 }
 
-/// The same program for the same device, but for a force that comes so many ticks later.
+/// The same program, with a device whose force is delayed by that many ticks.
 Program late(const Program& program, double ticks) {
   PatchProgram description = program.description();
   description.device.damping_known = true;
@@ -42,9 +42,9 @@ Program late(const Program& program, double ticks) {
   return *std::move(loaded);
 }
 
-/// Behind a delay nothing is done to what is passive on the device by itself. What only the hand's damping makes
-/// passive is let alone too, but for a few hard walls: the observer does not know the hand.
-TEST(Observed, NorIsAnythingDoneBehindADelay) {
+/// With a delay, the observer does not act on materials that are passive by the device's damping. It acts on at most 5
+/// % of those that need the hand's damping, which it does not know.
+TEST(Observed, NothingIsDampedWithADelayEither) {
   const std::vector<Program> programs = shelf::programs();
   std::vector<std::string> damped(programs.size());
   std::atomic<long> on_device = 0, in_hand = 0, damped_in_hand = 0;
@@ -70,7 +70,7 @@ TEST(Observed, NorIsAnythingDoneBehindADelay) {
   EXPECT_LE(damped_in_hand, in_hand / 20) << in_hand;
 }
 
-TEST(Observed, NothingIsDoneToWhatIsPassiveInTheHandNorHeldBackOfWhatIsDeclared) {
+TEST(Observed, NothingIsDampedThatIsPassiveInTheHandAndNoDeclaredEnergyIsLimited) {
   const std::vector<Program> programs = shelf::programs();
   ASSERT_GT(programs.size(), 300u);
   std::vector<GuardCounts> counts(programs.size());

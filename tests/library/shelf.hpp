@@ -12,7 +12,7 @@
 
 namespace wale::shelf {
 
-/// One file, read and checked from scratch.
+/// A file of the library, read and checked.
 struct Checked {
   SourceSet sources;
   Diagnostics diagnostics;

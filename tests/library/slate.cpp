@@ -10,7 +10,7 @@
 namespace wale::slate_test {
 namespace {
 
-TEST(Slate, ThePictureIsWhatItsProgramDraws) {
+TEST(Slate, ThePictureIsThatOfItsProgram) {
   auto file = read_file(std::string(WALE_SOURCE_DIR) + "/library/stone/slate.png");
   ASSERT_TRUE(file);
   const auto read = read_height_image(std::as_bytes(std::span(file->bytes)), "slate.png", 0);
@@ -21,7 +21,7 @@ TEST(Slate, ThePictureIsWhatItsProgramDraws) {
   EXPECT_EQ(table.heights, SlateHeights::draw());
 }
 
-TEST(Slate, WhatIsInTheBinaryIsWhatIsShipped) {
+TEST(Slate, TheEmbeddedFilesAreTheShippedOnes) {
   EXPECT_FALSE(embedded_assets().empty());
   for (const auto files : {embedded_files(), embedded_assets()})
     for (const EmbeddedFile& embedded : files) {
@@ -31,7 +31,7 @@ TEST(Slate, WhatIsInTheBinaryIsWhatIsShipped) {
     }
 }
 
-TEST(Slate, BringsItsPictureToWhereThereIsNone) {
+TEST(Slate, HasItsPictureWithoutTheLibrarysFolder) {
   SourceSet sources;
   Diagnostics diagnostics;
   const auto resolver = file_resolver({});

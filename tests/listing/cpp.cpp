@@ -1,4 +1,4 @@
-// Programs written out as C++ and compiled give the bits of the machine: forces, states and grids, tick by tick.
+// Programs that are printed as C++ and compiled give the bits of the machine: forces, states and grids, tick by tick.
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -26,13 +26,13 @@ constexpr int ticks_each = 200;
 constexpr unsigned random_programs = 50;
 constexpr std::size_t hand_members = 14;
 
-/// A program whose C++ has a namespace of its own, `wale_patch_m12`.
+/// A program; its C++ has a namespace of its own, such as `wale_patch_m12`.
 struct Subject {
   std::string what;
   Program program;
 };
 
-/// All of the library, of the thesis's stimuli a few of each kind, and programs of random instructions.
+/// All materials of the library, a few of each file of library/sandpaper, and random programs.
 std::vector<Subject> subjects() {
   std::vector<Subject> subjects;
   const auto add = [&](std::string what, PatchProgram program) {
@@ -57,7 +57,7 @@ std::vector<Subject> subjects() {
     add_file((library / "sandpaper" / (std::string(stimuli) + ".wale")).string(), 100);
   for (unsigned seed = 0; seed < random_programs; ++seed) {
     PatchProgram program = example::RandomProgram(seed).make();
-    if (seed % 2 == 0) {  // subnormal numbers wherever a program has numbers of its own
+    if (seed % 2 == 0) {  // subnormal constants and bounds
       for (std::size_t i = 7; i < program.constants.size(); i += 2) program.constants[i] *= 1e-42f;
       program.parameters[1].low = 1e-40f;
       program.states[0].high = program.grids[1].high = 1e-41f;
@@ -69,7 +69,7 @@ std::vector<Subject> subjects() {
   return subjects;
 }
 
-/// What makes a program's own structures out of rows of floats.
+/// The C++ function that converts rows of floats to the program's structures, runs it, and converts back.
 std::string driver(const std::string& name, const PatchProgram& program) {
   std::ostringstream text;
   const std::size_t parameters = program.parameters.size(), states = program.states.size();
@@ -106,7 +106,7 @@ using RunProgram = void (*)(const float*, const float*, int, float*, float*, flo
   run(parameters, hands, ticks_each, forces, states, cells);
 }
 
-/// The first place where not all bits are the same; nothing when there is none.
+/// The first number whose bits differ, in words; empty when all are the same.
 std::string first_difference(std::span<const float> found, std::span<const float> expected) {
   std::ostringstream text;
   for (std::size_t i = 0; i < expected.size() && text.str().empty(); ++i)
@@ -115,7 +115,7 @@ std::string first_difference(std::span<const float> found, std::span<const float
   return text.str();
 }
 
-/// A walk that jumps now and then, out of the device's reach and to what is no number.
+/// A walk with jumps, including places beyond the device's reach, not-a-number and subnormal numbers.
 std::vector<Hand> walk(std::mt19937& random) {
   const auto in = [&](double size) { return static_cast<float>(size * (random() / 2147483648.0 - 1)); };
   std::vector<Hand> hands;
@@ -173,7 +173,7 @@ void compare(const Subject& subject, RunProgram run, std::mt19937& random) {
     ASSERT_EQ(first_difference(cpp_forces, forces), "") << subject.what << ", forces";
     ASSERT_EQ(first_difference(cpp_states, states), "") << subject.what << ", states";
     ASSERT_EQ(first_difference(cpp_cells, memory.cells()), "") << subject.what << ", cells";
-    // Once more elsewhere in the parameters' ranges, and beyond them.
+    // The second run has other parameters, some of them outside of their ranges.
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       const Parameter& p = description.parameters[i];
       parameters[i] = p.low + (p.high - p.low) * static_cast<float>(random() / 4294967296.0);
@@ -200,8 +200,8 @@ void compare_all(const std::string& compiler) {
   }
   if (const char* kept = std::getenv("WALE_KEEP_CPP"))
     fs::copy_file(source, kept, fs::copy_options::overwrite_existing);
-  // Nothing of this repository is where it looks for headers. Optimising harder changes no bit:
-  // WALE_CPP_FLAGS="-O3 -march=x86-64-v3" says so in some minutes.
+  // The compiler gets no include path of this project. WALE_CPP_FLAGS="-O3 -march=x86-64-v3" in the environment shows
+  // in a few minutes that optimisation changes no bit.
   const char* flags = std::getenv("WALE_CPP_FLAGS");
   const std::string command = compiler + " -std=c++20 " + (flags ? flags : "-O1") +
                               " -Wall -Wextra -Werror -ffp-contract=off -fPIC -shared -o " + object + " " + source +

@@ -1,6 +1,6 @@
-// What `wale build --emit` shows of materials of every kind, compared exactly with tests/listing/golden/.
+// The output of `wale build --emit` for materials of every kind, compared exactly with tests/listing/golden/.
 //
-// Where the compiler rightly changes what it makes, write them anew and read the difference before it is committed:
+// After an intended change of the compiler, write the files again and read the difference before you commit it:
 //
 //   WALE_UPDATE_GOLDEN=1 build/tests/test_listing --gtest_filter='*Golden*'; git diff tests/listing/golden
 

@@ -19,7 +19,7 @@ inline std::string complaints(const Diagnostics& diagnostics, const SourceSet& s
   return text;
 }
 
-/// A file of Wale, opened as the command line does. Throws when it is wrong.
+/// A Wale file, opened as on the command line. Throws std::runtime_error with the diagnostics when there are errors.
 struct File {
   FileRequest request;
   OpenedFile opened;
@@ -43,7 +43,7 @@ struct File {
   }
 };
 
-/// Every file of the library that has materials, without the many of the thesis's stimuli.
+/// Every file of the library with materials, except library/sandpaper.
 inline std::vector<std::string> shipped_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(library)) {

@@ -1,4 +1,4 @@
-// Instructions know the line of Wale that they come from.
+// Instructions carry the line of the Wale file that they come from.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every line that an instruction of the section comes from, once, in order.
+/// The lines that the instructions of a section come from, sorted and without repetition.
 std::vector<std::uint32_t> lines_of(const PatchProgram& program, CodeSection section, std::size_t index,
                                     const std::string& file) {
   std::vector<std::uint32_t> lines;
@@ -49,9 +49,9 @@ TEST(Places, AreThoseOfTheAuthorsOwnFile) {
                                "}\n"));
   const Program compiled = file.program("m");
   const PatchProgram& program = compiled.description();
-  // The height's slope, the three layers, and on the material's line the sum of those.
+  // The height's slope, the three layers, and their sum on the material's line.
   EXPECT_EQ(lines_of(program, CodeSection::tick, 0, "m.wale"), (std::vector<std::uint32_t>{5, 9, 10, 11, 12}));
-  // The amplitude is solved where the percept is asked for; 2 * k is worked out on line 4.
+  // The amplitude is solved on the line of the percept, and 2 * k is computed on line 4.
   const auto setup = lines_of(program, CodeSection::setup, 0, "m.wale");
   for (const std::uint32_t line : {4u, 6u}) EXPECT_TRUE(std::ranges::binary_search(setup, line)) << line;
   EXPECT_EQ(program.place_of(CodeSection::prediction, 0, 0)->file, "minsky1995.wale");
@@ -96,7 +96,7 @@ TEST(Places, OfAllThatIsShippedAreKnown) {
           const auto place = program.place_of(section, index, i);
           ASSERT_TRUE(place) << path << " " << material;
           ASSERT_GT(place->line, 0u);
-          // Nobody is sent into the language's own files, but for what a percept predicts.
+          // Only predictions of percepts name a file of the language.
           if (section != CodeSection::prediction) {
             EXPECT_NE(place->file, "functions.wale") << material;
             EXPECT_FALSE(place->file.starts_with("std.") && fs::path(path).stem() == "corduroy") << material;

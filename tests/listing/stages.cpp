@@ -1,4 +1,4 @@
-// What the stages say of small materials whose every line can be read off the text.
+// The printed stages of small programs, line by line.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-TEST(Listing, NamesWhatHasANameAndCountsWhatItCosts) {
+TEST(Listing, NamesRegistersAndCountsCosts) {
   const std::string text = print_program(example::program());
   EXPECT_TRUE(has(text, "program bench grating for bench")) << text;
   EXPECT_TRUE(has(text, "r36    parameter  period = 0.002 m in 0.001 .. 0.01")) << text;
@@ -30,7 +30,7 @@ TEST(Listing, NamesWhatHasANameAndCountsWhatItCosts) {
   EXPECT_TRUE(has(text, "std.grain:70000")) << text;
   // multiply, cosine, multiply, multiply, subtract, limit, limit
   EXPECT_TRUE(has(text, "tick: 7 instructions, cost 16")) << text;
-  // divide 4, limit 2, divide 4, and 4096 points of multiply, cosine, multiply, absolute and one more each
+  // divide 4, limit 2, divide 4, and 4096 points of multiply, cosine, multiply and absolute, plus one for each point
   EXPECT_TRUE(has(text, std::to_string(4 + 2 + 4 + 4096 * (1 + 8 + 1 + 1 + 1)) + " a change of parameters")) << text;
 }
 
@@ -46,7 +46,7 @@ TEST(Listing, ShowsIntervalsThatAreHandedIn) {
   EXPECT_TRUE(has(line, "r44 = cosine r43")) << line;
 }
 
-TEST(Figures, AreTheShortestThatMeanTheSame) {
+TEST(Figures, AreTheShortestWithTheSameValue) {
   EXPECT_EQ(figure(0.1f), "0.1");
   EXPECT_EQ(figure(0.1), "0.1");
   EXPECT_EQ(figure(-2.0f), "-2");
@@ -64,7 +64,7 @@ TEST(CppNames, AreLegalAndDifferent) {
   EXPECT_EQ(names.take("\xc3\xa4__x"), "v_x");
 }
 
-TEST(Stages, TheTreeStandsAlsoWhereTheMaterialIsWrong) {
+TEST(Stages, AnUnknownMaterialIsAnErrorAfterTheTree) {
   const File file((library / "fabric/corduroy.wale").string());
   EXPECT_TRUE(has(file.stage("", BuildStage::tree), "(material corduroy\n"));
   Diagnostics diagnostics;

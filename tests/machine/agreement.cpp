@@ -1,4 +1,4 @@
-// One lane and blocks of lanes give the same bits, whatever the program and the hand.
+// One lane and blocks of lanes give the same bits for every program and every hand.
 
 #include <gtest/gtest.h>
 
@@ -61,10 +61,10 @@ TEST(Agreement, TickAndBlocksGiveTheSameBits) {
       pushes += one.x != 0 && std::abs(one.x) != 5.0f;
     }
   }
-  EXPECT_GT(pushes, 1000u) << "programs that only saturate would prove little";
+  EXPECT_GT(pushes, 1000u) << "too few of the programs push without saturating";
 }
 
-// What a tick without memory means: one whose memory was just made and entered.
+// A tick without a memory equals a tick whose memory has just been made and entered.
 TEST(Agreement, ATickWithoutMemoryIsOneAfterEntering) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     const Program program = loaded(example::RandomProgram(seed).make());
@@ -80,7 +80,7 @@ TEST(Agreement, ATickWithoutMemoryIsOneAfterEntering) {
   }
 }
 
-// The picture's blocks against its code in one lane, through a frame that holds the same code.
+// The picture's code in blocks against the same code in one lane, which runs it as the frame's code.
 TEST(Agreement, SurfaceAndFrameGiveTheSameBits) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     PatchProgram description = example::RandomProgram(seed).make();

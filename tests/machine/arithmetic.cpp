@@ -36,7 +36,7 @@ std::vector<float> arguments(float low, float high) {
   return all;
 }
 
-/// The greatest error of `f` against `truth`, taken as `error(value, true value)`.
+/// The largest `error(f(a), truth(a))` over the arguments a in low .. high.
 double worst(float low, float high, float (*f)(float), double (*truth)(double),
              const std::function<double(double, double)>& error) {
   const FloatingPointMode mode;
@@ -121,7 +121,7 @@ TEST(Arithmetic, Normal) {
   for (float a = 0; a < 8; a += 0.01f) EXPECT_NEAR(normal_of(-a), 1.0 - normal_of(a), 6e-8);
 }
 
-// All directions, at sizes from the least to the greatest, and both sides of the axes and the diagonals.
+// All directions, at magnitudes from 2^-100 to 2^100, and both sides of the axes and the diagonals.
 TEST(Arithmetic, Arctangent) {
   const FloatingPointMode mode;
   double most = 0, most_relative = 0;
@@ -189,7 +189,7 @@ TEST(Arithmetic, FloorAndAbsoluteAndSquareRootAreExact) {
   EXPECT_EQ(square_root_of(inf), inf);
 }
 
-TEST(Arithmetic, LimitHoldsWhateverComes) {
+TEST(Arithmetic, LimitHoldsForEveryArgument) {
   EXPECT_EQ(limited(3.0f, 2.0f), 2.0f);
   EXPECT_EQ(limited(-3.0f, 2.0f), -2.0f);
   EXPECT_EQ(limited(1.5f, 2.0f), 1.5f);

@@ -1,4 +1,4 @@
-// A batch of instances that remember, against as many ticks with memories of their own.
+// A batch of instances with states, against single ticks with one memory for each instance.
 
 #include "wale/batch.hpp"
 
@@ -30,7 +30,7 @@ Program without_writes(unsigned seed) {
   return loaded(std::move(description));
 }
 
-/// Hands that are somewhere, now and then where no hand can be.
+/// Hands at random places, some of them with not-a-number or infinity.
 std::vector<Hand> hands(std::mt19937& random, std::size_t count) {
   std::uniform_real_distribution<float> place(-0.1f, 0.1f), speed(-3, 3);
   std::vector<Hand> all(count);
@@ -83,7 +83,7 @@ TEST(Batch, ReadsTheGridsOfAMemoryAndWritesNone) {
     for (const Hand& hand : all) tick(bank, written, hand);
     Batch batch(bank, all.size(), &written), plain(bank, all.size());
     std::vector<Force> forces(all.size()), plain_forces(all.size());
-    for (int again = 0; again < 3; ++again) {  // were anything written, the second time would differ
+    for (int again = 0; again < 3; ++again) {  // if anything were written, the second run would differ
       batch.enter(all);
       batch.tick(all, forces);
       for (std::size_t i = 0; i < all.size(); ++i) {
@@ -95,17 +95,17 @@ TEST(Batch, ReadsTheGridsOfAMemoryAndWritesNone) {
     plain.enter(all);
     plain.tick(all, plain_forces);
     differ += plain_forces != forces;
-    // A memory of another program is none.
+    // A memory of another program counts as no memory.
     const Program other = loaded(example::RandomProgram(seed + 1000).make());
     Batch unrelated(bank, all.size(), std::make_unique<Memory>(other).get());
     unrelated.enter(all);
     unrelated.tick(all, forces);
     for (std::size_t i = 0; i < all.size(); ++i) expect_same(plain_forces[i], forces[i], "unrelated", seed, i);
   }
-  EXPECT_GT(differ, 5) << "grids that change nothing would prove little";
+  EXPECT_GT(differ, 5) << "too few of the programs depend on their grids";
 }
 
-/// A hand that the force pushes, started in its own place.
+/// Moves the hand by the force. At tick 0 it puts the hand at a place that depends on its number.
 void push(std::size_t number, long tick, Force force, Hand& hand) {
   if (tick == 0)
     hand.position = {static_cast<float>(number % 97) * 1e-3f - 0.05f, static_cast<float>(number % 31) * 2e-3f};
@@ -162,7 +162,7 @@ TEST(TickAll, ManyHandsGiveTheSameBitsAsFew) {
   for (std::size_t i = 0; i < all.size(); i += 13) expect_same(tick(bank, all[i]), forces[i], "force", 5, i);
 }
 
-// Whoever runs a program's first batch decodes its blocks, and several may be first.
+// The first batch of a program decodes its blocks, and several threads may run a first batch at once.
 TEST(TickAll, ThreadsThatAreFirstTogetherGetTheSameBits) {
   for (unsigned seed = 20; seed < 40; ++seed) {
     const Program program = loaded(example::RandomProgram(seed).make());

@@ -1,4 +1,4 @@
-// Looking into grids, against the formula in double.
+// `recall` and `cell` against the bilinear formula in double.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// 5 columns, 4 rows, behind 3 cells of another grid that nothing may touch.
+/// A grid of 5 columns and 4 rows. The 3 cells before it belong to another grid and may not be read.
 struct Field {
   Field() {
     std::mt19937 random(5);
@@ -24,7 +24,7 @@ struct Field {
     cells[0] = cells[1] = cells[2] = nan;
   }
   double at(int column, int row) const { return cells[static_cast<std::size_t>(3 + row * 5 + column)]; }
-  /// Bilinear in double, held at the edges.
+  /// Bilinear interpolation in double; places beyond an edge count as on the edge.
   double value(double a, double b) const {
     const double u = std::min(std::max(a, 0.0), 4.0), v = std::min(std::max(b, 0.0), 3.0);
     const int i = std::min(static_cast<int>(u), 3), j = std::min(static_cast<int>(v), 2);
@@ -67,7 +67,7 @@ TEST(Grids, DerivativesAreThoseOfTheValue) {
   }
 }
 
-TEST(Grids, PlacesThatAreNoneAreTheFirst) {
+TEST(Grids, NotANumberIsTheFirstPlaceAndInfinityAnEdge) {
   const Field field;
   EXPECT_EQ(field.recall(nan, nan).value, static_cast<float>(field.at(0, 0)));
   EXPECT_EQ(field.recall(nan, 2).value, static_cast<float>(field.at(0, 2)));

@@ -1,4 +1,4 @@
-// Lattice noise is as good as random: by counts, moments and correlations.
+// Lattice noise passes statistical tests of randomness: counts, moments and correlations.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace wale::hash_test {
 namespace {
 
-constexpr int side = 128;  // of a cube of lattice points about the origin
+constexpr int side = 128;  // lattice points along each side of a cube about the origin
 
 template <class Look>
 void at_every_point(Look look) {
@@ -27,7 +27,7 @@ void at_every_point(Look look) {
 }
 constexpr double points = double{side} * side * side;
 
-/// How many standard deviations the chi-square statistic of counts that should be equal lies from its mean.
+/// The distance of the chi-square statistic from its mean, in standard deviations, for counts of equal expectation.
 double surprise(const std::vector<long>& counts) {
   double total = 0, chi_square = 0;
   for (const long count : counts) total += static_cast<double>(count);
@@ -39,7 +39,7 @@ double surprise(const std::vector<long>& counts) {
   return (chi_square - freedom) / std::sqrt(2 * freedom);
 }
 
-// Worked out from schema/PATCH_PROGRAM.md's definition with whole numbers of any size.
+// Computed from the definition in schema/PATCH_PROGRAM.md with integers of unlimited size.
 TEST(Hash, IsTheDocumentedOne) {
   EXPECT_EQ(hash_of(0, 0, 0), 0.5793412327766418f);
   EXPECT_EQ(hash_of(1, 0, 0), 0.8374328017234802f);
@@ -93,11 +93,11 @@ TEST(Hash, IsUniform) {
 TEST(Hash, HasAllItsBits) {
   std::set<float> different;
   for (int i = 0; i < 100000; ++i) different.insert(hash_of(static_cast<float>(i), 5, 0));
-  // Of 1e5 numbers out of 2^24, 298 pairs are expected to be the same.
+  // Among 1e5 random numbers out of 2^24, 1e5^2 / 2 / 2^24 = 298 pairs are expected to be equal.
   EXPECT_NEAR(100000.0 - static_cast<double>(different.size()), 298, 5 * std::sqrt(298));
 }
 
-TEST(Hash, NeighboursHaveNothingInCommon) {
+TEST(Hash, NeighboursAreUncorrelated) {
   using Offset = std::array<float, 3>;
   for (const Offset& d : {Offset{1, 0, 0}, Offset{0, 1, 0}, Offset{0, 0, 1}, Offset{1, 1, 0}, Offset{0, -1, 1},
                           Offset{1, 1, 1}, Offset{16, 0, 0}, Offset{0, 64, 0}, Offset{-256, 0, 256}}) {
@@ -120,12 +120,12 @@ TEST(Hash, OrderMatters) {
     product += (hash_of(a, b, c) - 0.5) * (hash_of(b, c, a) - 0.5);
     same += hash_of(a, b, c) == hash_of(b, a, c) && a != b;
   });
-  EXPECT_LT(std::abs(product / points * 12), 0.01);  // those on the diagonal are the same
+  EXPECT_LT(std::abs(product / points * 12), 0.01);  // points on the diagonal are equal
   EXPECT_LT(same, 2);
 }
 
-// A bit of a coordinate turns every bit of the result with a chance of a half.
-TEST(Hash, EveryBitTurnsEveryBit) {
+// A changed bit of a coordinate changes each bit of the result with a probability of one half.
+TEST(Hash, EveryBitChangesEveryBit) {
   constexpr int trials = 4096;
   double worst = 0;
   for (int coordinate = 0; coordinate < 3; ++coordinate) {

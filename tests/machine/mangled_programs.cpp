@@ -1,4 +1,4 @@
-// Files that are mangled at random, checksum included: every one that the loader accepts runs and stays within its
+// Files with random changes and a matching checksum. Each file that the loader accepts runs and stays within its
 // limits.
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ PatchProgram small_example() {
   return p;
 }
 
-/// Some change that a damaged or malicious file might hold.
+/// Makes one random change, as damage or malice might.
 void mangle(wpp::Bytes& bytes, std::mt19937& random) {
   const std::size_t at = 32 + random() % (bytes.size() - 32);
   switch (random() % 5) {
@@ -37,7 +37,7 @@ void mangle(wpp::Bytes& bytes, std::mt19937& random) {
   }
 }
 
-/// Peaks of many points are legal, and slow.
+/// Peaks of many points are valid, but too slow to run here.
 bool is_quick(const PatchProgram& program) {
   return std::all_of(program.peaks.begin(), program.peaks.end(), [](const Peak& p) { return p.points <= 10000; });
 }
@@ -63,7 +63,7 @@ void exercise(const Program& program) {
     ASSERT_LE(std::abs(force.x), most);
     ASSERT_LE(std::abs(force.y), most_y);
   }
-  const FloatingPointMode mode;  // in which a subnormal end of a range is 0
+  const FloatingPointMode mode;  // a subnormal end of a range compares as 0 in it
   for (std::size_t i = 0; i < memory.states().size(); ++i) {
     const State& state = program.description().states[i];
     ASSERT_TRUE(memory.states()[i] >= state.low && memory.states()[i] <= state.high);

@@ -1,4 +1,4 @@
-// Programs that remember, written by hand, against recurrences in double and closed forms.
+// Programs with states and grids, written by hand, against recurrences in double and closed forms.
 
 #include "wale/memory.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// A program of one state whose force along x is the state; `evolve` gives the registers of its initial and next value.
+/// A program with one state, which is its force along x. `load` takes the registers of its initial and next value.
 struct OneState {
   OneState(float low, float high, std::vector<float> constants = {})
       : assembly([&] {
@@ -61,8 +61,8 @@ TEST(Memory, ABeadOnASpringFollowsSemiImplicitEuler) {
 }
 
 // With the hand at rest at 0 the recurrence p(n+1) - 2 p(n) + p(n-1) = -(w dt)^2 p(n) has the solution
-// p(n) = P (cos n q + b sin n q), where cos q = 1 - (w dt)^2 / 2 and b from p(1) = P (1 - (w dt)^2).
-TEST(Memory, ABeadThatIsLetGoOscillatesAsTheClosedFormSays) {
+// p(n) = P (cos n q + b sin n q), where cos q = 1 - (w dt)^2 / 2 and b follows from p(1) = P (1 - (w dt)^2).
+TEST(Memory, AReleasedBeadOscillatesAsTheClosedFormSays) {
   const float stiffness = 3000, start = 0.008f;
   const Program program = bead(stiffness);
   Bank bank(program);
@@ -77,7 +77,7 @@ TEST(Memory, ABeadThatIsLetGoOscillatesAsTheClosedFormSays) {
   }
 }
 
-TEST(Memory, AChangedParameterKeepsWhatIsRemembered) {
+TEST(Memory, AChangedParameterKeepsTheStates) {
   const Program program = bead(3000);
   Memory memory(program);
   double place = 0.01f, speed = 0;
@@ -143,8 +143,8 @@ TEST(Memory, InitialValuesAreHeldInTheirRange) {
   EXPECT_EQ(begins(-2, -1, nan), -1);
 }
 
-TEST(Memory, WhatIsNoNumberBeginsAgain) {
-  // The state becomes the root of itself less x: none when x is larger.
+TEST(Memory, AStateThatIsNotANumberBeginsAgain) {
+  // The next state is sqrt(state - x), which is not a number where x is larger.
   OneState one(0, 9);
   const RegisterNumber rest = one.assembly.tick(Operation::subtract, one.state, one.assembly.input(Input::x));
   const Program program = one.load(one.assembly.input(Input::y), one.assembly.tick(Operation::square_root, rest));
@@ -155,15 +155,15 @@ TEST(Memory, WhatIsNoNumberBeginsAgain) {
   EXPECT_EQ(memory.states()[0], 0.25f);
   EXPECT_EQ(memory.restored(), 0);
   tick(bank, memory, at(0.2f, 0.03f));
-  EXPECT_FLOAT_EQ(memory.states()[0], std::sqrt(0.05f)) << "and not what enter would give now";
+  EXPECT_FLOAT_EQ(memory.states()[0], std::sqrt(0.05f)) << "enter would give 0.03 now";
   tick(bank, memory, at(0.2285f));
-  EXPECT_EQ(memory.states()[0], 0.0625f) << "its initial value of the last entry";
+  EXPECT_EQ(memory.states()[0], 0.0625f) << "the initial value of the last entry";
   EXPECT_EQ(memory.restored(), 1);
   tick(bank, memory, at(0.0625f));
   EXPECT_EQ(memory.states()[0], 0.0f);
 }
 
-TEST(Memory, WithoutOneEachTickIsTheFirst) {
+TEST(Memory, WithoutAMemoryEachTickIsTheFirst) {
   const Program program = bead(3000);
   Bank bank(program);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(tick(bank, at(0.01f)).x, 0.0f) << "the bead hangs where the hand is";
@@ -187,7 +187,8 @@ TEST(Memory, BeforeTheFirstEntryIsDefined) {
   EXPECT_EQ(tick(bank, memory, at(0)).x, 1);
 }
 
-/// Copies `value` into a grid of 4 x 3 cells at (1000 x, 1000 y) and gives what is recalled there.
+/// A program that writes the hand's velocity along x into a grid of 4 x 3 cells at (1000 x, 1000 y). Its force is the
+/// recalled value there along x and the nearest cell along y, both as they were before the tick.
 Program ground(float low = -1, float high = 1) {
   Assembly a({9, 1000, 2});
   a.program.grids = {{"ground", 4, 3, 0.25f, low, high}};
@@ -213,10 +214,10 @@ TEST(Memory, AGridKeepsWhatAMovingHandWritesIntoIt) {
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 4; ++i) {
       const auto x = static_cast<float>(i), y = static_cast<float>(j);
-      EXPECT_FLOAT_EQ(write(x, y, 0.1f * x - 0.2f * y).y, 0.25f) << "what was there before is read";
+      EXPECT_FLOAT_EQ(write(x, y, 0.1f * x - 0.2f * y).y, 0.25f) << "the value before the write is read";
     }
   }
-  memory.enter(bank, at(0));  // grids survive it
+  memory.enter(bank, at(0));  // grids keep their cells
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 4; ++i) {
       const auto x = static_cast<float>(i), y = static_cast<float>(j);
@@ -226,7 +227,7 @@ TEST(Memory, AGridKeepsWhatAMovingHandWritesIntoIt) {
       EXPECT_FLOAT_EQ(read.y, 0.1f * x - 0.2f * y);
     }
   }
-  EXPECT_NEAR(tick(bank, at(0.0015f, 0.0005f)).x, 0.25, 1e-6) << "without memory, as at the beginning";
+  EXPECT_NEAR(tick(bank, at(0.0015f, 0.0005f)).x, 0.25, 1e-6) << "without a memory, cells have their initial value";
 }
 
 TEST(Memory, AWriteGoesToTheNearestCellAndIsHeldInTheRange) {
@@ -244,7 +245,7 @@ TEST(Memory, AWriteGoesToTheNearestCellAndIsHeldInTheRange) {
   EXPECT_EQ(write(0, 0, -0.9f)[0], -0.5f);
 }
 
-TEST(Memory, NothingIsWrittenWhereSomethingIsNoNumber) {
+TEST(Memory, NotANumberWritesNothing) {
   for (const int broken : {0, 1, 2, 3}) {
     Assembly a({9, nan, 0.5f, 0});
     a.program.grids = {{"ground", 2, 2, 0, -1, 1}};
@@ -263,7 +264,7 @@ TEST(Memory, NothingIsWrittenWhereSomethingIsNoNumber) {
   }
 }
 
-TEST(Memory, WritesHappenInOrderAndKnowNothingOfEachOther) {
+TEST(Memory, WritesHappenInOrderWithValuesFromBeforeTheTick) {
   Assembly a({9, 0, 1, 0.5f, 0.25f});
   a.program.grids = {{"one", 2, 1, 0, -9, 9}, {"two", 1, 2, 3, -9, 9}};
   const RegisterNumber first = a.tick(Operation::cell, a.constant(1), a.constant(1), 0);

@@ -1,4 +1,4 @@
-// What a program shows: its surface with what it remembers in it, its colours and its marks.
+// The picture of a program: its surface with the effect of its memory, its colours and its marks.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,9 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-/// A state that counts ticks and begins at x + 5; relief = x + state + the cell at (0, 0), which each tick sets to its
-/// count; colour (10 x, state, not a number); marks at the hand, with the state, its velocity, time and button in them.
+/// A program with a state that counts ticks and begins at x + 5. Its relief is x + state + the cell at (0, 0), which
+/// each tick sets to its count. Its colour is (10 x, state, not a number). Its marks hold the hand's place, velocity,
+/// time and button, the state and the cell.
 Program counter() {
   Assembly a({9, 0, 1, 5, 10, nan});
   const RegisterNumber count = a.state("count", 0, 100);
@@ -58,7 +59,7 @@ TEST(Pictures, SurfaceIsThatOfTheMemory) {
   }
 }
 
-TEST(Pictures, WithoutAMemoryItIsAsEnteredAtTheCentre) {
+TEST(Pictures, WithoutAMemoryTheHandHasEnteredAtTheCentre) {
   const Bank bank(counter());
   const glm::vec2 place(0.03125f, 0.01f);
   float height = 0, relief = 0;
@@ -80,7 +81,7 @@ TEST(Pictures, AProgramWithoutColourLeavesTheColoursAlone) {
   EXPECT_EQ(colour, glm::vec3(0.25f));
 }
 
-TEST(Pictures, MarksHoldWhatTheFrameLeaves) {
+TEST(Pictures, MarksHoldTheValuesOfTheFrame) {
   const Program program = counter();
   Bank bank(program);
   Memory memory(program);

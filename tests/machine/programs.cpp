@@ -19,7 +19,7 @@ using example::loaded;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-/// Two inputs' worth of one operation: force x = operation(x, y, velocity x), limited at 10 N.
+/// A program of one operation: force x = operation(x, y, velocity x), limited at 10 N.
 Program one_operation(Operation operation) {
   PatchProgram p = example::least();
   p.constants = {0.0f, 10.0f};
@@ -109,7 +109,7 @@ TEST(Machine, SizesThatMakeNoSenseAreReplaced) {
   const auto size = [&](PatchSize asked) { return Bank(program, {}, asked).size(); };
   EXPECT_EQ(size({}).width, 0.1f);
   EXPECT_EQ(size({}).height, 0.08f);
-  EXPECT_EQ(size({}).rim, 0.0f) << "no rim is a rim";
+  EXPECT_EQ(size({}).rim, 0.0f) << "a rim of 0 is valid";
   EXPECT_EQ(size({nan, -1, nan}).width, 0.1f);
   EXPECT_EQ(size({nan, -1, nan}).height, 0.08f);
   EXPECT_EQ(size({nan, -1, nan}).rim, 0.005f);
@@ -232,11 +232,11 @@ TEST(Machine, PeakSortsTheDocumentedLattice) {
   EXPECT_EQ(peak_of({}, 0, 100, 0.99f), xs[98]);
 }
 
-TEST(Machine, PeakTakesNoFigureForZero) {
+TEST(Machine, PeakCountsNotANumberAsZero) {
   // 1 / 0 and 0 / 0 everywhere.
   EXPECT_EQ(peak_of({instruction(divide, 37, 33, 32)}, 37, 1000, 0.99f), 0.0f);
   EXPECT_EQ(peak_of({instruction(divide, 37, 32, 32)}, 37, 1000, 0.5f), 0.0f);
-  // The square root of x is none on half of the points: the median is 0, the third quartile sqrt(0.5).
+  // The square root of x is not a number on half of the points: the median is 0, the third quartile sqrt(0.5).
   EXPECT_NEAR(peak_of({instruction(square_root, 37, 0)}, 37, 10000, 0.75f), std::sqrt(0.5), 2e-3);
   EXPECT_NEAR(peak_of({instruction(square_root, 37, 0)}, 37, 10000, 0.49f), 0.0, 1e-9);
 }

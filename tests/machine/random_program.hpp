@@ -6,9 +6,9 @@
 
 namespace wale::example {
 
-/// A well-formed program of random instructions: constants of every kind, two parameters, setup with a peak, states and
-/// grids that every section uses as it may, a tick that mixes all operations, two outputs and marks. The same program
-/// for the same seed.
+/// A valid program of random instructions: constants of every kind, two parameters, setup with a peak, states and grids
+/// that every permitted section uses, a tick that mixes all operations, two outputs and marks. The same seed gives the
+/// same program.
 class RandomProgram {
  public:
   explicit RandomProgram(unsigned seed) : random_(seed) {}
@@ -34,7 +34,7 @@ class RandomProgram {
 
     std::vector<unsigned> shared = {4, 5, 6, 18};
     for (unsigned r = first_constant; r < setup; ++r) shared.push_back(r);
-    // A peak between two halves of setup, which sees the first.
+    // A peak between two halves of setup. It may read the registers of the first.
     std::vector<unsigned> known = shared;
     write(p.setup, known, setup, 5);
     Peak peak;
@@ -128,13 +128,13 @@ class RandomProgram {
     }
   }
 
-  /// Overwrites registers that are defined, so that destinations meet operands in every way.
+  /// Appends instructions that overwrite defined registers, so that destinations coincide with operands in every way.
   void rewrite(std::vector<Instruction>& code, const std::vector<unsigned>& known, unsigned first, int count) {
     for (int i = 0; i < count; ++i) code.push_back(any_instruction(known, first + random_() % 19, true));
   }
 
   std::mt19937 random_;
-  bool grids_ = false;  ///< the code that is being written may look into them
+  bool grids_ = false;  ///< whether the section that is being written may read grids
 };
 
 }  // namespace wale::example

@@ -14,7 +14,7 @@ namespace {
 thread_local long allocations = 0;
 }
 
-// Not inlined, or GCC takes malloc and delete for a mismatch.
+// Not inlined, since GCC would warn of a mismatch of malloc and delete.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;

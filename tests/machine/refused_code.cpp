@@ -1,4 +1,4 @@
-// A refusal shows the instructions that led to it, and where in the source they come from when that is known.
+// A refusal shows the instructions that led to it, and their lines in the source when these are known.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<std::string> lines_of(const Error& refusal) {
 }
 
 // Tick of the example: 43 = x * 38; 44 = cos 43; 45 = 44 * 38; 45 = 45 * 41; 45 = 34 - 45; 47 = limit 45 by 40.
-TEST(RefusedCode, IsShownWithWhatItsOperandsComeFrom) {
+TEST(RefusedCode, IsShownWithTheInstructionsOfItsOperands) {
   EXPECT_EQ(lines_of(refusal_after([](auto& p) { p.tick[5].b = 33; })),
             (std::vector<std::string>{"tick 1: r44 = cosine r43", "tick 2: r45 = multiply r44 r38",
                                       "tick 3: r45 = multiply r45 r41", "tick 4: r45 = subtract r34 r45",
@@ -50,13 +50,13 @@ TEST(RefusedCode, NamesItsSection) {
             std::vector<std::string>{"picture 2: r45 = sample r0 r1 9"});
   EXPECT_EQ(lines_of(refusal_after([](auto& p) { p.setup[2].operation = 200; })),
             std::vector<std::string>{"setup 2: r40 = operation 200 37 33"});
-  // The ceiling comes from setup, and setup is at fault: 40 = limit 37 by 35, which is no constant below the device.
+  // The fault lies in setup, which computes the ceiling: 40 = limit 37 by 36, and 36 is a parameter.
   EXPECT_EQ(lines_of(refusal_after([](auto& p) { p.setup[2].b = 36; })),
             std::vector<std::string>{"setup 2: r40 = limit r37 r36"});
 }
 
 TEST(RefusedCode, KnowsItsPlaceInTheSource) {
-  // Setup, one peak, enter, then the tick: its first instruction is of a file that is not listed.
+  // Places of setup, one peak, enter and tick. The tick's first instruction names file 1, which is not listed.
   const Error refusal = refusal_after([](auto& p) {
     p.tick[1].b = 5;
     p.places = {{"bench.wale"}, {{}, {}, {}, {{1, 1, 1}, {6, 0, 7}}}};
@@ -68,19 +68,19 @@ TEST(RefusedCode, KnowsItsPlaceInTheSource) {
   EXPECT_EQ(refusal.led_to[0].source, "");
   EXPECT_EQ(refusal.led_to[1].source, "bench.wale:7");
   EXPECT_EQ(explained(refusal),
-            "tick 1 `cosine` has 5 for operand b, which it does not use and must be zero\n"
+            "tick 1 `cosine` has 5 for operand b, which it does not use, expected 0\n"
             "  tick 0  r43 = multiply r0 r38\n"
             "  tick 1  r44 = cosine r43 5  (bench.wale:7)\n");
 }
 
-TEST(RefusedCode, IsNoneWhereAFigureIsWrong) {
+TEST(RefusedCode, IsEmptyWhereAFigureIsWrong) {
   EXPECT_TRUE(refusal_after([](auto& p) { p.device.rate = 20; }).led_to.empty());
   EXPECT_TRUE(refusal_after([](auto& p) { p.outputs.pop_back(); }).led_to.empty());
   EXPECT_EQ(explained({.sentence = "no"}), "no\n");
   EXPECT_EQ(explained({.sentence = "no", .mend = "say yes"}), "no; say yes\n");
 }
 
-// Long code that feeds on itself: the chain is cut, and finding it does not take long.
+// In long code whose instructions all depend on each other, only the last of the chain are shown.
 TEST(RefusedCode, ShowsAFewInstructionsOnly) {
   PatchProgram p = example::program();
   p.tick.insert(p.tick.begin(), 100000, instruction(add, 43, 0, 0));
@@ -95,8 +95,8 @@ TEST(RefusedCode, ShowsAFewInstructionsOnly) {
   EXPECT_EQ(led_to.front().number, 100000u - (shown_instructions - 1));
 }
 
-// The figures of the page are those of the code.
-TEST(Documentation, OfVerificationHasTheCodesFigures) {
+// The page states the limits of the code.
+TEST(Documentation, VerificationHasTheFiguresOfTheCode) {
   std::ifstream file(WALE_SOURCE_DIR "/schema/PATCH_PROGRAM.md");
   std::string page{std::istreambuf_iterator<char>(file), {}};
   page = page.substr(page.find("## Verification"));

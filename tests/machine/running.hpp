@@ -12,14 +12,14 @@
 
 namespace wale::example {
 
-/// Loads a program that is expected to load.
+/// Loads a valid program. Throws std::runtime_error where it is refused.
 inline Program loaded(PatchProgram program) {
   auto result = Program::load(std::move(program));
   if (!result) throw std::runtime_error(in_words(result.error()));
   return *result;
 }
 
-/// What is wrong by `verify`, or nothing.
+/// The sentence with which `verify` refuses the program; empty when it accepts it.
 inline std::string refusal_of(const PatchProgram& program) {
   const auto verified = verify(program);
   return verified ? "" : in_words(verified.error());

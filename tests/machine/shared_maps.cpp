@@ -1,4 +1,4 @@
-// Programs that use one map hold it once.
+// Programs with the same map share one copy of it.
 
 #include "runtime/machine/shared_maps.hpp"
 
@@ -72,7 +72,7 @@ TEST(SharedMaps, ThreadsAgree) {
   }
 }
 
-TEST(SharedHeights, AChangeIsOnesOwn) {
+TEST(SharedHeights, AChangeAffectsOneCopy) {
   const HeightTable before = table(5);
   HeightTable changed = before;
   EXPECT_TRUE(changed.heights.shares(before.heights));

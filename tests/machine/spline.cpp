@@ -1,4 +1,4 @@
-// The spline through a height table, against the functions the table samples.
+// The spline through a height table, against the functions that the table samples.
 
 #include "runtime/machine/spline.hpp"
 
@@ -81,7 +81,7 @@ TEST(Spline, FollowsASineMap) {
 TEST(Spline, AgreesWithTheDefinition) {
   const HeightTable table = noise(6, 2);
   const Spline spline(table);
-  // Rows of one table line: solve (c[i-1] + 4 c[i] + c[i+1]) / 6 = s[i] with c mirrored, by Gauss-Seidel.
+  // The coefficients of one line: solves (c[i-1] + 4 c[i] + c[i+1]) / 6 = s[i] with c mirrored, by Gauss-Seidel.
   const auto line = [](std::vector<double> s) {
     std::vector<double> c = s;
     const int n = static_cast<int>(s.size());
@@ -134,7 +134,7 @@ TEST(Spline, DerivativesAreThoseOfTheValue) {
     const SplineSample s = sample_of(spline, a, b);
     const double da = (sample_of(spline, a + step, b).value - sample_of(spline, a - step, b).value) / (2.0 * step);
     const double db = (sample_of(spline, a, b + step).value - sample_of(spline, a, b - step).value) / (2.0 * step);
-    // The error of a central difference: step^2 / 6 of the third derivative, some ten on noise.
+    // The error of a central difference is step^2 / 6 times the third derivative, which is about 10 on noise.
     EXPECT_NEAR(s.along_a, da, 6e-3);
     EXPECT_NEAR(s.along_b, db, 6e-3);
   }

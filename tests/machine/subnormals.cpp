@@ -1,6 +1,6 @@
-// Subnormal numbers that come from outside (hands, constants, parameters, bounds, cells, sizes) are the zeros of their
-// signs, and none comes out of anything: with zeros in their place not a bit is another, in one lane by each dispatch
-// and in blocks by either kernel.
+// Subnormal numbers from outside (hands, constants, parameters, bounds, cells, sizes) count as zeros of their signs,
+// and no result is subnormal. With zeros in their place every bit is the same, in one lane by each dispatch and in
+// blocks by either kernel.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using example::loaded;
 
-/// Not-a-number is one value: see threaded_code.cpp.
+/// The bits of `value`; all not-a-numbers have the same (threaded_code.cpp says why).
 std::uint32_t bits_but_of_nan(float value) {
   return std::isnan(value) ? 0x7fc00000u : std::bit_cast<std::uint32_t>(value);
 }
@@ -29,7 +29,7 @@ bool is_subnormal(float value) { return std::fpclassify(value) == FP_SUBNORMAL; 
 
 float as_zero(float value) { return is_subnormal(value) ? std::copysign(0.0f, value) : value; }
 
-/// Puts subnormal numbers, and numbers beside them, where a program has numbers of its own.
+/// Puts subnormal numbers, and the normal numbers next to them, into programs and hands.
 class Sprinkler {
  public:
   explicit Sprinkler(unsigned seed) : random_(seed) {}
@@ -82,7 +82,7 @@ class Sprinkler {
   std::mt19937 random_;
 };
 
-/// The same with zeros where it has subnormal numbers.
+/// The same program with zeros in place of subnormal numbers.
 PatchProgram zeroed(PatchProgram program) {
   for (float& constant : program.constants) constant = as_zero(constant);
   for (Parameter& each : program.parameters)
@@ -104,7 +104,7 @@ std::vector<Hand> zeroed(std::vector<Hand> hands) {
   return hands;
 }
 
-/// All that a program makes of some hands, as bits.
+/// All results of a program for some hands, as bits.
 class Results {
  public:
   void add(float value) {
@@ -176,7 +176,7 @@ TEST(Subnormals, AreTheZerosOfTheirSigns) {
   }
 }
 
-/// What every way to run the tick leaves in all temporaries, on the same hands just entered.
+/// The tick leaves the same bits in all temporaries by every dispatch and kernel, for hands that have just entered.
 TEST(Subnormals, EveryWayToRunGivesTheSameBits) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     Sprinkler sprinkler(seed);
@@ -185,7 +185,7 @@ TEST(Subnormals, EveryWayToRunGivesTheSameBits) {
     const PatchProgram& description = program.description();
     const std::vector<Hand> hands = sprinkler.hands(5);
     Bank bank(program, std::vector{sprinkler.tiny(), sprinkler.tiny()}, program.default_size());
-    // The bank, the states of whoever has just entered, and each hand's inputs.
+    // The registers of the bank, with each hand's inputs and its states after entering.
     std::vector<std::vector<float>> begun;
     for (const Hand& hand : hands) {
       Memory memory(program);
@@ -243,8 +243,8 @@ TEST(Subnormals, FlushedIsTheZeroOfTheSign) {
   EXPECT_TRUE(std::isnan(arithmetic::flushed(std::nanf(""))));
 }
 
-// A patch whose half is subnormal would have no size.
-TEST(Subnormals, SidesOfAPatchAreNot) {
+// A patch whose half side is subnormal would have no size.
+TEST(Subnormals, SidesOfAPatchAreRefused) {
   PatchProgram program = example::least();
   program.patch_width = 1e-38f;
   EXPECT_NE(example::refusal_of(program).find("patch's width"), std::string::npos);
@@ -252,8 +252,8 @@ TEST(Subnormals, SidesOfAPatchAreNot) {
   EXPECT_EQ(Bank(usual, {}, {1e-38f, 1e-45f, 0.0f}).size().width, usual.default_size().width);
 }
 
-// A signal that ends in a long flat part fades from one sample to the next, below what is normal: whoever made the
-// spline, and in whichever mode of his thread, its coefficients are the same.
+// Coefficients in a long flat part decrease from sample to sample until they are subnormal. They are the same in any
+// floating-point mode of the thread that makes the spline.
 TEST(Subnormals, SplinesAreTheSameInAnyMode) {
   HeightTable table{400, 3, std::vector<std::uint16_t>(1200)};
   table.heights[0] = table.heights[401] = 65535;

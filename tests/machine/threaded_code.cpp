@@ -1,6 +1,6 @@
 // Threaded code, by either dispatch, against the plain switch over canonical instructions: every register, bit for bit.
-// Not-a-number is one value: compilers may swap the operands of a sum, and a sum of two of them has the first one's
-// bits.
+// All not-a-numbers count as equal: compilers may swap the operands of a sum, and the sum of two not-a-numbers has the
+// bits of the first.
 
 #include "runtime/machine/threaded_code.hpp"
 
@@ -76,7 +76,7 @@ TEST(ThreadedCode, GivesTheBitsOfPlainInstructions) {
   }
 }
 
-// Random code seldom hands every operation its predecessor's result at every operand.
+// Every operation takes its predecessor's result at every operand, which random code seldom does.
 TEST(ThreadedCode, ForwardsTheLastResultToAnyOperand) {
   example::RandomProgram generator(1);
   const Program program = loaded(generator.make());
@@ -107,7 +107,7 @@ TEST(ThreadedCode, ForwardsTheLastResultToAnyOperand) {
   EXPECT_GT(cases, 300);
 }
 
-// The second and third results of a look-up are not the last result; nor is a table's number a register.
+// Only the first result of a look-up counts as the last result, and a table's number is not a register.
 TEST(ThreadedCode, ForwardsNothingElse) {
   example::RandomProgram generator(2);
   const Program program = loaded(generator.make());
@@ -124,7 +124,7 @@ TEST(ThreadedCode, ForwardsNothingElse) {
   }
 }
 
-// Handlers that jump to one another leave nothing on the stack: a million instructions run on one of 64 KiB.
+// Handlers that jump to one another use no stack: a million instructions run with a stack of 64 KiB.
 TEST(ThreadedCode, NeedsNoStackHoweverLongItIs) {
   example::RandomProgram generator(4);
   const Program program = loaded(generator.make());

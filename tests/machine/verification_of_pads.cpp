@@ -1,4 +1,4 @@
-// Programs for devices that only vibrate: what the loader takes, and what it refuses with which reason.
+// Programs for devices that only vibrate: which the loader accepts, and its reasons for refusing the others.
 
 #include <gtest/gtest.h>
 
@@ -28,13 +28,12 @@ TEST(VerificationOfPads, TakesAmplitudeAndFrequencyWithAndWithoutAPosition) {
 }
 
 TEST(VerificationOfPads, OutputsAreThoseOfTheDevice) {
-  const std::string neither = "an output is neither amplitude nor frequency, which are all that the device has";
+  const std::string neither = "an output is neither amplitude nor frequency, the only outputs of this device";
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[0].quantity = OutputQuantity::force; }), neither);
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[1].axis = 1; }), neither);
-  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }),
-            "output frequency is given 0 times and must be given once");
+  EXPECT_EQ(refusal_after([](auto& p) { p.outputs.pop_back(); }), "output frequency occurs 0 times, expected once");
   EXPECT_EQ(refusal_after([](auto& p) { p.outputs[1] = p.outputs[0]; }),
-            "output amplitude is given 2 times and must be given once");
+            "output amplitude occurs 2 times, expected once");
   PatchProgram joystick = example::least();
   joystick.outputs = example::pad().outputs;
   EXPECT_EQ(refusal_of(joystick), "an output is neither force x nor force y");
@@ -42,16 +41,16 @@ TEST(VerificationOfPads, OutputsAreThoseOfTheDevice) {
 
 TEST(VerificationOfPads, EachOutputHasItsOwnCeiling) {
   EXPECT_EQ(refusal_after([](auto& p) { p.constants[1] = 16.01f; }),
-            "output amplitude has register 33 for its ceiling, which is neither a constant above 0 and up to 16 m/s^2 "
-            "nor limited by one in setup");
+            "output amplitude has register 33 as its ceiling, expected a constant above 0 and up to 16 m/s^2, "
+            "or a register that setup limits by such a constant");
   EXPECT_EQ(refusal_after([](auto& p) { p.constants[2] = 200.1f; }),
-            "output frequency has register 34 for its ceiling, which is neither a constant above 0 and up to 200 Hz "
-            "nor limited by one in setup");
-  // A frequency may be greater than the greatest amplitude, but not the other way round.
+            "output frequency has register 34 as its ceiling, expected a constant above 0 and up to 200 Hz, "
+            "or a register that setup limits by such a constant");
+  // The frequency's ceiling of 200 is valid for the frequency and too high for the amplitude.
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[2].b = p.outputs[0].ceiling = 34; }).substr(0, 35),
-            "output amplitude has register 34 fo");
+            "output amplitude has register 34 as");
   EXPECT_EQ(refusal_after([](auto& p) { p.tick[3].operation = static_cast<std::uint8_t>(Operation::minimum); }),
-            "output frequency is written last by tick 3 `minimum`, which is no limit");
+            "output frequency is written last by tick 3 `minimum`, expected a `limit`");
 }
 
 TEST(VerificationOfPads, TheDeviceMakesSense) {
@@ -74,7 +73,7 @@ TEST(VerificationOfPads, TheDeviceMakesSense) {
   EXPECT_NE(refusal_after([](auto& p) { p.device.shaker->exploring_speed = 0; }, none), "");
 }
 
-TEST(VerificationOfPads, FatesAreOnesThatAreKnown) {
+TEST(VerificationOfPads, FatesAreKnownAndWithinTheirRange) {
   EXPECT_EQ(refusal_after([](auto& p) { p.fates[0].name.clear(); }), "fate 0 has no name");
   EXPECT_NE(refusal_after([](auto& p) { p.fates[0].fate = Fate{0}; }), "");
   EXPECT_NE(refusal_after([](auto& p) { p.fates[0].asked = 1.5f; }), "");

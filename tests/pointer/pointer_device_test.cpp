@@ -18,7 +18,7 @@
 
 #include "tests/usb/profiles.hpp"
 
-// On a terminal of its own (a pty), whose other end the test holds: what is asked of it and told by it is bytes.
+// The device runs on its own terminal (a pty). The test holds the other end, and reads and writes its bytes.
 
 namespace wale::test::pointer_device {
 namespace {
@@ -63,7 +63,7 @@ class Pty {
     master_ = -1;
   }
 
-  /// Everything so far, after waiting until `part` is in it.
+  /// All output so far. Waits until it contains `part`.
   const std::string& screen_with(const std::string& part) {
     while (screen_.find(part) == std::string::npos) read_some(-1);
     return screen_;
@@ -97,7 +97,7 @@ class Pty {
   std::string screen_;
 };
 
-/// One that has the terminal, as it has from the first command on.
+/// A pointer that has taken the terminal, as it does at its first command.
 std::unique_ptr<PointerDevice> opened(const Pty& pty) {
   auto result = PointerDevice::open(profile(), {pty.path, 100});
   if (!result) {
@@ -105,7 +105,7 @@ std::unique_ptr<PointerDevice> opened(const Pty& pty) {
     return nullptr;
   }
   auto device = *std::move(result);
-  EXPECT_TRUE(pty.is_as_before()) << "messages can be read until it is used";
+  EXPECT_TRUE(pty.is_as_before()) << "the terminal shows messages until the first command";
   device->command({0, 0});
   while (pty.is_as_before()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return device;
@@ -132,13 +132,13 @@ TEST(PointerDevice, TakesTheTerminalAndGivesItBack) {
   auto unused = PointerDevice::open(profile(), {pty.path});
   const std::size_t so_far = pty.screen().size();
   unused = Error{Code::stopped, "let go"};
-  EXPECT_EQ(pty.screen().size(), so_far) << "one that was never commanded changes nothing";
+  EXPECT_EQ(pty.screen().size(), so_far) << "without a command, the device leaves the terminal alone";
 }
 
-TEST(PointerDevice, LettersMoveTheHandByLetters) {
+TEST(PointerDevice, CharacterCellsMoveTheHand) {
   Pty pty;
   const auto device = opened(pty);
-  EXPECT_EQ(device->sample().counts, glm::ivec2(0)) << "until something is told";
+  EXPECT_EQ(device->sample().counts, glm::ivec2(0)) << "before the first mouse report";
   // 23 rows twice as high as wide, 46 widths are 200 mm: 5 counts are a millimetre. The middle of column 63 is 22.5
   // widths to the right, that of row 1 is 11 rows up.
   pty.type("\033[<35;63;1M");
@@ -147,13 +147,13 @@ TEST(PointerDevice, LettersMoveTheHandByLetters) {
   EXPECT_EQ(reading.counts, glm::ivec2(std::lround(22.5 / 46 * 1000), std::lround(22.0 / 46 * 1000)));
   EXPECT_FALSE(reading.button);
   EXPECT_EQ(reading.contact, Contact::good);
-  EXPECT_TRUE(std::isnan(reading.interaction.x)) << "nobody knows what a hand does to a mouse";
+  EXPECT_TRUE(std::isnan(reading.interaction.x)) << "a mouse does not measure the hand's force";
   pty.type("\033[<0;63;1M");
   await([&] { return device->sample().button; });
   EXPECT_EQ(device->manner(), "the mouse by the letter; forces are drawn, not felt");
 }
 
-TEST(PointerDevice, PixelsAreUsedWhereTheTerminalKnowsThem) {
+TEST(PointerDevice, PixelsAreUsedIfTheTerminalReportsThem) {
   Pty pty;
   pty.resize(800, 480);
   const auto device = opened(pty);
@@ -167,7 +167,7 @@ TEST(PointerDevice, PixelsAreUsedWhereTheTerminalKnowsThem) {
   EXPECT_EQ(device->manner(), "the mouse by the pixel; forces are drawn, not felt");
 }
 
-TEST(PointerDevice, PixelsOfATerminalThatTellsItsSizeWhenAsked) {
+TEST(PointerDevice, TheTerminalIsAskedForItsSizeInPixels) {
   Pty pty;
   const auto device = opened(pty);
   pty.type("\033[?1016;1$y\033[<35;516;116M\033[4;480;800t");
@@ -175,7 +175,7 @@ TEST(PointerDevice, PixelsOfATerminalThatTellsItsSizeWhenAsked) {
   pty.type("\033[<35;516;116M");
   await([&] { return device->sample().counts != glm::ivec2(0); });
   EXPECT_EQ(device->sample().counts, glm::ivec2(std::lround(115.5 / 460 * 1000), std::lround(114.5 / 460 * 1000)))
-      << "and not the one whose size was unknown";
+      << "the picture for an unknown size is gone";
 }
 
 TEST(PointerDevice, ForcesAreDrawn) {
@@ -188,7 +188,7 @@ TEST(PointerDevice, ForcesAreDrawn) {
   EXPECT_GT(device->tally()[1].second, 0);
 }
 
-TEST(PointerDevice, AClosedTerminalIsADeviceThatIsLost) {
+TEST(PointerDevice, AClosedTerminalIsALostDevice) {
   Pty pty;
   const auto device = opened(pty);
   pty.hang_up();
@@ -197,7 +197,7 @@ TEST(PointerDevice, AClosedTerminalIsADeviceThatIsLost) {
   EXPECT_EQ(device->command({1, 1}), Force(0));
 }
 
-TEST(PointerDevice, IsRefusedWhereThereIsNoTerminal) {
+TEST(PointerDevice, IsRefusedWithoutATerminal) {
   const auto none = PointerDevice::open(profile(), {"/nowhere/tty"});
   EXPECT_EQ(none.error().sentence, "there is no terminal: /nowhere/tty: No such file or directory");
   const auto file = PointerDevice::open(profile(), {"/dev/null"});
@@ -208,14 +208,14 @@ TEST(PointerDevice, IsRefusedWhereThereIsNoTerminal) {
   EXPECT_EQ(second.error().sentence, "the terminal is in use already");
 }
 
-TEST(PointerDevice, HoweverTheProcessEndsTheTerminalIsAsBefore) {
+TEST(PointerDevice, EveryEndOfTheProcessRestoresTheTerminal) {
   constexpr int leaves_by_exit = 0;
   for (const int signal : {leaves_by_exit, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGABRT, SIGFPE}) {
     Pty pty;
     const pid_t child = fork();
     if (child == 0) {
       const auto device = opened(pty);
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // anywhere in its life
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // long enough to be at any step
       if (signal == leaves_by_exit) exit(0);
       if (signal == SIGABRT) abort();
       raise(signal);
@@ -225,7 +225,7 @@ TEST(PointerDevice, HoweverTheProcessEndsTheTerminalIsAsBefore) {
     waitpid(child, &status, 0);
     if (signal != leaves_by_exit) {
       EXPECT_TRUE(WIFSIGNALED(status)) << signal;
-      EXPECT_EQ(WTERMSIG(status), signal) << "it dies of what it was sent";
+      EXPECT_EQ(WTERMSIG(status), signal) << "it dies of the signal";
     }
     EXPECT_TRUE(ends_with(pty.screen(), given_back)) << signal;
     EXPECT_TRUE(pty.is_as_before()) << signal;
@@ -249,10 +249,10 @@ TEST(PointerDevice, ASignalThatTheProgramHandlesStaysItsOwn) {
   sigaction(SIGINT, &before, &now);
   EXPECT_EQ(now.sa_handler, own.sa_handler);
   sigaction(SIGTERM, nullptr, &now);
-  EXPECT_EQ(now.sa_handler, SIG_DFL) << "and what was taken is given back";
+  EXPECT_EQ(now.sa_handler, SIG_DFL) << "the earlier handler is restored";
 }
 
-TEST(PointerDevice, StoppedItGivesTheTerminalBackUntilItGoesOn) {
+TEST(PointerDevice, AStoppedProcessGivesTheTerminalBackUntilItContinues) {
   Pty pty;
   const pid_t child = fork();
   if (child == 0) {

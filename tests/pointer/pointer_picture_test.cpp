@@ -11,7 +11,7 @@ namespace {
 
 using namespace pointer;
 
-/// What a terminal shows: a character for each cell, as UTF-8.
+/// The contents of a terminal: one character of UTF-8 per cell.
 std::vector<std::vector<std::string>> shown(const std::string& text, int columns, int rows) {
   std::vector<std::vector<std::string>> screen(static_cast<std::size_t>(rows),
                                                std::vector<std::string>(static_cast<std::size_t>(columns)));
@@ -61,9 +61,9 @@ TEST(PointerPicture, ShowsHandPatchAndForce) {
   // Half of the full force is half of a third of the workspace: 33 mm to the right.
   EXPECT_TRUE(is_braille(at(0.04, -0.02)));
   EXPECT_TRUE(is_braille(at(0.052, -0.02)));
-  EXPECT_EQ(at(0.0, -0.02), " ") << "not to the left";
+  EXPECT_EQ(at(0.0, -0.02), " ") << "no force to the left";
   EXPECT_TRUE(is_braille(at(-0.05, 0.0))) << "the patch's edge";
-  EXPECT_TRUE(is_braille(at(-0.0999, 0.0))) << "the workspace's";
+  EXPECT_TRUE(is_braille(at(-0.0999, 0.0))) << "the workspace's edge";
   EXPECT_EQ(at(0.0, 0.02), " ");
   std::string words;
   for (const std::string& cell : screen[0]) words += cell;
@@ -74,7 +74,7 @@ TEST(PointerPicture, ShowsHandPatchAndForce) {
   for (const std::string& cell : screen[23]) EXPECT_TRUE(cell.empty()) << "the last line is left to others";
 }
 
-TEST(PointerPicture, DrawsWhateverItIsGiven) {
+TEST(PointerPicture, DrawsExtremeValues) {
   const double strange[] = {0, -1, 1e300, -1e300, std::nan(""), HUGE_VAL};
   for (const double value : strange) {
     for (const int size : {-5, 0, 1, 3, 5000}) {

@@ -14,7 +14,7 @@
 namespace wale::draw_preview_test {
 namespace {
 
-// Where the parts of the page stand, in pixels.
+// The places of the page's parts, in pixels.
 constexpr int picture_left = 64, picture_top = 196, picture_side = 580;
 constexpr int force_left = 764, force_right = 1536, force_middle = 655;
 
@@ -42,11 +42,12 @@ Drawing draw(const Bank& bank) {
   return *draw_preview(bank, preview_text(bank, common_modules()->declarations), common_modules()->declarations);
 }
 
-TEST(Preview, ReliefRepeatsWithThePeriodAndAcrossTheRibsNotAtAll) {
+TEST(Preview, ReliefRepeatsWithThePeriodAndIsConstantAlongTheRibs) {
   const Drawing drawing = draw(sine_grating(0.004f, 1));
   ASSERT_EQ(drawing.width, 1600);
   ASSERT_EQ(drawing.height, 1330);
-  // Eight periods over 580 pixels: two are 145. In the outermost period a hollow has only one side to shade it.
+  // Eight periods are 580 pixels, so two are 145. The outermost periods are left out, since a hollow there is shaded
+  // from one side only.
   constexpr int two_periods = picture_side / 4, edge = picture_side / 8;
   int least = 999, most = 0;
   for (int x = picture_left + edge; x < picture_left + picture_side - two_periods - edge; ++x) {
@@ -55,13 +56,13 @@ TEST(Preview, ReliefRepeatsWithThePeriodAndAcrossTheRibsNotAtAll) {
     EXPECT_NEAR(here, at(drawing, x, picture_top + 500).lightness(), 3) << x;
     least = std::min(least, here), most = std::max(most, here);
   }
-  EXPECT_GT(most - least, 200);  // the relief is there to be seen
+  EXPECT_GT(most - least, 200);  // the relief is visible
 }
 
 TEST(Preview, LightComesFromTheLeft) {
   const Drawing drawing = draw(sine_grating(0.004f, 1));
-  // sin(2 pi x / period) rises to the right at x = 0, so its flank there faces left: lit. Half a period on it faces
-  // right.
+  // sin(2 pi x / period) rises to the right at x = 0, so its flank there faces left and is lit. Half a period further
+  // it faces right.
   const int centre = picture_left + picture_side / 2, half_period = picture_side / 16;
   EXPECT_GT(at(drawing, centre, picture_top + 100).lightness(),
             at(drawing, centre + half_period, picture_top + 100).lightness() + 150);
@@ -91,7 +92,7 @@ TEST(Preview, WordsAreOnThePage) {
   EXPECT_LT(darkest(drawing, 64, 860, 300, 920), 200);    // figures
   EXPECT_GT(darkest(drawing, 1100, 30, 1590, 110), 700);  // nothing beside the title
 
-  // Letters outside ASCII are letters: an accent adds ink above.
+  // Letters outside ASCII are drawn: the accent adds pixels above the letter, and nothing else changes.
   text.title = "Crepe";
   const Drawing plain = *draw_preview(bank, text, common_modules()->declarations);
   text.title = "Crêpe";
@@ -122,7 +123,7 @@ TEST(Preview, SameBankSameBytes) {
   EXPECT_EQ(png_of(spring_and_oil(120, 2)), png_of(spring_and_oil(120, 2)));
 }
 
-TEST(Preview, NothingToShowIsStillAPicture) {
+TEST(Preview, AnEmptyMaterialGivesAPicture) {
   const Drawing drawing = draw(spring_and_oil(0, 0));
   EXPECT_EQ(drawing.rgb.size(), 1600u * 1000u * 3u);
 }
@@ -152,7 +153,7 @@ TEST(Exhibit, SpringPushesAndOilResists) {
   EXPECT_TRUE(oil.resists_motion);
 }
 
-TEST(Exhibit, ProfilesAreThePrograms) {
+TEST(Exhibit, ProfilesAreTheForcesOfTheProgram) {
   const Bank oil = spring_and_oil(0, 3);
   const Profile against = force_against_speed(oil, exhibit_of(oil), 11);
   for (std::size_t i = 0; i < 11; ++i) EXPECT_NEAR(against.values[i], -3 * against.at[i], 1e-6);

@@ -1,4 +1,4 @@
-// How strong the felt force is at each frequency, against sines and strokes whose frequencies are known.
+// The spectrum of the felt force, against sines and strokes with known frequencies.
 
 #include "compiler/preview/felt_spectrum.hpp"
 
@@ -35,7 +35,7 @@ TEST(FeltSpectrum, HasASineAtItsFrequencyWithItsAmplitude) {
       EXPECT_NEAR(spectrum.seconds, 2, 1e-9);
       const std::size_t top = strongest(spectrum.amplitudes);
       EXPECT_NEAR(spectrum.frequencies[top], line * width, 0.51 * width);
-      // Between two lines Hann's window has 1.42 dB less: 0.849.
+      // Halfway between two lines Hann's window has 1.42 dB less, a factor of 0.849.
       const double share = line == std::floor(line) ? 1 : 0.849;
       EXPECT_NEAR(spectrum.amplitudes[top], 1.5 * share, 0.003 * 1.5);
       for (std::size_t i = 0; i < spectrum.amplitudes.size(); ++i) {
@@ -46,7 +46,7 @@ TEST(FeltSpectrum, HasASineAtItsFrequencyWithItsAmplitude) {
   }
 }
 
-TEST(FeltSpectrum, TellsWhenAFrequencyIsThere) {
+TEST(FeltSpectrum, ShowsWhenAFrequencyOccurs) {
   std::vector<float> signal = sine(1, 100, 900, 1);
   const std::vector<float> after = sine(1, 300, 900, 1);
   signal.insert(signal.end(), after.begin(), after.end());
@@ -57,12 +57,12 @@ TEST(FeltSpectrum, TellsWhenAFrequencyIsThere) {
   EXPECT_NEAR(spectrum.frequencies[strongest(spectrum.windows.back())], 300, width);
 }
 
-TEST(FeltSpectrum, OfTooLittleThereIsNone) {
+TEST(FeltSpectrum, OfTooShortASignalIsEmpty) {
   EXPECT_TRUE(spectrum_of({}, 900).windows.empty());
   EXPECT_TRUE(spectrum_of(sine(1, 100, 900, 0.005), 900).windows.empty());
 }
 
-// At speed v a grating of period p is felt at v / p; the hand of the stroke is fastest at its centre, with v = 2 pi f
+// At speed v a grating of period p is felt at v / p. The hand is fastest at the centre of its stroke, with v = 2 pi f
 // A.
 TEST(FeltSpectrum, AGratingIsFeltAtSpeedOverPeriod) {
   const float period = 0.004f;
@@ -71,7 +71,7 @@ TEST(FeltSpectrum, AGratingIsFeltAtSpeedOverPeriod) {
   EXPECT_EQ(felt.rate, 900);
   EXPECT_EQ(felt.forces.size(), 1800u);
   const FeltSpectrum spectrum = spectrum_of(felt.forces, felt.rate);
-  // 36 mm = 0.9 (40 mm - 2 mm - ...) at most; `showing` has 48 mm at 1.2 Hz: the patch is smaller.
+  // `showing` strokes 48 mm at 1.2 Hz, but the patch allows only 0.9 (40 mm - 2 mm).
   const double reach = 0.9 * (0.04 - 0.002), fastest = 2 * std::numbers::pi * 1.2 * reach / period;
   double below = 0, beyond = 0;
   for (std::size_t i = 0; i < spectrum.frequencies.size(); ++i) {
@@ -80,7 +80,7 @@ TEST(FeltSpectrum, AGratingIsFeltAtSpeedOverPeriod) {
   }
   EXPECT_LT(beyond, 0.01 * below);
   const double top = spectrum.frequencies[strongest(spectrum.amplitudes)];
-  EXPECT_GT(top, 0.75 * fastest) << "a sine lingers near its extreme speed";
+  EXPECT_GT(top, 0.75 * fastest) << "a sinusoidal stroke spends most time near its highest speed";
   EXPECT_LT(top, fastest + spectrum.frequencies[1]);
 }
 

@@ -8,7 +8,7 @@
 
 namespace wale {
 
-/// Patch programs written instruction by instruction, so that previews are tested without the compiler.
+/// Writes patch programs instruction by instruction, so that previews are tested without the compiler.
 class HandMade {
  public:
   HandMade() {
@@ -45,7 +45,7 @@ class HandMade {
     code.push_back({static_cast<std::uint8_t>(operation), result, a, b, c});
     return result;
   }
-  /// A state; all of them before the first `add`, since temporaries lie behind them.
+  /// Adds a state. Call it before the first `add`, since temporaries follow the states.
   RegisterNumber add_state(const State& state) {
     program.states.push_back(state);
     return static_cast<RegisterNumber>(program.first_temporary() - 1);
@@ -70,7 +70,7 @@ class HandMade {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// Height (1 + sin(2 pi x / period)) / 2 and the lateral force that goes with it.
+/// The height (1 + sin(2 pi x / period)) / 2 and its lateral force with an amplitude in N. The period is in m.
 inline Bank sine_grating(float period, float newton) {
   HandMade made;
   using enum Operation;
@@ -85,7 +85,7 @@ inline Bank sine_grating(float period, float newton) {
   return made.bank();
 }
 
-/// -stiffness * hand - viscosity * velocity; either may be 0.
+/// The force -stiffness * hand - viscosity * velocity, in N/m and N s/m; either may be 0.
 inline Bank spring_and_oil(float stiffness, float viscosity) {
   HandMade made;
   using enum Operation;

@@ -1,4 +1,4 @@
-// Colours, marks and what a rehearsal leaves of a program that remembers.
+// Colours, marks, and the state of a program after a rehearsal.
 
 #include "compiler/preview/marks.hpp"
 
@@ -23,7 +23,7 @@ struct Pixel {
   int red, green, blue;
 };
 
-/// The pixel at a place of the patch, m.
+/// The pixel at a place of the patch, in m.
 Pixel at(const Drawing& drawing, double x, double y) {
   const int column = picture_left + static_cast<int>(std::floor((x / side + 0.5) * picture_side)),
             row = picture_top + static_cast<int>(std::floor((0.5 - y / side) * picture_side));
@@ -33,7 +33,7 @@ Pixel at(const Drawing& drawing, double x, double y) {
 
 bool is_red(Pixel p) { return p.red > 180 && p.green < 60 && p.blue < 60; }
 
-/// How many of the picture's pixels are the red that only the marks of these tests have.
+/// The number of the picture's pixels in the red of the marks; nothing else on the page is red.
 int count_red(const Drawing& drawing) {
   int count = 0;
   for (int y = 0; y < picture_side; ++y)
@@ -42,12 +42,12 @@ int count_red(const Drawing& drawing) {
   return count;
 }
 
-/// The hand that rubs a program before it is shown.
+/// The hand that strokes a program before it is drawn.
 const HandDeclaration* showing_hand() { return common_modules()->declarations.hands.find("showing"); }
 
 Drawing draw(const Bank& bank) { return *draw_preview(bank, {}, common_modules()->declarations); }
 
-/// The marks alone, where the page has them, on white; a page takes longer.
+/// Only the marks, at their places on the page, on white. It is faster than a page.
 Drawing marks_of(const Bank& bank) {
   Canvas canvas(picture_left + picture_side + 60, picture_top + picture_side + 60, {1, 1, 1});
   const Rehearsal rehearsal = rehearse(bank, showing_hand());
@@ -69,7 +69,8 @@ Bank still(MarkKind kind, std::vector<float> values) {
   return made.bank();
 }
 
-/// One state that begins at 0 and goes up by `each_tick` (m) a tick, and a mark that has it as operand `operand`.
+/// A program with a state that begins at 0 and increases by `each_tick` (m) per tick, and a mark whose operand
+/// `operand` is that state.
 Bank moving(float each_tick, MarkKind kind, std::vector<float> values, std::size_t operand) {
   HandMade made;
   const auto zero = made.constant(0), step = made.constant(each_tick);
@@ -109,7 +110,7 @@ TEST(Marks, ABoxTurnsCounterclockwise) {
   EXPECT_TRUE(is_red(at(turned, 0.012, 0.012)));
   EXPECT_FALSE(is_red(at(turned, 0.012, -0.012)));
   EXPECT_FALSE(is_red(at(turned, 0.018, 0)));
-  // 40 mm by 8 mm at 580 pixels for 80 mm, less an edge of its own darker colour.
+  // 40 mm by 8 mm at 580 pixels for 80 mm, less an edge in a darker colour.
   const double area = 0.04 * 0.008 * std::pow(picture_side / side, 2);
   EXPECT_LT(count_red(level), area);
   EXPECT_GT(count_red(level), 0.85 * area);
@@ -120,7 +121,7 @@ TEST(Marks, ASpringIsAZigzagWithinItsWidth) {
   const Drawing drawing = marks_of(still(MarkKind::spring, {-0.03f, 0, 0.03f, 0, 0.01f}));
   EXPECT_TRUE(is_red(at(drawing, -0.0299, 0)));
   EXPECT_TRUE(is_red(at(drawing, 0.0299, 0)));
-  // Along a line a fifth of the width beside the axis every swing is crossed twice: 8 of them above, 8 below.
+  // A line at a fifth of the width beside the axis crosses each of the 8 turns on its side twice.
   for (const double beside : {0.002, -0.002}) {
     int crossings = 0;
     bool before = false;
@@ -134,7 +135,7 @@ TEST(Marks, ASpringIsAZigzagWithinItsWidth) {
   for (double x = -0.035; x < 0.035; x += 0.0005) EXPECT_FALSE(is_red(at(drawing, x, 0.0062))) << x;
 }
 
-TEST(Marks, WhatIsNowhereIsNotDrawn) {
+TEST(Marks, MarksWithoutAFinitePlaceAreNotDrawn) {
   const float none = std::nanf(""), endless = 1e38f;
   EXPECT_EQ(count_red(marks_of(still(MarkKind::point, {none, 0, 0.01f}))), 0);
   EXPECT_EQ(count_red(marks_of(still(MarkKind::point, {endless, 0, 0.01f}))), 0);
@@ -142,7 +143,7 @@ TEST(Marks, WhatIsNowhereIsNotDrawn) {
   EXPECT_EQ(count_red(marks_of(still(MarkKind::box, {0, 0, endless, 0.01f, 0}))), 0);
   EXPECT_EQ(count_red(marks_of(still(MarkKind::circle, {0, 0, endless}))), 0);
   EXPECT_EQ(count_red(marks_of(still(MarkKind::spring, {0, 0, 0.01f, 0, none}))), 0);
-  // What reaches beyond the picture stays in it.
+  // A mark that is larger than the picture is clipped to it.
   const Drawing wide = marks_of(still(MarkKind::box, {0, 0, 1, 1, 0})),
                 page = marks_of(still(MarkKind::box, {1, 1, 0, 0, 0}));
   for (int y = 0; y < wide.height; ++y)
@@ -153,7 +154,7 @@ TEST(Marks, WhatIsNowhereIsNotDrawn) {
 }
 
 TEST(Marks, MoveWithTheState) {
-  // 20 um a tick at 900 Hz: 901 ticks from 0 to 1 s end at 18.02 mm. The spring's far end is there, and no farther.
+  // 20 um per tick at 900 Hz: the 901 ticks from 0 to 1 s end at 18.02 mm, the place of the spring's far end.
   const Drawing drawing = marks_of(moving(20e-6f, MarkKind::spring, {-0.03f, 0.02f, 0, 0.02f, 0.006f}, 2));
   EXPECT_TRUE(is_red(at(drawing, 0.01795, 0.02)));
   EXPECT_FALSE(is_red(at(drawing, 0.0195, 0.02)));
@@ -175,7 +176,9 @@ TEST(Marks, ATrajectoryIsThePathOfItsLastSeconds) {
 }
 
 TEST(Rehearsal, LastsAsLongAsTheLongestTrajectoryUpToFiveSeconds) {
-  const auto seconds = [](float shown) { return rehearse(still(MarkKind::trajectory, {0, 0, shown}), showing_hand()).seconds; };
+  const auto seconds = [](float shown) {
+    return rehearse(still(MarkKind::trajectory, {0, 0, shown}), showing_hand()).seconds;
+  };
   EXPECT_EQ(seconds(0.1f), 1);
   EXPECT_EQ(seconds(3), 3);
   EXPECT_EQ(seconds(1e30f), 5);
@@ -196,7 +199,7 @@ TEST(Rehearsal, TheHandRubsToAndFroOnThePatch) {
   EXPECT_LT(least, -0.015);
   EXPECT_GT(most, 0.015);
   EXPECT_LT(std::max(most, -least), side / 2);
-  EXPECT_LT(longest_step * 900, 0.5) << "m/s: no hand rubs faster";
+  EXPECT_LT(longest_step * 900, 0.5) << "m/s";
 }
 
 TEST(Colour, LevelGroundIsTheAuthorsColour) {
@@ -213,7 +216,7 @@ TEST(Colour, LevelGroundIsTheAuthorsColour) {
   }
 }
 
-TEST(Colour, LightGoesOverIt) {
+TEST(Colour, IsShaded) {
   const auto grating = [](bool coloured) {
     HandMade made;
     auto& picture = made.program.picture;
@@ -224,7 +227,7 @@ TEST(Colour, LightGoesOverIt) {
     return draw(made.bank());
   };
   const Drawing plaster = grating(false), grey = grating(true);
-  // Grey at every flank where plaster is lit or in shadow, and as dark beside bright as plaster is.
+  // The grey has the same ratio of lit to shadowed flanks as the plain relief.
   const Pixel lit = at(grey, 0, 0.03), dark = at(grey, 0.01, 0.03);
   EXPECT_GT(lit.green, dark.green + 40);
   EXPECT_NEAR(double(lit.green) / dark.green, double(at(plaster, 0, 0.03).green) / at(plaster, 0.01, 0.03).green, 0.06);
@@ -243,7 +246,7 @@ TEST(Exhibit, MarksAreShownOnTheWholePatch) {
 }
 
 TEST(Preview, HeightsAreInTheUnitTheProgramSays) {
-  // 30 mm of relief is a length when the program says so, and 1 um of plain number is none.
+  // A relief of 0.03 is a length only when the program says so.
   const auto picture_of = [](float height, bool is_length) {
     HandMade made;
     auto& picture = made.program.picture;

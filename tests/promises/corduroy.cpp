@@ -1,6 +1,5 @@
-// What is asked for by percept comes out of the handle. A corduroy of roughness 0.6 is rubbed by the simulated hand;
-// the force of the actuator, and nothing of the program, is turned back into a level by the published regression,
-// worked out here a second time.
+// Promise 3 for corduroy: what is asked for by percept comes out of the handle. The simulated hand rubs a corduroy of
+// roughness 0.6, and the published regression, written independently here, converts the actuator's force to a level.
 
 #include <gtest/gtest.h>
 
@@ -37,13 +36,12 @@ std::string corduroy(const std::string& from = "", const std::string& to = "") {
   return text;
 }
 
-TEST(TheMap, IsTheOneThatTheIssueQuotes) {
-  EXPECT_NEAR(force_of_level(0.6), 1.934, 0.0005);
-  EXPECT_NEAR(force_of_level(0.3), 0.777, 0.0005);
-  EXPECT_NEAR(level_of_force(force_of_level(0.42)), 0.42, 1e-12);
+TEST(TheMap, GivesTheForcesOfFigure19) {
+  for (const auto& [asked, newton] : {std::pair{"roughness 0.6", 1.934}, {"roughness 0.3", 0.777}})
+    EXPECT_NEAR(amplitude(Bank(promises::compiled(corduroy("roughness 0.6", asked))), 0), newton, 0.0005) << asked;
 }
 
-TEST(Corduroy, WhatIsAskedForComesOutOfTheHandle) {
+TEST(Corduroy, TheAskedLevelComesOutOfTheHandle) {
   const Felt felt = promises::rubbed(promises::compiled(corduroy()));
   const double asked = force_of_level(0.6);
   EXPECT_NEAR(felt.force_rubbing.p99, asked, 0.01 * asked + force_step);
@@ -52,8 +50,8 @@ TEST(Corduroy, WhatIsAskedForComesOutOfTheHandle) {
 }
 
 TEST(Corduroy, RubbingForceHasTheGratingsOwnMean) {
-  // The slope is a Gaussian of 24/256 of a period up and one down: its mean square is 2 sqrt(pi) 24/256 of its
-  // maximum's.
+  // The slope of a period is a Gaussian of 24/256 of the period up and one down, so its mean square is
+  // 2 sqrt(pi) 24/256 of the square of its maximum.
   const double share = std::sqrt(2 * std::sqrt(std::acos(-1.0)) * 24 / 256);
   EXPECT_NEAR(share, 0.576, 0.001);
   const Felt felt = promises::rubbed(promises::compiled(corduroy()));
@@ -61,7 +59,7 @@ TEST(Corduroy, RubbingForceHasTheGratingsOwnMean) {
 }
 
 TEST(Corduroy, IsCrossedRidgeByRidge) {
-  // 5 s at 1 Hz: ten strokes over all ridges in the hand's reach, each of two flanks.
+  // 5 s at 1 Hz are ten strokes over all ridges in the hand's range, and each ridge has two flanks.
   const Felt felt = promises::rubbed(promises::compiled(corduroy()));
   const double flanks = 10 * felt.position_range / 0.0025 * 2;
   EXPECT_GT(felt.position_range, 0.06);
@@ -83,7 +81,7 @@ TEST(Corduroy, AnotherPeriodIsTheSameRoughness) {
 }
 
 TEST(Corduroy, AnotherPeriodWhileRubbingIsTheSameRoughness) {
-  // The slider moves at 2 s; what is measured is what comes after.
+  // The parameter changes at 2 s; the measurement begins after it.
   const Program program = promises::compiled(corduroy());
   auto joystick = promises::joystick();
   Stage stage(*joystick);
@@ -108,8 +106,8 @@ TEST(Corduroy, AnotherPeriodWhileRubbingIsTheSameRoughness) {
 class AtRest : public testing::TestWithParam<double> {};
 
 TEST_P(AtRest, NothingOscillates) {
-  // Wherever on a ridge the hand wants to be: on its top, on a flank, in the valley, and in between. It may slide
-  // downhill to where its own spring holds it, and then it stays.
+  // The hand's target is on a ridge's top, on a flank, in a valley, or in between. The hand may slide downhill until
+  // its own spring holds it, and then it stays.
   const Program program = promises::compiled(corduroy());
   auto joystick = promises::joystick(Rest{{GetParam(), 0.0}});
   Stage stage(*joystick);

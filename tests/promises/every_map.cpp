@@ -1,7 +1,6 @@
-// Promise 3 for every map that can set a level, on every device of force: the percept is asked for, the device's own
-// rule renders it, the simulated hand explores in the way that the carrier calls for, the carrier's size is read from
-// the actuator's force alone, and the publication's law, typed in here a second time, gives the level back to within
-// what one step of the device's force is worth.
+// Promise 3 for every map that can set a level, on every force device. The device's rule renders the percept, and the
+// simulated hand explores it. The carrier's size is measured from the actuator's force, and the published law, written
+// independently here, gives the level back within one step of the device's force.
 
 #include "tests/promises/exploring.hpp"
 
@@ -11,8 +10,8 @@ namespace {
 using std::numbers::pi;
 using Ticks = std::vector<TickRecord>;
 
-/// level = (size / one)^exponent. Exponents from the publication beside each; `one` as
-/// schema/percepts.wale defines each percept's reference stimulus, SI.
+/// level = (size / one)^exponent. The source of each exponent stands beside it. `one` is the size of the percept's
+/// reference stimulus (schema/percepts.wale) in SI units.
 struct PublishedLaw {
   const char* map;
   const char* percept;
@@ -24,8 +23,8 @@ struct PublishedLaw {
 
 const std::vector<PublishedLaw> laws = {
     {"minsky1995.figure19", "roughness", 194 * 10.0 / 512, 0.759593},  // Minsky 1995, figure 19 and table 6
-    {"estimates.bumps", "bumpiness", 3, 0.76},                         // taken to grow as roughness does
-    {"estimates.crispness", "crispness", 8, 1},                        // taken to be in proportion
+    {"estimates.bumps", "bumpiness", 3, 0.76},                         // assumed equal to that of roughness
+    {"estimates.crispness", "crispness", 8, 1},                        // assumed linear
     {"harper1964.squeezing", "hardness", 1000, 0.8},                   // Stevens's table, hardness
     {"smith1996.line", "stickiness", 1, 1},                            // linear, r = 0.85
     {"stevens1975.lifting", "heaviness", 0.2, 1.45},                   // Stevens's table, lifted weights
@@ -35,9 +34,9 @@ const std::vector<PublishedLaw> laws = {
     {"varadharajan2008.spring", "springiness", 200, 1},                // linear
 };
 
-/// Those that set no level, each for a reason: a map orders only where its magnitudes share no unit with the reference
-/// stimulus, and one of something else than the carrier has nothing that could be set. What shakes a pad has no force
-/// at a handle; tests/calibration/pads.cpp reads it back.
+/// Maps that set no level, with the reason. A map that is not tied to the reference stimulus only orders, and a map of
+/// another quantity than the carrier has nothing to set. Maps of pads have no force at a handle;
+/// tests/calibration/pads.cpp tests them.
 const std::map<std::string, std::string> skipped = {
     {"minsky1995.without_earplugs", "not tied"},   {"minsky1995.with_earplugs", "not tied"},
     {"kornbrot2007.groove", "not of the carrier"}, {"lederman1972.finger_force", "not of the carrier"},
@@ -49,7 +48,7 @@ std::string reason_to_skip(const Map& map) {
   return !map.of_carrier ? "not of the carrier" : !map.tied ? "not tied" : "";
 }
 
-TEST(EveryMap, IsTestedOrSkippedForAStatedReason) {
+TEST(EveryMap, IsTestedOrSkippedWithAReason) {
   std::size_t tested = 0;
   for (const Map* map : common_modules()->declarations.maps()) {
     const bool has_law = std::ranges::any_of(laws, [&](const auto& law) { return map->name == law.map; });
@@ -71,10 +70,10 @@ TEST(EveryMap, IsTestedOrSkippedForAStatedReason) {
 
 constexpr double face = 20e-3;  // m, of the walls that `firm` and `crisp` put up
 
-/// Half of how far a hand may go (m): as 40 mm on the larger devices, and inside of the smaller ones.
+/// Half of the hand's range, in m: 40 mm on larger devices, and less on smaller ones.
 double reach_on(const DeviceProfile& device) { return std::min(40e-3, 0.3 * device.workspace_diameter); }
 
-/// Of what opposes a hand at one speed, from the last part of each pass, where it has settled.
+/// The resistance to a hand at constant speed, from the settled part of each pass.
 struct Steady {
   double force = 0, speed = 0;  // N against the motion, m/s by the encoder
 };
@@ -83,7 +82,7 @@ Steady steadily(const Ticks& ticks, double half, double speed) {
   Steady steady;
   std::size_t passes = 0;
   for (std::size_t from = 0; from < ticks.size();) {
-    // The stretch from 20 % to 80 % of the way on, one way.
+    // The part from 20 % to 80 % of the half range, in one direction.
     const double way = ticks[from].velocity.x > 0 ? 1 : -1;
     std::size_t to = from;
     while (to < ticks.size() && ticks[to].velocity.x * way > 0) ++to;
@@ -106,7 +105,7 @@ Steady steadily(const Ticks& ticks, double half, double speed) {
   return {steady.force / static_cast<double>(passes), steady.speed / static_cast<double>(passes)};
 }
 
-/// The slope of force against something of the hand, over the ticks that `counts`, turned round; with an intercept.
+/// The negated slope of force against a quantity of the hand, over the ticks that `counts`, by a fit with an intercept.
 template <typename Of, typename Counts>
 FeltSize resistance_to(const Ticks& ticks, Of of, Counts counts) {
   double n = 0, u = 0, f = 0, uu = 0, uf = 0;
@@ -119,7 +118,7 @@ FeltSize resistance_to(const Ticks& ticks, Of of, Counts counts) {
   return {-(uf - u * f / n) / n / spread, 1 / std::sqrt(spread)};
 }
 
-/// The complex amplitude of a component at `rate` (Hz), over whole periods of it.
+/// The complex amplitude of the component at `rate` (Hz), over whole periods.
 template <typename Of>
 std::complex<double> component(const Ticks& ticks, double rate, Of of) {
   const double step = ticks[1].time - ticks[0].time;
@@ -162,17 +161,17 @@ FeltSize felt_size(const PublishedLaw& law, const Program& program, const std::m
     const double rate = std::string(law.map) == "stevens1975.vibration_60" ? 60 : 120;
     return {std::abs(component(explore(Rest{}, 1.5), rate, force_x)), 1};
   }
-  throw std::runtime_error("nobody knows how " + percept + " is explored");
+  throw std::runtime_error("there is no exploration for " + percept);
 }
 
 constexpr double by_default = 0.5;
-/// To peak force, as the thesis's joystick has. USB joysticks have sixteen times as many: finer than encoder and rate
-/// let anybody read a speed or an acceleration.
+/// Steps up to the largest force, as on the thesis's joystick. USB joysticks have sixteen times as many, but encoder
+/// and rate do not resolve speeds and accelerations that finely.
 constexpr double finest_steps = 2048;
 
 std::string material_of(const PublishedLaw& law) {
   const std::string asked = std::string("perceptual { ") + law.percept + " 0.5, by " + law.map + " }";
-  // Where the law was found at another rate than the device's rule has, the author says so.
+  // The law at 60 Hz needs another rate than that of the device's rule.
   const bool other_rate = std::string(law.map) == "stevens1975.vibration_60";
   return "material m { " + asked + (other_rate ? "\nphysical { active 0.5 W\nforce = vibrate(rate: 60 Hz) }" : "") +
          " }\n";

@@ -22,22 +22,22 @@
 #include "wale/simulated.hpp"
 #include "wale/stage.hpp"
 
-/// Materials compiled for every device that pushes, explored by a simulated hand, and the size of what carries a
-/// percept read from the actuator's force.
+/// Compiles materials for every force device, explores them with a simulated hand, and measures the size of a percept's
+/// carrier from the actuator's force.
 namespace wale::promises {
 
-/// Devices of force, whichever are declared: those that pull the hand and know where it is.
+/// All declared devices that exert a force and measure a position.
 inline std::vector<DeviceProfile> force_devices() {
   std::vector<DeviceProfile> found;
   common_modules()->declarations.devices.each([&](const std::string&, const DeviceDeclaration& device) {
     const DeviceProfile& profile = device.profile;
-    if (profile.name == "pointer") return;  // draws its forces: nothing comes out of a handle
+    if (profile.name == "pointer") return;  // it draws its forces and has no handle
     if (profile.force_newton > 0 && profile.force_counts > 0 && profile.position_counts > 0) found.push_back(profile);
   });
   return found;
 }
 
-/// Files that are only in memory.
+/// Files in memory, by name.
 class InMemory final : public Resolver {
  public:
   explicit InMemory(std::map<std::string, std::string> files = {}) : files_(std::move(files)) {}
@@ -65,10 +65,10 @@ inline Program compiled_for(const std::string& device, const std::string& text,
   throw std::runtime_error(reasons);
 }
 
-/// A hand that holds firmly (tests/reference/closed_loop.md, "Hands").
+/// The firm hand of tests/reference/closed_loop.md, "Hands".
 inline constexpr HandModel firm_hand{0.8, 15, 400};
 
-/// What a run of `seconds` records once half a second has passed.
+/// The ticks of a run of `seconds`, without the first half second.
 inline std::vector<TickRecord> explored(const Program& program, const Motion& motion, double seconds,
                                         const std::map<std::string, float>& parameters) {
   SimulatedJoystick stick(program.description().device, firm_hand, motion);
@@ -83,7 +83,7 @@ inline std::vector<TickRecord> explored(const Program& program, const Motion& mo
   return ticks;
 }
 
-/// To and fro along x over `half` (m) to either side, at one speed (m/s) but for 50 ms about each turn.
+/// A path to and fro along x over `half` (m) to either side, at constant speed (m/s) except for 50 ms at each turn.
 inline Trace steady_strokes(double half, double speed, double seconds) {
   constexpr double turn = 0.05;
   Trace trace{.points = {}, .velocities_given = true};
@@ -97,7 +97,7 @@ inline Trace steady_strokes(double half, double speed, double seconds) {
   return trace;
 }
 
-/// Line by line over a square of `half` (m) to either side, `lines` of them, at about `speed` (m/s).
+/// A path of `lines` parallel lines over a square of `half` (m) to either side, at about `speed` (m/s).
 inline Trace line_by_line(double half, int lines, double speed) {
   constexpr double turn = 0.05;
   Trace trace{.points = {}, .velocities_given = true};
@@ -112,7 +112,7 @@ inline Trace line_by_line(double half, int lines, double speed) {
   return trace;
 }
 
-/// The size of a carrier as a force told it, and by how much one more newton would have changed it.
+/// The measured size of a carrier, and its change per newton of force.
 struct FeltSize {
   double size = 0, per_newton = 1;
 };
@@ -132,8 +132,8 @@ inline void on_two_threads(std::size_t count, const std::function<void(std::size
   other.join();
 }
 
-/// The largest lateral force within the patch less its rim: the amplitude as the thesis takes it (Minsky 1995, section
-/// 6.2.4), which a lateral force never exceeds and reaches on a hundredth of the patch.
+/// The largest lateral force on the patch without its rim: the amplitude as in Minsky 1995, section 6.2.4. A lateral
+/// force never exceeds it, and reaches it on a hundredth of the patch.
 inline FeltSize largest_force(const std::vector<TickRecord>& ticks, PatchSize patch) {
   FeltSize felt;
   for (const TickRecord& tick : ticks)

@@ -1,6 +1,5 @@
-// What is asked for by percept comes out of the handle, for percepts that are no texture: the simulated hand moves,
-// each carrier is read from the actuator's force alone by a formula of its own, and the published law, worked out here
-// a second time, gives the level back.
+// Promise 3 for percepts that are no texture: the simulated hand moves, the size of each carrier is measured from the
+// actuator's force, and the published law, written independently here, gives the level back.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +12,7 @@
 namespace wale {
 namespace {
 
-/// The ticks of a run once it has settled. The force answers what the hand did a tick before.
+/// The ticks of a run without the first half second.
 std::vector<TickRecord> settled(const std::string& percepts) {
   const Program program = promises::compiled("wale 1\nmaterial m { perceptual { " + percepts + " } }\n");
   std::vector<TickRecord> ticks;
@@ -22,7 +21,7 @@ std::vector<TickRecord> settled(const std::string& percepts) {
   return ticks;
 }
 
-/// The slope of a line through the origin, force against something of the hand, turned round: a resistance.
+/// The negated slope of force against a quantity of the hand, by a fit through the origin.
 template <typename Of>
 double resistance(const std::vector<TickRecord>& ticks, Of of) {
   double products = 0, squares = 0;
@@ -37,7 +36,7 @@ TEST(Viscosity, ComesOutOfTheHandle) {
     const auto ticks = settled("viscosity " + std::to_string(level));
     const double damping = resistance(ticks, [](const TickRecord& tick) { return tick.velocity.x; });
     const double asked = 10 * std::pow(level, 1 / 0.44);  // Stevens and Guirao 1964; level 1 is 10 N s/m
-    // The force is in steps, and the hand moves at up to 0.2 m/s.
+    // The tolerance includes one step of the force at 0.2 m/s.
     EXPECT_NEAR(damping, asked, 0.01 * asked + force_step / 0.2);
     EXPECT_NEAR(std::pow(damping / 10, 0.44), level, 0.01 + 0.44 * level * force_step / 0.2 / asked);
   }
@@ -53,7 +52,7 @@ TEST(Springiness, ComesOutOfTheHandle) {
 
 TEST(Stickiness, ComesOutOfTheHandle) {
   for (const double level : {0.5, 0.8}) {
-    // The median of what opposes a hand that moves faster than the drag needs to come on.
+    // The median of the opposing force at speeds above those of the friction's rise.
     std::vector<double> drags;
     for (const TickRecord& tick : settled("stickiness " + std::to_string(level)))
       if (std::abs(tick.velocity.x) > 0.15) drags.push_back(-tick.force.x * (tick.velocity.x > 0 ? 1 : -1));
@@ -73,8 +72,8 @@ TEST(Vibration, ComesOutOfTheHandle) {
   }
 }
 
-TEST(TwoPercepts, ComeOutSideBySide) {
-  // A drag in proportion to velocity and a pull in proportion to place: the two are told apart by least squares.
+TEST(TwoPercepts, ComeOutTogether) {
+  // Least squares separate the force in proportion to velocity from the force in proportion to place.
   double vv = 0, pp = 0, vp = 0, fv = 0, fp = 0;
   for (const TickRecord& tick : settled("viscosity 0.8; springiness 0.4")) {
     const double v = tick.velocity.x, p = tick.position.x, f = tick.force.x;

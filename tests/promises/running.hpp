@@ -13,10 +13,10 @@
 #include "wale/library.hpp"
 #include "wale/stage.hpp"
 
-/// Materials compiled, rubbed and measured in one go.
+/// Compiles a material, rubs it with the simulated hand, and measures the run.
 namespace wale::promises {
 
-/// A material from its text, for the default device.
+/// The program of a file's text for the default device. Throws std::runtime_error with the diagnostics.
 inline Program compiled(std::string text) {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -29,7 +29,7 @@ inline Program compiled(std::string text) {
   throw std::runtime_error(reasons);
 }
 
-/// The simulated Sandpaper joystick in the hand of the normal person, who moves as told; else rubs to and fro.
+/// The simulated Sandpaper joystick in the normal hand, with the given motion; by default it rubs to and fro.
 inline std::unique_ptr<SimulatedJoystick> joystick(std::optional<Motion> motion = std::nullopt) {
   const Library library;
   const auto person = *library.person();
@@ -39,7 +39,7 @@ inline std::unique_ptr<SimulatedJoystick> joystick(std::optional<Motion> motion 
   throw std::runtime_error("no such device");
 }
 
-/// What the record felt like, less its beginning.
+/// The figures of a record without its first `settling` seconds.
 inline Felt measured(const Program& program, const Record& record, double settling) {
   const auto& device = program.description().device;
   return measure(record, {.position_step = device.workspace_diameter / device.position_counts,
@@ -57,7 +57,7 @@ inline Record record_of(const Program& program) {
   return result->record;
 }
 
-/// Five seconds of rubbing after half a second of settling in; `prepare` may set parameters first.
+/// The figures of five seconds of rubbing after half a second of settling. `prepare` may set parameters first.
 inline Felt rubbed(const Program& program, const std::function<void(Stage&)>& prepare = {}) {
   auto stick = joystick();
   Stage stage(*stick);

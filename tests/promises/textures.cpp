@@ -1,6 +1,6 @@
-// Promise 3 for textures of every make: a level is asked for, the compiler solves the amplitude and keeps it true while
-// the author's parameters move, the simulated hand rubs, and the largest force of the actuator, through Minsky's
-// regression typed in here again, is the level to within one step of the device's force.
+// Promise 3 for textures of every sort. The compiler solves the amplitude for a level and keeps it while parameters
+// change. The simulated hand rubs, and Minsky's regression, written independently here, converts the largest force of
+// the actuator to the level, within one step of the device's force.
 
 #include <glm/vec2.hpp>
 #include <random>
@@ -15,8 +15,8 @@ constexpr double one_newton = 194 * 10.0 / 512, exponent = 0.759593;
 double level_of(double newtons) { return std::pow(std::max(newtons, 0.0) / one_newton, exponent); }
 double force_of(double level) { return one_newton * std::pow(level, 1 / exponent); }
 
-/// A picture of a grained surface, as a file: grains of about 2 mm at half a millimetre a pixel, all within a fifth of
-/// the range, and one pixel that is far above all others. A PGM of 16 bits.
+/// The bytes of a PGM picture of 16 bits: grains of about 2 mm at 0.5 mm per pixel, within a fifth of the range, and
+/// one pixel far above all others.
 std::string photograph_with_a_spike() {
   constexpr int side = 176, grain = 4;
   std::mt19937 random(1995);
@@ -43,10 +43,10 @@ std::string photograph_with_a_spike() {
 struct Surface {
   const char* name;
   const char* physics;
-  bool everywhere_alike = true;  ///< along one line there is all that there is; otherwise the hand goes over the patch
+  bool everywhere_alike = true;  ///< one line shows the whole texture; otherwise the hand covers the patch
 };
 
-/// Each with two parameters that change what `lateral` divides by.
+/// Surfaces with two parameters each, which change the peak slope that `lateral` divides by.
 const std::vector<Surface> surfaces = {
     {"grating",
      "param rib = 2.5 mm in 1.3 mm .. 5.3 mm\nparam duty = 0.5 in 0.35 .. 0.7\n"
@@ -65,7 +65,7 @@ const std::vector<Surface> surfaces = {
      false},
 };
 
-/// The author's own settings: the defaults, and every corner of their ranges.
+/// Settings of the material's parameters: the defaults, and every corner of their ranges.
 std::vector<std::map<std::string, float>> settings_of(const Program& program) {
   std::vector<std::map<std::string, float>> settings = {{}};
   std::vector<Parameter> own;
@@ -79,7 +79,7 @@ std::vector<std::map<std::string, float>> settings_of(const Program& program) {
   return settings;
 }
 
-TEST(Textures, AreAsRoughAsAskedForWhateverTheirParameters) {
+TEST(Textures, HaveTheirLevelForAllParameters) {
   struct Run {
     const Surface* surface;
     Program program;

@@ -1,4 +1,4 @@
-// The bound on a program's force: never below what the machine does, and as low as it should be where that is known.
+// The bound on a program's force is never below a force of the machine, and is tight where the largest force is known.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ TEST(ForceBounds, OfASpringIsItsStiffnessTimesTheWorkspace) {
   EXPECT_NEAR(std::abs(bound.found.hand.position.x), 0.2286, 1e-5);
 }
 
-// 2 x - 3 v is largest at a corner of place and velocity: 2 * 0.2286 m + 3 * 2 m/s.
+// 2 x - 1.5 v is largest at a corner of place and velocity: 2 * 0.2286 m + 1.5 * 2 m/s.
 TEST(ForceBounds, IsFoundAtACornerOfTheEnvelope) {
   const Program program = loaded(pushing({2.0f, -1.5f}, {}, [](unsigned t) {
     return std::vector{instruction(multiply, t, 0, 34), instruction(multiply, t + 1, 2, 35),
@@ -55,7 +55,7 @@ TEST(ForceBounds, OfAGratingIsTheLargestAmplitude) {
 }
 
 // (x - 0.1)(x + 0.1) is -0.01 at least and 0.2286^2 - 0.01 at most.
-TEST(ForceBounds, SplittingFindsWhatOnePassDoesNot) {
+TEST(ForceBounds, SplittingTightensTheBound) {
   const Program program = loaded(pushing({0.1f, 100.0f}, {}, [](unsigned t) {
     return std::vector{instruction(subtract, t, 0, 34), instruction(add, t + 1, 0, 34),
                        instruction(multiply, t + 2, t, t + 1), instruction(multiply, t, t + 2, 35)};
@@ -68,7 +68,7 @@ TEST(ForceBounds, SplittingFindsWhatOnePassDoesNot) {
   EXPECT_NEAR(bound.found.newton, most, 1e-4);
 }
 
-// A force that turns as the hand goes: either component reaches 5 N, their length is 5 N everywhere.
+// A force whose direction turns with x. Each component reaches 5 N, and the length is 5 N everywhere.
 TEST(ForceBounds, KnowTheLengthOfAForceFromItsComponents) {
   PatchProgram p = pushing({20.0f, 5.0f}, {}, [](unsigned t) {
     return std::vector{instruction(multiply, t + 1, 0, 34), instruction(cosine, t + 2, t + 1),
@@ -77,7 +77,7 @@ TEST(ForceBounds, KnowTheLengthOfAForceFromItsComponents) {
   });
   p.tick.back().a = static_cast<RegisterNumber>(p.first_temporary() + 4);  // the limit of force y
   const Program turning = loaded(p);
-  EXPECT_NEAR(prove(turning).bound_newton, 5, 1e-4);  // for a sine and a cosine of one angle without splitting
+  EXPECT_NEAR(prove(turning).bound_newton, 5, 1e-4);  // sine and cosine of one angle need no splitting
   const ForceBound bound = force_bound(turning);
   EXPECT_NEAR(bound.found.newton, 5, 1e-4);
   EXPECT_NEAR(bound.newton, 5, 0.1);
@@ -85,7 +85,7 @@ TEST(ForceBounds, KnowTheLengthOfAForceFromItsComponents) {
   EXPECT_NEAR(bound.axis_newton[1], 5, 1e-4);
 }
 
-TEST(ForceBounds, SplittingNeverFallsBelowWhatTheMachineDoes) {
+TEST(ForceBounds, SplittingNeverFallsBelowAForceOfTheMachine) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Program program = loaded(random_program(seed));
     const ForceBound bound = force_bound(program, whole_domain(program.description()), 20000);

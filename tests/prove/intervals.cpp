@@ -1,5 +1,5 @@
-// The rules of the instruction table's column of ranges against its column of meanings, value by value, and where they
-// must be tight.
+// The column of ranges in the instruction table against its column of meanings, value by value, and by hand where a
+// range must be tight.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ std::vector<Operation> plain_operations() {
   };
 }
 
-TEST(Intervals, ContainWhateverTheMachineMakesOfTheirOperands) {
+TEST(Intervals, ContainEveryResultOfTheMachine) {
   prove_test::Values values(1995);
   for (const Operation operation : plain_operations()) {
     for (int round = 0; round < 60000; ++round) {
@@ -65,7 +65,7 @@ TEST(Intervals, ContainWhateverTheMachineMakesOfTheirOperands) {
   }
 }
 
-// The functions that keep order only nearly: all around their bends, in intervals a few floats wide.
+// Functions that are only nearly monotonic, in intervals a few floats wide around their extrema and elsewhere.
 TEST(Intervals, ContainTheMachinesFunctionsInNarrowIntervals) {
   std::mt19937 random(7);
   for (const Operation operation : {Operation::sine, Operation::cosine, Operation::exp2, Operation::log2,
@@ -86,7 +86,7 @@ TEST(Intervals, ContainTheMachinesFunctionsInNarrowIntervals) {
   }
 }
 
-// Products of signed intervals by hand, and their ends without any slack.
+// Ranges by hand. Where the machine rounds to nearest, their ends are exact.
 TEST(Intervals, AreTightWhereTheMachineRoundsToNearest) {
   const auto between = [](float low, float high) { return Interval::between(low, high); };
   using namespace ranges;
@@ -108,7 +108,7 @@ TEST(Intervals, AreTightWhereTheMachineRoundsToNearest) {
   EXPECT_NEAR(arctangent(between(1, 2), between(-1, 1)).high, std::atan2(1, -1), 2e-6);
 }
 
-TEST(Intervals, NotANumberFallsThroughAsTheMachinesComparisonsHaveIt) {
+TEST(Intervals, NotANumberFollowsTheMachinesComparisons) {
   using namespace ranges;
   const Interval a{1, 2, false}, b{-5, 5, false}, a_nan{1, 2, true}, b_nan{-5, 5, true};
   EXPECT_EQ(least(a, b), (Interval{-5, 2, false}));
@@ -124,7 +124,7 @@ TEST(Intervals, NotANumberFallsThroughAsTheMachinesComparisonsHaveIt) {
   EXPECT_EQ(order({4, 5, true}, a), (Interval{0, 0, false}));
 }
 
-TEST(Intervals, FlagWhatHasNoValue) {
+TEST(Intervals, FlagResultsThatMayBeNotANumber) {
   using namespace ranges;
   const Interval all = Interval::everything(false), zero{0, 0, false}, one{1, 1, false}, infinite{inf, inf, false};
   EXPECT_TRUE(sum(all, all).maybe_nan);
@@ -141,12 +141,12 @@ TEST(Intervals, FlagWhatHasNoValue) {
   EXPECT_FALSE(random().maybe_nan);
 }
 
-// Underflow: what the exact result would be and what the machine makes of it are both inside.
+// Underflow: the exact result and the machine's zero are both inside.
 TEST(Intervals, ReachZeroWhereResultsMayBeFlushed) {
   using namespace ranges;
   EXPECT_EQ(product({1e-30f, 1, false}, {1e-30f, 1, false}), (Interval{0, 1, false}));
   EXPECT_EQ(product({-1, -1e-30f, false}, {1e-30f, 1, false}), (Interval{-1, 0, false}));
-  // (1 - 2^-24) times the least normal number: to nearest it would be that number, and it is flushed.
+  // (1 - 2^-24) times the smallest normal number would round to that number, but the machine flushes it to zero.
   const Interval near = product({least_normal, 1, false}, {1 - 0x1p-24f, 1, false});
   EXPECT_EQ(near.low, 0);
   EXPECT_TRUE(Interval::of(1e-40f).contains(0));

@@ -1,4 +1,4 @@
-// What is proved of looking into tables and grids, against the machine's own look-ups and by hand.
+// The proved ranges of look-ups in tables and grids, against the machine's look-ups and by hand.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using prove_test::Values;
 
-// Out of line, so that they are computed in the machine's mode.
+// Not inlined, so that they are computed in the floating-point mode that the caller has set.
 [[gnu::noinline]] SplineSample sampled(const Spline& spline, float a, float b) { return sample_of(spline, a, b); }
 [[gnu::noinline]] GridSample recalled(const GridShape& shape, const float* cells, float a, float b) {
   return recall_of(shape, cells, a, b);
@@ -72,13 +72,13 @@ TEST(LookUps, TablesKeepToTheirRanges) {
   expect_held(table(5, 5, [](auto, auto) { return 1.0; }), 3000);
 }
 
-// A ramp rises by 1 / 8 a sample; beyond its edge its mirror image falls.
-TEST(LookUps, ARampRisesWhereItIsLookedAtFromWithin) {
+// The ramp rises by 1/32 per sample. Beyond its edges its mirror image falls.
+TEST(LookUps, ARampRisesWithinItsEdges) {
   const Spline spline(table(17, 5, [](auto i, auto) { return 0.25 + i / 32.0; }));
   const TableRanges ranges(spline);
   const Interval rows = Interval::between(1, 3);
   const ResultRanges within = ranges.at(Interval::between(6, 9), rows);
-  EXPECT_NEAR(within[0].low, 0.25 + 5 / 32.0, 2e-3) << "a coefficient on either side of its samples";
+  EXPECT_NEAR(within[0].low, 0.25 + 5 / 32.0, 2e-3) << "one more sample on either side";
   EXPECT_NEAR(within[0].high, 0.25 + 11 / 32.0, 2e-3);
   EXPECT_NEAR(within[1].low, 1 / 32.0, 1e-3);
   EXPECT_NEAR(within[1].high, 1 / 32.0, 1e-3);
@@ -121,7 +121,7 @@ TEST(LookUps, GridsKeepToTheirRanges) {
   }
 }
 
-// Cells as small as floats get: half of one is flushed to zero, which is below the lowest cell.
+// Half of a cell near the smallest normal number is flushed to zero, so a recalled value may be below the lowest cell.
 TEST(LookUps, BetweenTheSmallestCellsThereMayBeZero) {
   const float low = 1.5e-38f, high = 3e-38f;
   const std::vector<float> cells = {low, low};

@@ -7,8 +7,8 @@
 
 namespace wale::prove_test {
 
-/// Random programs whose constants are wild (infinities, not-a-number, subnormals) or ordinary numbers; ordinary ones
-/// are what proofs say something about.
+/// Random programs. Their constants include infinities, not-a-number and subnormals for odd seeds, and are within -3 ..
+/// 3 for even ones, for which proofs give finite bounds.
 inline PatchProgram random_program(unsigned seed) {
   example::RandomProgram generator(seed);
   PatchProgram program = generator.make();
@@ -23,8 +23,8 @@ inline PatchProgram random_program(unsigned seed) {
   return program;
 }
 
-/// A program of the given tick, with a constant 0 in register 32, a device's ceiling in 33, then `constants`; the force
-/// along x is what the tick leaves in its first temporary.
+/// A program of the given tick, with the constant 0 in register 32, the device's ceiling in 33, then `constants`. The
+/// force along x is the first temporary after the tick.
 inline PatchProgram pushing(std::vector<float> constants, std::vector<Parameter> parameters,
                             std::vector<Instruction> (*tick)(unsigned temporary), unsigned temporaries = 8) {
   PatchProgram p = example::least();

@@ -1,4 +1,4 @@
-// What is proved of a program holds in every register of every run, for programs and hands at random, tame and wild.
+// Proved ranges hold for every register of every run, for random programs and hands with ordinary and extreme values.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using prove_test::pushing;
 using prove_test::random_program;
 using prove_test::Values;
 
-/// A part of all that a program may see.
+/// A random part of a domain.
 Domain part_of(const Domain& whole, Values& values) {
   Domain part = whole;
   for (Interval& input : part.inputs) input = values.within(input);
@@ -65,10 +65,10 @@ TEST(Proofs, EveryRegisterKeepsToItsRange) {
       }
     }
   }
-  EXPECT_GT(informative, all / 3) << "ranges that say nothing would prove little";
+  EXPECT_GT(informative, all / 3) << "too few of the ranges are finite";
 }
 
-// The reference that looks at registers is the machine: the same force, bit for bit, from what the machine remembers.
+// The stepping machine of the test gives the same force as the machine, bit for bit, from the same states and cells.
 TEST(Proofs, TheSteppedMachineIsTheMachine) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Program program = loaded(random_program(seed));
@@ -133,8 +133,9 @@ TEST(Proofs, AGratingPushesWithItsAmplitudeInItsRange) {
   EXPECT_EQ(prove(grating, usual).force[0], Interval::between(-1, 1));
 }
 
-// (x - 0.1)(x + 0.1) on +-0.2286 is least at 0, where it is -0.01: the form of x knows both factors as one.
-TEST(Proofs, WhatRegistersHaveInCommonTightensTheBound) {
+// (x - 0.1)(x + 0.1) on +-0.2286 is least at 0, where it is -0.01. Both factors depend on the same x, and the proof
+// knows it.
+TEST(Proofs, DependenceBetweenRegistersTightensTheBound) {
   const Program program = loaded(pushing({0.1f, 100.0f}, {}, [](unsigned t) {
     return std::vector{instruction(subtract, t, 0, 34), instruction(add, t + 1, 0, 34),
                        instruction(multiply, t + 2, t, t + 1), instruction(multiply, t, t + 2, 35)};

@@ -1,4 +1,4 @@
-// What a program may come to remember: no more than it can, and no less than it does.
+// The proved ranges of states contain every value that a state reaches, and are tight where the values are known.
 
 #include "compiler/prove/reachable.hpp"
 
@@ -14,8 +14,8 @@ using enum Operation;
 using example::instruction;
 using example::loaded;
 
-/// What a program may come to remember of which only the first state is told. It begins at 0, is within +-100, and
-/// becomes what `tick` leaves in temporary t + 1, with constants from register 34 on.
+/// The proved range of the only state of a program. The state begins at 0, is within +-100, and its next value is
+/// temporary t + 1 after `tick`. `constants` begin at register 34.
 Interval reached(const std::vector<float>& constants, std::vector<Instruction> (*tick)(unsigned state, unsigned t)) {
   PatchProgram p = example::least();
   p.constants = {0.0f, 10.0f};
@@ -32,15 +32,15 @@ Interval reached(const std::vector<float>& constants, std::vector<Instruction> (
   return reachable_domain(loaded(p)).states.at(0);
 }
 
-TEST(Reachable, WhatIsCountedUpToThreeIsNeverMore) {
+TEST(Reachable, ACountUpToThreeIsNeverMore) {
   const Interval counted = reached({1.0f, 3.0f}, [](unsigned s, unsigned t) {
     return std::vector{instruction(add, t, s, 34), instruction(minimum, t + 1, t, 35)};
   });
   EXPECT_EQ(counted, Interval::between(0, 3));
 }
 
-// s becomes s / 2 + x: with x of +-0.2286 m that is never more than twice as much.
-TEST(Reachable, WhatFadesSettlesWhereItGainsWhatItLoses) {
+// The next s is s / 2 + x. With x within +-0.2286 m, s stays within twice that.
+TEST(Reachable, ADecayingStateSettlesAtItsFixedPoint) {
   const Interval fading = reached({0.5f}, [](unsigned s, unsigned t) {
     return std::vector{instruction(multiply, t, s, 34), instruction(add, t + 1, t, 0)};
   });
@@ -50,13 +50,13 @@ TEST(Reachable, WhatFadesSettlesWhereItGainsWhatItLoses) {
   EXPECT_LT(-fading.low, most * 1.001f);
 }
 
-TEST(Reachable, WhatGrowsReachesItsBounds) {
+TEST(Reachable, AGrowingStateReachesItsBounds) {
   const Interval growing =
       reached({0.5f}, [](unsigned s, unsigned t) { return std::vector{instruction(add, t + 1, s, 34)}; });
   EXPECT_EQ(growing, Interval::between(0, 100));
 }
 
-// 0 / 0 is not a number, which begins again; 7 / 7 is 1.
+// 0 / 0 is not a number, so the state begins again at 0; 7 / 7 is 1.
 TEST(Reachable, NotANumberIsNotRemembered) {
   const Interval ratio =
       reached({0.5f}, [](unsigned s, unsigned t) { return std::vector{instruction(divide, t + 1, s, s)}; });

@@ -1,4 +1,5 @@
-// Every material of the library and its standard modules: no force found is above its bound, and the bounds are close.
+// For every material of the library and its standard modules, the force bound holds and is close to the largest force
+// that is found.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ struct Material {
   Program program;
 };
 
-/// All but the thesis's own, of which there are hundreds.
+/// All materials except those of library/sandpaper, of which there are hundreds.
 std::vector<Material> shipped_materials() {
   const std::filesystem::path library = std::filesystem::path(WALE_SOURCE_DIR) / "library";
   std::vector<std::string> files;
@@ -51,8 +52,8 @@ std::vector<Material> shipped_materials() {
   return materials;
 }
 
-/// Strokes with parameters that move in between, all over their ranges: whether what is remembered stays in `domain`
-/// and no force is above `newton`; otherwise what does not, in words.
+/// Strokes the program while its parameters change over their ranges. Returns the first force above `newton` or the
+/// first state outside of `domain`, in words; empty when there is none.
 std::string strayed(const Program& program, const Domain& domain, double newton) {
   const PatchProgram& description = program.description();
   std::mt19937 random(3);
@@ -100,7 +101,7 @@ TEST(Shipped, MaterialsHaveBoundsThatHoldAndAreClose) {
       EXPECT_LE(bound.axis_newton[axis], program.description().device.force_newton) << name;
     }
     EXPECT_EQ(strayed(program, reachable_domain(program), bound.newton), "") << name;
-    // What is found is found again where it was found.
+    // The largest force is reproduced at the hand, parameters and size that the search reports.
     if (!bound.found.after_a_stroke) {
       Bank bank(program, bound.found.parameters, bound.found.size);
       const Force force = tick(bank, bound.found.hand);

@@ -14,10 +14,10 @@
 #include "runtime/machine/meaning.hpp"
 #include "runtime/machine/peak.hpp"
 
-/// A machine as plain as can be, which runs one instruction after the other and lets what each leaves be looked at.
+/// A plain machine for tests. It runs one instruction at a time and exposes every register.
 namespace wale::stepping {
 
-/// Registers and cells, and where the machine stands.
+/// Registers, cells and the cost so far of a run.
 struct State {
   const DecodedProgram& program;
   std::vector<float> registers;
@@ -25,7 +25,7 @@ struct State {
   long cost = 0;  ///< of all instructions run so far
 };
 
-/// Runs one instruction. Out of line, so that it is computed in the mode that the caller has set.
+/// Runs one instruction. Not inlined, so that it is computed in the floating-point mode that the caller has set.
 [[gnu::noinline]] inline void step(State& state, const Instruction& i) {
   float* const r = state.registers.data();
   const auto three = [&](const auto& sample) {
@@ -49,7 +49,7 @@ struct State {
   state.cost += facts(operation).cost;
 }
 
-/// Runs code and looks whether every result is in its range; the first that is not, in words.
+/// Runs code and returns the first result outside of its range, in words.
 inline std::optional<std::string> run(State& state, std::span<const Instruction> code, const std::string& section,
                                       std::span<const ResultRanges> ranges) {
   const FloatingPointMode mode;
@@ -70,14 +70,14 @@ inline std::optional<std::string> run(State& state, std::span<const Instruction>
   return std::nullopt;
 }
 
-/// A force as any machine takes it: subnormals, which moves hand through as they are, for zero.
+/// A force with subnormals as zero: instructions that only move a value may pass a subnormal on.
 inline double seen(float force) { return std::abs(force) < arithmetic::least_normal ? 0.0 : force; }
 
-/// Runs every section of a program whose inputs, constants, parameters and states are set already, and looks at every
-/// result; the first that leaves its range, or a force that leaves its bound, in words.
+/// Runs every section of a program whose inputs, constants, parameters and states are set in `state`. Returns the first
+/// result outside of its range, or force outside of its bound, in words.
 inline std::optional<std::string> run_all(State& state, const Proof& proof) {
   const PatchProgram& program = state.program.description;
-  // Positions of peaks: the corners and what lies between. They change neither setup nor what the hand does.
+  // Peaks run on a copy of the state, at corners and inner places of their box.
   for (std::size_t number = 0; number < program.setup.size(); ++number) {
     const Instruction& instruction = program.setup[number];
     if (instruction.operation == static_cast<std::uint8_t>(Operation::peak)) {

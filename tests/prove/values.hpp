@@ -10,14 +10,15 @@
 
 namespace wale::prove_test {
 
-/// Floats and intervals of them at random, with a liking for the places where arithmetic bends.
+/// Random floats and intervals, with many near the places where arithmetic is irregular.
 class Values {
  public:
   explicit Values(unsigned seed) : random_(seed) {}
 
   std::mt19937& random() { return random_; }
 
-  /// Any float but not-a-number: edges, small whole numbers, around the least normal number, ordinary sizes, any bits.
+  /// Any float but not-a-number: edges, small whole numbers, numbers near the smallest normal one, ordinary numbers,
+  /// and random bits.
   float any() {
     static constexpr float edges[] = {0.0f,   -0.0f, 1e-45f,     -1e-40f,    least_normal, -least_normal, 1.0f,
                                       -1.0f,  0.5f,  1e4f,       -1e4f,      126.0f,       -126.0f,       128.0f,
@@ -51,7 +52,7 @@ class Values {
     return Interval::between(std::min(first, second), std::max(first, second), random_() % 5 == 0);
   }
 
-  /// An interval within another: often a point or all of it.
+  /// An interval within another, often a point or the whole.
   Interval within(const Interval& whole) {
     float first = of(whole), second = of(whole);
     if (first != first || second != second || random_() % 4 == 0) return whole;
@@ -59,7 +60,7 @@ class Values {
     return Interval::between(std::min(first, second), std::max(first, second));
   }
 
-  /// A value that the interval says it may hold: its ends, beside them, zero of both signs and subnormals, in between.
+  /// A value in the interval: its ends, their neighbours, zeros of both signs, subnormals, or a value in between.
   float of(const Interval& interval) {
     if (interval.maybe_nan && random_() % 4 == 0) return std::numeric_limits<float>::quiet_NaN();
     const auto held = [&](float value) { return std::clamp(value, interval.low, interval.high); };

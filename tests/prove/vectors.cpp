@@ -1,5 +1,5 @@
-// What proofs know of vectors (unit vectors behind their guards, limited lengths, sums) against the machine: programs
-// made of such idioms at random, at places and values where squares are flushed, overflow or are not numbers.
+// Proofs about vectors (guarded unit vectors, limited lengths, sums) against the machine: random programs of such
+// idioms, with values whose squares are flushed to zero, overflow or are not numbers.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using example::instruction;
 using example::loaded;
 using prove_test::Values;
 
-/// Writes programs of two components at a time, every result in a register of its own.
+/// Writes random programs of two-component vectors. Every result has its own register.
 class VectorProgram {
  public:
   struct Vector {
@@ -105,7 +105,7 @@ class VectorProgram {
         const unsigned r = length(v);
         return {write(divide, v.x, r), write(divide, v.y, r)};
       }
-      case 2:  // |v| limited, the components too
+      case 2:  // |v| limited, sometimes the components too
         return held(v, pick(2) == 0 ? program_.first_parameter() : any_constant(), pick(3) != 0);
       case 3: {
         const unsigned factor = any_factor();
@@ -123,24 +123,24 @@ class VectorProgram {
         const unsigned condition = write(less, any_factor(), any_factor());
         return {write(select, condition, v.x, w.x), write(select, condition, v.y, w.y)};
       }
-      case 8: {  // a mixture, or what is no further off
+      case 8: {  // a mixture of v and w
         const unsigned t = pick(3) == 0 ? any_factor() : share(w.x);
         return {write(add, v.x, write(multiply, t, write(subtract, w.x, v.x))),
                 write(add, write(multiply, write(subtract, w.y, v.y), t), v.y)};
       }
-      case 9: {  // a share of v by the fifth power's smooth step
+      case 9: {  // v times a smooth step of fifth degree
         const unsigned t = share(w.y), cube = write(multiply, write(multiply, t, t), t);
         const unsigned inner = write(multiply, t, write(subtract, write(multiply, 40, t), 41));
         const unsigned step = write(multiply, cube, pick(2) == 0 ? write(add, inner, 33) : write(add, 33, inner));
         return {write(multiply, v.x, step), write(multiply, step, v.y)};
       }
-      case 10: {  // what v has in a direction, and that in this direction again
+      case 10: {  // the projection of v on u
         const unsigned angle = any_factor();
         const Vector u = pick(2) == 0 ? any_vector() : Vector{write(cosine, angle), write(sine, angle)};
         const unsigned along = write(add, write(multiply, v.x, u.x), write(multiply, u.y, v.y));
         return {write(multiply, along, u.x), write(multiply, u.y, along)};
       }
-      case 11: {  // limited to C / g, and times g
+      case 11: {  // v limited to C / g, then times g
         const unsigned g = any_factor(), ceiling = write(divide, pick(3) == 0 ? w.x : any_factor(), g);
         const Vector limited = held(v, ceiling, pick(4) != 0);
         const unsigned factor = pick(3) == 0 ? write(negate, g) : g;
@@ -160,7 +160,7 @@ class VectorProgram {
   std::vector<Instruction> code_;
 };
 
-/// Values where squares are flushed, one component's or both, or overflow.
+/// Values whose squares are flushed to zero or overflow, and values of `range`.
 float delicate(Values& values, const Interval& range) {
   static constexpr float sizes[] = {1.0842e-19f, 1.08420217e-19f, 1.0843e-19f, 1.2e-19f, 9e-20f, 5e-20f, 3e-19f,
                                     1e-15f,      1.8e19f,         1.9e19f,     1e-12f,   2e-12f, 0.01f,  0.2f};
@@ -211,7 +211,8 @@ TEST(Vectors, AreNoLongerThanProvedWhereTheDomainIsSplit) {
   }
 }
 
-/// A program whose force is a vector of three registers' idiom: see the tests.
+/// A program with a central force: 1000 N/m outwards with its length limited to 6 N where `limited`, otherwise 6 N
+/// outwards where the distance is above `guard`, in m.
 PatchProgram central(float guard, bool limited) {
   PatchProgram p = example::least();
   p.constants = {0.0f, 10.0f, 6.0f, guard, 1000.0f, 1.0f};
@@ -262,7 +263,7 @@ TEST(Vectors, RemaindersAreWithinTheirDivisor) {
   }
 }
 
-// A quotient that overflows leaves minus infinity, and no remainder is proved.
+// A quotient that overflows makes the remainder minus infinity, so no range of the remainder is proved.
 TEST(Vectors, RemaindersThatOverflowHaveNoRange) {
   PatchProgram p = prove_test::pushing({1e38f, 1e-10f}, {}, [](unsigned t) {
     return std::vector{instruction(multiply, t + 1, 2, 34), instruction(divide, t, t + 1, 35), instruction(floor, t, t),
@@ -275,7 +276,7 @@ TEST(Vectors, RemaindersThatOverflowHaveNoRange) {
   EXPECT_TRUE(prove(program).force[0].contains(force.x));
 }
 
-// t t (3 - 2 t) for every t in steps of 2^-16 and random ones, in each order of its factors.
+// t t (3 - 2 t) for t in 0 .. 1 in steps of 2^-16, in both orders of its factors.
 TEST(Vectors, SmoothStepsAreWithinOne) {
   for (const bool swapped : {false, true}) {
     PatchProgram p = prove_test::pushing({1.0f, 2.0f, 3.0f}, {}, [](unsigned t) {
@@ -297,15 +298,15 @@ TEST(Vectors, SmoothStepsAreWithinOne) {
   }
 }
 
-TEST(Vectors, WhoseLengthIsLimitedAreThatLong) { EXPECT_NEAR(prove(loaded(central(0, true))).bound_newton, 6, 1e-4); }
+TEST(Vectors, WithALimitedLengthAreThatLong) { EXPECT_NEAR(prove(loaded(central(0, true))).bound_newton, 6, 1e-4); }
 
-// A micrometre around the middle is left out: then a unit vector is 1 long.
+// More than a micrometre from the centre, a unit vector has a length of 1.
 TEST(Vectors, OfOneDirectionAreAsLongAsTheirFactor) {
   EXPECT_NEAR(prove(loaded(central(1e-6f, false))).bound_newton, 6, 1e-4);
 }
 
-// With no more guard than the length's being above zero, components of 1e-19 m whose squares are flushed may both be as
-// long as the length: they really are.
+// Guarded only by a length above zero, components near 1e-19 m, whose squares are flushed, may both be as long as the
+// computed length. The machine gives such a force.
 TEST(Vectors, OfOneDirectionAreLongerWhereSquaresAreFlushed) {
   const Program program = loaded(central(0, false));
   EXPECT_NEAR(prove(program).bound_newton, 6 * std::sqrt(2.0), 1e-4);

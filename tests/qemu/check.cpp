@@ -1,6 +1,6 @@
-// The USB drivers against models of devices that the kernel takes for real ones: its virtual host controller enumerates
-// them, its HID driver binds them, and they are reached through its usbfs, hidraw and evdev. Runs as root where
-// vhci-hcd is loaded; tests/qemu/run starts a kernel for it. What is asserted is counts, order and bytes.
+// Runs the USB drivers with models of devices, through a real kernel. The kernel's virtual host controller enumerates
+// the models, and its HID driver binds them. The drivers reach them through usbfs, hidraw and evdev. The program runs as
+// root with vhci-hcd loaded; tests/qemu/run starts a kernel for it. It asserts counts, order and bytes.
 
 #include <algorithm>
 #include <charconv>
@@ -47,7 +47,7 @@ void check_falcon() {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     std::printf("   %.0f commands and answers a second\n",
                 static_cast<double>(device->counts().answers - before) / seconds);
-    await(is_pushed(*device), "the hand is pushed as was asked for");
+    await(is_pushed(*device), "the hand gets the commanded force");
     device.reset();
     port->with<FalconModel>([](FalconModel& model) {
       demand(model.torques == glm::ivec3(0) && model.torques_before_home == 0 && model.wrong_packets == 0,
@@ -56,15 +56,15 @@ void check_falcon() {
   }
   const Found found = find(falcon::vendor, falcon::product);
   const auto device = open(found);
-  await(is_pushed(*device), "it is felt once more");
+  await(is_pushed(*device), "its force is back");
   port.reset();
-  await([&] { return device->was_lost(); }, "unplugged in the middle, it is lost");
-  demand(device->reason() == "it was unplugged", "and says so");
+  await([&] { return device->was_lost(); }, "it is lost when unplugged");
+  demand(device->reason() == "it was unplugged", "its reason is the unplugging");
 }
 
 }  // namespace wale::test
 
-/// check NAME...: openffboard, rhino, falcon, rates; without one all of them.
+/// check NAME... with the names openffboard, rhino, falcon, rates. Without a name, it runs all.
 int main(int count, char** words) {
   using namespace wale::test;
   const std::vector<std::string> named(words + 1, words + count);

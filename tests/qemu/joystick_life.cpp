@@ -28,7 +28,7 @@ bool is_hidraw_there() {
 
 std::string hidraw_of(const Found& found) { return kernel_nodes(found.info).hid.at(0).hidraw; }
 
-/// Whether the model has been told a force other than none since its log was cleared.
+/// Whether the model got a force other than zero since its log was cleared.
 bool was_pushed(UsbipPort& port, const PidFamily& family) {
   return port.with<PidModel>([&](PidModel& model) {
     return std::ranges::any_of(model.log, [&](const std::string& line) {
@@ -51,14 +51,14 @@ std::unique_ptr<HidPidDevice> opened(const Found& found, PidTransportKind transp
 void await_force(UsbipPort& port, HidPidDevice& device, Force newton, glm::dvec2 fraction, const std::string& what) {
   await(
       [&] {
-        device.command(newton);  // or it would let go
+        device.command(newton);  // without commands the device ends its force
         const glm::dvec2 force = force_of(port);
         return std::abs(force.x - fraction.x) < near && std::abs(force.y - fraction.y) < near;
       },
       what);
 }
 
-/// The forces that its first effect was told never fall while what is commanded rises.
+/// The forces sent to the first effect never fall while the commanded force rises.
 void demand_order(UsbipPort& port, const PidFamily& family) {
   port.with<PidModel>([&](PidModel& model) {
     double before = 0;
@@ -71,7 +71,7 @@ void demand_order(UsbipPort& port, const PidFamily& family) {
       before = size;
     }
     demand(rises, "no old force comes after a newer one");
-    demand(model.wrong_reports == 0, "every report is as the device wants it");
+    demand(model.wrong_reports == 0, "every report is valid");
   });
 }
 
@@ -79,7 +79,7 @@ void check_whole_life(UsbipPort& port, const PidFamily& family, PidTransportKind
   const Found found = find(family.vendor, family.product);
   const auto listed = plugged_in({found.context});
   demand(listed.size() == 1 && !listed[0].obstacle, "it is listed as usable: " + listed.at(0).can);
-  demand(kernel_pushes(), "looking takes nothing from the kernel's driver");
+  demand(kernel_pushes(), "listing devices leaves the kernel's driver attached");
   clear_log(port);
   auto device = opened(found, transport);
   demand(force_of(port) == glm::dvec2(0) && !was_pushed(port, family), "it does not push when it is opened");
@@ -97,7 +97,7 @@ void check_whole_life(UsbipPort& port, const PidFamily& family, PidTransportKind
   demand(!device->was_lost(), "nothing is lost");
   const auto counts = device->counts();
   demand(counts.forces_sent[0] > 20 && counts.bad_inputs == 0, "packets go out");
-  demand(counts.inputs > 20 || transport == PidTransportKind::evdev, "and come in");
+  demand(counts.inputs > 20 || transport == PidTransportKind::evdev, "packets come in");
   demand_order(port, family);
   device.reset();
   await([&] { return force_of(port) == glm::dvec2(0); }, "it is left without force");
@@ -137,12 +137,12 @@ void check_game_first(UsbipPort& port, const PidFamily& family, PidTransportKind
          "it is seen to hold the stick: " + holder);
   clear_log(port);
   auto device = opened(found, transport);
-  demand(!was_pushed(port, family), "taking it over pushes nothing");
+  demand(!was_pushed(port, family), "the take-over sends no force");
   if (transport == PidTransportKind::libusb) {
-    demand(force_of(port) == glm::dvec2(0), "taken over, it pushes nothing");
+    demand(force_of(port) == glm::dvec2(0), "after the take-over it has no force");
     await_force(port, *device, {0, -2}, {0, 0.2}, "and then what is commanded");
   } else {
-    demand(std::abs(force_of(port).x - game_force) < near, "the game goes on pushing");
+    demand(std::abs(force_of(port).x - game_force) < near, "the game's force continues");
     await_force(port, *device, {0, -2}, {game_force, 0.2}, "beside what is commanded");
   }
   demand(!device->was_lost(), "nothing is lost");
@@ -192,7 +192,7 @@ void check_rival(UsbipPort& port, const PidFamily& family) {
   await_force(port, *device, {4, 0}, {0.4, 0}, "it pushes");
   reset_as_rival(hidraw_of(found), family);
   await([&] { return device->was_lost(); }, "which is noticed: " + device->reason());
-  demand(force_of(port) == glm::dvec2(0), "nothing pushes any more");
+  demand(force_of(port) == glm::dvec2(0), "no force is left");
   clear_log(port);
   device.reset();
   device = opened(found, PidTransportKind::hidraw);
@@ -208,10 +208,10 @@ void check_handed_in(UsbipPort& port, const PidFamily& family, PidTransportKind 
                                                                    : nodes.hid.at(0).pushing.at(0);
   const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
   auto device = taken(HidPidDevice::open(found.context, descriptor, joystick_profile(), patient(transport)));
-  demand(device->transport() == transport, "a descriptor of " + path + " is known for what it is");
+  demand(device->transport() == transport, "a descriptor of " + path + " is recognised");
   await_force(port, *device, {2, -1}, {0.2, 0.1}, "and used");
   device.reset();
-  demand(fcntl(descriptor, F_GETFD) >= 0, "and stays open");
+  demand(fcntl(descriptor, F_GETFD) >= 0, "it stays open");
   close(descriptor);
   await([&] { return force_of(port) == glm::dvec2(0); }, "without force");
 }

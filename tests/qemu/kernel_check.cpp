@@ -100,11 +100,11 @@ void push_as_nobody(std::uint16_t vendor, std::uint16_t product) {
   demand(setuid(nobody) == 0, "a user without rights");
   const Found found = find(vendor, product);
   const auto listed = plugged_in({found.context});
-  demand(listed.size() == 1 && !listed[0].obstacle, "is told that it is driven by " + listed.at(0).transport);
+  demand(listed.size() == 1 && !listed[0].obstacle, "the list says that it is driven by " + listed.at(0).transport);
   HidPidDevice::Options options = patient(PidTransportKind::evdev);
   options.transport.reset();
   const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), options));
-  demand(device->transport() == PidTransportKind::evdev, "and drives it so: " + device->manner());
+  demand(device->transport() == PidTransportKind::evdev, "the driver runs it: " + device->manner());
   std::_Exit(0);
 }
 

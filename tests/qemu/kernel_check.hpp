@@ -21,7 +21,7 @@ namespace wale::test {
 /// Prints "ok: what", or "FAILED: what" and ends the process.
 void demand(bool holds, const std::string& what);
 
-/// Waits until it holds, a minute at most: emulation is slow, and a real fault lasts for ever.
+/// Waits until `holds`, for at most a minute. Emulation is slow, and a real fault does not pass.
 template <class Condition>
 void await(Condition holds, const std::string& what) {
   for (int i = 0; i < 60'000; ++i) {
@@ -31,7 +31,7 @@ void await(Condition holds, const std::string& what) {
   demand(false, what);
 }
 
-/// Ticks at 900 Hz, as well as this machine can; late ones are not caught up.
+/// Ticks at 900 Hz if the machine is fast enough. Late ticks are not caught up.
 template <class Serve>
 void tick(long ticks, Serve serve) {
   auto next = std::chrono::steady_clock::now();
@@ -42,7 +42,7 @@ void tick(long ticks, Serve serve) {
   }
 }
 
-/// What is plugged in, as a new look at it tells: nobody passes the kernel's news on here.
+/// The devices that are plugged in, by a new enumeration, because this system does not report changes.
 struct Found {
   std::shared_ptr<UsbContext> context;
   UsbDeviceInfo info;
@@ -55,18 +55,18 @@ Value taken(Result<Value> opened) {
   return *std::move(opened);
 }
 
-// An emulated processor that others keep busy may take its time.
+// An emulated processor on a busy computer is slow.
 constexpr unsigned patience = 5000;  // ms
 HidPidDevice::Options patient(PidTransportKind transport);
 
 std::unique_ptr<UsbipPort> plugged(const PidFamily& family);
 glm::dvec2 force_of(UsbipPort& port);
 
-/// The kernel's input device that can push with a constant force, because its driver has taken the descriptor; empty:
-/// there is none.
+/// The kernel's input device with a constant force, which exists if its driver accepts the descriptor. Empty if there
+/// is none.
 std::string pushing_input();
 
-/// This program once more, as a process of its own with these words. Killed in the end.
+/// Another process of this program, with these arguments. The destructor kills it.
 class OtherProcess {
  public:
   explicit OtherProcess(std::vector<std::string> words);
@@ -76,23 +76,23 @@ class OtherProcess {
 
   pid_t process() const { return process_; }
   void kill();
-  /// Waits until it ends by itself; whether it did so without a failure.
+  /// Waits until the process ends by itself. Returns whether it ended without a failure.
   bool ends_well();
 
  private:
   pid_t process_ = 0;
 };
 
-/// What such processes do, for ever: a game that plays half of full force along x through the kernel's driver, and a
+/// The endless work of such processes: a game that plays half of full force along x through the kernel's driver, and a
 /// `wale` that pushes with 3 of 10 N along x.
 [[noreturn]] void play_as_game();
 [[noreturn]] void push_as_wale(PidTransportKind transport, std::uint16_t vendor, std::uint16_t product);
-/// A user who may open the event node only, and leaves the choice of transport to the driver.
+/// A user who may open only the event node, and lets the driver choose the transport.
 [[noreturn]] void push_as_nobody(std::uint16_t vendor, std::uint16_t product);
 
-/// The whole life of a joystick on one transport, and what others do to it meanwhile.
+/// Tests a joystick on one transport from start to end, with other programs that use it meanwhile.
 void check_life(const PidFamily& family, PidTransportKind transport);
-/// Prints how many reports a second reach the device, how old their forces are, and what it costs.
+/// Prints the number of reports per second that reach the device, the age of their forces, and their cost.
 void measure_rates(const PidFamily& family);
 void check_falcon();
 

@@ -13,7 +13,7 @@ namespace wale::test {
 namespace {
 
 constexpr long ticks = 4500;        // 5 s at 900 Hz
-constexpr long counts_a_tick = 7;   // of 32767, so that a force tells which tick it is of
+constexpr long counts_a_tick = 7;   // of 32767, so that each force identifies its tick
 constexpr double full_newton = 10;  // of `joystick_profile`
 
 using Threads = std::set<std::string>;
@@ -38,7 +38,7 @@ double processor_seconds(const Threads& but) {
   return nanoseconds * 1e-9;
 }
 
-/// When each tick's force was commanded, and how old it was when it reached the device, in microseconds.
+/// The time of each tick's command, and the age of its force when it reached the device, in microseconds.
 struct Ages {
   std::array<std::atomic<std::int64_t>, ticks + 1> commanded{};
   std::array<std::vector<std::int64_t>, 2> of_axis;
@@ -78,7 +78,7 @@ void measure(UsbipPort& port, const PidFamily& family, PidTransportKind transpor
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   const double share = (processor_seconds(others) - processor) / seconds;
   const auto sent = device->counts().forces_sent;
-  // What is on its way still comes.
+  // Packets under way still arrive.
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   port.with<PidModel>([](PidModel& model) { model.when_taken = {}; });
   std::vector<std::int64_t> all = ages.of_axis[0];

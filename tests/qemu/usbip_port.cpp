@@ -23,7 +23,7 @@ constexpr int full_speed = 2;
 // Commands of USB/IP; a header is 48 bytes, big-endian, as twelve words.
 constexpr std::uint32_t submit = 1, unlink_request = 2, submit_answer = 3, unlink_answer = 4;
 using Header = std::array<std::uint32_t, 12>;
-enum Word { command, number, device, direction, endpoint, first };  // what follows depends on the command
+enum Word { command, number, device, direction, endpoint, first };  // the meaning of later words depends on the command
 constexpr std::size_t length_at = first + 1, setup_at = 10;
 
 bool read_all(int socket, void* to, std::size_t size) {
@@ -78,7 +78,7 @@ UsbipPort::UsbipPort(std::unique_ptr<UsbModel> model, int port) : model_(std::mo
 UsbipPort::~UsbipPort() {
   try {
     tell_controller("detach", std::to_string(port_));
-  } catch (const std::runtime_error&) {  // the kernel has let it go by itself
+  } catch (const std::runtime_error&) {  // the kernel has released it by itself
   }
   ends_ = true;
   shutdown(socket_, SHUT_RDWR);
@@ -100,7 +100,7 @@ void UsbipPort::read_requests() {
       const bool was_waiting = found != waiting_.end();
       if (was_waiting) waiting_.erase(found);
       ++unlinked;
-      const int status = was_waiting ? -ECONNRESET : 0;  // 0: its answer is on its way already
+      const int status = was_waiting ? -ECONNRESET : 0;  // 0: its answer is already under way
       write_all(socket_, bytes_of({unlink_answer, header[number], 0, 0, 0, static_cast<std::uint32_t>(status)}));
       continue;
     }
@@ -167,7 +167,7 @@ void UsbipPort::frame() {
   }
 }
 
-/// What every device answers (USB 2.0, section 9.4); nothing where that is not such a question, or it stalls.
+/// The answer of every device to a standard request (USB 2.0, section 9.4). Empty for other requests and for a stall.
 std::optional<UsbModel::Bytes> UsbipPort::standard(const UsbModel::SetUp& setup) const {
   constexpr std::uint8_t get_status = 0, clear_feature = 1, set_feature = 3, get_descriptor = 6, set_configuration = 9,
                          set_interface = 11;

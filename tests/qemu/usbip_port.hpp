@@ -14,20 +14,20 @@
 
 namespace wale::test {
 
-/// A model of a device plugged into the kernel's own USB, by its virtual host controller (vhci_hcd): the controller is
-/// given one end of a socketpair, and at the other end this speaks USB/IP (Documentation/usb/usbip_protocol.rst, what
-/// follows an import). The kernel enumerates it as it does any device, and the model's frames pass once a millisecond.
-/// Needs root, and the modules usbip-core and vhci-hcd.
+/// A model of a device that is plugged into the kernel's USB, through its virtual host controller (vhci_hcd). The
+/// controller gets one end of a socketpair. At the other end, this class speaks USB/IP as after an import
+/// (Documentation/usb/usbip_protocol.rst). The kernel enumerates it like any device. The model's frames pass once per
+/// millisecond. The class needs root, and the modules usbip-core and vhci-hcd.
 class UsbipPort {
  public:
-  /// Plugs it into one of the controller's ports, 0 .. 7. Throws std::runtime_error where that cannot be.
+  /// Plugs the device into one of the controller's ports, 0 .. 7. Throws std::runtime_error if that fails.
   UsbipPort(std::unique_ptr<UsbModel> model, int port);
   /// Unplugs it.
   ~UsbipPort();
   UsbipPort(const UsbipPort&) = delete;
   UsbipPort& operator=(const UsbipPort&) = delete;
 
-  /// Calls `look` with the model while nobody else uses it.
+  /// Calls `look` with the model, under the lock.
   template <class Model, class Look>
   auto with(Look look) {
     const std::lock_guard lock(mutex_);
@@ -37,7 +37,7 @@ class UsbipPort {
   std::atomic<long> packets_out{0}, packets_in{0}, unlinked{0};
 
  private:
-  /// A request of the controller's that waits for its answer.
+  /// A request of the controller that waits for its answer.
   struct Request {
     std::uint32_t number = 0, endpoint = 0, length = 0;
     bool is_in = false;

@@ -77,7 +77,7 @@ class Evaluator {
     return std::visit([&](const auto& node) { return (*this)(node, names); }, tree_.expr(id));
   }
 
-  /// What `force = … limit …` says: the force's length held, its direction kept.
+  /// `force = … limit …`: the force's length is limited, its direction is kept.
   Quantity limited(const Quantity& force, const Quantity& ceiling) {
     require(force.type == Quantity::Type::vector && ceiling.type == Quantity::Type::number &&
                 force.dimension == ceiling.dimension,
@@ -140,7 +140,7 @@ class Evaluator {
   }
 
   Quantity operator()(const Conditional& node, const Names& names) {
-    // Both sides are checked, one is taken: what is undecided in the other must not matter, and so decides nothing.
+    // Both sides are checked, and one is taken. If the other is undecided, that does not matter.
     const Quantity condition = evaluate(node.condition, names);
     require(condition.type == Quantity::Type::condition, "no condition");
     return evaluate(condition.value[0] != 0 ? node.yes : node.no, names);
@@ -285,7 +285,7 @@ class Evaluator {
       alike();
       const Component y = scalar(0), x = scalar(1);
       const double size = std::hypot(x.value, y.value), error = x.error + y.error;
-      // At the cut the angle jumps by a whole turn; near the middle it is anything.
+      // At the cut the angle jumps by a whole turn. Near the middle it may have any value.
       if (size <= 4 * error || (x.value < 0 && std::abs(y.value) <= y.error)) throw Undecided{};
       return of(rounded(std::atan2(y.value, x.value), error / (size - 2 * error) + function_rounding));
     }
@@ -364,13 +364,13 @@ class Evaluator {
   HandState hand_;
 };
 
-/// Range of a state, in the dimension of its initial value; wide where it has none of its own.
+/// The range of a state, in the dimension of its initial value. A state without a declared range gets a wide one.
 std::array<double, 2> range_of(Evaluator& evaluator, const StateStatement& state, const Names& names) {
   if (!state.range) return {-1e30, 1e30};
   return {evaluator.evaluate(state.range->low, names).value[0], evaluator.evaluate(state.range->high, names).value[0]};
 }
 
-/// Each part of a state's new value by itself.
+/// Treats each component of a state's new value separately.
 Quantity held(Quantity value, Evaluator& evaluator, const StateStatement& state, const Names& names) {
   const auto [low, high] = range_of(evaluator, state, names);
   for (int i = 0; i < (value.type == Quantity::Type::vector ? 2 : 1); ++i) {
@@ -405,11 +405,11 @@ Quantity Simulation::tick(const HandState& hand, bool entering) {
   Names names;
   std::optional<Quantity> sum;
   const auto& statements = only_material(tree_).physical;
-  // Everything but the updates reads the states as they are now.
+  // Everything except the updates reads the states of this tick.
   for (const auto& statement : statements) {
     if (const auto* param = std::get_if<ParamStatement>(&statement.what)) {
       Quantity value = evaluator.evaluate(param->value, names);
-      // What is set is a float already.
+      // A parameter's value is already a float.
       if (const auto set = parameters_.find(text_of(param->name)); set != parameters_.end())
         value = number(set->second, value.dimension, 0);
       names[text_of(param->name)] = value;

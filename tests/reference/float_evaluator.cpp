@@ -15,11 +15,11 @@ namespace wale::reference {
 
 namespace {
 
-/// How often something changes, as the language reference has it: never, with parameters, with the hand.
+/// How often a value changes, as in the language reference: never, with parameters, with the hand.
 enum class Changes { never, with_parameters, with_hand };
 
-/// One value that has been worked out, and from what: so that it can be derived. A value that never changes is known to
-/// whoever derives, and known to be zero when it is.
+/// A computed value and its operands, for derivatives. Derivatives know the value of a step that never changes, and so
+/// whether it is zero.
 struct Step {
   enum class Kind { value, input, operation, lookup, component };
   Kind kind = Kind::value;
@@ -38,7 +38,7 @@ struct Step {
   bool zero() const { return is(0.0f) || is(-0.0f); }
 };
 
-/// What comes from outside as the machine takes it: subnormal numbers are the zeros of their signs.
+/// Converts an input as the machine does: a subnormal number becomes the zero of its sign.
 float entering(double number) {
   const auto value = static_cast<float>(number);
   return std::fpclassify(value) == FP_SUBNORMAL ? std::copysign(0.0f, value) : value;
@@ -59,7 +59,7 @@ float entering(double number) {
 
 }  // namespace
 
-/// One walk over the terms, at one hand or one point of a peak's lattice.
+/// Evaluates the terms at one state of the hand, or at one point of a peak's lattice.
 class FloatEvaluation {
  public:
   FloatEvaluation(FloatSimulation& simulation, const FloatInputs& inputs)
@@ -68,7 +68,7 @@ class FloatEvaluation {
         inputs_(&inputs),
         known_(simulation.material_.terms.size(), nullptr) {}
 
-  /// Everything anew, for other inputs.
+  /// Starts again, for other inputs.
   void begin(const FloatInputs& inputs) {
     inputs_ = &inputs;
     for (const TermId id : reached_) known_[id] = nullptr;
@@ -80,7 +80,7 @@ class FloatEvaluation {
 
   const Step* constant(float value) { return keep({.value = value}); }
 
-  /// The operation, but for what is exact whatever its operands are: that leaves no step of its own.
+  /// Performs an operation. An operation that is exact for all operands makes no step.
   const Step* apply(Operation operation, const Step* a, const Step* b = nullptr, const Step* c = nullptr) {
     if (operation == Operation::multiply && b->is(1)) return a;
     if (operation == Operation::multiply && a->is(1)) return b;
@@ -189,7 +189,7 @@ class FloatEvaluation {
     return {simulation_.first_cells_[memory], grid.columns, grid.rows};
   }
 
-  /// The 99th percentile over the patch less its rim, by a plain loop over the lattice that PATCH_PROGRAM.md states.
+  /// The 99th percentile over the patch without its rim, by a simple loop over the lattice of PATCH_PROGRAM.md.
   const Step* peak(TermId of) {
     const Step* here = step(of);
     if (here->changes != Changes::with_hand) return here;
@@ -225,15 +225,15 @@ class FloatEvaluation {
   const SolvedMaterial& material_;
   const FloatInputs* inputs_;
   std::vector<const Step*> known_;  ///< by term
-  std::vector<TermId> reached_;     ///< those that are known
-  std::deque<Step> steps_;          ///< they point to one another; those after `used_` are old
+  std::vector<TermId> reached_;     ///< the terms with an entry in `known_`
+  std::deque<Step> steps_;          ///< steps point to each other; those after `used_` are outdated
   std::size_t used_ = 0;
 };
 
 namespace {
 
-/// A step that can be calculated with, so that the derivative column of the instruction table reads as mathematics.
-/// What is known to be zero stays zero and vanishes from sums.
+/// A step with arithmetic operators, so that the derivative column of the instruction table reads as mathematics. A
+/// known zero stays zero and vanishes from sums.
 struct Derived {
   FloatEvaluation* evaluation;
   const Step* step;
@@ -266,7 +266,7 @@ Derived operator/(Derived a, Derived b) { return a.zero() ? a : apply(Operation:
 [[maybe_unused]] Derived exp2(Derived a) { return apply(Operation::exp2, a); }
 [[maybe_unused]] Derived absolute(Derived a) { return apply(Operation::absolute, a); }
 [[maybe_unused]] Derived less(Derived a, Derived b) { return apply(Operation::less, a, b); }
-/// Both the same number: it does not matter which is chosen, and no choice is left to know of.
+/// Selects `b` or `c`. If both are the same number, it records no choice.
 [[maybe_unused]] Derived select(Derived a, Derived b, Derived c) {
   if (b.step == c.step || (b.step->constant() && c.step->is(b.step->value))) return b;
   return {a.evaluation, a.evaluation->apply(Operation::select, a.step, b.step, c.step)};

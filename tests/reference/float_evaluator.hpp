@@ -7,29 +7,29 @@
 #include "compiler/solve/solve.hpp"
 #include "runtime/machine/spline.hpp"
 
-/// A solved material worked out term by term in 32-bit floats, one operation after the other, for one hand at a time.
-/// Knows nothing of graphs, sharing, sections, registers and instructions; used by nothing but tests, which hold the
-/// machine to its every bit.
+/// Evaluates a solved material term by term in 32-bit floats, one operation after the other, for one hand at a time. It
+/// does not use graphs, sharing, sections, registers or instructions. Only tests use it, and compare the machine with
+/// it bit for bit.
 namespace wale::reference {
 
-/// What a tick is asked about, in the order of their input registers: position, velocity, ... (`Input`).
+/// The inputs of a tick, in the order of the input registers: position, velocity, ... (`Input`).
 using FloatInputs = std::array<float, 32>;
 
-/// A material that runs, tick by tick.
+/// Runs a material tick by tick.
 class FloatSimulation {
  public:
-  /// The material outlives it. `parameters` lie in their ranges; `inputs` hold patch and period.
+  /// The material must outlive the object. `parameters` must be in their ranges. `inputs` hold patch and period.
   FloatSimulation(const SolvedMaterial& material, std::vector<float> parameters, const FloatInputs& inputs);
 
-  /// Memories begin anew, as when the program is placed.
+  /// Resets the memories, as when the program is placed.
   void place();
-  /// The hand has come in: states begin.
+  /// The hand enters the patch: resets the states.
   void enter(const FloatInputs& hand);
-  /// The force on a hand, x and y; then states and memories go on.
+  /// Returns the force on a hand, x and y, then advances states and memories.
   std::array<float, 2> tick(const FloatInputs& hand);
 
   const std::vector<float>& states() const { return states_; }
-  /// Of all memories in their order, each row by row from the lower left.
+  /// The cells of all memories in order, each row by row from the lower left.
   const std::vector<float>& cells() const { return cells_; }
 
  private:
@@ -41,7 +41,7 @@ class FloatSimulation {
   std::vector<Spline> splines_;           ///< by table
   std::vector<std::size_t> first_cells_;  ///< by memory
   std::vector<float> states_, initial_states_, cells_;
-  std::map<TermId, float> peaks_;  ///< worked out once: they change with parameters and patch only
+  std::map<TermId, float> peaks_;  ///< computed once: they change only with parameters and patch
 };
 
 }  // namespace wale::reference

@@ -11,7 +11,7 @@
 namespace wale::acceleration_filter_test {
 namespace {
 
-// The profile's velocity window has 15 ticks: acceleration windows have 8 to 30.
+// The profile's velocity window is 15 ticks, so acceleration windows are 8 to 30 ticks.
 
 TEST(AccelerationFilter, IsZeroUntilItsShortestWindowIsFull) {
   AccelerationFilter filter(sandpaper());
@@ -31,8 +31,8 @@ TEST(AccelerationFilter, AParabolaOfWholeCountsIsExact) {
   }
 }
 
-// Rounding to counts is noise of 1 / sqrt(12), uniform, so a parabola through n = 31 samples has a curvature with a
-// standard deviation of sqrt(720 / n^5) of that; the window may be shorter by a few.
+// Rounding to counts is uniform noise with a standard deviation of 1 / sqrt(12). The second derivative of a parabola
+// through n = 31 samples has sqrt(720 / n^5) of that. The window may be a few ticks shorter.
 TEST(AccelerationFilter, ConstantAccelerationIsRightWithinTheNoiseOfAFullWindow) {
   for (const double acceleration : {0.0137, -0.05, 0.31}) {
     AccelerationFilter filter(sandpaper());
@@ -46,7 +46,7 @@ TEST(AccelerationFilter, ConstantAccelerationIsRightWithinTheNoiseOfAFullWindow)
   }
 }
 
-TEST(AccelerationFilter, AHandAtRestHasLittle) {
+TEST(AccelerationFilter, IsSmallForAHandAtRest) {
   AccelerationFilter filter(sandpaper());
   for (int tick = 0; tick < 100; ++tick) ASSERT_EQ(filter(17, 1), 0);
   std::mt19937 random(1);
@@ -60,7 +60,7 @@ TEST(AccelerationFilter, AHandAtRestHasLittle) {
   EXPECT_LT(most, 0.02) << "a plain second difference would be 2";
 }
 
-// Late by half the window, 15 ticks of the period's 900: sin is off by at most 2 pi 15 / 900 of its amplitude.
+// The delay is half the window, 15 ticks of the 900 of a period, so the error is at most 2 pi 15 / 900 of the amplitude.
 TEST(AccelerationFilter, ASineIsFollowedWithHalfAWindowOfDelay) {
   const double amplitude = 900, w = 2 * std::numbers::pi / 900;  // 50 mm at 1 Hz
   AccelerationFilter filter(sandpaper());
@@ -76,8 +76,7 @@ TEST(AccelerationFilter, ASineIsFollowedWithHalfAWindowOfDelay) {
   EXPECT_LT(std::sqrt(late / 1800), 0.045 * amplitude * w * w);
 }
 
-// The hand rests and then accelerates at 1 count per tick^2, 45 m/s^2: the longest window that still fits the bend is
-// left behind within the shortest.
+// The hand rests and then accelerates at 2 counts per tick^2, 90 m/s^2. The window shortens within the shortest window.
 TEST(AccelerationFilter, AStepIsFollowedWithinTheShortestWindow) {
   AccelerationFilter filter(sandpaper());
   for (int tick = 0; tick < 100; ++tick) filter(0, 1);
@@ -142,7 +141,7 @@ TEST(PlainDifferences, AreThoseOfTheCounts) {
   EXPECT_EQ(third.acceleration, -7);
 }
 
-// The second divided difference of a parabola is its curvature however far apart the samples are.
+// The second divided difference of a parabola is its curvature at any spacing of the samples.
 TEST(PlainDifferences, SkippedPeriodsCount) {
   PlainDifferences differences;
   int tick = 0;

@@ -1,5 +1,5 @@
-// The guards in the loop with the simulated joystick: how a device of known mass and damping moves under sampled and held
-// control, compared with figures of control theory and of tests/reference/closed_loop.md.
+// The guards in the loop with the simulated joystick: the motion of a device of known mass and damping under sampled and
+// held control, compared with control theory and tests/reference/closed_loop.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,8 @@ namespace {
 
 using Field = std::function<glm::dvec2(glm::dvec2 position)>;
 
-/// The device of the reference without its friction. The spring of 2 b / T is the stiffest that is passive on it.
+/// The device of the reference without friction, and without slew and, unless `encoder`, without quantisation. The
+/// stiffest passive spring on it is 2 b / T.
 DeviceProfile frictionless(bool encoder) {
   DeviceProfile profile = sandpaper();
   profile.friction = 0;
@@ -30,7 +31,7 @@ DeviceProfile frictionless(bool encoder) {
 double stiffest_passive(const DeviceProfile& profile) { return 2 * profile.damping * profile.rate; }
 
 struct Outcome {
-  double late_speed = 0;  ///< m/s, the greatest in the last two seconds
+  double late_speed = 0;  ///< m/s, the highest in the last two seconds
   long acted = 0;
 };
 
@@ -62,12 +63,12 @@ Field spring(double stiffness) {
   return [=](glm::dvec2 position) { return -stiffness * position; };
 }
 
-/// A wall from x = 0 on.
+/// A wall at x >= 0.
 Field wall(double stiffness) {
   return [=](glm::dvec2 position) { return glm::dvec2(-stiffness * std::max(0.0, position.x), 0); };
 }
 
-/// Ribs 2.5 mm apart whose force is cut off at its amplitude, as corduroy's is.
+/// Ribs 2.5 mm apart whose force is limited to its amplitude, like corduroy.
 Field ribs(double amplitude) {
   return [=](glm::dvec2 position) {
     const double sine = std::sin(2 * std::numbers::pi * position.x / 0.0025);
@@ -80,7 +81,7 @@ TEST(ClosedLoop, ASpringOfTwiceThePassiveStiffnessIsCalmed) {
     SCOPED_TRACE(encoder);
     const Scene scene{frictionless(encoder), no_hand, Rest{}};
     const Field field = spring(2 * stiffest_passive(scene.profile));
-    EXPECT_GT(run(scene, field, 20, false, {0.5, 0}).late_speed, 0.2) << "it does diverge when nobody looks";
+    EXPECT_GT(run(scene, field, 20, false, {0.5, 0}).late_speed, 0.2) << "without the guards it diverges";
     const Outcome calmed = run(scene, field, 20, true, {0.5, 0});
     EXPECT_LT(calmed.late_speed, 0.1);
     EXPECT_GT(calmed.acted, 0);
@@ -88,20 +89,20 @@ TEST(ClosedLoop, ASpringOfTwiceThePassiveStiffnessIsCalmed) {
 }
 
 TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmed) {
-  // A light hand leans on it: 0.2 kg, 0.5 N s/m and 135 N/m towards a place 10 mm inside.
+  // A light hand of 0.2 kg, 0.5 N s/m and 135 N/m leans on it, with a target 10 mm inside.
   for (const bool encoder : {false, true}) {
     SCOPED_TRACE(encoder);
     const HandModel light{.mass = 0.2, .damping = 0.5, .stiffness = 135};
     const Scene scene{frictionless(encoder), light, Rest{{0.01, 0}}};
     const Field field = wall(2 * 2 * (scene.profile.damping + light.damping) * scene.profile.rate);
     const double unguarded = run(scene, field, 20, false, {-8, 0}).late_speed;
-    EXPECT_GT(unguarded, 0.08) << "it does sing when nobody looks";
+    EXPECT_GT(unguarded, 0.08) << "without the guards it oscillates";
     EXPECT_LT(run(scene, field, 20, true, {-8, 0}).late_speed, 0.1 * unguarded);
   }
 }
 
-/// The stiffest that is passive behind a delay of so many ticks, with the hand's damping beside the device's: Colgate
-/// and Schenkel's bound with the delay in it, b / (T / 2 + t).
+/// The stiffest passive spring, in N/m, with a delay of `ticks` and the damping of device and hand: the bound of Colgate
+/// and Schenkel with a delay, b / (T / 2 + t).
 double stiffest_passive(const Scene& scene, double ticks) {
   return (scene.profile.damping + scene.hand.damping) * scene.profile.rate / (0.5 + ticks);
 }
@@ -112,7 +113,7 @@ DeviceProfile late(DeviceProfile profile, double ticks) {
   return profile;
 }
 
-TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmedBehindADelay) {
+TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmedWithADelay) {
   const HandModel light{.mass = 0.2, .damping = 0.5, .stiffness = 135};
   for (const bool encoder : {false, true})
     for (const double ticks : {1.0, 2.0, 2.7}) {
@@ -130,12 +131,12 @@ TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmedBehindADelay) {
     }
 }
 
-TEST(ClosedLoop, NothingIsDoneToWhatIsPassiveBehindADelay) {
+TEST(ClosedLoop, PassiveFieldsWithADelayAreNotChanged) {
   for (const bool encoder : {false, true})
     for (const double ticks : {1.0, 2.0, 2.7})
       for (const double share : {0.1, 0.5, 0.9}) {
         SCOPED_TRACE(testing::Message() << share << ", " << ticks << " ticks late");
-        const Scene alone{late(frictionless(encoder), ticks), no_hand, Rest{{0.012, 0.006}}};  // let go there
+        const Scene alone{late(frictionless(encoder), ticks), no_hand, Rest{{0.012, 0.006}}};  // the handle is released there
         const double stiffness = share * stiffest_passive(alone, ticks);
         EXPECT_EQ(run(alone, spring(stiffness), 10, true, stiffness * glm::dvec2(-0.012, -0.006)).acted, 0);
         const Scene leaning{late(frictionless(encoder), ticks), normal_hand(), Lateral{0.02, 1}};
@@ -147,7 +148,7 @@ TEST(ClosedLoop, NothingIsDoneToWhatIsPassiveBehindADelay) {
       }
 }
 
-TEST(ClosedLoop, NothingIsDoneToPassiveSpringsAndWalls) {
+TEST(ClosedLoop, PassiveSpringsAndWallsAreNotChanged) {
   for (const bool encoder : {false, true})
     for (const double share : {0.1, 0.5, 0.9}) {
       SCOPED_TRACE(share);
@@ -159,25 +160,25 @@ TEST(ClosedLoop, NothingIsDoneToPassiveSpringsAndWalls) {
     }
 }
 
-TEST(ClosedLoop, NothingIsDoneToATextureThatIsRubbed) {
+TEST(ClosedLoop, ARubbedTextureIsNotChanged) {
   const HandModel light{.mass = 0.2, .damping = 2.5, .stiffness = 60};
   const HandModel firm{.mass = 0.9, .damping = 12, .stiffness = 400};
-  // Its steepest slope is 1.3 A 2 pi / 2.5 mm; at 0.5 N that is passive on the device alone (1800 N/m).
+  // The steepest slope is 1.3 A 2 pi / 2.5 mm. At 0.5 N it is passive on the device alone (1800 N/m).
   for (const HandModel& hand : {normal_hand(), light, firm})
     for (const double amplitude : {0.1, 0.5})
       for (const Motion& motion : {Motion(Lateral{0.04, 1}), Motion(Lateral{0.02, 0.5}), Motion(Circular{0.03, 1})}) {
         const Scene scene{sandpaper(), hand, motion};
         EXPECT_EQ(run(scene, ribs(amplitude), 5, true).acted, 0) << amplitude << " N, hand of " << hand.mass << " kg";
       }
-  // Corduroy needs 2.8 N s/m, which the device has not; hands that rub it have.
+  // Corduroy needs 2.8 N s/m, more than the damping of the device but less than that of a hand.
   for (const HandModel& hand : {normal_hand(), firm})
     for (const Motion& motion : {Motion(Lateral{0.04, 1}), Motion(Circular{0.03, 1})})
       EXPECT_EQ(run({sandpaper(), hand, motion}, ribs(1.934), 5, true).acted, 0) << hand.mass << " kg";
 }
 
-/// Pulled along a slope at an even pace, the loop gains K dx^2 / 2 - b dx^2 / T a tick: the force that is held was that
-/// of the place before.
-TEST(PassivityObserver, MetersWhatAHeldSpringGives) {
+/// At constant speed over a spring, the loop gains K dx^2 / 2 - b dx^2 / T per tick, since the held force is that of the
+/// place before.
+TEST(PassivityObserver, MetersTheGainOfAHeldSpring) {
   DeviceProfile profile = frictionless(false);
   PassivityObserver observer(profile);
   const double stiffness = 5000, step = 1e-5;
@@ -187,18 +188,18 @@ TEST(PassivityObserver, MetersWhatAHeldSpringGives) {
     const Force field(-stiffness * position);
     observer(field, position, 1);
     observer.commanded(field);
-    // Towards the middle the spring pulls less than what is held: a gain.
+    // Towards the centre the spring's force is smaller than the held force, which is a gain.
     if (tick > 0) expected += stiffness * step * step / 2 - profile.damping * step * step * profile.rate;
     ASSERT_NEAR(observer.gained(), expected, 1e-4 * expected + 1e-12) << tick;
   }
-  EXPECT_EQ(observer.acted(), 0) << "half a millijoule is allowed at 50 N and this pace";
+  EXPECT_EQ(observer.acted(), 0) << "0.5 mJ is allowed at 50 N and this speed";
 }
 
-TEST(PassivityObserver, WhatItAddsIsDampingAndBounded) {
+TEST(PassivityObserver, ItsForceIsDampingAndBounded) {
   DeviceProfile profile = frictionless(false);
   profile.damping = 0;
   PassivityObserver observer(profile);
-  // A force that always goes along: nothing but gain.
+  // The actual force always pushes along the motion, so every tick is a gain.
   long acted = 0;
   for (int tick = 0; tick < 2000; ++tick) {
     const double x = 0.001 * std::sin(0.2 * tick), before = 0.001 * std::sin(0.2 * (tick - 1));
@@ -215,8 +216,8 @@ TEST(PassivityObserver, WhatItAddsIsDampingAndBounded) {
   EXPECT_EQ(acted, observer.acted());
 }
 
-/// What the observer adds is a force too: where a force opposes the motion already, damping comes on top of it.
-TEST(PassivityObserver, WhatItAddsStaysWithinWhatTheUserAllows) {
+/// The observer's damping adds to a force that already opposes the motion; the sum stays within the user's limit.
+TEST(PassivityObserver, ItsForceStaysWithinTheUsersLimit) {
   constexpr double most = 0.5;
   Guards guards(frictionless(false), most);
   double last = 0;
@@ -229,7 +230,7 @@ TEST(PassivityObserver, WhatItAddsStaysWithinWhatTheUserAllows) {
   EXPECT_GT(guards.counts().passivity, 0);
 }
 
-TEST(PassivityObserver, LeansOnADelayOnlyWhereTheDampingIsKnown) {
+TEST(PassivityObserver, CountsADelayOnlyWhereTheDampingIsKnown) {
   DeviceProfile known = late(frictionless(false), 2), assumed = known;
   assumed.damping_known = false;
   PassivityObserver with(known), without(assumed), prompt(frictionless(false));
@@ -255,8 +256,7 @@ TEST(PassivityObserver, WithoutAKnownMassItOnlyMeters) {
   }
 }
 
-/// The work that a field does on a hand over `seconds`, J, by the forces that the guards let through and by what they
-/// were asked for.
+/// The work of a field on a hand in J: by the forces after the energy meter, and by the forces before it.
 struct Work {
   double let = 0, asked = 0;
   long held = 0;
@@ -282,7 +282,7 @@ Work work_of(const std::function<glm::dvec2(glm::dvec2 position, glm::dvec2 velo
   return work;
 }
 
-TEST(EnergyMeter, HoldsBackNothingThatComesFromAPotentialOrOnlyResists) {
+TEST(EnergyMeter, DoesNotChangePotentialsAndResistances) {
   const auto conservative = [](glm::dvec2 place, glm::dvec2, double) { return -80.0 * place + ribs(1.9)(place); };
   const auto resisting = [](glm::dvec2 place, glm::dvec2 velocity, double) { return -3.0 * velocity + ribs(1)(place); };
   // 1/2 80 N/m (70 mm)^2, and for the ribs 1.9 N over half a period.
@@ -311,17 +311,17 @@ TEST(EnergyMeter, ASourceGivesItsRangeAndThenItsWatts) {
       const Work work = work_of(field, path, range, active, seconds);
       ASSERT_GT(work.asked, 2 * (range + active * seconds));
       EXPECT_LE(work.let, range + (active + 0.002) * seconds + 1e-6);
-      EXPECT_GE(work.let, 0.9 * (range + active * seconds)) << "what it may give it does give";
+      EXPECT_GE(work.let, 0.9 * (range + active * seconds)) << "the allowed energy is not withheld";
       EXPECT_GT(work.held, 0);
     }
 }
 
-/// A program that says more watts than the device gives gets what the device gives.
-TEST(EnergyMeter, TheDeviceSaysHowMuchAProgramGets) {
+/// The device's limit of active power holds where a program declares more.
+TEST(EnergyMeter, TheDeviceLimitsTheActivePower) {
   constexpr double range = 0.01, seconds = 30;
   for (const double cap : {0.0, 0.02, 5.0}) {
     DeviceProfile profile = frictionless(true);
-    profile.mass = 0;  // the passivity observer leaves it alone
+    profile.mass = 0;  // without a mass the passivity observer does not act
     profile.active_watt = cap;
     Guards guards(profile);
     guards.allow(range, 0.1);
@@ -329,7 +329,7 @@ TEST(EnergyMeter, TheDeviceSaysHowMuchAProgramGets) {
     glm::dvec2 last(0), last_force(0);
     for (long n = 0; n < std::lround(seconds * profile.rate); ++n) {
       const TracePoint at = wale::at(Lateral{0.04, 1}, static_cast<double>(n) / profile.rate);
-      const Force force = guards(Force(8.0 * at.velocity), at.position, 1);  // some 0.25 W
+      const Force force = guards(Force(8.0 * at.velocity), at.position, 1);  // about 0.25 W
       if (n > 0) given += 0.5 * glm::dot(last_force + glm::dvec2(force), at.position - last);
       last = at.position, last_force = force;
     }

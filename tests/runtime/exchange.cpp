@@ -12,7 +12,7 @@
 namespace wale::exchange_test {
 namespace {
 
-/// Counts how many of it live, and on which thread they die.
+/// Counts the live instances, and those that were destroyed on the real-time thread.
 struct Counted {
   static inline std::atomic<int> alive = 0;
   static inline thread_local bool may_free = true;
@@ -52,7 +52,7 @@ TEST(Exchange, FreesEachValueOnceOnTheControlSide) {
     exchange.take();
     exchange.publish(Counted(3));
     exchange.take();
-    EXPECT_EQ(Counted::alive, 2);  // 2 was given back and waits
+    EXPECT_EQ(Counted::alive, 2);  // 2 was given back and waits to be collected
     exchange.collect();
     EXPECT_EQ(Counted::alive, 1);
     exchange.publish(Counted(4));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi, step = 0.2286 / 4096;
 
-/// A second of ticks, each as `tick_at` says of its time.
+/// A second of ticks; `tick_at` gives each tick for its time in s.
 Record one_second(const std::function<TickRecord(double)>& tick_at) {
   Record record{.seconds_per_tick = 1.0 / 900, .ticks = {}};
   for (int i = 0; i < 900; ++i) {
@@ -39,7 +39,7 @@ TickRecord rubbing(double t) {
 MeasureOptions options(float amplitude = 2) { return {.position_step = step, .predicted_amplitude = amplitude}; }
 
 TEST(Felt, CountsEachFlankOfATexture) {
-  // 40 periods in a second; the first swing has none before it
+  // 40 periods in a second have 80 swings, and the first has none before it
   const Felt felt = measure(one_second(rubbing), options());
   EXPECT_EQ(felt.crossings, 79);
   EXPECT_EQ(felt.alternations, 79);
@@ -47,7 +47,7 @@ TEST(Felt, CountsEachFlankOfATexture) {
   EXPECT_EQ(felt.ticks_rubbing, 900);
 }
 
-TEST(Felt, SizesAreThoseOfASine) {
+TEST(Felt, FiguresAreThoseOfASine) {
   const Felt felt = measure(one_second(rubbing), options());
   EXPECT_NEAR(felt.force_rubbing.rms, 2 / std::sqrt(2.0), 0.01);
   EXPECT_NEAR(felt.force_rubbing.maximum, 2, 0.01);
@@ -83,7 +83,7 @@ TEST(Felt, ALimitCycleOnTheSpotCrossesNothing) {
   EXPECT_EQ(felt.crossings, 0);
 }
 
-TEST(Felt, SpringAndOilHaveNothingToCross) {
+TEST(Felt, SpringAndOilHaveNoCrossings) {
   for (const double lag : {0.0, pi / 2}) {
     const Felt felt = measure(one_second([&](double t) {
                                 const double a = 2 * pi * 5 * t + 0.1;
@@ -100,7 +100,7 @@ TEST(Felt, SpringAndOilHaveNothingToCross) {
 TEST(Felt, SwingsBelowHalfTheAmplitudeDoNotCount) {
   EXPECT_EQ(measure(one_second(rubbing), options(3.9f)).crossings, 79);
   EXPECT_EQ(measure(one_second(rubbing), options(4.1f)).crossings, 0);
-  EXPECT_EQ(measure(one_second(rubbing), options(0)).crossings, 79) << "half the P99 where nothing is predicted";
+  EXPECT_EQ(measure(one_second(rubbing), options(0)).crossings, 79) << "without a prediction, half of the P99 counts";
 }
 
 TEST(Felt, CrossingsAreCountedAlongTheAxisWithMoreForce) {
@@ -122,7 +122,7 @@ TEST(Felt, StuckIsMovingAtMostAFewCountsForAWhile) {
   });
   const Felt felt = measure(record, options());
   EXPECT_NEAR(felt.stuck, 0.5, 0.03);
-  EXPECT_NEAR(felt.force_rubbing.rms, std::sqrt(2.0), 0.05) << "the steady 1 N while stuck is not rubbing";
+  EXPECT_NEAR(felt.force_rubbing.rms, std::sqrt(2.0), 0.05) << "the constant 1 N while stuck does not count as rubbing";
   EXPECT_NEAR(felt.force.rms, std::sqrt((2 + 1) / 2.0), 0.05);
 }
 
@@ -155,7 +155,7 @@ TEST(Felt, MovementAboutTheMean) {
   EXPECT_NEAR(felt.position_range, 0.02, 1e-5);
 }
 
-TEST(Felt, AnInteractionThatNobodyKnowsIsNotInvented) {
+TEST(Felt, AnUnknownInteractionIsAbsent) {
   const float unknown = std::numeric_limits<float>::quiet_NaN();
   const Felt felt = measure(one_second([&](double) {
                               return TickRecord{.interaction = {unknown, unknown}};
@@ -165,7 +165,7 @@ TEST(Felt, AnInteractionThatNobodyKnowsIsNotInvented) {
   EXPECT_FALSE(felt.interaction_rubbing);
 }
 
-TEST(Felt, AnEmptyRecordIsNothing) {
+TEST(Felt, AnEmptyRecordHasZeroFigures) {
   const Felt felt = measure({.seconds_per_tick = 1.0 / 900, .ticks = {}}, options());
   EXPECT_EQ(felt.ticks, 0);
   EXPECT_EQ(felt.force.p99, 0);
@@ -190,7 +190,7 @@ TEST(LevelsBack, AreRefusedWithTheReason) {
   Felt felt;
   felt.crossings = 49;
   EXPECT_EQ(in_words(levels_back(bank, felt)[0].back.error()),
-            "the hand crossed the texture 49 times, and 50 are needed");
+            "the hand crossed the texture 49 times, expected at least 50");
 
   PatchProgram program = corduroy(1.934f).description();
   program.percepts[0].alone = false;

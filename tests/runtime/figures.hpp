@@ -5,7 +5,7 @@
 
 namespace wale {
 
-/// The simulated Sandpaper joystick and hand of tests/reference/closed_loop.md; slew and filter as calibration/ has them.
+/// The joystick and hand of tests/reference/closed_loop.md, with the slew and filter of calibration/devices/sandpaper.wale.
 inline DeviceProfile sandpaper() {
   return {.name = "sandpaper",
           .workspace_diameter = 0.2286,

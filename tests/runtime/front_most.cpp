@@ -1,4 +1,4 @@
-// The front-most patch under a point, against a look at every patch.
+// The front-most patch under a point, against a search of all patches.
 
 #include "runtime/stage/front_most.hpp"
 
@@ -11,7 +11,7 @@
 namespace wale::front_most_test {
 namespace {
 
-/// Of all patches with the point within them, one of the greatest layer, and of those the last.
+/// The patch that contains the point and has the highest layer; the last of several.
 std::uint32_t scan(const std::vector<PatchOutline>& patches, glm::dvec2 point) {
   std::uint32_t found = FrontMost::none;
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -31,7 +31,7 @@ void compare(const std::vector<PatchOutline>& patches, std::mt19937& random, int
   for (int i = 0; i < points; ++i) {
     glm::dvec2 point(anywhere(random), anywhere(random));
     if (i % 2 == 0 &&
-        !patches.empty()) {  // on an edge, beside it by the least that a float or a double knows, at a corner
+        !patches.empty()) {  // on an edge, next to it by the smallest step of a float or double, or at a corner
       const PatchOutline& each = patches[random() % patches.size()];
       const double x =
           static_cast<double>(each.position.x) + (random() % 2 == 0 ? 0.5 : -0.5) * static_cast<double>(each.width);
@@ -60,7 +60,7 @@ std::vector<PatchOutline> random_patches(std::mt19937& random, std::size_t count
   return patches;
 }
 
-TEST(FrontMost, IsWhatALookAtEveryPatchFinds) {
+TEST(FrontMost, AgreesWithASearchOfAllPatches) {
   std::mt19937 random(1995);
   for (const std::size_t count : {1, 2, 3, 10, 57, 300, 2000}) {
     for (const float largest : {0.002f, 0.02f, 0.3f}) {
@@ -74,7 +74,7 @@ TEST(FrontMost, OfNoneIsNone) {
   EXPECT_EQ(FrontMost().at({std::nan(""), 1e300}), FrontMost::none);
 }
 
-TEST(FrontMost, OfOneIsItUpToItsEdge) {
+TEST(FrontMost, OfOnePatchIncludesItsEdge) {
   const std::vector<PatchOutline> one = {{{0.25f, -0.5f}, 0.5f, 0.25f}};
   const FrontMost front_most(one);
   EXPECT_EQ(front_most.at({0.25, -0.5}), 0u);
@@ -94,7 +94,7 @@ TEST(FrontMost, AmongEqualLayersTheLastOne) {
   EXPECT_EQ(FrontMost(patches).at({0, 0}), 7u);
 }
 
-TEST(FrontMost, PatchesThatAreNowhereAreNotFound) {
+TEST(FrontMost, PatchesWithInvalidOutlinesAreNotFound) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const std::vector<PatchOutline> patches = {{{nan, 0}, 1, 1}, {{0, 0}, nan, 1},     {{0, 0}, -1, 1},
                                              {{0, inf}, 1, 1}, {{0, 0}, 0.1f, 0.1f}, {{0, 0}, inf, 1}};
@@ -110,7 +110,7 @@ TEST(FrontMost, RowsAndPointsWithoutExtent) {
   compare(flat, random, 2000);
 }
 
-// Frames within frames: each crosses every cell that the ones in front of it leave open.
+// Nested frames: each covers every cell that the ones in front of it leave open.
 TEST(FrontMost, MemoryStaysInProportion) {
   std::mt19937 random(4);
   std::vector<PatchOutline> frames;
@@ -123,7 +123,7 @@ TEST(FrontMost, MemoryStaysInProportion) {
   compare(frames, random, 300);
 }
 
-TEST(FrontMost, WhatIsCoveredIsNotListed) {
+TEST(FrontMost, CoveredPatchesAreNotListed) {
   std::mt19937 random(5);
   const std::vector<PatchOutline> same(20'000, {{0, 0}, 0.2f, 0.2f});
   const FrontMost one_for_all(same);

@@ -12,14 +12,14 @@ namespace {
 
 constexpr float step = 200.0f / 900;  // N per tick
 
-/// The force that is let through with the handle at rest.
+/// The force after the guards, with the handle at rest.
 Force at(Guards& guards, Force wanted) {
   const Force force = guards(wanted, glm::dvec2(0), 1);
   guards.commanded(force);
   return force;
 }
 
-/// Guards that have caught up with `force`.
+/// Guards that have finished slewing to `force`.
 Guards at_ease(Force force = Force(0)) {
   Guards guards(sandpaper());
   for (int tick = 0; tick < 200; ++tick) at(guards, force);
@@ -52,7 +52,7 @@ TEST(Guards, EachAxisStaysWithinTheDevicesPeak) {
   EXPECT_EQ(guards.counts().device_limit, 2);
 }
 
-TEST(Guards, TheWholeForceStaysWithinWhatTheUserAllows) {
+TEST(Guards, TheForceStaysWithinTheUsersLimit) {
   Guards guards(sandpaper(), 3);
   for (int tick = 0; tick < 200; ++tick) at(guards, {1.8f, 2.4f});
   EXPECT_EQ(guards.counts().user_limit, 0);
@@ -67,7 +67,7 @@ TEST(Guards, SlewFromTheStartUntilCaughtUp) {
   for (int tick = 1; tick <= 9; ++tick) EXPECT_NEAR(at(guards, {0, 2.1f}).y, tick * step, 1e-5) << tick;
   EXPECT_EQ(at(guards, {0, 2.1f}), Force(0, 2.1f));
   EXPECT_EQ(guards.counts().slew, 9);
-  EXPECT_EQ(at(guards, {0, -9}), Force(0, -9)) << "caught up, so a fast force is the program's own affair";
+  EXPECT_EQ(at(guards, {0, -9}), Force(0, -9)) << "after the slew, fast changes pass";
   EXPECT_EQ(guards.counts().slew, 9);
 }
 
@@ -79,7 +79,7 @@ TEST(Guards, SlewAgainAfterEachChangeAlsoAcrossAxes) {
   EXPECT_NEAR(next.y, step * 0.8f, 1e-5);
 }
 
-TEST(Guards, ChasingAMovingForceTheyStayOnUntilTheyMeetIt) {
+TEST(Guards, SlewingToAMovingForceEndsWhenItIsReached) {
   Guards guards(sandpaper());
   float last = 0;
   for (int tick = 0; tick < 400; ++tick) {
@@ -93,7 +93,7 @@ TEST(Guards, ChasingAMovingForceTheyStayOnUntilTheyMeetIt) {
   }
 }
 
-TEST(Guards, WithoutADeclaredSlewNothingIsSlowed) {
+TEST(Guards, WithoutADeclaredSlewForcesPass) {
   DeviceProfile profile = sandpaper();
   profile.slew = 0;
   Guards guards(profile);

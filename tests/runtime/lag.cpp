@@ -1,4 +1,4 @@
-// What a late actuator exerts, against the overlap of each command's time with the period.
+// The force of a delayed actuator, against the overlap of each command's time with the period.
 #include "runtime/stage/lag.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace wale::lag_test {
 namespace {
 
-/// The mean over [end - periods, end] of commands that act from k + late to k + 1 + late, k their number.
+/// The mean over [end - periods, end] of commands; command k acts from k + late to k + 1 + late.
 double mean_force(const std::vector<double>& commands, double late, double end, double periods) {
   double sum = 0;
   for (std::size_t k = 0; k < commands.size(); ++k) {
@@ -49,7 +49,7 @@ TEST(Lag, IsTheMeanOfTheCommandsThatHaveArrived) {
     }
 }
 
-TEST(Lag, ABandwidthIsLateByItsTimeConstant) {
+TEST(Lag, ABandwidthDelaysByItsTimeConstant) {
   DeviceProfile profile = sandpaper();
   profile.bandwidth_y = profile.rate / (2 * std::numbers::pi * 3);
   EXPECT_NEAR(Lag(profile).periods().y, 3, 1e-9);

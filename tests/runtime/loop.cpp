@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto never = []() noexcept { return false; };
 
-/// A clock that oversleeps on some of its wakings, by ns.
+/// A clock that oversleeps, in ns, at some of its wakings.
 struct FakeClock {
   std::int64_t time = 5'000'000'000;
   std::map<int, std::int64_t> oversleeps;  // by the number of the waking
@@ -38,7 +38,7 @@ TEST(Loop, ServesEveryPeriodAtDeadlinesThatDoNotDrift) {
     ASSERT_EQ(beats[n].period, n);
     ASSERT_EQ(beats[n].lateness, 0);
     ASSERT_EQ(beats[n].elapsed, n == 0 ? 0 : 1);
-    // n / 900 s in whole ns, whatever n: 10 s after the first one the error is still below one
+    // Deadline n is n / 900 s, rounded to ns: even 10 s after the first the error is below 1 ns.
     ASSERT_LE(std::abs((clock.deadlines[n] - clock.deadlines[0]) * 9 - n * 10'000'000), 9);
   }
 }
@@ -55,7 +55,7 @@ TEST(Loop, SkipsPeriodsThatPassedAndNeverServesThemInABurst) {
   EXPECT_EQ(beats[3].lateness, 2'500'000);
   EXPECT_EQ(beats[4].period, 6);
   EXPECT_EQ(beats[4].elapsed, 1);
-  EXPECT_EQ(beats[4].lateness, 0) << "the next deadline is where it always was";
+  EXPECT_EQ(beats[4].lateness, 0) << "the next deadline has not moved";
 }
 
 TEST(Loop, LateByLessThanAPeriodSkipsNothing) {
@@ -87,7 +87,7 @@ TEST(Loop, AServiceThatTakesTooLongCostsTheNextPeriods) {
   EXPECT_EQ(served, (std::vector<long>{0, 1, 4, 5, 6, 7, 8, 9}));
 }
 
-TEST(Loop, ServedAndMissedAddUpAlsoWhenTheEndIsSleptThrough) {
+TEST(Loop, ServedAndMissedAddUpEvenWhenTheEndIsSleptThrough) {
   FakeClock clock{.oversleeps = {{7, 60'000'000'000}}};
   long served = 0;
   EXPECT_EQ(run_loop(clock, 1000, 10, never, [&](const Beat&) { ++served; }), 3);
@@ -147,7 +147,7 @@ TEST(CostMeter, AWholeTickIsTheSumOfItsSteps) {
   ASSERT_TRUE(costs);
   double sum = 0;
   for (const Times& step : costs->of) sum += step.maximum;
-  EXPECT_NEAR(costs->whole.maximum, sum, 1e-12) << "all read the clock between one step and the next once";
+  EXPECT_NEAR(costs->whole.maximum, sum, 1e-12) << "the clock is read once between two steps";
 }
 
 TEST(CostMeter, InVirtualTimeThereIsNone) {

@@ -1,5 +1,5 @@
-// What keeps motors cool, against the closed form of a first-order heating under a constant force, and against an
-// integration of its own.
+// The limit that keeps motors cool, against the closed form of first-order heating under a constant force, and against
+// an independent integration.
 #include "runtime/stage/motor_heat.hpp"
 
 #include <gtest/gtest.h>
@@ -22,17 +22,17 @@ DeviceProfile rated() {
   return profile;
 }
 
-/// r of the class's description: the last of the way is gone in so many seconds.
+/// r in the documentation of MotorHeat, in s: the time in which the force eases to the rating.
 double easing(const DeviceProfile& profile) { return profile.force_newton / (2 * profile.slew); }
 
-TEST(MotorHeat, UnderTheLargestForceFromColdTheRatingIsReachedWhenTheClosedFormSays) {
+TEST(MotorHeat, UnderAConstantForceTheRatingIsReachedAtTheTimeOfTheClosedForm) {
   const DeviceProfile profile = rated();
   for (const double force : {10.0, 8.0, 5.5}) {
     SCOPED_TRACE(force);
     MotorHeat heat(profile);
-    const double due = -tau * std::log(1 - std::pow(continuous / force, 2));
+    const double reached = -tau * std::log(1 - std::pow(continuous / force, 2));  // s
     double lowered = 0, last = force, fastest = 0;
-    for (long tick = 0; tick < std::lround(3 * due * profile.rate); ++tick) {
+    for (long tick = 0; tick < std::lround(3 * reached * profile.rate); ++tick) {
       heat.elapse(1);
       const Force held = heat.held_within({-force, 0});
       ASSERT_EQ(held.y, 0);
@@ -40,22 +40,22 @@ TEST(MotorHeat, UnderTheLargestForceFromColdTheRatingIsReachedWhenTheClosedFormS
       fastest = std::max(fastest, last + held.x);
       last = -held.x;
       heat.commanded(held);
-      if (static_cast<double>(tick) / profile.rate > due + 20 * easing(profile)) {
+      if (static_cast<double>(tick) / profile.rate > reached + 20 * easing(profile)) {
         ASSERT_NEAR(held.x, -continuous, 1e-5);
       }
     }
-    EXPECT_NEAR(lowered, due - easing(profile), 0.2 * easing(profile)) << "no sooner than its last part needs";
-    EXPECT_LE(fastest, profile.slew / profile.rate) << "no faster than a slew";
+    EXPECT_NEAR(lowered, reached - easing(profile), 0.2 * easing(profile)) << "the force eases no sooner than needed";
+    EXPECT_LE(fastest, profile.slew / profile.rate) << "the force eases no faster than a slew";
   }
 }
 
-TEST(MotorHeat, NeverGrowsBeyondTheRatingWhateverIsWanted) {
+TEST(MotorHeat, NeverExceedsTheRatingForAnyForce) {
   std::mt19937 random(1995);
   std::uniform_real_distribution<double> anything(-10, 10);
   for (const double slew : {200.0, 0.0, 20.0}) {
     DeviceProfile profile = rated();
     profile.slew = slew;
-    profile.heating_seconds = slew == 20 ? 5 : 0.7;  // far more than the last part of the way takes
+    profile.heating_seconds = slew == 20 ? 5 : 0.7;  // much longer than the easing
     MotorHeat heat(profile);
     glm::dvec2 hot(0), wanted(0), force(0);
     double hottest = 0, most = 0;
@@ -73,7 +73,7 @@ TEST(MotorHeat, NeverGrowsBeyondTheRatingWhateverIsWanted) {
         ASSERT_GE(force[axis] * wanted[axis], 0);
         if (std::abs(wanted[axis]) <= continuous) {
           ASSERT_FLOAT_EQ(static_cast<float>(force[axis]), static_cast<float>(wanted[axis]))
-              << "what it bears for ever it always gets";
+              << "the continuous force always passes";
         }
       }
       most = std::max(most, std::abs(force.x));
@@ -81,11 +81,11 @@ TEST(MotorHeat, NeverGrowsBeyondTheRatingWhateverIsWanted) {
     }
     EXPECT_LE(hottest, continuous * continuous * (1 + 1e-6));
     EXPECT_GT(hottest, 0.9 * continuous * continuous);
-    EXPECT_EQ(most, 10) << "cold, everything goes";
+    EXPECT_EQ(most, 10) << "a cold motor gets every force";
   }
 }
 
-TEST(MotorHeat, WhereNobodyKnowsItNothingIsHeldBack) {
+TEST(MotorHeat, WithoutARatingForcesPass) {
   MotorHeat heat(sandpaper());
   for (int tick = 0; tick < 100'000; ++tick) {
     heat.elapse(1);
@@ -94,10 +94,10 @@ TEST(MotorHeat, WhereNobodyKnowsItNothingIsHeldBack) {
   }
 }
 
-TEST(MotorHeat, IsAGuardOfItsOwnAndEachAxisHasItsMotor) {
+TEST(MotorHeat, IsCountedSeparatelyAndActsOnEachAxis) {
   DeviceProfile profile = rated();
   profile.slew = 0;
-  profile.mass = 0;  // so that the passivity observer leaves it alone
+  profile.mass = 0;  // so that the passivity observer does not act
   Guards guards(profile);
   long held = 0;
   for (int tick = 0; tick < 9000; ++tick) {

@@ -1,4 +1,4 @@
-// Patches that move while they are felt, against a look at every patch in the order of the text.
+// Patches that move while they are felt, against a search of all patches.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@
 namespace wale::moving_test {
 namespace {
 
-/// A handle that is led about and notes the forces. Its mass is unknown and its force may jump, so that what a program
-/// wants is what is commanded.
+/// A handle that the test moves and that notes its forces. It has no mass and no slew, so the guards do not change a
+/// program's force.
 class Led : public Device {
  public:
   const DeviceProfile& profile() const noexcept override { return profile_; }
@@ -49,7 +49,7 @@ RunResult run_of(Stage& stage, long ticks) {
   return *std::move(run);
 }
 
-/// As `push`, but it may give as much energy as it likes.
+/// Like `push`, with an active power above any that occurs.
 Program pushing(float force) {
   PatchProgram program = push(force).description();
   program.active_watt = 100;
@@ -57,7 +57,7 @@ Program pushing(float force) {
   return *std::move(loaded);
 }
 
-/// What lies on the workspace, as plainly as can be.
+/// A patch on the workspace, for the plain search.
 struct Lying {
   glm::vec2 position;
   PatchSize size;
@@ -75,7 +75,7 @@ float felt_at(const std::vector<Lying>& all, glm::dvec2 point) {
   return found ? found->force : 0;
 }
 
-TEST(Moving, WhatIsFeltIsWhatALookAtEveryPatchFinds) {
+TEST(Moving, TheFeltPatchIsThatOfASearchOfAllPatches) {
   std::mt19937 random(1995);
   std::uniform_real_distribution<float> place(-0.05f, 0.05f), size(0.004f, 0.04f), force(-0.3f, 0.3f);
   Led device;
@@ -99,7 +99,7 @@ TEST(Moving, WhatIsFeltIsWhatALookAtEveryPatchFinds) {
     device.counts += glm::ivec2(static_cast<int>(random() % 61) - 30, static_cast<int>(random() % 61) - 30);
     device.counts = glm::clamp(device.counts, glm::ivec2(-900), glm::ivec2(900));
     expected.push_back(felt_at(lying, glm::dvec2(device.counts) * device.profile_.position_step()));
-    // Ready for the next beat.
+    // Changes for the next beat.
     for (unsigned moves = random() % 4; moves > 0; --moves) {
       const std::size_t patch = random() % std::min<std::size_t>(lying.size(), tick < 1000 ? 5 : lying.size());
       lying[patch].position = {place(random), place(random)};
@@ -132,7 +132,7 @@ TEST(Moving, WhatIsFeltIsWhatALookAtEveryPatchFinds) {
   for (long tick = 0; tick < 300; ++tick) ASSERT_EQ(device.commands[tick].x, expected[tick]) << tick;
 }
 
-TEST(Moving, SlewsWhereItIsFeltAndNowhereElse) {
+TEST(Moving, SlewsOnlyForThePatchUnderTheHand) {
   Led device;
   device.profile_.slew = 200;
   Stage stage(device);
@@ -167,12 +167,11 @@ TEST(Moving, AHandThatStaysOnAPatchKeepsItsMemory) {
   };
   run_of(stage, 20);
   EXPECT_EQ(device.commands[9].x, 0);
-  // The bead lies where it lay on the patch, 5 mm farther on than the hand; had the hand come in anew it would be under
-  // it.
+  // The bead keeps its place on the patch, 5 mm from the hand. After a new entry it would be at the hand.
   EXPECT_NEAR(device.commands[10].x, 500 * 0.005, 1e-4);
 }
 
-TEST(Moving, RefusesWhatIsNotThereAndNowhere) {
+TEST(Moving, RefusesUnknownPatchesAndInvalidPlaces) {
   Led device;
   Stage stage(device);
   EXPECT_EQ(in_words(stage.move(0, {0, 0}).error()), "nothing is placed on the stage");

@@ -1,4 +1,4 @@
-// Devices that only vibrate: their response, the simulated one, and a stage that runs on it.
+// Devices that only vibrate: their response, the simulated pad, and a stage on it.
 
 #include <gtest/gtest.h>
 
@@ -28,20 +28,20 @@ RunResult run(Stage& stage, double seconds) {
   return *std::move(result);
 }
 
-// The bench pad: 40 Hz gives 4 m/s^2 at half command and 8 at full; 120 Hz 6 at a quarter and 16 at full.
+// The bench pad gives at 40 Hz 4 m/s^2 at half command and 8 at full, and at 120 Hz 6 at a quarter and 16 at full.
 TEST(Pads, TheResponseIsStraightBetweenItsPoints) {
   const Shaker shaker = *pad_device().shaker;
   EXPECT_DOUBLE_EQ(shaker.peak(), 16);
   EXPECT_DOUBLE_EQ(shaker.acceleration(0, 40), 0);
   EXPECT_DOUBLE_EQ(shaker.acceleration(0.25, 40), 2);
   EXPECT_DOUBLE_EQ(shaker.acceleration(0.75, 40), 6);
-  EXPECT_DOUBLE_EQ(shaker.acceleration(1, 10), 8) << "as at the least frequency";
+  EXPECT_DOUBLE_EQ(shaker.acceleration(1, 10), 8) << "as at the lowest frequency";
   EXPECT_DOUBLE_EQ(shaker.acceleration(0.625, 120), 11);
   EXPECT_DOUBLE_EQ(shaker.acceleration(1, 500), 16);
   EXPECT_DOUBLE_EQ(shaker.acceleration(0.5, 80), (4 + 6 + 10.0 / 3) / 2) << "half way between 40 and 120 Hz";
 }
 
-TEST(Pads, TheCommandIsTheResponseTurnedRound) {
+TEST(Pads, TheCommandIsTheInverseOfTheResponse) {
   const Shaker shaker = *pad_device().shaker;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> commands(0, 1), frequencies(20, 200);
@@ -49,11 +49,11 @@ TEST(Pads, TheCommandIsTheResponseTurnedRound) {
     const double command = commands(random), frequency = frequencies(random);
     ASSERT_NEAR(shaker.command(shaker.acceleration(command, frequency), frequency), command, 1e-12) << frequency;
   }
-  EXPECT_EQ(shaker.command(1000, 80), 1) << "all that it has";
+  EXPECT_EQ(shaker.command(1000, 80), 1) << "the full command";
   EXPECT_EQ(shaker.command(0, 80), 0);
 }
 
-// A first-order approach: after t it is 1 - exp(-t / spin_up) of the way; the simulation's steps are 1/40 ms.
+// A first-order approach: after t it is 1 - exp(-t / spin_up) of the final value. The simulation's steps are 1/40 ms.
 TEST(Pads, SpinUpIsExponential) {
   SimulatedPad pad(pad_device(), Rest{});
   pad.command({6, 60});
@@ -67,15 +67,15 @@ TEST(Pads, SpinUpIsExponential) {
   EXPECT_NEAR(pad.command({0, 60}).x, 6 * (1 - std::exp(-5.0)) * std::exp(-1.0), 0.02);
 }
 
-TEST(Pads, WhatTheActuatorDoesNotReachItDoesNotGive) {
+TEST(Pads, AmplitudeAndFrequencyStayWithinTheResponse) {
   SimulatedPad pad(pad_device(), Rest{});
   pad.command({16, 40});
   pad.elapse(1000);
-  EXPECT_NEAR(pad.command({16, 40}).x, 8, 1e-4) << "all that there is at 40 Hz";
+  EXPECT_NEAR(pad.command({16, 40}).x, 8, 1e-4) << "the most at 40 Hz";
   pad.command({-3, 40});
   pad.elapse(1000);
   EXPECT_NEAR(pad.command({0, 10}).x, 0, 1e-4);
-  EXPECT_EQ(pad.command({0, 10}).y, 40) << "the least frequency";
+  EXPECT_EQ(pad.command({0, 10}).y, 40) << "the lowest frequency";
   EXPECT_EQ(pad.command({0, 900}).y, 200);
   pad.command({std::nanf(""), 100});
   pad.elapse(1000);
@@ -96,17 +96,17 @@ TEST(Pads, CommandsHaveSteps) {
 
 TEST(Pads, GuardsHoldAmplitudeAndFrequencyAndSlewTheAmplitude) {
   Guards guards(pad_device());  // 2000 m/s^3 at 1000 Hz: 2 m/s^2 a tick
-  EXPECT_EQ(guards({5, 100}, glm::dvec2(0), 1), Force(2, 100)) << "begins slewing; the frequency is there at once";
+  EXPECT_EQ(guards({5, 100}, glm::dvec2(0), 1), Force(2, 100)) << "the amplitude slews, the frequency does not";
   EXPECT_EQ(guards({5, 150}, glm::dvec2(0), 1), Force(4, 150));
   EXPECT_EQ(guards({5, 150}, glm::dvec2(0), 1), Force(5, 150));
   EXPECT_EQ(guards({-4, 10}, glm::dvec2(0), 1), Force(0, 40))
-      << "neither less than nothing nor below its least frequency";
+      << "the amplitude is at least 0, the frequency at least the lowest";
   EXPECT_EQ(guards({99, 999}, glm::dvec2(0), 1), Force(16, 200));
   EXPECT_EQ(guards({std::nanf(""), 100}, glm::dvec2(0), 1), Force(0, 40));
   EXPECT_EQ(guards.counts().not_a_number, 1);
 }
 
-// A finger that goes to and fro over ribs of 2.5 mm: at a speed v they pass v / 2.5 mm a second.
+// A finger moves to and fro over ribs of 2.5 mm. At speed v the frequency is v / 2.5 mm.
 TEST(Pads, AStageRunsRibsUnderAFinger) {
   SimulatedPad pad(pad_device(), Lateral{.amplitude = 0.03, .frequency = 1, .centre = {}});
   Stage stage(pad);
@@ -119,7 +119,7 @@ TEST(Pads, AStageRunsRibsUnderAFinger) {
     ASSERT_NEAR(tick.force.y, std::clamp(speed / 0.0025, 40.0, 200.0), 1e-3);
     fastest = std::max(fastest, speed);
   }
-  EXPECT_NEAR(fastest, 2 * 3.14159265 * 0.03, 0.07 * fastest) << "as the velocity filter has it";
+  EXPECT_NEAR(fastest, 2 * 3.14159265 * 0.03, 0.07 * fastest) << "within the error of the velocity filter";
   const Felt felt = measure(
       result.record,
       {.position_step = pad.profile().position_step(), .predicted_amplitude = 0, .settling = 0.5, .vibrates = true});

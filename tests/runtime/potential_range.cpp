@@ -1,4 +1,4 @@
-// How far the potential of a program's force can reach, against closed forms.
+// The range of the potential of a program's force, against closed forms.
 #include "runtime/stage/potential_range.hpp"
 
 #include <gtest/gtest.h>
@@ -18,40 +18,40 @@ constexpr PatchSize size{.width = 0.16f, .height = 0.12f, .rim = 0.005f};
 
 double range_of(const Program& program) { return potential_range(Bank(program, program.default_parameters(), size)); }
 
-/// J, a way of half the distance between two lines at either end, at the limit.
+/// The work, in J, of the limit over half the distance between two lines of the sampling, at either end.
 double between_lines(double most) { return most * 0.5 * (size.width + size.height) / 32; }
 
-TEST(PotentialRange, OfASpringIsThatFromItsMiddleToACorner) {
+TEST(PotentialRange, OfASpringIsThatFromItsCentreToACorner) {
   const double stiffness = 40;
   const double truth = 0.5 * stiffness * (0.08 * 0.08 + 0.06 * 0.06);
   const double range = range_of(spring(static_cast<float>(stiffness)));
   EXPECT_NEAR(range, truth + between_lines(9), 0.01 * truth);
 }
 
-TEST(PotentialRange, OfAConstantForceIsTheForceAllTheWay) {
+TEST(PotentialRange, OfAConstantForceIsTheForceTimesTheWidth) {
   EXPECT_NEAR(range_of(push(3)), 3 * 0.16 + between_lines(9), 0.01 * 3 * 0.16);
 }
 
 TEST(PotentialRange, OfATextureIsThatOfOneOfItsSlopes) {
   for (const float wale : {0.001f, 0.0025f, 0.005f}) {
-    // The area under a Gaussian: amplitude times standard deviation times the root of 2 pi; it loses to its neighbours
-    // what lies beyond a quarter of a wale from its middle, 2.67 standard deviations.
+    // The area under a Gaussian is amplitude times standard deviation times sqrt(2 pi), less its parts beyond a quarter of
+    // a wale from its middle, 2.67 standard deviations.
     const double truth = 1.934 * wale * 24 / 256 * std::sqrt(2 * std::numbers::pi);
     const double range = range_of(corduroy(1.934f, wale)) - between_lines(1.934);
     EXPECT_GT(range, 0.9 * truth) << wale;
-    EXPECT_LT(range, 2 * truth) << wale << ": of the finest there are three points to a rib";
+    EXPECT_LT(range, 2 * truth) << wale << ": the finest rib has three samples";
   }
 }
 
-TEST(PotentialRange, OfWhatRemembersIsTheLimitAllTheWay) {
+TEST(PotentialRange, OfAProgramWithStatesIsTheLimitTimesTheDiagonal) {
   EXPECT_NEAR(range_of(bead(500)), 9 * std::hypot(0.16, 0.12), 1e-3);
 }
 
-TEST(PotentialRange, OfWhatOnlyResistsIsNoneAlongTheLines) { EXPECT_NEAR(range_of(oil(5)), between_lines(9), 1e-6); }
+TEST(PotentialRange, OfAResistanceIsZero) { EXPECT_NEAR(range_of(oil(5)), between_lines(9), 1e-6); }
 
-/// On a stage, a program that pushes along with the hand gets the range of what it is at rest, and no more.
-TEST(PotentialRange, IsWhatAStageAllowsASource) {
-  const Program source = oil(-4);  // 4 N s/m, the wrong way
+/// On a stage, a program that pushes along the motion of the hand may give only the range of its force at rest.
+TEST(PotentialRange, IsTheEnergyThatAStageAllows) {
+  const Program source = oil(-4);  // 4 N s/m along the motion
   SimulatedJoystick joystick(sandpaper(), {.mass = 0.55, .damping = 6.5, .stiffness = 135}, Lateral{0.04, 1});
   Stage stage(joystick);
   stage.place(source);
@@ -63,7 +63,7 @@ TEST(PotentialRange, IsWhatAStageAllowsASource) {
     given += 0.5 * glm::dot(glm::dvec2(record.ticks[i - 1].force + record.ticks[i].force),
                             glm::dvec2(record.ticks[i].position - record.ticks[i - 1].position));
   const double allowed = potential_range(Bank(source));
-  EXPECT_LT(allowed, 0.1) << "and not the 2 J of its limit across the patch";
+  EXPECT_LT(allowed, 0.1) << "much less than the 2 J of its limit across the patch";
   EXPECT_GT(run->guards.energy, 0);
   EXPECT_LT(given, allowed + 0.002 * 10 + 0.01);
 }

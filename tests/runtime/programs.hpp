@@ -9,8 +9,8 @@
 
 namespace wale {
 
-/// Writes small patch programs by hand. Constants come first, so they are all named before the first operation. An
-/// operation of several results is named by the first.
+/// Writes small patch programs. All constants, parameters and states are declared before the first operation, since
+/// temporaries follow them. An operation with several results returns the register of the first.
 class Assembly {
  public:
   explicit Assembly(std::vector<float> constants, std::vector<Parameter> parameters = {}) {
@@ -31,7 +31,7 @@ class Assembly {
     program.states.push_back({std::move(name), low, high});
     return static_cast<RegisterNumber>(program.first_state() + program.states.size() - 1);
   }
-  /// What the state of that register begins with and becomes.
+  /// Sets the registers of a state's initial and next value.
   void evolve(RegisterNumber state, RegisterNumber initial, RegisterNumber next) {
     State& evolving = program.states.at(state - program.first_state());
     evolving.initial = initial;
@@ -95,9 +95,9 @@ inline Program push(float force, float ceiling = 9) {
   return a.load();
 }
 
-/// A bead of 1 kg that hangs on the hand by a spring of the parameter `stiffness` (N/m) and starts where the hand
-/// enters, at rest; its place and speed follow by semi-implicit Euler. The hand feels the spring. The bead presses its
-/// place into a track of 9 cells, 2.5 mm wide each, the middle one at the patch's centre.
+/// A bead of 1 kg on a spring to the hand, with the parameter `stiffness` (N/m). It starts at the hand's entry, at rest,
+/// and moves along x by semi-implicit Euler. The force is that of the spring. The bead writes 1 into a track of 9 cells,
+/// each 2.5 mm wide, with the middle one at the patch's centre.
 inline Program bead(float stiffness) {
   Assembly a({9, 1, 0, 400, 4}, {{"stiffness", "N/m", 1, stiffness, 0, 1e6f, 0, 1e6f, ""}});
   const RegisterNumber place = a.state("place", -1, 1), speed = a.state("speed", -10, 10);
@@ -117,9 +117,9 @@ inline Program bead(float stiffness) {
   return a.load();
 }
 
-/// Corduroy as its gradient: pulses of alternating sign each half a wale, Gaussian with 24/256 of a wale (the flanks of
-/// a smoothed square wave), `amplitude` N high. Its exact RMS is 0.576 of that. One percept reads it back through the
-/// law of Minsky 1995, figure 19.
+/// Corduroy by its gradient: Gaussian pulses of alternating sign every half wale, with a standard deviation of 24/256 of a
+/// wale (the flanks of a smoothed square wave) and a height of `amplitude` N. The exact RMS is 0.576 of that. Its percept
+/// has the law of Minsky 1995, figure 19.
 inline Program corduroy(float amplitude, float wale = 0.0025f) {
   const float width = 24.0f / 128.0f;  // standard deviation in half wales
   const float exponent = 0.759593f, reference = 194 * 10.0f / 512;

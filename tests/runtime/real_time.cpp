@@ -1,5 +1,5 @@
-// What a beat of the real-time thread does not do: allocate, lock, throw. The functions that would be called are the
-// test program's own here, which count and pass on.
+// A beat of the real-time thread does not allocate, lock or throw. This test program replaces the functions for that by
+// its own, which count and call the originals.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -19,7 +19,7 @@
 #include "wale/simulated.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define WALE_SANITIZED 1  // a sanitizer has put functions of its own in their place
+#define WALE_SANITIZED 1  // a sanitizer replaces the same functions
 #else
 #define WALE_SANITIZED 0
 #endif
@@ -81,11 +81,11 @@ int pthread_mutex_lock(pthread_mutex_t* mutex) {
 namespace wale::real_time_test {
 namespace {
 
-TEST(RealTime, AllocationsLocksAndExceptionsAreNoticed) {
+TEST(RealTime, AllocationsLocksAndExceptionsAreCounted) {
   const long before = allocations;
   { const std::vector<int> some(100); }
   EXPECT_EQ(allocations, before + 2);
-  if (WALE_SANITIZED) GTEST_SKIP() << "a sanitizer stands where locks and exceptions would be counted";
+  if (WALE_SANITIZED) GTEST_SKIP() << "a sanitizer replaces the functions that count locks and exceptions";
   std::mutex mutex;
   const long locked = locks, thrown = throws;
   { const std::lock_guard lock(mutex); }
@@ -97,8 +97,8 @@ TEST(RealTime, AllocationsLocksAndExceptionsAreNoticed) {
   EXPECT_EQ(throws, thrown + 1);
 }
 
-/// With all that a beat may have to do: a clock to read, motors that grow hot, an actuator that is late, patches that
-/// stay and patches that were moved.
+/// With everything that a beat may do: reading the clock, motor heat, a delayed actuator, patches that stay, and patches
+/// that were moved.
 TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
   DeviceProfile profile = sandpaper();
   profile.continuous_newton = 0.4;

@@ -15,7 +15,7 @@
 #include "wale/recording.hpp"
 #include "wale/stage.hpp"
 
-/// Recordings made in a test.
+/// Makes and checks recordings in tests.
 namespace wale::recorded {
 
 namespace fs = std::filesystem;
@@ -54,7 +54,7 @@ inline void expect_same(const Recording& recording) {
                   << replayed.first->recorded << " and is " << replayed.first->replayed;
 }
 
-/// A device whose reading the test makes up, and which tells what is done with it.
+/// A device whose readings the test supplies.
 class Puppet : public Device {
  public:
   explicit Puppet(std::function<Reading(long sample)> reading) : reading_(std::move(reading)) {}
@@ -70,7 +70,7 @@ class Puppet : public Device {
   long samples_ = 0;
 };
 
-/// Over the workspace and beyond its patches, at up to 1 m/s.
+/// A path over the workspace and beyond its patches, at up to 1 m/s.
 inline Reading roaming(long sample) {
   const double t = static_cast<double>(sample) / 900;
   const auto place = [](double amplitude, double phase) {

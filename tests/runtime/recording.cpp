@@ -1,4 +1,4 @@
-// Recordings: what is in them, and that a replay gives the same forces bit for bit.
+// Recordings: their content, and that a replay gives the same forces bit for bit.
 
 #include "wale/recording.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 using namespace recorded;
 using namespace recording_format;
 
-TEST(Recording, HoldsWhatTheRunHad) {
+TEST(Recording, HoldsTheRun) {
   const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
   Stage stage(joystick);
@@ -103,7 +103,7 @@ TEST(Recording, ReplaysPatchesParametersAndSwapsAtTheirTicks) {
     ++revision;
     ASSERT_LT(event.ticks, recording.ticks());
     EXPECT_EQ(event.ticks % 90, 0u);
-    EXPECT_EQ(recording.tick(event.ticks).revision, revision) << "felt in the very next tick";
+    EXPECT_EQ(recording.tick(event.ticks).revision, revision) << "active in the next tick";
     EXPECT_EQ(recording.tick(event.ticks - 1).revision, revision - 1);
   }
   EXPECT_EQ(sets, 19 + 1);
@@ -126,7 +126,7 @@ TEST(Recording, ReplaysStaleAndLostDevicesAndEveryGuard) {
   });
   device.profile_.force_newton = 3;
   Stage stage(device);
-  // A spring beyond what the user allows, a source of energy, a force that is none, a wall too stiff for its device.
+  // A spring above the user's limit and too stiff for the device, a source of energy, and a force that is not a number.
   Assembly none({2, 0});
   const RegisterNumber state = none.state("state", -1, 1);
   none.evolve(state, none.constant(1), none.tick(Operation::divide, none.constant(1), none.constant(1)));
@@ -198,7 +198,7 @@ TEST(Recording, ReplaysPads) {
   expect_same(recording);
 }
 
-/// Beats as a loop that is not always in time serves them, recorded without a stage.
+/// Beats of a loop that is sometimes late, recorded without a stage.
 TEST(Recording, ReplaysSkippedPeriodsAndOverruns) {
   const TemporaryFolder folder;
   Puppet device(roaming);
@@ -250,13 +250,13 @@ TEST(Recording, ARealTimeRunReplaysToo) {
   expect_same(recording);
 }
 
-TEST(Recording, WhatDiffersIsToldWithItsTick) {
+TEST(Recording, ADifferenceIsReportedWithItsTick) {
   const TemporaryFolder folder;
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
   Stage stage(joystick);
   stage.place(corduroy(1.934f));
   run(stage, {.seconds = 1, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", {}}});
-  // As if the machine had computed another force on tick 700: with a check that is right.
+  // Another force at tick 700, with a correct check, as if the machine had computed it.
   std::vector<std::byte> bytes = bytes_of(folder / "a.wrec");
   std::size_t at = 0;
   for (std::size_t chunk = first_chunk; chunk < bytes.size(); chunk += chunk_size) {
@@ -284,7 +284,7 @@ TEST(Recording, WhatDiffersIsToldWithItsTick) {
   EXPECT_NEAR(replayed.largest_force, 0.25, 1e-6);
 }
 
-TEST(Recording, ARunMayBeLongerThanWhatIsKeptOfIt) {
+TEST(Recording, ARunMayKeepOnlyItsEnd) {
   Puppet device(roaming);
   Stage stage(device);
   stage.place(oil(1));

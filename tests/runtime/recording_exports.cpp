@@ -1,4 +1,4 @@
-// What recordings are written as: CSV that reads back as a trace, and the force as sound.
+// Exports of recordings: CSV that reads back as a trace, and the force as sound.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@
 namespace wale::recording_exports_test {
 namespace {
 
-/// A recording of these ticks, made by hand.
+/// A recording of the given ticks.
 Recording recording_of(const DeviceProfile& device, const std::vector<RecordedTick>& ticks) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.wrec";
@@ -35,7 +35,7 @@ Recording recording_of(const DeviceProfile& device, const std::vector<RecordedTi
   return *std::move(recording);
 }
 
-/// Ticks of a device of that rate, the `n`-th of which exerts (n, -2 n) hundredths of a newton.
+/// `count` ticks; tick n has the force (0.01 n, -0.02 n) N.
 std::vector<RecordedTick> rising(long count) {
   std::vector<RecordedTick> ticks;
   for (long i = 0; i < count; ++i)
@@ -79,7 +79,7 @@ Wav wav_of(const Recording& recording) {
   return wav;
 }
 
-TEST(RecordingAsSound, HoldsEachTicksForceAsAShareOfThePeak) {
+TEST(RecordingAsSound, HoldsEachTicksForceAsAFractionOfThePeak) {
   const Wav wav = wav_of(recording_of(sandpaper(), rising(900)));
   EXPECT_EQ(wav.format, 3);  // IEEE float
   EXPECT_EQ(wav.channels, 2);
@@ -109,7 +109,7 @@ TEST(RecordingAsSound, LastsAsLongAsTheRunAtAnyRateAndThroughSkippedPeriods) {
   }
 }
 
-TEST(RecordingAsSound, APadIsHeardAsItShakes) {
+TEST(RecordingAsSound, OfAPadIsItsVibration) {
   const DeviceProfile pad = example::pad(PositionSource::touch).device;
   std::vector<RecordedTick> ticks = rising(static_cast<long>(pad.rate));
   for (RecordedTick& tick : ticks) tick.force = Force(static_cast<float>(pad.most()) / 2, 100);
@@ -120,7 +120,7 @@ TEST(RecordingAsSound, APadIsHeardAsItShakes) {
   }
 }
 
-TEST(RecordingAsSound, WhatNoWavFileHoldsIsRefused) {
+TEST(RecordingAsSound, MoreThanAWavFileHoldsIsRefused) {
   std::vector<RecordedTick> ticks = rising(2);
   ticks[1].period = 12'000'000;  // 13 333 s of 352 800 bytes
   ticks[1].elapsed = 12'000'000;

@@ -1,4 +1,4 @@
-// The stage with programs that remember, and what it tells them.
+// The stage with programs that have states, and the inputs that it gives to programs.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace wale::remembering_test {
 namespace {
 
-/// A device whose hand is where the test says at each period, in counts, and which notes nothing else.
+/// A device whose reading is a function of the period, in counts.
 class Puppet : public Device {
  public:
   explicit Puppet(std::function<Reading(long)> reading) : reading_(std::move(reading)) { profile_.slew = 0; }
@@ -47,8 +47,8 @@ Program feeling(Input input, float gain = 1) {
   return a.load();
 }
 
-/// force x = ticks since the hand entered, times the parameter `gain`; y = the entry's time in s, less than the
-/// ceiling.
+/// force x = ticks since the hand entered, times the parameter `gain`; force y = the time of the entry in s. Times stay
+/// below the ceiling.
 Program counting() {
   Assembly a({9, 0, 1}, {{"gain", "", 1, 0.001f, 0, 1, 0, 1, ""}});
   const RegisterNumber count = a.state("count", 0, 1e6f), since = a.state("since", 0, 1e6f);
@@ -116,7 +116,7 @@ TEST(Remembering, EachRunBeginsAnew) {
 }
 
 TEST(Remembering, ABeadIsPulledAlong) {
-  // The hand moves 20 mm at once; the bead follows it as semi-implicit Euler says.
+  // The hand moves 20 mm at once; the bead follows by semi-implicit Euler.
   const double step = sandpaper().position_step(), dt = 1 / 900.0;
   Puppet device([](long period) { return Reading{.counts = {period < 5 ? 0 : 358, 0}}; });
   Stage stage(device);
@@ -132,7 +132,7 @@ TEST(Remembering, ABeadIsPulledAlong) {
   EXPECT_EQ(result.guards.restored, 0);
 }
 
-TEST(Remembering, StatesThatAreNoNumbersAreCounted) {
+TEST(Remembering, StatesThatAreNotNumbersAreCounted) {
   // next = 0 / 0 while the hand is right of the centre, else 1 / 1.
   Assembly a({9, 0, 1});
   const RegisterNumber state = a.state("state", 0, 1);
@@ -152,7 +152,8 @@ TEST(Remembering, StatesThatAreNoNumbersAreCounted) {
   }
 }
 
-/// `counting` with another gain, one more state that begins at 7, and another unit for one more parameter.
+/// Like `counting`, with another gain, another range, one more parameter, and a state `fresh` that begins at 7 in place
+/// of `since`.
 Program counting_too(float gain, bool renamed = false) {
   Assembly a({9, 7, 1}, {{"other", "", 1, 0.25f, 0, 1, 0, 1, ""}, {"gain", "", 1, gain, 0, 0.5f, 0, 0.5f, ""}});
   const RegisterNumber fresh = a.state("fresh", 0, 100);
@@ -179,10 +180,10 @@ TEST(Replacing, KeepsParametersAndStatesOfTheSameNameAndStartsTheOthers) {
   });
   const auto& ticks = result.record.ticks;
   EXPECT_NEAR(ticks[89].force.x, 0.004 * 89, 1e-5);
-  EXPECT_NEAR(ticks[90].force.x, 0.004 * 90, 1e-5) << "its count and its gain, in the next tick";
+  EXPECT_NEAR(ticks[90].force.x, 0.004 * 90, 1e-5) << "the count and the gain are kept";
   EXPECT_EQ(ticks[90].force.y, 7);
   EXPECT_NEAR(ticks[179].force.x, 0.004 * 179, 1e-5);
-  EXPECT_NEAR(ticks[180].force.x, 0.004 * 1, 1e-5) << "a state of another name is another state";
+  EXPECT_NEAR(ticks[180].force.x, 0.004 * 1, 1e-5) << "a state with another name is new";
 }
 
 TEST(Replacing, AStateOfAnotherUnitIsAnotherState) {
@@ -203,12 +204,12 @@ TEST(Replacing, AStateOfAnotherUnitIsAnotherState) {
     }
   });
   EXPECT_NEAR(result.record.ticks[90].force.x, 0.090, 1e-6);
-  EXPECT_NEAR(result.record.ticks[180].force.x, 0, 1e-6) << "kilograms are no metres";
+  EXPECT_NEAR(result.record.ticks[180].force.x, 0, 1e-6) << "a state with another unit is new";
   EXPECT_NEAR(result.record.ticks[299].force.x, 0.119, 1e-6);
-  EXPECT_NEAR(result.record.ticks[180].force.y, 0, 1e-6) << "the other state is the same one";
+  EXPECT_NEAR(result.record.ticks[180].force.y, 0, 1e-6) << "the other state is kept";
 }
 
-TEST(Replacing, SeveralTimesBeforeATickTakesTheLastAndLosesNothing) {
+TEST(Replacing, SeveralTimesBeforeATickTakesTheLastAndKeepsStates) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
   stage.place(counting());
@@ -221,7 +222,7 @@ TEST(Replacing, SeveralTimesBeforeATickTakesTheLastAndLosesNothing) {
   EXPECT_FALSE(stage.replace(3, counting()));
 }
 
-TEST(Replacing, WhereTheHandIsNotStatesBeginWhenItComes) {
+TEST(Replacing, OutsideOfTheHandStatesBeginAtTheNextEntry) {
   Puppet device([](long period) { return Reading{.counts = {period > 50 && period <= 150 ? beyond : 0, 0}}; });
   Stage stage(device);
   stage.place(counting());
@@ -230,11 +231,11 @@ TEST(Replacing, WhereTheHandIsNotStatesBeginWhenItComes) {
       EXPECT_TRUE(stage.replace(0, counting_too(0.1f)));
     }
   });
-  EXPECT_NEAR(result.record.ticks[151].force.x, 0.1 * 1, 1e-5) << "a gain that nobody set is the new program's";
+  EXPECT_NEAR(result.record.ticks[151].force.x, 0.1 * 1, 1e-5) << "the gain was not set, so it is the new default";
 }
 
-TEST(Replacing, KeepsWhatWasPressedIntoTheGround) {
-  // The bead presses its track from the middle on; whoever replaces it by a bead on a stiffer spring finds it there.
+TEST(Replacing, KeepsTheCellsOfGrids) {
+  // The bead has written into the middle of its track. A program with a stiffer spring that replaces it keeps the track.
   const Program soft = bead(100), stiff = bead(200);
   Bank bank(soft);
   auto first = std::make_shared<Memory>(soft);
@@ -249,7 +250,7 @@ TEST(Replacing, KeepsWhatWasPressedIntoTheGround) {
   EXPECT_FALSE(second->follows(first.get()));
 }
 
-TEST(Telling, TimeIsTheNumberOfPeriods) {
+TEST(Inputs, TimeIsTheNumberOfPeriods) {
   Puppet device([](long) { return Reading{}; });
   Stage stage(device);
   stage.place(feeling(Input::time));
@@ -257,7 +258,7 @@ TEST(Telling, TimeIsTheNumberOfPeriods) {
   for (long i = 0; i < 900; ++i) ASSERT_NEAR(ticks[i].force.x, static_cast<double>(i) / 900, 1e-6);
 }
 
-TEST(Telling, SkippedPeriodsCountTowardsTime) {
+TEST(Inputs, SkippedPeriodsCountTowardsTime) {
   Puppet device([](long) { return Reading{}; });
   Exchange<PlacedPatches> patches;
   Record record;
@@ -266,12 +267,12 @@ TEST(Telling, SkippedPeriodsCountTowardsTime) {
   patches.publish(PlacedPatches({Bank(program), glm::vec2(0), std::make_shared<Memory>(program)}));
   player.serve({.period = 0});
   player.serve({.period = 450, .elapsed = 450, .skipped = 449});
-  EXPECT_EQ(record.ticks[1].force.x, 0) << "after half a second without anybody there is no force at first";
+  EXPECT_EQ(record.ticks[1].force.x, 0) << "the first tick after half a second of missed periods has no force";
   player.serve({.period = 451, .elapsed = 1});
   EXPECT_FLOAT_EQ(record.ticks[2].force.x, 451 / 900.0f);
 }
 
-TEST(Telling, TheButton) {
+TEST(Inputs, TheButton) {
   Puppet device([](long period) { return Reading{.button = period % 3 == 0}; });
   Stage stage(device);
   stage.place(feeling(Input::button));
@@ -279,7 +280,7 @@ TEST(Telling, TheButton) {
   for (long i = 0; i < 30; ++i) ASSERT_EQ(ticks[i].force.x, i % 3 == 0 ? 1.0f : 0.0f);
 }
 
-TEST(Telling, ThePlaceOnTheWorkspace) {
+TEST(Inputs, ThePlaceOnTheWorkspace) {
   Puppet device([](long) { return Reading{.counts = {358, -179}}; });
   Stage stage(device);
   stage.place(feeling(Input::workspace_x), {0.01f, 0.02f});
@@ -290,9 +291,9 @@ TEST(Telling, ThePlaceOnTheWorkspace) {
   EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, 358 * 0.2286 / 4096 - 0.01, 1e-7);
 }
 
-// x = t^2 counts, y = -2 t^2: raw velocity 2 t - 1 counts per tick, acceleration 2 counts per tick^2 whatever estimates
-// it.
-TEST(Telling, MotionInMetresAndSeconds) {
+// x = t^2 counts and y = -2 t^2: the raw velocity along x is 2 t - 1 counts per tick, and the acceleration is 2 counts per
+// tick^2 by any estimate.
+TEST(Inputs, MotionInMetresAndSeconds) {
   const double step = 0.2286 / 4096, rate = 900;
   const auto reading = [](long period) {
     const auto square = static_cast<int>(period * period);

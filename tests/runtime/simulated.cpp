@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// How far x goes from end to end, after two seconds for the start to die away.
+/// The range of x in m, after two seconds of settling.
 double sweep(const DeviceProfile& profile, double frequency) {
   SimulatedJoystick joystick(profile, normal_hand(), Lateral{0.04, frequency});
   joystick.elapse(1800);
@@ -29,11 +29,11 @@ double sweep(const DeviceProfile& profile, double frequency) {
 
 TEST(Simulated, FrictionShortensTheSweepByItsDescribingFunction) {
   EXPECT_NEAR(sweep(sandpaper(), 1), 0.099, 0.0005);  // tests/reference/closed_loop.md
-  // At 2 Hz, its resonance, the hand follows 40 mm at 67.0 mm; friction is a force of 4/pi * 0.15 N against 94.2 N/m.
+  // At 2 Hz, near the resonance, the hand follows 40 mm with 67.0 mm; friction is 4/pi * 0.15 N against 94.2 N/m.
   EXPECT_NEAR(sweep(sandpaper(), 2), 2 * (0.0670 - 4 / pi * 0.15 / 94.2), 0.0003);
 }
 
-TEST(Simulated, WithoutFrictionTheSweepIsTheTransferFunctions) {
+TEST(Simulated, WithoutFrictionTheSweepFollowsTheTransferFunction) {
   DeviceProfile profile = sandpaper();
   profile.friction = 0;
   for (const double frequency : {0.5, 1.0, 2.0}) {
@@ -47,7 +47,7 @@ TEST(Simulated, FreeSwingHasTheFrequencyAndDecayOfMassSpringAndDamper) {
   DeviceProfile profile = sandpaper();
   profile.friction = 0;
   profile.damping = 0.2;
-  // Away from the target by a constant force, then let go.
+  // A constant force displaces the handle, which is then released.
   SimulatedJoystick joystick(profile, {.mass = 0.55, .damping = 0, .stiffness = 135}, Rest{});
   joystick.command({4, 0});
   joystick.elapse(90000);
@@ -63,7 +63,7 @@ TEST(Simulated, FreeSwingHasTheFrequencyAndDecayOfMassSpringAndDamper) {
   }
 }
 
-/// A command of 2 N on a free mass: nothing until it has arrived, then a parabola.
+/// A command of 2 N on a free mass: no motion during the delay, then a parabola.
 TEST(Simulated, ACommandArrivesAfterTheDelayOfItsAxis) {
   DeviceProfile profile = sandpaper();
   profile.friction = profile.damping = 0;
@@ -82,7 +82,7 @@ TEST(Simulated, ACommandArrivesAfterTheDelayOfItsAxis) {
   }
 }
 
-/// A sine of the axis' bandwidth comes out smaller by 3 dB.
+/// A sine at the axis's bandwidth is attenuated by 3 dB.
 TEST(Simulated, AnActuatorIsALowPassOfItsBandwidth) {
   DeviceProfile profile = sandpaper();
   profile.friction = profile.damping = 0;
@@ -102,7 +102,7 @@ TEST(Simulated, AnActuatorIsALowPassOfItsBandwidth) {
   EXPECT_NEAR(largest_x / largest_y, std::sqrt(0.5), 0.01);
 }
 
-TEST(Simulated, NothingLostNothingGainedWithoutDamping) {
+TEST(Simulated, EnergyIsConservedWithoutDamping) {
   DeviceProfile profile = sandpaper();
   profile.friction = profile.damping = 0;
   SimulatedJoystick joystick(profile, {.mass = 0.55, .damping = 0, .stiffness = 135}, Rest{});
@@ -121,8 +121,8 @@ TEST(Simulated, NothingLostNothingGainedWithoutDamping) {
   }
 }
 
-TEST(Simulated, StictionHoldsBelowCoulombFrictionAndLetsGoAbove) {
-  const float step = 10.0f / 2048;  // or rounding may lift it above friction
+TEST(Simulated, StictionHoldsBelowCoulombFrictionAndReleasesAbove) {
+  const float step = 10.0f / 2048;  // otherwise rounding might lift it above friction
   SimulatedJoystick held(sandpaper(), no_hand, Rest{});
   held.command({0.149f - step, -0.149f + step});
   for (int tick = 0; tick < 900; ++tick) {
@@ -178,7 +178,7 @@ TEST(Simulated, InteractionContainsInertiaAndFriction) {
     joystick.elapse(1);
     const double after = joystick.velocity().x;
     if (before * after > 0) {
-      // Newton for the handle alone: what the hand exerts moves its mass against damping and friction.
+      // Newton's law for the handle alone: the hand's force moves its mass against damping and friction.
       const double mean = (joystick.position().x - at_start) * profile.rate;
       const double handle = 0.3 * (after - before) * profile.rate + 1 * mean + std::copysign(0.15, after);
       ASSERT_NEAR(joystick.sample().interaction.x, handle, 1e-3) << "tick " << tick;

@@ -27,9 +27,7 @@ RunResult good(Result<RunResult> run) {
   return *std::move(run);
 }
 
-std::string refused(const Result<RunResult>& run) {
-  return run ? "not refused" : in_words(run.error());
-}
+std::string refused(const Result<RunResult>& run) { return run ? "not refused" : in_words(run.error()); }
 
 RunResult run_virtual(const Program& program, const Motion& motion, double seconds) {
   SimulatedJoystick joystick(sandpaper(), normal_hand(), motion);
@@ -49,7 +47,7 @@ std::string csv(const Record& record) {
   return text.str();
 }
 
-/// A device that notes what it is told and moves as the test says.
+/// A device that records its commands and moves as the test sets it.
 class Notebook : public Device {
  public:
   const DeviceProfile& profile() const noexcept override { return profile_; }
@@ -88,7 +86,7 @@ TEST(Corduroy, RubbedAtFortyMillimetresGivesTheLevelBack) {
   EXPECT_GT(felt.interaction->maximum, felt.force.maximum);
 }
 
-TEST(Corduroy, AHandThatWantsTenMillimetresSticks) {
+TEST(Corduroy, AHandWithATargetOfTenMillimetresSticks) {
   const Felt felt = felt_in(run_virtual(corduroy(amplitude), Lateral{0.01, 1}, 10));
   EXPECT_NEAR(felt.position_range, 0.0009, 0.0001);  // tests/reference/closed_loop.md, also the 79 %
   EXPECT_NEAR(felt.stuck, 0.79, 0.05);
@@ -101,9 +99,9 @@ TEST(Corduroy, IsSweptAsInTheReferenceSimulation) {
   EXPECT_NEAR(felt_in(run_virtual(program, Lateral{0.04, 2}, 5)).position_range, 0.131, 0.0005);
 }
 
-TEST(Corduroy, InteractionHasInertiaAndFrictionInIt) {
-  // tests/reference/closed_loop.md: 2.34 N for level 0.6 (2.1 to 2.5 N, depending on where on the ribs the hand turns) and
-  // 1.08 N for level 0.1, where the actuator exerts 0.181 N.
+TEST(Corduroy, TheInteractionForceIncludesInertiaAndFriction) {
+  // tests/reference/closed_loop.md: 2.34 N for level 0.6 (2.1 to 2.5 N, depending on where on the ribs the hand turns)
+  // and 1.08 N for level 0.1, where the actuator exerts 0.181 N.
   EXPECT_NEAR(felt_in(run_virtual(corduroy(amplitude), Lateral{0.04, 1, {0.0004, 0}}, 10)).interaction->maximum, 2.34,
               0.05);
   EXPECT_NEAR(felt_in(run_virtual(corduroy(0.181f), Lateral{0.04, 1}, 10), 0.181f).interaction->maximum, 1.08, 0.01);
@@ -126,7 +124,7 @@ TEST(Corduroy, StaysWithinItsAmplitudeRubbedInCircles) {
   EXPECT_GT(felt.crossings, 500);
 }
 
-TEST(Stage, NoForceFromTheTickOnThatTheDeviceIsStaleOrGone) {
+TEST(Stage, NoForceOnceTheDeviceIsStaleOrGone) {
   Notebook device;
   device.counts = {200, 0};
   device.contact_at = [](long sample) {
@@ -147,7 +145,7 @@ TEST(Stage, NoForceFromTheTickOnThatTheDeviceIsStaleOrGone) {
   EXPECT_FLOAT_EQ(device.commands.at(610).x, full);
 }
 
-TEST(Stage, NoForceAfterTheLoopWasAwayForLong) {
+TEST(Stage, NoForceAfterALongPauseOfTheLoop) {
   Notebook device;
   device.counts = {200, 0};
   Exchange<PlacedPatches> patches;
@@ -168,7 +166,7 @@ TEST(Stage, NoForceAfterTheLoopWasAwayForLong) {
   EXPECT_GT(device.commanded.x, full);
 }
 
-/// The ends of what a device may declare: as many ticks as it says, and the level comes back out of the handle.
+/// At both ends of the range of tick rates, the run has the declared number of ticks and the handle exerts the level.
 TEST(Stage, RunsAtAHundredTicksASecondAndAtTenThousand) {
   for (const double rate : {DeviceProfile::least_rate, DeviceProfile::most_rate}) {
     DeviceProfile profile = sandpaper();
@@ -231,7 +229,7 @@ TEST(Stage, RecordHasAHeaderWithUnitsAndALinePerTick) {
             "0.5,0.1,-0.25,1,0,1.5,0,-2,1e-07,0.25,3,1\n");
 }
 
-TEST(Stage, ForceStartsFromNothingAndSlews) {
+TEST(Stage, ForceStartsAtZeroAndSlews) {
   Notebook device;
   Stage stage(device);
   stage.place(push(2.1f));
@@ -349,7 +347,7 @@ TEST(Stage, VelocityReachesTheProgramInMetresPerSecond) {
   EXPECT_NEAR(run.record.ticks.back().force.x, -2 * speed, 1e-6);
 }
 
-TEST(Stage, RefusesWhatCannotBeRun) {
+TEST(Stage, RefusesRunsThatAreImpossible) {
   Notebook device;
   Stage stage(device);
   EXPECT_EQ(refused(stage.run({.seconds = 1})), "nothing is placed on the stage");
@@ -364,7 +362,7 @@ TEST(Stage, RefusesWhatCannotBeRun) {
   EXPECT_EQ(refused(stage.run({.seconds = 1})), "the device sandpaper declares no positive rate");
 }
 
-TEST(Stage, RefusesParametersThatAreNotThereOrOutOfRange) {
+TEST(Stage, RefusesParametersThatAreMissingOrOutOfRange) {
   Notebook device;
   Stage stage(device);
   stage.place(corduroy(amplitude));
@@ -373,7 +371,7 @@ TEST(Stage, RefusesParametersThatAreNotThereOrOutOfRange) {
   EXPECT_FALSE(stage.set("wale", std::nanf("")));
   EXPECT_TRUE(stage.set("wale", 0.005f));
   stage.place(oil(1));
-  EXPECT_EQ(in_words(stage.set("wale", 0.002f).error()), "by hand has no parameter wale; it has none at all");
+  EXPECT_EQ(in_words(stage.set("wale", 0.002f).error()), "by hand has no parameter wale; it has no parameters");
 }
 
 TEST(Stage, AFractionOfASecondIsARun) {
@@ -410,7 +408,7 @@ TEST(Stage, RunsInRealTime) {
   EXPECT_EQ(joystick.command(Force(0)), Force(0));
 }
 
-TEST(Stage, ParametersMaySetFromManyThreadsDuringARealTimeRun) {
+TEST(Stage, ParametersMayBeSetFromManyThreadsDuringARealTimeRun) {
   SimulatedJoystick joystick(sandpaper(), normal_hand(), Lateral{0.04, 1});
   Stage stage(joystick);
   stage.place(corduroy(amplitude));

@@ -22,7 +22,7 @@ TEST(Trace, ReadsColumnsInAnyOrderAmongOthers) {
   EXPECT_FALSE(trace.velocities_given);
 }
 
-TEST(Trace, ReadsUnitsHoweverTheyAreWritten) {
+TEST(Trace, ReadsEverySpellingOfAUnit) {
   for (const char* header : {"t (s),x (mm),y (cm)", "t [s],x [mm],y [cm]", "t_s,x_mm,y_cm", "time, x(mm) , y_cm"}) {
     const Trace trace = good(std::string(header) + "\n1,2,3\n");
     ASSERT_EQ(trace.points.size(), 1u) << header;
@@ -48,7 +48,7 @@ struct Bad {
 
 class BadTrace : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadTrace, SaysWhereAndWhatWasExpectedAndFound) {
+TEST_P(BadTrace, TheErrorNamesThePlaceTheExpectedAndTheFound) {
   const auto read = read_trace(GetParam().text);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().code, Code::unreadable_table);
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Bad{"t,x,y\n0.5,1,2\n0.5,1,2\n", 3, "a time after 0.5 s", "0.5 s"},
                     Bad{"t_ms,x,y\n2,1,2\n1,1,2\n", 3, "a time after 0.002 s", "0.001 s"}));
 
-TEST(Trace, ColumnsThatOnlyBeginLikeOursAreIgnored) {
+TEST(Trace, ColumnsWhoseNamesOnlyBeginTheSameAreIgnored) {
   EXPECT_EQ(good("t,x_target,x,y\n0,9,1,2\n").points[0].position, glm::dvec2(1, 2));
 }
 
@@ -93,7 +93,7 @@ TEST(Trace, InterpolatesStraightLinesAndParabolasExactly) {
   EXPECT_DOUBLE_EQ(at(trace, 2.2).velocity.x, 4.4);
 }
 
-TEST(Trace, DerivedVelocityIsTheParabolasWithinAndTheLinesAtTheEnds) {
+TEST(Trace, DerivedVelocityIsOfParabolasInsideAndOfLinesAtTheEnds) {
   const Trace trace = good("t,x,y\n0,0,0\n1,1,0\n3,9,0\n");  // x = t^2
   EXPECT_DOUBLE_EQ(trace.points[0].velocity.x, 1);
   EXPECT_DOUBLE_EQ(trace.points[1].velocity.x, 2);

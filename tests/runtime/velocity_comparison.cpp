@@ -1,5 +1,5 @@
-// The profile's velocity filter against plain differences and Kalman filters, on the known motion of the simulated
-// hand.
+// Compares the profile's velocity filter with plain differences and with Kalman filters, on the known motion of the
+// simulated hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace wale::velocity_comparison_test {
 namespace {
 
-/// Position and velocity in counts and ticks, moved by a random acceleration of variance `q` a tick and read by an
-/// encoder whose error is spread evenly over one count.
+/// Estimates position and velocity, in counts and ticks. It assumes a random acceleration of variance `q` per tick, and
+/// an encoder whose error is uniform over one count.
 class Kalman {
  public:
   explicit Kalman(double q) : q_(q) {}
@@ -45,8 +45,8 @@ using Filter = std::function<double(int counts)>;  ///< counts a tick
 
 struct Quality {
   double error = 0;  ///< m/s, root mean square
-  long delay = 0;    ///< ticks after which the true velocity is most like it
-  double noise = 0;  ///< m/s, root mean square of what is left then
+  long delay = 0;    ///< ticks; the shift at which the true velocity fits best
+  double noise = 0;  ///< m/s, root mean square of the error after that shift
 };
 
 Quality quality(const Motion& motion, const Filter& filter) {
@@ -84,7 +84,7 @@ TEST(VelocityFilter, IsAThirdAsNoisyAsPlainDifferencesAndHalfItsWindowLateAtMost
   }
 }
 
-/// A Kalman filter is tuned for one pace: whichever is better than ours at one is worse at another.
+/// A Kalman filter is tuned for one speed: a filter that beats the profile's at one speed loses at another.
 TEST(VelocityFilter, NoKalmanFilterIsBetterAtEveryPace) {
   std::vector<double> ours;
   for (const Motion& pace : paces) {

@@ -1,4 +1,4 @@
-// The stimuli of the thesis's three experiments: how many, called what, and how hard they push.
+// The stimuli of the thesis's three experiments: their numbers, names and forces.
 #include <cmath>
 #include <set>
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double pu = 10.0 / 512;
 
-/// The largest force along the patch's middle, N.
+/// The largest force along the patch's middle line, in N.
 double largest_force(const Program& program) {
   Bank bank(program);
   double largest = 0;
@@ -21,8 +21,8 @@ double largest_force(const Program& program) {
   return largest;
 }
 
-/// Where the force along x turns from left to right, from the middle on: valleys' floors and hills' tops alike, so two
-/// a period.
+/// The period, in m: the mean distance between places, from the centre to the right, where the force along x changes
+/// from negative to positive.
 double period_of(const Program& program) {
   Bank bank(program);
   double first = 0, last = 0, before = 0;
@@ -98,7 +98,7 @@ TEST(Collections, ChapterSixHasTheCommandsOfTableEight) {
   }
 }
 
-TEST(Collections, ParametersStayWithinWhatTheDeviceCanPush) {
+TEST(Collections, RandomParametersStayWithinTheDevicesForce) {
   for (const char* file : {"prototypes.wale", "triangle_wave.wale", "textbook.wale", "dynamics.wale", "jitter.wale",
                            "fractal.wale", "textures_version1.wale", "textures_version2.wale"}) {
     Module module(file);

@@ -1,4 +1,4 @@
-// The dynamic modules against Newton's laws written out again in double precision, and their energy.
+// The dynamic modules against Newton's laws in double precision, and their energy.
 #include <cmath>
 #include <functional>
 
@@ -18,14 +18,15 @@ struct Body {
   }
 };
 
-/// A hand that wanders about the patch: a float's values.
+/// A path over the patch (m), rounded to floats.
 Pair wandering(int i) {
   const double t = i * dt;
   return {static_cast<float>(0.03 * std::sin(4.1 * t) + 0.02 * std::sin(11 * t)),
           static_cast<float>(0.04 * std::cos(3.3 * t) - 0.01 * std::sin(17 * t))};
 }
 
-/// Runs a module along a path of the hand beside its model, which gives the force for a hand and then moves on.
+/// Runs a module and its model along the same path of the hand, and expects equal forces. The model returns its force
+/// for a hand and then advances one tick.
 void expect_alike(const std::string& material, const Parameters& parameters, int ticks, double tolerance,
                   const std::function<Pair(int, Pair)>& model, const std::function<Pair(int)>& path = wandering) {
   Module module("dynamics.wale");
@@ -46,7 +47,7 @@ void expect_alike(const std::string& material, const Parameters& parameters, int
     ASSERT_NEAR(force.x, expected.x, tolerance) << material << " tick " << i;
     ASSERT_NEAR(force.y, expected.y, tolerance) << material << " tick " << i;
   }
-  EXPECT_GT(largest, 100 * tolerance) << "nothing was felt";
+  EXPECT_GT(largest, 100 * tolerance) << "the forces are too small for the tolerance";
 }
 
 TEST(Dynamics, OneMassFollowsItsRecurrence) {
@@ -104,7 +105,7 @@ struct Balls {
 
 TEST(Dynamics, MovingMassesFollowTheirRecurrence) {
   Balls balls;
-  // The hand goes to meet the first ball and stays in its way.
+  // The hand stays in the way of the first ball.
   expect_alike(
       "MovingMasses", {}, 1500, 5e-3, [&](int, Pair hand) { return balls.step(hand); },
       [](int) {
@@ -128,7 +129,7 @@ TEST(Dynamics, MovingMassesKeepTheirEnergyWithoutDrag) {
     const auto s = memory.states();
     state.one = {{s[0], s[1]}, {s[2], s[3]}};
     state.two = {{s[4], s[5]}, {s[6], s[7]}};
-    ASSERT_NEAR(state.energy(), before, 0.12 * before) << i;  // a contact is some 50 ticks long
+    ASSERT_NEAR(state.energy(), before, 0.12 * before) << i;  // a contact lasts about 50 ticks
   }
 }
 
@@ -155,7 +156,7 @@ TEST(Dynamics, SpringsPullAlongTheirLines) {
   }
 }
 
-TEST(Dynamics, TheAttractorSwirls) {
+TEST(Dynamics, TheAttractorFollowsItsRecurrence) {
   const double m = 0.05, k = 40, hold = 80, b = 1, radius = 0.04, turns = 1, swirls = 0.3;
   Body object{{0, 0}, {0, 0}};
   double furthest = 0, nearest = 1;
@@ -211,7 +212,7 @@ TEST(Dynamics, TheBrickStaysUntilTheSpringPullsHarderThanFriction) {
   }
 }
 
-/// The quantity that semi-implicit Euler keeps exactly for a mass on a spring, in exact arithmetic.
+/// The quantity that semi-implicit Euler conserves for a mass on a spring, in exact arithmetic.
 double kept(Pair x, Pair v, double m, double k) {
   return 0.5 * m * dot(v, v) + 0.5 * k * dot(x, x) - 0.5 * k * dt * dot(x, v);
 }
@@ -225,7 +226,7 @@ TEST(Dynamics, OneMassNeitherGainsNorLosesEnergyWithoutDragAndLosesItWith) {
     Hand hand;
     hand.position = {0.05f, 0.0f};
     memory.enter(bank, hand);
-    hand.position = {0.0f, 0.0f};  // let go: the mass swings about the hand
+    hand.position = {0.0f, 0.0f};  // the mass swings about the hand
     const auto energy = [&] {
       const auto s = memory.states();
       return kept({s[0], s[1]}, {s[2], s[3]}, 0.3, 80);

@@ -1,5 +1,4 @@
-// Gratings, grids and the version-2 seed against sampled arrays that a sampled Gaussian smooths, as the thesis made
-// them.
+// Gratings, grids and the version-2 seed against sampled arrays smoothed by a sampled Gaussian, as in the thesis.
 #include <cmath>
 #include <set>
 
@@ -10,13 +9,13 @@ namespace {
 
 constexpr double pixel = 0.37e-3;
 
-/// A rectangle wave of `valley` and `hill` pixels, a hill's middle at 0.
+/// A rectangle wave of `valley` and `hill` pixels, with the middle of a hill at 0.
 double square_wave(double along, double valley, double hill) {
   const double period = valley + hill, rest = along - period * std::round(along / period);
   return std::abs(rest) < hill / 2 ? 1 : 0;
 }
 
-/// The wave smoothed by a Gaussian of standard deviation `kernel`, by summing it up in small steps.
+/// The wave smoothed by a Gaussian of standard deviation `kernel`, summed in small steps.
 double smoothed_wave(double along, double valley, double hill, double kernel) {
   double sum = 0, weights = 0;
   const int steps = 6000;
@@ -28,11 +27,12 @@ double smoothed_wave(double along, double valley, double hill, double kernel) {
   return sum / weights;
 }
 
-/// The force of a material of one function of place, in newtons along x.
+/// The value of a plain expression of the place, as the force along x in N.
 class Probe {
  public:
   Probe(const std::string& imports, const std::string& function)
-      : program_(Module("probe.wale", "wale 1\n" + imports + "\nmaterial probe { physical { patch 220 mm, 220 mm; active 2 W; " +
+      : program_(Module("probe.wale", "wale 1\n" + imports +
+                                          "\nmaterial probe { physical { patch 220 mm, 220 mm; active 2 W; " +
                                           "force = vector(1 N * (" + function + "), 0 N) } }\n")
                      .program("probe")),
         bank_(program_) {}
@@ -66,7 +66,7 @@ TEST(Gratings, GridsAreSmoothedPlateausInRowsThatMayBeShifted) {
   Probe offset(imports, "offset_grid(5 pixels, 5 pixels, 1 pixels, 5 pixels)");
   Probe brickwork(imports, "offset_grid(10 pixels, 5 pixels, 1 pixels, 4 pixels)");
   Probe checkerboard(imports, "checkerboard(5 pixels, 5 pixels, 1 pixels)");
-  // The array: a plateau where both waves are high; every second row of plateaus shifted to the right.
+  // A plateau is where both waves are high. Every second row of plateaus is shifted to the right.
   const auto plateau = [](double u, double v, double valley, double hill, double shift) {
     const double row = std::round(v / (valley + hill));
     return square_wave(v, valley, hill) * square_wave(std::fmod(std::abs(row), 2) == 1 ? u - shift : u, valley, hill);
@@ -94,8 +94,8 @@ TEST(Gratings, GridsAreSmoothedPlateausInRowsThatMayBeShifted) {
   }
 }
 
-/// The version-2 seed as the thesis made it: 256 samples, 128 of them hill, smoothed in a circle by a sampled Gaussian.
-/// Its first sample is the one right of a hill's middle.
+/// The version-2 seed of the thesis: 256 samples, 128 of them a hill, smoothed circularly by a sampled Gaussian. The
+/// first sample is right of the hill's middle.
 std::vector<double> seed() {
   std::vector<double> smooth(256);
   double weights = 0;
@@ -133,7 +133,7 @@ TEST(Gratings, TheSeedInEightBitsHasFiveLevelsOfForceTwentyPercentApart) {
   };
   std::vector<long> grey;
   for (int i = 0; i <= 256; ++i) grey.push_back(std::lround(255 * along(height, i * 1e-4)));
-  EXPECT_EQ(grey[0], 253);  // 255 (2 Normal(64 / 24) - 1): the hill is a little too narrow to reach its full height
+  EXPECT_EQ(grey[0], 253);  // 255 (2 Normal(64 / 24) - 1): the hill is too narrow for its full height
   EXPECT_EQ(grey[64], 128);
   EXPECT_EQ(grey[128], 2);
   std::set<long> levels;
@@ -164,8 +164,7 @@ TEST(Gratings, VersionTwoPushesDownhillWithItsAmplitudeAtMost) {
   }
 }
 
-/// Samples 256 pixels of a grating and smooths them by a sampled Gaussian: the largest forward difference in grey
-/// levels.
+/// The largest forward difference, in grey levels, of a sampled grating smoothed by a sampled Gaussian.
 double largest_difference(int valley, int hill, double kernel) {
   double largest = 0;
   std::vector<double> wave(512);

@@ -1,4 +1,4 @@
-// The irregular textures: Perlin's value noise written out plainly, the fractal's spectrum, and noise.
+// The irregular textures: Perlin's value noise against its formula, the fractal's spectrum, and noise.
 #include <cmath>
 #include <complex>
 
@@ -7,9 +7,10 @@
 namespace wale::sandpaper::irregular_test {
 namespace {
 
-/// A program of a material whose force is the two given plain numbers, in newtons.
+/// A program whose force components are two plain expressions, in N.
 Program probe(const std::string& imports, const std::string& along_x, const std::string& along_y) {
-  return Module("probe.wale", "wale 1\n" + imports + "\nmaterial probe { physical { patch 220 mm, 220 mm; active 2 W; force = " +
+  return Module("probe.wale", "wale 1\n" + imports +
+                                  "\nmaterial probe { physical { patch 220 mm, 220 mm; active 2 W; force = " +
                                   "vector(1 N * (" + along_x + "), 1 N * (" + along_y + ")) } }\n")
       .program("probe");
 }
@@ -25,7 +26,7 @@ double smooth(double t) { return 3 * t * t - 2 * t * t * t; }
 
 TEST(Perlin, IsTricubicBetweenTheControlPointsAtHalfHeight) {
   for (const int pattern : {0, 3}) {
-    // The control values of the two layers, as data, at whole millimetres.
+    // The control values of the two layers at whole millimetres.
     const Program lattice = probe("", "lattice(x / 1 mm, y / 1 mm, " + std::to_string(2 * pattern) + ")",
                                   "lattice(x / 1 mm, y / 1 mm, " + std::to_string(2 * pattern + 1) + ")");
     const Program density =
@@ -51,7 +52,7 @@ TEST(Perlin, IsTricubicBetweenTheControlPointsAtHalfHeight) {
   }
 }
 
-TEST(Perlin, AllSizesAreOnePatternAndPushInProportionToTheirSlope) {
+TEST(Perlin, AllSizesAreOnePatternWithForcesInProportionToTheSlope) {
   Module module("chapter4.wale");
   const auto p99 = [&](const std::string& name) {
     const Program program = module.program(name);
@@ -64,7 +65,7 @@ TEST(Perlin, AllSizesAreOnePatternAndPushInProportionToTheirSlope) {
   };
   for (const int feature : {5, 10, 20, 50})
     EXPECT_NEAR(p99("perlin" + std::to_string(feature)), 450.0 / feature, 0.03 * 450.0 / feature);
-  EXPECT_NEAR(p99("perlin2"), 120, 3);  // 225, held at the end of the thesis's axes
+  EXPECT_NEAR(p99("perlin2"), 120, 3);  // 225, limited to the end of the thesis's axes
   EXPECT_NEAR(p99("perlin30Fless"), 10, 0.3);
 
   const Program small = probe("import sandpaper.perlin\n", "perlin(2 mm)", "perlin(20 mm)");
@@ -72,9 +73,9 @@ TEST(Perlin, AllSizesAreOnePatternAndPushInProportionToTheirSlope) {
   for (int i = -10; i < 10; ++i) EXPECT_NEAR(at(bank, i * 1e-3, 2.3e-3).x, at(bank, i * 1e-2, 2.3e-2).y, 1e-4);
 }
 
-TEST(Fractal, PowerFallsWithFrequencyAsItsSlopeSays) {
+TEST(Fractal, PowerFallsWithFrequencyBySlope) {
   for (const double slope : {2.0, 3.0}) {
-    // Over its octaves, 0.25 to 32 mm: lines of 204.8 mm, 2048 samples, a Hann window against leakage.
+    // The octaves are 0.25 to 32 mm: lines of 204.8 mm with 2048 samples and a Hann window against leakage.
     const Program program =
         probe("import sandpaper.fractal\n", "fractal(x / 32 mm, y / 32 mm, " + std::to_string(slope) + ")", "0");
     Bank bank(program);
@@ -94,7 +95,7 @@ TEST(Fractal, PowerFallsWithFrequencyAsItsSlopeSays) {
         power[f] += std::norm(sum);
       }
     }
-    // Straight line through log power of bands an octave wide.
+    // A straight line through the logarithms of the power in bands one octave wide.
     double sx = 0, sy = 0, sxx = 0, sxy = 0, n = 0;
     for (int band = 8; band < 256; band *= 2) {
       double mean = 0;

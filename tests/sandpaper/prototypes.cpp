@@ -1,5 +1,5 @@
-// Every patch prototype against its formula in Appendix B of the thesis, as printed or with the sign that physics
-// asks for, at random hands and parameters.
+// Every patch prototype against its formula in Appendix B of the thesis, as printed or with the physically correct
+// sign, at random hands and parameters.
 #include <cmath>
 #include <functional>
 
@@ -17,7 +17,7 @@ using Law = std::function<Pair(const Place&, Parameters&)>;
 
 double sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
-/// The remainder that is never negative, by repeated definition rather than by `floor`.
+/// The remainder that is never negative.
 double wrapped(double value, double divisor) {
   const double rest = std::fmod(value, divisor);
   return rest < 0 ? rest + divisor : rest;
@@ -26,11 +26,11 @@ double wrapped(double value, double divisor) {
 /// A triangle wave of slope 4 through 0, by the arcsine of a sine.
 double triangle(double t) { return 2 / M_PI * std::asin(std::sin(2 * M_PI * t)); }
 
-/// What a device of 10 N pushes of it.
+/// The force as a device of 10 N gives it.
 Pair limited(Pair force) { return {std::clamp(force.x, -10.0, 10.0), std::clamp(force.y, -10.0, 10.0)}; }
 
-/// Compares a material with its law at a few hundred hands. Where the law jumps, the machine's rounding may fall on
-/// either side, so it must lie between the law's values within a micrometre.
+/// Compares a material with its law at a few hundred hands. Where the law jumps, rounding may fall on either side, so
+/// the force must lie between the law's values within a micrometre.
 void expect_law(Module& module, const std::string& material, const Law& law, int hands = 400) {
   const Program program = module.program(material);
   const PatchSize size = program.default_size();
@@ -126,7 +126,7 @@ TEST(Prototypes, FollowTheirFormulas) {
        [](const Place& h, Parameters& q) {
          return Pair{q["v1"] * h.p.x - q["v2"] * h.p.y, q["v1"] * h.p.y + q["v2"] * h.p.x};
        }},
-      // The hand has just come in, and the object is where it is.
+      // The hand has just entered, and the object is at the hand.
       {"ATNSpring", [](const Place&, Parameters&) { return Pair{}; }},
       {"ATNSpringAsPrinted", [](const Place&, Parameters&) { return Pair{}; }},
   };
@@ -134,7 +134,7 @@ TEST(Prototypes, FollowTheirFormulas) {
   for (const auto& [name, law] : laws) expect_law(module, name, law);
 }
 
-TEST(Prototypes, TheAttractedObjectCoversItsShareEveryFrame) {
+TEST(Prototypes, TheAttractedObjectMovesByItsShareEveryTick) {
   Module module("prototypes.wale");
   for (const auto& [name, direction] : {std::pair{"ATNSpring", 1.0}, std::pair{"ATNSpringAsPrinted", -1.0}}) {
     const Program program = module.program(name);
@@ -158,7 +158,7 @@ TEST(Prototypes, TheAttractedObjectCoversItsShareEveryFrame) {
   }
 }
 
-TEST(TriangleWave, IsALocalSpringAsMeantAndASawtoothAsPrinted) {
+TEST(TriangleWave, IsALocalSpringAndASawtoothAsPrinted) {
   Module module("triangle_wave.wale");
   expect_law(module, "TriangleWave", [](const Place& h, Parameters& q) {
     return Pair{-q["amp"] * triangle(h.p.x / q["wavelength"]), -q["amp"] * triangle(h.p.y / q["wavelength"])};
@@ -185,7 +185,7 @@ TEST(TextbookObjects, FollowNewton) {
     const double damping = h.v.x > 0 ? q["damping"] : q["damping"] * q["release"];
     return Pair{std::min(0.0, -q["stiffness"] * h.p.x - damping * h.v.x), 0};  // a wall never pulls
   });
-  // F = m g tan(slope), downhill, by a difference instead of a derivative; the patch's fading rim left out.
+  // F = m g tan(slope), downhill, by a difference instead of a derivative, outside of the fading rim.
   const Program hill = module.program("StylusOnAHill");
   std::mt19937 random(5);
   for (int i = 0; i < 300; ++i) {

@@ -21,8 +21,8 @@ namespace wale::sandpaper {
 
 inline const std::string folder = std::string(WALE_SOURCE_DIR) + "/library/sandpaper/";
 
-/// A file of library/sandpaper, or a text that stands there in its place, read and checked. Throws with the diagnostics
-/// when something is wrong; a warning is wrong too.
+/// A file of library/sandpaper, or a text in its place, read and checked. Throws std::runtime_error with the
+/// diagnostics when there are errors or warnings.
 class Module {
  public:
   explicit Module(const std::string& file) : Module(file, read(file)) {}
@@ -73,7 +73,7 @@ inline Bank bank_with(const Program& program, const Parameters& values) {
   return Bank(program, all, program.default_size());
 }
 
-/// The program's parameters at random within their ranges: as floats, so that a bank takes them exactly.
+/// Random parameters within their ranges, rounded to floats, so that a bank holds them exactly.
 inline Parameters random_parameters(const Program& program, std::mt19937& random) {
   Parameters values;
   for (const auto& declared : program.description().parameters) {
@@ -91,12 +91,12 @@ inline Parameters default_parameters(const Program& program) {
   return values;
 }
 
-/// Uniform in -size .. size, a float's value.
+/// Uniform in -size .. size, rounded to a float.
 inline double uniform(std::mt19937& random, double size) {
   return static_cast<float>(size * (static_cast<double>(random()) / 2147483648.0 - 1));
 }
 
-/// Two numbers of double precision.
+/// A vector in double precision.
 struct Pair {
   double x = 0, y = 0;
   friend Pair operator+(Pair a, Pair b) { return {a.x + b.x, a.y + b.y}; }

@@ -24,7 +24,7 @@ TEST(Csv, ReadsCellsWithoutBlanksAndQuotes) {
   EXPECT_EQ(rows_of("1,,\n"), (Rows{{"1", "", ""}}));
 }
 
-TEST(Csv, TakesByteOrderMarksLineEndsOfWindowsCommentsAndEmptyLines) {
+TEST(Csv, AcceptsByteOrderMarksWindowsLineEndsCommentsAndEmptyLines) {
   EXPECT_EQ(rows_of("\xef\xbb\xbfx,y\r\n\r\n# measured\r\n1,2\r\n"), (Rows{{"x", "y"}, {"1", "2"}}));
   EXPECT_EQ(rows_of(""), Rows{});
   EXPECT_EQ(rows_of("\xef\xbb\xbf"), Rows{});

@@ -1,4 +1,4 @@
-// Declared devices as bytes: what is written is read back, and damaged bytes are refused.
+// Declared devices as bytes: a table that is written is read back unchanged, and damaged bytes are refused.
 #include "schema/device_table.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ DeclaredDevice pad() {
 
 const std::vector<DeclaredDevice> both{joystick(), pad()};
 
-/// The sentence that a table of one device is refused with; empty where it is read.
+/// The sentence with which a table of one device is refused; empty when the table is read.
 std::string refused(const DeclaredDevice& device) {
   const auto read = read_device_table(write_device_table(std::vector{device}));
   if (read) return "";
@@ -94,7 +94,7 @@ TEST(DeviceTable, BeginsAsDocumented) {
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(std::to_integer<int>(bytes[i]), expected[i]) << i;
 }
 
-TEST(DeviceTable, RefusesEveryBeginningAndAnythingBehindItsEnd) {
+TEST(DeviceTable, RefusesTruncatedTablesAndTrailingBytes) {
   auto bytes = write_device_table(both);
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_FALSE(read_device_table(std::span(bytes).first(size))) << size;

@@ -1,4 +1,4 @@
-// schema/PATCH_PROGRAM.md against what it documents.
+// schema/PATCH_PROGRAM.md against the tables in the code.
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ TEST(Documentation, ListsEverySectionInOrder) {
   EXPECT_EQ(found, expected);
 }
 
-// Numbers never change: those of the format's first version, by hand.
+// The numbers of the format's first version, written by hand, since they never change.
 TEST(Documentation, NumbersNeverChange) {
   const std::vector<std::string_view> names = {"add",     "subtract", "multiply",   "divide",      "negate", "absolute",
                                                "minimum", "maximum",  "floor",      "square_root", "less",   "select",

@@ -39,7 +39,7 @@ inline DeviceProfile device() {
   return device;
 }
 
-/// What `program` tells of the one percept that it realises.
+/// The record of the only percept that `program` realises.
 inline PerceptRecord roughness() {
   using enum Operation;
   PerceptRecord percept;
@@ -77,7 +77,7 @@ inline PerceptRecord roughness() {
 }
 
 /// A sinusoidal grating of a live period whose force has a live amplitude, with a table, a state, grids, marks, a
-/// percept and layers: a program in which no part of the format is empty.
+/// percept and layers. No part of the format is empty.
 ///
 ///   height = sine(2 pi x / period);  force x = -amplitude * slope / peak(|slope|), limited;  force y = 0, limited
 inline PatchProgram program() {
@@ -139,7 +139,7 @@ inline PatchProgram program() {
   return p;
 }
 
-/// The least that is a program: no force.
+/// The smallest valid program. Its force is zero.
 inline PatchProgram least() {
   PatchProgram p;
   p.material = "nothing";

@@ -42,7 +42,7 @@ TEST(PatchProgram, ConstantsKeepEveryBit) {
   EXPECT_EQ(write_patch_program(read(bytes)), bytes);
 }
 
-// The layout that schema/PATCH_PROGRAM.md states, put together by a writer of the test's own.
+// The layout of schema/PATCH_PROGRAM.md, assembled by the writer in wpp_bytes.hpp.
 TEST(PatchProgram, FileIsLaidOutAsDocumented) {
   const Bytes bytes = write_patch_program(example::program());
   EXPECT_EQ(wpp::file_of(wpp::sections_of(bytes)), bytes);
@@ -55,13 +55,13 @@ TEST(PatchProgram, FileIsLaidOutAsDocumented) {
       "PLAC? ");
 }
 
-TEST(PatchProgram, WhatIsNotThereIsLeftOut) {
+TEST(PatchProgram, EmptyOptionalSectionsAreLeftOut) {
   std::string kinds;
   for (const auto& section : wpp::sections_of(write_patch_program(example::least()))) kinds += section.kind + " ";
   EXPECT_EQ(kinds, "NAME REGS CONS PARM SETU PEAK TICK OUTP PICT TABL PTCH DEVI ");
 }
 
-// The content of the sections of what a program remembers and shows, byte for byte by hand.
+// The contents of the sections STAT, GRID and FRAM, byte by byte, written by hand.
 TEST(PatchProgram, StatesGridsAndMarksAreLaidOutAsDocumented) {
   const Bytes bytes = write_patch_program(example::program());
   const auto content = [&](std::string_view kind) {
@@ -155,7 +155,7 @@ TEST(PatchProgram, KnowsWhereAnInstructionComesFrom) {
   EXPECT_EQ(&program.code(peak, 0), &program.peaks[0].code);
 }
 
-// Fields by hand: operation 3 (multiply) in bits 0-7, then 14 bits each of destination, a, b, c.
+// The fields, by hand: operation 3 (multiply) in bits 0-7, then 14 bits each for destination, a, b and c.
 TEST(PatchProgram, InstructionsTakeEightBytes) {
   const std::uint64_t word = encode({3, 26, 1, 22, 5});
   EXPECT_EQ(word, 3u + (26ull << 8) + (1ull << 22) + (22ull << 36) + (5ull << 50));
@@ -163,7 +163,7 @@ TEST(PatchProgram, InstructionsTakeEightBytes) {
   EXPECT_EQ(decode(~0ull), (Instruction{255, 16383, 16383, 16383, 16383}));
 }
 
-// CRC-32 of "123456789" is 0xcbf43926 in every description of it; the file's own is checked by `sealed`.
+// 0xcbf43926 is the published check value of CRC-32, that of the text "123456789".
 TEST(PatchProgram, ChecksumIsCrc32) {
   const Bytes bytes = write_patch_program(example::program());
   EXPECT_EQ(wpp::get(bytes, 24, 4), wpp::crc(bytes));
@@ -172,7 +172,7 @@ TEST(PatchProgram, ChecksumIsCrc32) {
   EXPECT_EQ(wpp::crc(check), 0xcbf43926u);
 }
 
-TEST(PatchProgram, WhatAPadIsComesBack) {
+TEST(PatchProgram, PadsComeBackFromTheirBytes) {
   for (const PositionSource source : {PositionSource::none, PositionSource::pointer, PositionSource::touch}) {
     const PatchProgram pad = example::pad(source);
     EXPECT_EQ(read(write_patch_program(pad)), pad);

@@ -21,7 +21,7 @@ std::string refusal_of(const Bytes& bytes) {
   return result ? "" : in_words(result.error());
 }
 
-/// The refusal of the example with one thing changed and the checksum made to match.
+/// The refusal of the example after the `size` bytes at `at` are set to `value` and the checksum is corrected.
 std::string refusal_with(std::size_t at, std::uint64_t value, int size) {
   Bytes bytes = example_bytes();
   wpp::put(bytes, at, value, size);
@@ -49,13 +49,13 @@ std::string refusal_of_content(std::string_view kind, const std::function<void(B
 std::size_t entry(std::size_t number) { return 32 + 24 * number; }
 
 TEST(Refusals, NotAPatchProgram) {
-  const std::string sentence = "this is not a patch program: it does not begin as a .wpp file does";
+  const std::string sentence = "this is not a patch program: its first bytes are not those of a .wpp file";
   EXPECT_EQ(refusal_of({}), sentence);
   EXPECT_EQ(refusal_of(Bytes(100)), sentence);
 }
 
 TEST(Refusals, DamageByATransferAsText) {
-  const std::string sentence = "this was a patch program, and a transfer as text has damaged it; copy it as binary";
+  const std::string sentence = "a transfer as text has damaged this patch program; copy it as binary";
   Bytes unix_ends = example_bytes();
   unix_ends.erase(unix_ends.begin() + 4);  // CR LF becomes LF
   EXPECT_EQ(refusal_of(unix_ends), sentence);
@@ -65,10 +65,9 @@ TEST(Refusals, DamageByATransferAsText) {
 }
 
 TEST(Refusals, NewerMajorVersionSaysWhatToDo) {
-  EXPECT_EQ(
-      refusal_with(8, 2, 2),
-      "this patch program has format version 2.0, and this Wale reads up to 1; update Wale, or build the material "
-      "again with this one");
+  EXPECT_EQ(refusal_with(8, 2, 2),
+            "this patch program has format version 2.0, but this Wale reads only up to 1; update Wale, or build the "
+            "material again with this one");
   EXPECT_EQ(refusal_with(8, 0, 2), "this patch program claims format version 0, which never existed");
 }
 
@@ -90,13 +89,13 @@ TEST(Refusals, EveryTruncation) {
     const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
     ASSERT_NE(refusal_of(cut), "") << size;
     if (size < 32) continue;
-    // Nor does it help to declare the cut file whole.
+    // The file is refused even if its header declares the shorter size and the checksum matches.
     Bytes crafted = cut;
     wpp::put(crafted, 16, size, 8);
     ASSERT_NE(refusal_of(wpp::sealed(crafted)), "") << size;
   }
   EXPECT_EQ(refusal_of(Bytes(whole.begin(), whole.begin() + 100)),
-            "the file is cut short: it should have " + std::to_string(whole.size()) + " bytes and has 100");
+            "the file is cut short: expected " + std::to_string(whole.size()) + " bytes, found 100");
   EXPECT_EQ(refusal_of(Bytes(whole.begin(), whole.begin() + 20)),
             "the file ends inside its header, after 20 of 32 bytes");
 }
@@ -119,10 +118,10 @@ TEST(Refusals, SectionsOutOfPlace) {
   const auto size = std::to_string(example_bytes().size());
   EXPECT_EQ(refusal_with(entry(8) + 16, 1u << 20, 8).substr(0, 34), "section TICK claims 1048576 bytes ");
   EXPECT_EQ(refusal_with(entry(8) + 8, ~0ull, 8),
-            "section TICK claims 60 bytes at 18446744073709551615, and the file has " + size);
+            "section TICK claims 60 bytes at 18446744073709551615, but the file has only " + size);
   const auto offset = wpp::get(example_bytes(), entry(8) + 8, 8);
   EXPECT_EQ(refusal_with(entry(8) + 8, offset - 8, 8),
-            "section TICK at " + std::to_string(offset - 8) + " overlaps what is before it");
+            "section TICK at " + std::to_string(offset - 8) + " overlaps the bytes before it");
   EXPECT_EQ(refusal_with(entry(8) + 8, offset + 8, 8),
             "section TICK at " + std::to_string(offset + 8) + " leaves a gap of 8 bytes before it");
   EXPECT_EQ(refusal_with(offset + 60, 1, 1), "section TICK is followed by bytes that are not zero");
@@ -132,22 +131,23 @@ TEST(Refusals, SectionKindsAndFlags) {
   EXPECT_EQ(refusal_of_sections([](auto& s) {
               s.insert(s.begin() + 3, {"XTRA", 1, {}});
             }),
-            "section XTRA is required to run this program, and this Wale does not know it; update Wale");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { s.insert(s.begin() + 3, s[2]); }), "section CONS is there twice");
-  EXPECT_EQ(refusal_of_sections([](auto& s) { std::swap(s[2], s[3]); }), "section CONS stands after PARM");
+            "this program needs section XTRA, which this Wale does not know; update Wale");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { s.insert(s.begin() + 3, s[2]); }), "section CONS occurs twice");
+  EXPECT_EQ(refusal_of_sections([](auto& s) { std::swap(s[2], s[3]); }),
+            "section CONS comes after PARM, expected before it");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.erase(s.begin() + 8); }), "section TICK is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s.clear(); }), "section NAME is missing");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 0; }),
-            "section TICK is marked as skippable and must not be");
+            "section TICK is marked as skippable, expected required");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[17].flags = 1; }),
-            "section LAYR is marked as required and must not be");
+            "section LAYR is marked as required, expected skippable");
   EXPECT_EQ(refusal_of_sections([](auto& s) { s[8].flags = 3; }),
             "section TICK has flags that this Wale does not know");
 }
 
 TEST(Refusals, ContentThatEndsEarlyOrLate) {
   EXPECT_EQ(refusal_of_content("PTCH", [](Bytes& b) { b.resize(10); }),
-            "section PTCH ends early: 4 bytes are needed and 2 are left");
+            "section PTCH ends early: it needs 4 more bytes and has 2");
   EXPECT_EQ(refusal_of_content("REGS", [](Bytes& b) { b.resize(9); }), "section REGS has 5 bytes after its end");
 }
 
@@ -160,35 +160,35 @@ TEST(Refusals, CountsBeyondTheFile) {
     }
   }
   EXPECT_EQ(refusal_of_content("TICK", [](Bytes& b) { wpp::put(b, 0, 1000, 4); }),
-            "section TICK claims 1000 instructions and has 56 bytes left for them");
+            "section TICK claims 1000 instructions but has only 56 bytes for them");
 }
 
 TEST(Refusals, Texts) {
   EXPECT_EQ(refusal_of_content("NAME", [](Bytes& b) { wpp::put(b, 0, 0xffffffff, 4); }),
             "section NAME claims 4294967295 bytes for the material's name; texts have at most 1048576");
   EXPECT_EQ(refusal_of_content("NAME", [](Bytes& b) { wpp::put(b, 0, 1000, 4); }),
-            "section NAME ends early: 1000 bytes are needed and 13 are left");
+            "section NAME ends early: it needs 1000 more bytes and has 13");
   EXPECT_EQ(refusal_of_content("NAME", [](Bytes& b) { b[6] = std::byte{0}; }),
             "section NAME has a NUL byte inside the material's name");
 }
 
-TEST(Refusals, FiguresThatAreNone) {
+TEST(Refusals, FiguresThatAreNotFinite) {
   constexpr std::uint64_t nan32 = 0x7fc00000, inf64 = 0x7ff0000000000000;
   EXPECT_EQ(refusal_of_content("PTCH", [](Bytes& b) { wpp::put(b, 4, nan32, 4); }),
-            "section PTCH holds nan for the patch's height, which is not a finite number");
+            "section PTCH holds nan for the patch's height, expected a finite number");
   EXPECT_EQ(refusal_of_content("STAT", [](Bytes& b) { wpp::put(b, 4 + (4 + 4) + (4 + 1) + 4, nan32, 4); }),
-            "section STAT holds nan for a state's range, which is not a finite number");
+            "section STAT holds nan for a state's range, expected a finite number");
   EXPECT_EQ(refusal_of_content("GRID", [](Bytes& b) { wpp::put(b, 4 + (4 + 5) + (4 + 2) + 8, nan32, 4); }),
-            "section GRID holds nan for a grid's initial value, which is not a finite number");
+            "section GRID holds nan for a grid's initial value, expected a finite number");
   EXPECT_EQ(refusal_of_content("DEVI", [](Bytes& b) { wpp::put(b, 4 + 5 + 8 * 4, inf64, 8); }),
-            "section DEVI holds inf for the rate, which is not a finite number");
+            "section DEVI holds inf for the rate, expected a finite number");
 }
 
 TEST(Refusals, Tables) {
   EXPECT_EQ(refusal_of_content("TABL", [](Bytes& b) { wpp::put(b, 4, 0xffffffff, 4); }),
-            "section TABL claims 4294967295 x 2 heights for table 0 and has 12 bytes left for them");
+            "section TABL claims 4294967295 x 2 heights for table 0 but has only 12 bytes for them");
   EXPECT_EQ(refusal_of_content("TABL", [](Bytes& b) { wpp::put(b, 4, 0xffffffffffffffff, 8); }),
-            "section TABL claims 4294967295 x 4294967295 heights for table 0 and has 12 bytes left for them");
+            "section TABL claims 4294967295 x 4294967295 heights for table 0 but has only 12 bytes for them");
   EXPECT_EQ(refusal_of_content("TABL", [](Bytes& b) { b[20] ^= std::byte{1}; }),
             "section TABL holds table 0, whose heights do not match its hash");
   // The same codes in another shape are another table.
@@ -202,32 +202,32 @@ TEST(Refusals, ChoicesThatThisWaleDoesNotKnow) {
   EXPECT_EQ(refusal_of_content("FRAM", [](Bytes& b) { b[4 + 2 * 8 + 4] = std::byte{7}; }),
             "section FRAM has a mark of kind 7, which this Wale does not know");
   EXPECT_EQ(refusal_of_content("PICT", [](Bytes& b) { b[2] = std::byte{2}; }),
-            "section PICT holds 2 for whether the relief is a length, which is 0 or 1");
+            "section PICT holds 2 for whether the relief is a length, expected 0 or 1");
   EXPECT_EQ(refusal_of_content("PICT", [](Bytes& b) { b[3] = std::byte{0}; }),
-            "section PICT names registers for a colour, and the surface has no colour");
+            "section PICT names registers for a colour, but says that the surface has none");
   const std::size_t live = 4 + (4 + 9) + (4 + 17);  // after the count, "roughness" and "lateral amplitude"
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{3}; }),
-            "section PERC holds 3 for whether a percept is live, which is 0, 1 or 2");
+            "section PERC holds 3 for how a percept's level is set, expected 0, 1 or 2");
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[live] = std::byte{0}; }),
             "section PERC names parameter 1 for a percept without a parameter");
   const std::size_t slope = live + 1 + 2 + 2 + 1 + (4 + 2 * 8) + 2 + 2 + 3 * 4;
   EXPECT_EQ(refusal_of_content("PERC", [&](Bytes& b) { b[slope] = std::byte{6}; }),
-            "section PERC gives the evidence of a slope grade 6, which this Wale does not know");
+            "section PERC has evidence grade 6 for a slope, which this Wale does not know");
   const std::size_t fate = 4 + (4 + 9) + 1;  // after the count, "roughness" and whether it is a percept
   EXPECT_EQ(refusal_of_content("FATE", [&](Bytes& b) { b[fate] = std::byte{5}; }),
-            "section FATE holds fate 5, which this Wale does not know");
+            "section FATE has fate 5, which this Wale does not know");
 }
 
 TEST(Refusals, PlacesThatDoNotFitTheCode) {
-  const std::size_t run = 4 + (4 + 10) + (4 + 9) + 4;  // setup's, after the count of files, both of them, and of runs
+  const std::size_t run = 4 + (4 + 10) + (4 + 9) + 4;  // setup's first run, after the files and the count
   EXPECT_EQ(refusal_of_content("PLAC", [&](Bytes& b) { wpp::put(b, run, 3, 4); }),
-            "section PLAC places 3 instructions where the code has 4");
+            "section PLAC has places for 3 instructions, but the code has 4");
   EXPECT_EQ(refusal_of_content("PLAC", [&](Bytes& b) { wpp::put(b, run, 0, 4); }),
             "section PLAC has a run of no instructions");
   EXPECT_EQ(refusal_of_content("PLAC", [&](Bytes& b) { wpp::put(b, run + 4, 2, 2); }),
-            "section PLAC names file 2 and has 2 of them");
+            "section PLAC names file 2 but has only 2");
   EXPECT_EQ(refusal_of_content("PLAC", [&](Bytes& b) { wpp::put(b, run + 6, 0, 4); }),
-            "section PLAC names line 0, and lines begin at 1");
+            "section PLAC names line 0; lines are numbered from 1");
   EXPECT_EQ(refusal_of_content("PLAC", [](Bytes& b) { b.resize(b.size() - 10); }).substr(0, 27),
             "section PLAC claims 1 runs ");
 }
@@ -249,8 +249,8 @@ TEST(Refusals, EmptySectionsThatAreLeftOut) {
             "section PLAC is empty; a file without places leaves it out");
 }
 
-// What a loader accepts it can write again to the same bytes: no two files say the same.
-TEST(Refusals, WhateverIsAcceptedIsCanonical) {
+// An accepted file is written again as the same bytes, so no two files mean the same program.
+TEST(Refusals, AcceptedFilesAreCanonical) {
   const std::size_t sections = wpp::get(example_bytes(), 12, 4);
   int accepted = 0;
   for (const Bytes& whole : {example_bytes(), write_patch_program(example::pad())})
@@ -263,14 +263,14 @@ TEST(Refusals, WhateverIsAcceptedIsCanonical) {
         if (!result) continue;
         ++accepted;
         const bool unknown_section = at >= 32 && at < 32 + 24 * sections;
-        if (unknown_section) continue;  // one that lost its name is skipped
+        if (unknown_section) continue;  // a section with a changed name is skipped
         ASSERT_EQ(write_patch_program(*result), wpp::sealed(bytes)) << "byte " << at;
       }
     }
   EXPECT_GT(accepted, 100);
 }
 
-TEST(Refusals, WhatAPadVibratesWith) {
+TEST(Refusals, VibrationOfAPad) {
   const Bytes pad = write_patch_program(example::pad());
   const auto refusal = [&](const std::function<void(Bytes&)>& change) {
     auto sections = wpp::sections_of(pad);
@@ -281,15 +281,15 @@ TEST(Refusals, WhatAPadVibratesWith) {
   };
   EXPECT_EQ(refusal([](Bytes&) {}), "");
   EXPECT_EQ(refusal([](Bytes& b) { b[0] = std::byte{3}; }),
-            "section VIBR says that the position comes from source 3, which this Wale does not know");
+            "section VIBR has position source 3, which this Wale does not know");
   EXPECT_EQ(refusal([](Bytes& b) { wpp::put(b, 1, 0x7ff0000000000000, 8); }),
-            "section VIBR holds inf for a figure of the vibration, which is not a finite number");
+            "section VIBR holds inf for a figure of the vibration, expected a finite number");
   EXPECT_EQ(refusal([](Bytes& b) { wpp::put(b, 1 + 5 * 8, 1000, 4); }).substr(0, 40),
-            "section VIBR claims 1000 frequencies and");
+            "section VIBR claims 1000 frequencies but");
   EXPECT_EQ(refusal([](Bytes& b) { wpp::put(b, 1 + 5 * 8 + 4 + 8, 1000, 4); }).substr(0, 48),
             "section VIBR claims 1000 points of the response ");
   EXPECT_EQ(refusal([](Bytes& b) { b.resize(b.size() - 1); }),
-            "section VIBR claims 2 points of the response and has 31 bytes left for them");
+            "section VIBR claims 2 points of the response but has only 31 bytes for them");
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include "schema/patch_program.hpp"
 
-/// `.wpp` files taken apart and put together again by hand, straight from schema/PATCH_PROGRAM.md and apart from the
-/// code under test.
+/// A second reader and writer of `.wpp` files for tests. It follows schema/PATCH_PROGRAM.md and shares no code with
+/// schema/.
 namespace wale::wpp {
 
 using Bytes = std::vector<std::byte>;
@@ -39,7 +39,7 @@ inline void append_text(Bytes& bytes, std::string_view text) {
   for (const char c : text) append(bytes, static_cast<unsigned char>(c), 1);
 }
 
-/// CRC-32 bit by bit, the checksum's four bytes at 24 taken as zero.
+/// CRC-32, computed bit by bit. The four bytes of the checksum, at 24, count as zero.
 inline std::uint32_t crc(const Bytes& bytes) {
   std::uint32_t remainder = 0xffffffff;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -49,7 +49,7 @@ inline std::uint32_t crc(const Bytes& bytes) {
   return ~remainder;
 }
 
-/// Makes the checksum match whatever was done to the bytes.
+/// The bytes with the checksum corrected.
 inline Bytes sealed(Bytes bytes) {
   put(bytes, 24, crc(bytes), 4);
   return bytes;

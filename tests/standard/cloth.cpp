@@ -1,11 +1,11 @@
-// Weaves and knits: what repeats, what mirrors, and which thread lies on top.
+// Weaves and knits: their repeats, their symmetries, and which thread lies on top.
 #include "tests/standard/standard.hpp"
 
 namespace wale::standard::cloth_test {
 namespace {
 
-/// Whether the warp lies on top where warp thread `end` and weft thread `pick` cross: then the crossing falls off to
-/// the warp's sides and not along it.
+/// Whether the warp lies on top where warp thread `end` and weft thread `pick` cross: then the height falls to the
+/// sides of the warp and not along it.
 bool warp_on_top(const Height& cloth, double spacing, int end, int pick) {
   const glm::dvec2 crossing{spacing * end, spacing * pick};
   const double along_warp = cloth(crossing + glm::dvec2(0, spacing / 4)),
@@ -17,14 +17,14 @@ bool warp_on_top(const Height& cloth, double spacing, int end, int pick) {
 
 int modulo(int value, int divisor) { return ((value % divisor) + divisor) % divisor; }
 
-TEST(PlainWeave, GoesOverAndUnderInTurn) {
+TEST(PlainWeave, AlternatesOverAndUnder) {
   const Height cloth("std.weave", "plain_weave(hand, 2 mm)");
   for (int end = -8; end <= 8; ++end)
     for (int pick = -8; pick <= 8; ++pick)
       EXPECT_EQ(warp_on_top(cloth, 0.002, end, pick), modulo(end + pick, 2) == 0) << end << " " << pick;
 }
 
-TEST(PlainWeave, IsTheSameFromOneThreadToTheNextAndWithWarpAndWeftExchanged) {
+TEST(PlainWeave, RepeatsByThreadsAndIsSymmetricInWarpAndWeft) {
   const Height cloth("std.weave", "plain_weave(hand, 2 mm)");
   Chance chance(10);
   for (int i = 0; i < 2000; ++i) {
@@ -71,7 +71,7 @@ TEST(Satin, TiesEachWarpOnceARepeatAndNeverBesideAnother) {
   }
 }
 
-TEST(Woven, TakesSpacingsOfItsOwnForWarpAndWeft) {
+TEST(Woven, HasSeparateSpacingsForWarpAndWeft) {
   const Height cloth("std.weave", "woven(hand, warp: 2 mm, weft: 3 mm)");
   Chance chance(12);
   for (int i = 0; i < 300; ++i) {
@@ -95,7 +95,7 @@ TEST(Stockinette, RepeatsByWaleAndCourseAndMirrorsInEachColumn) {
     EXPECT_NEAR(cloth(place), cloth({-place.x, place.y}), 2e-4);
   }
   EXPECT_NEAR(sum / 20000, 0, 0.01);
-  // The legs of a V rise to its sides: at 1/8 and 3/8 of a wale their crests lie 0.8 / 2 of a course apart.
+  // The legs of a V rise to its sides: their crests at 1/8 and 3/8 of a wale are 0.8 / 2 of a course apart.
   const auto crest = [&](double x) {
     double best = 0, top = -1;
     for (double y = 0; y < 0.003; y += 1e-5)
@@ -113,7 +113,7 @@ TEST(RibKnit, RepeatsAfterItsKnitAndPurlColumns) {
     EXPECT_NEAR(cloth(place), cloth(place + glm::dvec2(0.012, 0)), 1e-3);
     EXPECT_NEAR(cloth(place), cloth(place + glm::dvec2(0, 0.0024)), 1e-3);
   }
-  // The knit columns, from 0 to 6 mm, stand above the purl ones.
+  // The knit columns, from 0 to 6 mm, are higher than the purl columns.
   double knit = 0, purl = 0;
   for (int i = 0; i < 2000; ++i) {
     knit += cloth({chance.between(0.001, 0.005), chance.between(-0.03, 0.03)}) / 2000;

@@ -1,10 +1,10 @@
-// Detents and the desktop made of them: where they hold, how much it takes to leave, and that no way round them gains.
+// Detents and the desktop made of them: their rests, the energy to leave them, and that no closed path gains energy.
 #include "tests/standard/standard.hpp"
 
 namespace wale::standard::detents_test {
 namespace {
 
-/// The work that a hand at rest puts in on the straight way, J.
+/// The work of a slow hand on the straight path, in J.
 double work(Field& field, glm::dvec2 from, glm::dvec2 to, int steps = 20000) {
   double sum = 0;
   for (int i = 0; i < steps; ++i)
@@ -57,7 +57,7 @@ TEST(Ratchet, IsEasyForwardsSteepBackAndCostsTheSame) {
   }
 }
 
-TEST(Menu, HasADetentInTheMiddleOfEveryItemAndNoneElse) {
+TEST(Menu, HasADetentInTheMiddleOfEveryItemOnly) {
   Field field(pushing("std.desktop", "items(hand, 5, 12 mm, 50 mm, 1 N)"));
   std::vector<double> rests;
   for (double y = -0.05; y < 0.05; y += 1e-4)
@@ -65,7 +65,7 @@ TEST(Menu, HasADetentInTheMiddleOfEveryItemAndNoneElse) {
   ASSERT_EQ(rests.size(), 5u);
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(rests[static_cast<std::size_t>(i)], 0.012 * (i - 2), 2e-4);
   EXPECT_NEAR(work(field, {0, 0}, {0, 0.006}), 0.012 / pi, 1e-6);
-  EXPECT_NEAR(work(field, {0, 0}, {0.04, 0}), 0.012 / pi, 1e-6);  // out sideways it costs the same
+  EXPECT_NEAR(work(field, {0, 0}, {0.04, 0}), 0.012 / pi, 1e-6);  // the way out to the side costs the same
   Field even(pushing("std.desktop", "items(hand, 4, 10 mm, 50 mm, 1 N)"));
   for (int i = 0; i < 4; ++i) {
     const double rest = 0.01 * (i - 1.5);
@@ -84,7 +84,7 @@ TEST(Rim, HoldsInsideWithTwoThirdsOfStrengthTimesReach) {
   EXPECT_NEAR(work(field, {0.02, 0.01}, {0.06, 0.05}), 2 * 0.009 * 2 / 3, 1e-5);  // round the corner
 }
 
-TEST(WindowEdge, IsAGrooveAllRound) {
+TEST(WindowEdge, IsAGrooveAllAround) {
   Field field(pushing("std.desktop", "window_edge(hand, 80 mm, 50 mm, reach: 4 mm, strength: 1.2 N)"));
   for (const glm::dvec2 edge : {glm::dvec2(0.04, 0.003), {-0.04, -0.01}, {0.01, 0.025}, {-0.02, -0.025}}) {
     const glm::dvec2 out =
@@ -99,7 +99,8 @@ TEST(WindowEdge, IsAGrooveAllRound) {
 
 TEST(Document, PullsHalfAsHardAfterEachHalfLife) {
   const auto pull = [](const std::string& age) {
-    Field field(made("std.desktop", "document", "age: " + age + " day, half_life: 7 day, strength: 2 N, settle: 0 N s/m"));
+    Field field(
+        made("std.desktop", "document", "age: " + age + " day, half_life: 7 day, strength: 2 N, settle: 0 N s/m"));
     return field({0.009, 0}).x;
   };
   EXPECT_NEAR(pull("7") / pull("0"), 0.5, 1e-5);
@@ -121,7 +122,7 @@ TEST(PushButton, ClicksAndStops) {
 
 class Conservative : public testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {};
 
-TEST_P(Conservative, NoWayRoundGainsEnergy) {
+TEST_P(Conservative, NoClosedPathGainsEnergy) {
   const auto [module, name, still] = GetParam();
   const Program program = made(module, name, still);
   const auto size = program.default_size();

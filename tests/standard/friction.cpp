@@ -1,4 +1,4 @@
-// Friction against what its authors wrote down.
+// Friction against the formulas of its authors.
 #include "tests/standard/standard.hpp"
 
 namespace wale::standard::friction_test {
@@ -22,15 +22,15 @@ TEST(Stribeck, FallsFromStaticToCoulombAsAGaussian) {
     EXPECT_NEAR(field({0, 0}, {0, speed}).x, 0.4 + 0.7 * std::exp(-speed * speed / 0.0016), 1e-6);
 }
 
-TEST(CoulombFriction, BendsAndThenDragsWithItsMagnitude) {
+TEST(CoulombFriction, IsASpringAndThenDragsWithItsMagnitude) {
   Chance chance(2);
   for (int i = 0; i < 40; ++i) {
     const glm::dvec2 start = chance.place(0.03), way = chance.direction();
     Stroke stroke(made("std.friction", "coulomb_friction", "coulomb: 0.8 N, stiffness: 400 N/m"), start);
     EXPECT_EQ(stroke.force(), glm::dvec2(0));
-    stroke.line(start + 0.001 * way, 0.05);  // 1 mm of 2: as a spring
+    stroke.line(start + 0.001 * way, 0.05);  // 1 mm of 2 mm, as a spring
     EXPECT_NEAR(glm::distance(stroke.force(), -0.4 * way), 0, 1e-4);
-    stroke.line(start, 0.05);  // and nothing is lost
+    stroke.line(start, 0.05);  // no energy is lost
     EXPECT_NEAR(glm::length(stroke.force()), 0, 1e-4);
     EXPECT_NEAR(stroke.work(), 0, 1e-7);
     for (double speed : {0.02, 0.1, 0.6}) {
@@ -40,7 +40,7 @@ TEST(CoulombFriction, BendsAndThenDragsWithItsMagnitude) {
   }
 }
 
-TEST(CoulombFriction, StandsStillForAMinute) {
+TEST(CoulombFriction, HoldsAConstantForceForAMinute) {
   Stroke stroke(made("std.friction", "coulomb_friction"));
   stroke.line({0.01, 0.004}, 0.1);
   stroke.line({0.0095, 0.004}, 0.1);
@@ -61,7 +61,7 @@ TEST(KarnoppFriction, SticksBelowBreakAwayAndSlipsAbove) {
   EXPECT_NEAR(glm::distance(stroke.force(), -0.0001 * 600 * way), 0, 1e-4);
   stroke.line(0.02 * way, 0.1);
   EXPECT_NEAR(glm::distance(stroke.force(), -(0.5 + 2 * 0.1) * way), 0, 2e-3);
-  stroke.move(stroke.place());  // stopped: what is left is the bent bristle, and it holds up to the static force again
+  stroke.move(stroke.place());  // stopped: the bent bristle remains, and holds up to the static force again
   EXPECT_NEAR(glm::distance(stroke.force(), -0.5 * way), 0, 1e-4);
   stroke.line(stroke.place() + 0.001 * way, 0.01);
   EXPECT_NEAR(glm::distance(stroke.force(), -(0.5 + 0.001 * 600) * way), 0, 1e-4);
@@ -70,7 +70,7 @@ TEST(KarnoppFriction, SticksBelowBreakAwayAndSlipsAbove) {
 TEST(KarnoppFriction, ASlowHandSticksAndSlips) {
   Stroke stroke(made("std.friction", "karnopp_friction",
                      "static: 1.2 N, coulomb: 0.6 N, viscosity: 0 N s/m, stiffness: 600 N/m, dead_zone: 15 mm/s"));
-  // At 5 mm/s every slip lets 0.6 N go, and 0.6 N / 600 N/m = 1 mm of way builds it up again.
+  // At 5 mm/s every slip releases 0.6 N, and 0.6 N / 600 N/m = 1 mm of motion builds it up again.
   int slips = 0;
   double largest = 0, before = 0;
   for (double way = 0; way < 0.0405; way += 0.005 * seconds_per_tick) {
@@ -108,8 +108,8 @@ TEST(DahlFriction, TurnsBackAlongItsHysteresisLoop) {
     const double way = 0.0001 * i;
     EXPECT_NEAR(-stroke.force().x, coulomb * (2 * std::exp(-stiffness * way / coulomb) - 1), 2e-4) << way;
   }
-  // A loop between -a and a, run in: on its upper branch z = Fc (1 - c exp(-s (x + a) / Fc)) with z(-a) = -z(a), so
-  // c = 2 / (1 + exp(-2 a s / Fc)), and its area is the work of a turn.
+  // A steady loop between -a and a has the upper branch z = Fc (1 - c exp(-s (x + a) / Fc)) with z(-a) = -z(a), so
+  // c = 2 / (1 + exp(-2 a s / Fc)). Its area is the work of one loop.
   constexpr double a = 0.001;
   for (int i = 0; i < 20; ++i) stroke.line({i % 2 == 0 ? a : -a, 0}, 0.01);
   const double before = stroke.work();
@@ -120,7 +120,7 @@ TEST(DahlFriction, TurnsBackAlongItsHysteresisLoop) {
   EXPECT_NEAR(stroke.work() - before, area, 0.002 * area);
 }
 
-TEST(StribeckFriction, DragsAsMuchAsItsSpeedSays) {
+TEST(StribeckFriction, DragsAccordingToItsSpeed) {
   const Program program =
       made("std.friction", "stribeck_friction", "static: 1 N, coulomb: 0.4 N, knee: 50 mm/s, viscosity: 2 N s/m");
   for (double speed : {0.02, 0.05, 0.1, 0.3}) {
@@ -148,7 +148,7 @@ TEST_P(Frictions, NeverGiveBackMoreThanABentBristleHolds) {
       so_far = std::max(so_far, stroke.work());
       lowest = std::min(lowest, stroke.work() - so_far);
     }
-    EXPECT_GT(stroke.work(), 0.05);  // a metre or so at some tenths of a newton
+    EXPECT_GT(stroke.work(), 0.05);  // about 1 m at a few tenths of a newton
     EXPECT_GT(lowest, -1.01 * strongest * strongest / (2 * stiffness));
   }
 }

@@ -1,4 +1,4 @@
-// Materials of the library that are made of the standard modules and of each other.
+// Materials of the library that use the standard modules and each other.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -22,7 +22,7 @@ TEST(Showcases, DuckIsHalfWayFromCanvasToSailcloth) {
   EXPECT_NEAR(default_of(sailcloth, "yarn"), 2.6e-3, 1e-9);
 }
 
-TEST(Showcases, WorkwearIsAsRoughAsItSays) {
+TEST(Showcases, WorkwearHasTheForceOfItsRoughness) {
   const Program workwear = made("fabric.workwear", "workwear");
   EXPECT_NEAR(amplitude(Bank(workwear), 0), 194 * 10.0 / 512 * std::pow(0.5, 1 / 0.759593),
               1e-3);  // Minsky 1995, figure 19
@@ -31,7 +31,7 @@ TEST(Showcases, WorkwearIsAsRoughAsItSays) {
 }
 
 TEST(Showcases, VelvetResistsAgainstTheNapAndIsSmooth) {
-  // All but without its tufts, which push with 3.79 N * 0.02^1.3165 = 0.022 N at most.
+  // At roughness 0.02 the tufts push with at most 3.79 N * 0.02^1.3165 = 0.022 N.
   const Program velvet = material("import fabric.velvet\nmaterial m = velvet() { perceptual { roughness 0.02 } }", "m");
   Stroke stroke(velvet);
   stroke.line({0, 0.02}, 0.1);
@@ -40,7 +40,7 @@ TEST(Showcases, VelvetResistsAgainstTheNapAndIsSmooth) {
   EXPECT_NEAR(stroke.force().y, 1, 0.025);
 }
 
-TEST(Showcases, ToothpasteStandsUntilItIsPushedHardEnough) {
+TEST(Showcases, ToothpasteHoldsUntilItYields) {
   Stroke stroke(made("fluid.toothpaste", "toothpaste"));
   stroke.line({0.003, 0}, 0.01);
   for (int i = 0; i < 900; ++i) stroke.move(stroke.place());
@@ -49,7 +49,7 @@ TEST(Showcases, ToothpasteStandsUntilItIsPushedHardEnough) {
   EXPECT_NEAR(stroke.force().x, -(0.9 + 3 * 0.2), 2e-3);
 }
 
-TEST(Page, ItsExampleCompilesAndItsTableIsWhole) {
+TEST(Page, ItsExampleCompilesAndItsTableIsComplete) {
   std::ifstream file(WALE_SOURCE_DIR "/library/std/README.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const auto begin = page.find("wale 1\n") + 7, end = page.find("```\n", begin);

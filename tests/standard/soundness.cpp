@@ -1,5 +1,5 @@
-// In the loop: the simulated joystick, quantised and sampled as it is, in the hand of the normal person. What holds a
-// hand at rest must leave it at rest.
+// The closed loop of the simulated joystick, with its quantisation and sampling, in the normal hand. Materials that
+// hold a hand must leave it at rest.
 #include "runtime/stage/velocity_filter.hpp"
 #include "tests/standard/standard.hpp"
 #include "wale/library.hpp"
@@ -15,8 +15,8 @@ struct Rested {
   double force = 0;  // N, at the end
 };
 
-/// A person who comes from the centre to `there` within half a second and then wants to stay: three seconds, of which
-/// the last is measured.
+/// A hand that moves from the centre to `there` (m) within half a second and then stays. It runs three seconds and
+/// measures the last.
 Rested rested(const Program& program, glm::dvec2 there) {
   const Library library;
   DeviceProfile profile;
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(std::get<1>(each.param)) + std::to_string(each.index); });
 
 TEST(HeldBack, AWallStopsTheHandWhereItsSpringSays) {
-  // The arm's 135 N/m draws the hand on to 40 mm, the wall's 900 N/m stops it behind 20.
+  // The arm's 135 N/m pulls the hand to 40 mm; the wall's 900 N/m stops it behind 20 mm.
   const Rested at = rested(made("std.wall", "wall"), {0.04, 0});
   EXPECT_NEAR(at.place.x, 0.02 + 0.02 * 135 / (135 + 900), 4e-4);
 }

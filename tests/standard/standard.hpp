@@ -16,13 +16,14 @@
 #include "wale/picture.hpp"
 #include "wale/program.hpp"
 
-/// The standard modules of library/std, compiled and felt.
+/// Compiles materials of the standard modules in library/std, and runs them.
 namespace wale::standard {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double seconds_per_tick = 1.0 / 900;  // of the default device
 
-/// The material `name` among declarations that may import what library/ has. Throws with the diagnostics.
+/// The material `name` of declarations that may import modules of library/. Throws std::runtime_error with the
+/// diagnostics.
 inline Program material(const std::string& declarations, const std::string& name) {
   SourceSet sources;
   Diagnostics diagnostics;
@@ -37,20 +38,19 @@ inline Program material(const std::string& declarations, const std::string& name
   throw std::runtime_error(reasons);
 }
 
-/// The material `name` of the module `module`, perhaps with other parameters: made("std.wall", "wall", "damping: 0 N
-/// s/m").
+/// The material `name` of a module, with other parameters where given: made("std.wall", "wall", "damping: 0 N s/m").
 inline Program made(const std::string& module, const std::string& name, const std::string& parameters = "") {
   if (parameters.empty()) return material("import " + module + "\nmaterial m = " + name + "()", "m");
   return material("import " + module + "\nmaterial m = " + name + "(" + parameters + ")", "m");
 }
 
-/// A material whose force is `force`, an expression that may call what `module` exports.
+/// A material with the force expression `force`, which may use the exports of `module`.
 inline Program pushing(const std::string& module, const std::string& force) {
   return material("import " + module + "\nmaterial m { physical {\n patch 200 mm, 200 mm\n force = " + force + "\n} }",
                   "m");
 }
 
-/// A hand that moves tick by tick over one program, which remembers.
+/// A hand that moves tick by tick over a program with a memory.
 class Stroke {
  public:
   /// Sets the hand down at `start` (m from the patch's centre), at rest.
@@ -60,7 +60,7 @@ class Stroke {
     force_ = tick(bank_, memory_, hand_);
   }
 
-  /// One tick at `to`, with the velocity that brought it there.
+  /// One tick at `to` (m), with the velocity of the step.
   glm::dvec2 move(glm::dvec2 to) { return tick_at(to, (to - place_) / seconds_per_tick); }
 
   /// One tick at `to` with any velocity.
@@ -85,7 +85,7 @@ class Stroke {
 
   glm::dvec2 force() const { return force_; }
   glm::dvec2 place() const { return place_; }
-  /// What the hand has put in so far, J.
+  /// The work of the hand so far, in J.
   double work() const { return work_; }
   const Memory& memory() const { return memory_; }
 
@@ -135,7 +135,7 @@ class Height {
   Bank bank_;
 };
 
-/// Random numbers that are the same every time.
+/// Random numbers; the same for the same seed.
 class Chance {
  public:
   explicit Chance(std::uint32_t seed) : random_(seed) {}
@@ -150,7 +150,7 @@ class Chance {
   std::mt19937 random_;
 };
 
-/// A smooth wandering within 60 mm, a few times 0.1 m/s fast, with rests.
+/// A smooth path (m) within 60 mm, with speeds of a few 0.1 m/s and rests.
 inline glm::dvec2 wandering(double seconds, double phase) {
   const double t = seconds + 0.3 * std::sin(2 * seconds + phase);
   return {0.035 * std::sin(3.1 * t + phase) + 0.02 * std::sin(8.3 * t),

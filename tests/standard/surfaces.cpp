@@ -59,7 +59,7 @@ TEST(Wood, RingsAreRoundAndOneYearWide) {
     EXPECT_NEAR(log(pith + radius * chance.direction()), log(pith + radius * chance.direction()), 2e-3);
     EXPECT_NEAR(log(pith + radius * glm::dvec2(0.6, 0.8)), log(pith + (radius + 0.004) * glm::dvec2(0.6, 0.8)), 2e-3);
   }
-  // A year rises over three quarters of its width to its edge, and falls over the last.
+  // The height rises over three quarters of a year's width and falls over the last quarter.
   EXPECT_NEAR(log(pith + glm::dvec2(0.008, 0)), -0.5, 1e-3);
   EXPECT_NEAR(log(pith + glm::dvec2(0.0095, 0)), 0, 1e-3);
   EXPECT_NEAR(log(pith + glm::dvec2(0.011, 0)), 0.5, 1e-3);
@@ -79,7 +79,7 @@ TEST(Wood, GrainRunsAlongTheBoard) {
   EXPECT_GT(across, 4 * along);
 }
 
-TEST(Wood, PoresAreFurrowsHereAndThere) {
+TEST(Wood, PoresAreSparseFurrows) {
   const Height pores("std.wood", "pores(hand, 1.2 mm, 14 mm, few: 0.6)");
   Chance chance(20);
   int open = 0;
@@ -128,7 +128,7 @@ TEST(Perforated, HasRoundHolesInStaggeredRows) {
   EXPECT_NEAR(sheet({0.003, 0}), 0.3, 1e-5);
 }
 
-TEST(Sand, IsLevelOnAverageAndOtherwiseElsewhere) {
+TEST(Sand, IsLevelOnAverageAndIndependentForEachSeed) {
   const Height beach("std.sand", "sand(hand, 3 mm)"), other("std.sand", "sand(hand, 3 mm, seed: 7)");
   Chance chance(23);
   double sum = 0, squares = 0, product = 0;
@@ -155,7 +155,7 @@ TEST(Ripples, RiseOverTwoThirdsOfTheirSpacing) {
   }
 }
 
-TEST(Solid, IsOneBodyHoweverItIsSliced) {
+TEST(Solid, IsContinuousInDepthAndIndependentFarApart) {
   Chance chance(24);
   const Height here("std.solid", "density(hand, 3 mm, 5 mm)"), near("std.solid", "density(hand, 3.001 mm, 5 mm)"),
       far("std.solid", "density(hand, 13 mm, 5 mm)"), detailed("std.solid", "detailed_density(hand, 3 mm)");
@@ -174,7 +174,7 @@ TEST(Solid, IsOneBodyHoweverItIsSliced) {
   EXPECT_NEAR(product, 0, 0.2 * squares);
 }
 
-TEST(Solid, ResistsAlongTheWayAsMuchAsItIsDense) {
+TEST(Solid, ResistsInProportionToItsDensity) {
   const Height density("std.solid", "density(hand, 4 mm, 6 mm)");
   Chance chance(25);
   for (int i = 0; i < 100; ++i) {
@@ -188,10 +188,10 @@ TEST(Solid, ResistsAlongTheWayAsMuchAsItIsDense) {
 
 class Heights : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
-// In a crease or at a step of a height the force turns round at once, and a hand in it buzzes.
+// At a step or crease of a height the force reverses abruptly, and a hand there vibrates.
 TEST_P(Heights, HaveNeitherStepsNorCreases) {
   const auto [module, height] = GetParam();
-  const Height surface(module, height);  // features of 4 mm or so
+  const Height surface(module, height);  // its features are about 4 mm wide
   constexpr double feature = 4e-3, step = 4e-5;
   Chance chance(26);
   std::vector<glm::vec2> places;
@@ -206,7 +206,8 @@ TEST_P(Heights, HaveNeitherStepsNorCreases) {
     steepest = std::max(steepest, std::abs(c - a) / (2 * step) * feature);
     sharpest = std::max(sharpest, std::abs(a - 2 * b + c) / (step * step) * feature * feature);
   }
-  // Per feature. A crease between slopes of 5 and -5 would show as 10 * 4 mm / 0.04 mm = 1000, a step as more.
+  // Relative to the feature's width. A crease between slopes of 5 and -5 would give 10 * 4 mm / 0.04 mm = 1000, and a
+  // step more.
   EXPECT_LT(steepest, 25);
   EXPECT_LT(sharpest, 600);
 }

@@ -1,4 +1,5 @@
-// Napped cloth, crushable paper, a tray of sand: surfaces that know which way they are stroked, and where they were.
+// Napped cloth, crushable paper and sand: surfaces whose force depends on the direction of the stroke and on earlier
+// strokes.
 #include "tests/standard/standard.hpp"
 
 namespace wale::standard::surfaces_that_remember_test {
@@ -30,8 +31,8 @@ TEST(NappedCloth, ResistsAStrokeAgainstItFourTimesAsMuch) {
   }
 }
 
-TEST(BrushedPile, LiesWhereItWasStroked) {
-  // Down, against the pile as it was made, in a lane of its own through the middles of cells.
+TEST(BrushedPile, LiesInTheDirectionOfTheLastStroke) {
+  // Strokes go down, against the pile, along one column of cells.
   Stroke stroke(made("std.nap", "brushed_pile", "with: 0.3 N, against: 1.3 N, way: 2 mm"), {0.001, 0.03});
   const auto stroked_down = [&] {
     double total = 0;
@@ -52,7 +53,7 @@ TEST(BrushedPile, LiesWhereItWasStroked) {
   EXPECT_GT(second, 0.29);
 }
 
-/// The cell of grid 0 under `place`, for cells of about `cell` m that cover the patch from its lower left corner.
+/// The value of grid 0's cell under `place` (m). Cells cover the patch from its lower left corner.
 double cell_under(const Program& program, const Memory& memory, glm::dvec2 place) {
   const auto& grid = program.description().grids.at(0);
   const auto size = program.default_size();
@@ -61,7 +62,7 @@ double cell_under(const Program& program, const Memory& memory, glm::dvec2 place
   return memory.grid(0)[static_cast<std::size_t>(row * grid.columns + column)];
 }
 
-TEST(CrushablePaper, StaysCrushedWhereItWasTouchedAndNowhereElse) {
+TEST(CrushablePaper, StaysCrushedOnlyWhereItWasTouched) {
   const Program program = made("std.paper", "crushable_paper", "press: 1, wear: 6 mm");
   Stroke stroke(program, {-0.03, 0.0107});
   for (float each : stroke.memory().grid(0)) ASSERT_EQ(each, 0);
@@ -70,7 +71,7 @@ TEST(CrushablePaper, StaysCrushedWhereItWasTouchedAndNowhereElse) {
   for (float each : stroke.memory().grid(0)) crushed += each > 0;
   EXPECT_NEAR(crushed, 60 / 1.5, 3);
   for (double x = -0.025; x < 0.025; x += 0.0015) {
-    // The way through one cell is its width.
+    // The path through one cell is its width.
     EXPECT_NEAR(cell_under(program, stroke.memory(), {x, 0.0107}), 1 - std::exp(-1.5 / 6), 0.02) << x;
     EXPECT_EQ(cell_under(program, stroke.memory(), {x, 0.0107 + 0.0016}), 0);
     EXPECT_EQ(cell_under(program, stroke.memory(), {x, 0.0107 - 0.0016}), 0);
@@ -93,7 +94,7 @@ TEST(CrushablePaper, IsSmootherRubbedTwiceAndPressedLightlyCrushesLess) {
         const glm::dvec2 force = stroke.move({x, 0});
         if (x < -0.02) continue;
         drag += -force.x;
-        ripple += force.y * force.y;  // across the way there is only the texture
+        ripple += force.y * force.y;  // across the path there is only the texture
       }
     }
     return std::pair(drag, std::sqrt(ripple));
@@ -101,7 +102,8 @@ TEST(CrushablePaper, IsSmootherRubbedTwiceAndPressedLightlyCrushesLess) {
   const auto fresh = rubbed("press: 1", 1), twice = rubbed("press: 1", 2), often = rubbed("press: 1", 30);
   EXPECT_LT(twice.first, 0.85 * fresh.first);
   EXPECT_LT(twice.second, 0.85 * fresh.second);
-  EXPECT_NEAR(often.second / fresh.second, 0.2, 0.07);  // what is `left`; the first stroke meets itself a little
+  EXPECT_NEAR(often.second / fresh.second, 0.2,
+              0.07);  // the parameter `left`; the first stroke crushes a little already
   const auto lightly = rubbed("press: 0.1", 2);
   EXPECT_GT(lightly.first, twice.first);
   EXPECT_GT(lightly.second, twice.second);

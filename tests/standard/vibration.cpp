@@ -1,4 +1,4 @@
-// Noise without a place: its statistics.
+// Statistics of noise that does not depend on the place.
 #include <set>
 
 #include "tests/standard/standard.hpp"
@@ -6,7 +6,7 @@
 namespace wale::standard::vibration_test {
 namespace {
 
-/// The force at each of `ticks` ticks of a hand that stays at `place` and yet has `velocity`.
+/// The forces of `ticks` ticks of a hand at `place` (m) with `velocity` (m/s).
 std::vector<glm::dvec2> felt(const Program& program, glm::dvec2 place, glm::dvec2 velocity, int ticks) {
   Stroke stroke(program, place);
   std::vector<glm::dvec2> forces;
@@ -28,8 +28,8 @@ TEST(Vibration, HasNoMeanAndTheSpreadOfNoise) {
     EXPECT_LE(std::abs(force.x), 0.8);
     EXPECT_EQ(force.y, 0);
   }
-  // Uniform from -1 to 1 at 256 moments, whose mean is within three of its own standard deviations of 0; between two of
-  // them the variance is (1 - s)^2 + s^2 of theirs, where s is the fade's fifth power.
+  // The values at 256 moments are uniform from -1 to 1, and their mean is within three standard deviations of 0.
+  // Between moments the variance is (1 - s)^2 + s^2 of that, where s is the interpolation's polynomial of fifth degree.
   double between = 0;
   for (int i = 0; i < 10000; ++i) {
     const double t = (i + 0.5) / 10000, s = t * t * t * (t * (6 * t - 15) + 10);
@@ -40,9 +40,9 @@ TEST(Vibration, HasNoMeanAndTheSpreadOfNoise) {
   EXPECT_NEAR(squares / count / 0.64, between / 3, 0.15 * between / 3);
 }
 
-TEST(Vibration, ChangesAsOftenAsItIsToldAndComesRoundWithoutAJump) {
+TEST(Vibration, ChangesAtItsRateAndIsContinuous) {
   const auto forces = felt(vibration(), {0, 0}, {0.3, 0}, 10 * 900);
-  // Between two of 90 moments a second, ten ticks apart, the steepest slope is 15/8 of their difference of at most 2.
+  // The 90 moments a second are ten ticks apart. The steepest slope between two is 15/8 of their difference, at most 2.
   for (std::size_t i = 1; i < forces.size(); ++i)
     ASSERT_LE(std::abs(forces[i].x - forces[i - 1].x), 0.8 * 2 * 15 / 8 / 10 + 1e-5) << i;
   int turns = 0;
@@ -57,22 +57,22 @@ TEST(Vibration, DependsOnTimeAndVelocityAndNotOnPlace) {
   std::set<float> values;
   for (std::size_t i = 0; i < here.size(); ++i) {
     EXPECT_EQ(here[i], there[i]);
-    EXPECT_NEAR(half[i].y, here[i].x / 2, 1e-6);  // along the way, in proportion to speed
+    EXPECT_NEAR(half[i].y, here[i].x / 2, 1e-6);  // along the motion, in proportion to the speed
     EXPECT_NEAR(fast[i].x, here[i].x * 2, 1e-5);  // up to full speed
     values.insert(static_cast<float>(here[i].x));
   }
-  EXPECT_GT(values.size(), 800u);  // at one place, never the same twice
+  EXPECT_GT(values.size(), 800u);  // the force changes at one place
   for (const auto& force : felt(vibration(), {0, 0}, {0, 0}, 100)) EXPECT_EQ(force, glm::dvec2(0));
 }
 
-TEST(Fizz, NeverPushesAlong) {
+TEST(Fizz, NeverPushesInTheDirectionOfMotion) {
   const Program program = made("std.vibration", "fizz");
   for (double speed : {0.01, 0.1, 0.2, 0.6})
     for (const auto& force : felt(program, {0, 0}, {0.6 * speed, -0.8 * speed}, 2000))
       ASSERT_LE(force.x * 0.6 - force.y * 0.8, 1e-6) << speed;
 }
 
-TEST(Grit, HasABumpForEveryGrainThatTheHandTravels) {
+TEST(Grit, HasABumpForEachGrainOfTheHandsPath) {
   const Program program = made("std.vibration", "grit", "amplitude: 1 N, grain: 2 mm, rise: 8 N s/m");
   for (double speed : {0.15, 0.4}) {
     Stroke stroke(program, {-0.06, 0});
@@ -91,7 +91,7 @@ TEST(Grit, HasABumpForEveryGrainThatTheHandTravels) {
     for (std::size_t i = 2; i < drags.size(); ++i) peaks += drags[i - 1] > drags[i - 2] && drags[i - 1] >= drags[i];
     EXPECT_NEAR(peaks / (way / 0.002), 1.0 / 3, 0.06) << speed;  // a third of independent values are local maxima
   }
-  // Rubbed again, the same spot feels different.
+  // At the second stroke, the same place has another force.
   Stroke stroke(program, {0, 0});
   stroke.line({0.0313, 0}, 0.3);
   const double once = stroke.force().x;

@@ -1,10 +1,10 @@
-// Walls: what they push, what they give back, and how they let go.
+// Walls: their force, the energy that they return, and their release.
 #include "tests/standard/standard.hpp"
 
 namespace wale::standard::walls_test {
 namespace {
 
-/// What a wall pushes outwards, written down again from the words of library/std/wall.wale.
+/// The outward force of a wall, in N, by the documentation of library/std/wall.wale. All arguments are in SI units.
 double expected_push(double depth, double entering, double stiffness, double damping, double envelope) {
   double push = 0;
   if (depth > 0) push += stiffness * depth;
@@ -12,7 +12,7 @@ double expected_push(double depth, double entering, double stiffness, double dam
   return push;
 }
 
-TEST(Wall, PushesByItsClosedFormInAndOutAtAnyAngle) {
+TEST(Wall, FollowsItsClosedFormAtAnyAngle) {
   Chance chance(4);
   for (double degrees : {0.0, 35.0, -120.0}) {
     Stroke stroke(made("std.wall", "wall",
@@ -30,19 +30,19 @@ TEST(Wall, PushesByItsClosedFormInAndOutAtAnyAngle) {
   }
 }
 
-TEST(Wall, GivesBackTheSpringAndKeepsTheDamping) {
+TEST(Wall, ReturnsTheSpringsEnergyAndKeepsTheDampings) {
   for (double speed : {0.05, 0.2, 0.4}) {
     Stroke stroke(made("std.wall", "wall", "stiffness: 800 N/m, damping: 4 N s/m, envelope: 2 mm, face: 20 mm"));
     constexpr double depth = 0.006, stored = 800 * depth * depth / 2;
     stroke.line({0.02 + depth, 0}, speed);
     const double in = stroke.work();
-    // In the envelope the damping is half of what it is behind the face, on average.
+    // On average, the damping in the envelope is half of that behind the face.
     EXPECT_NEAR(in, stored + 4 * speed * (0.001 + depth), 0.1 * in) << speed;
     double pulled = 0;
     for (double left = depth; left > -0.01; left -= speed * seconds_per_tick) {
       const double push = -stroke.move({0.02 + left, 0}).x;
       pulled = std::min(pulled, push);
-      EXPECT_NEAR(push, 800 * std::max(0.0, left), 1e-3);  // the spring alone, and nothing from the face on
+      EXPECT_NEAR(push, 800 * std::max(0.0, left), 1e-3);  // only the spring, and nothing outside of the face
     }
     EXPECT_EQ(pulled, 0);
     EXPECT_NEAR(in - stroke.work(), stored, 0.06 * stored);
@@ -50,7 +50,7 @@ TEST(Wall, GivesBackTheSpringAndKeepsTheDamping) {
   }
 }
 
-TEST(Wall, YieldsToWhoIsSetDownBehindItAndComesBackWithThem) {
+TEST(Wall, YieldsToAHandThatEntersBehindItAndReturnsWithIt) {
   Stroke stroke(made("std.wall", "wall", "stiffness: 800 N/m, damping: 0 N s/m, face: 20 mm"), {0.05, 0});
   EXPECT_EQ(stroke.force(), glm::dvec2(0));
   stroke.line({0.052, 0}, 0.05);
@@ -65,7 +65,7 @@ TEST(Wall, YieldsToWhoIsSetDownBehindItAndComesBackWithThem) {
   EXPECT_GT(stroke.work(), 0);
 }
 
-TEST(Post, PushesOutwardsWhereverItIsTouched) {
+TEST(Post, PushesOutwardsInEveryDirection) {
   Chance chance(5);
   for (int i = 0; i < 100; ++i) {
     const glm::dvec2 out = chance.direction();

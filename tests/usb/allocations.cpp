@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <new>
 
-// These replace the whole test program's, to see who allocates. Not inlined, or the compiler, knowing malloc and free
-// by their names, thinks that one of each pair is missing.
+// These operators replace those of the whole test program, and count allocations. They are not inlined: otherwise the
+// compiler sees malloc without free, or free without malloc, and warns.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++wale::test::allocations;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;

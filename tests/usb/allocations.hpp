@@ -2,7 +2,7 @@
 
 namespace wale::test {
 
-/// How often this thread has asked for memory, in a program of which allocations.cpp is a part.
+/// The number of allocations by this thread so far. The program must link allocations.cpp.
 inline thread_local long allocations = 0;
 
 }  // namespace wale::test

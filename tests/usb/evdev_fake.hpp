@@ -18,7 +18,7 @@ class EvdevFake final : public NodeFake {
   struct Features {
     bool makes_constant_force = true, tells_position = true;
     int most_effects = 16;
-    int room = 16;  ///< of them, while other programs hold the rest
+    int room = 16;  ///< the number of effects that fit; other programs hold the rest
   };
   explicit EvdevFake() : EvdevFake(Features{}) {}
   explicit EvdevFake(const Features& features);
@@ -30,10 +30,10 @@ class EvdevFake final : public NodeFake {
     std::int64_t started = 0;  ///< microseconds
   };
 
-  /// Of full force along HID's axes (y to the user).
+  /// The force as a fraction of full force, along HID's axes (y points to the user).
   glm::dvec2 force();
   void move_to(std::int32_t x, std::int32_t y);
-  /// Moves it, and says no more than that events were dropped.
+  /// Moves the stick, and reports only that events were dropped.
   void move_unheard(std::int32_t x, std::int32_t y);
   std::map<int, Effect> effects();
   /// "upload 0 level 0 toward 16384", "play 0", "gain 65535", "autocenter 0", "erase 0"

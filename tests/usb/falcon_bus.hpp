@@ -11,8 +11,8 @@
 
 namespace wale::test {
 
-/// A session and a model of a Falcon, without any USB between them: frames of a millisecond, in each of which one
-/// packet goes each way. Time is counted, never measured.
+/// A session and a model of a Falcon without USB between them. In each frame of a millisecond, one packet goes each
+/// way. Time is the number of frames, so the clock does not matter.
 class FalconBus {
  public:
   static constexpr std::int64_t frame_time = 1000, timeout = 50'000;  // microseconds
@@ -32,7 +32,7 @@ class FalconBus {
     pump();
   }
 
-  /// Submits whatever the session wants now.
+  /// Submits the transfers that the session asks for now.
   void pump() {
     while (auto transfer = session.next(now)) {
       if (model_ == nullptr) {

@@ -13,7 +13,8 @@ namespace {
 
 using namespace falcon;
 
-/// Places all over the workspace: 50 mm around its middle, in the plane and 30 mm to either side of it.
+/// Places all over the workspace: up to 50 mm from its middle in the plane, and up to 30 mm to either side of the
+/// plane.
 std::vector<glm::dvec3> places() {
   std::vector<glm::dvec3> places;
   for (int radius = 0; radius <= 50; radius += 10) {
@@ -45,7 +46,7 @@ TEST(FalconKinematics, TheInverseFitsShinsToKnees) {
     ASSERT_TRUE(angles.has_value());
     EXPECT_LT(glm::length(*angles - arm_angles(place)), 1e-9);
   }
-  EXPECT_FALSE(inverse({0, 0, 0.25})) << "beyond what the arms reach";
+  EXPECT_FALSE(inverse({0, 0, 0.25})) << "beyond the reach of the arms";
   EXPECT_FALSE(inverse({0.2, 0, 0.12}));
 }
 
@@ -59,7 +60,7 @@ TEST(FalconKinematics, ForwardUndoesInverse) {
   EXPECT_FALSE(forward(angles_of({30000, -30000, 30000})));
 }
 
-TEST(FalconKinematics, TheMiddleIsAlikeForAllThreeArms) {
+TEST(FalconKinematics, AllThreeArmsHaveTheSameAngleInTheMiddle) {
   const auto angles = inverse(workspace_centre);
   EXPECT_NEAR(angles->x, angles->y, 1e-12);
   EXPECT_NEAR(angles->x, angles->z, 1e-12);
@@ -68,7 +69,7 @@ TEST(FalconKinematics, TheMiddleIsAlikeForAllThreeArms) {
   EXPECT_NEAR(across->x, across->z, 1e-12);
 }
 
-TEST(FalconKinematics, ItsSlopesAreThoseOfDifferences) {
+TEST(FalconKinematics, TheJacobianMatchesFiniteDifferences) {
   for (const glm::dvec3& place : places()) {
     const auto slopes = turning(place, *inverse(place));
     ASSERT_TRUE(slopes.has_value());

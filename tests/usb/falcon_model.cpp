@@ -9,10 +9,10 @@
 namespace wale::test {
 namespace {
 
-constexpr double handle_kilogram = 0.3, losses = 1;  // N s/m; and of the hand's spring
+constexpr double handle_kilogram = 0.3, losses = 1;  // N s/m; includes the losses of the hand's spring
 constexpr double radians_per_count = 2 * falcon_pi / 1280 * 14.25 / 110;
 
-/// Forces by torques, as work tells: a movement's work is the same at the handle and at the arms.
+/// Forces from torques by virtual work: a movement does the same work at the handle and at the arms.
 glm::dvec3 force_of(const glm::dvec3& place, const glm::dvec3& torques) {
   glm::dvec3 force(0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -22,8 +22,8 @@ glm::dvec3 force_of(const glm::dvec3& place, const glm::dvec3& torques) {
   return force;
 }
 
-/// N in the plane, at the workspace's middle, for motors of 1 N m at most, in the direction that they do worst: the
-/// largest force whose torques all fit, found by trying.
+/// The largest force, in N, that the motors can exert in every direction of the plane at the workspace's middle, if
+/// each motor has a torque of at most 1 N m. The function tries all directions.
 double worst_force_by_one_newton_metre() {
   const glm::dvec3 middle(0, 0, 0.12);
   const glm::dvec3 by[3] = {force_of(middle, {1, 0, 0}), force_of(middle, {0, 1, 0}), force_of(middle, {0, 0, 1})};
@@ -74,7 +74,7 @@ std::optional<UsbModel::Bytes> FalconModel::control(const SetUp& setup, const By
       break;
     case 1:
       if (value == 0x100) dtr_was_low_ = true;
-      if (value == 0x101 && dtr_was_low_ && divisor_ == 0x4138) {  // resets what is behind the line
+      if (value == 0x101 && dtr_was_low_ && divisor_ == 0x4138) {  // resets the processor behind the line
         runs_firmware = false;
         firmware.clear();
         line_.clear();
@@ -175,7 +175,7 @@ std::string FalconModel::answer() {
   return text + "A>";
 }
 
-/// The chip tells what has come at once when there is something, otherwise its status whenever its latency has passed.
+/// The chip passes on data as soon as it has any. Otherwise it sends its status each time its latency has passed.
 std::optional<UsbModel::Bytes> FalconModel::give(std::uint8_t endpoint) {
   if (endpoint != 0x81) return std::nullopt;
   ++frames_since_given_;

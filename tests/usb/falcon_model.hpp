@@ -13,25 +13,25 @@ namespace wale::test {
 /// How a model of a Falcon misbehaves.
 struct FalconFaults {
   bool has_no_loader = false;     ///< does not answer the loader's greeting
-  bool says_more_first = false;   ///< what greets comes after a 00, in pieces
+  bool says_more_first = false;   ///< the greeting comes after a 00, in pieces
   long wrong_echo_at = -1;        ///< byte of the firmware that comes back changed; -1: none
-  bool firmware_is_dead = false;  ///< what has been loaded does not answer
-  long mute_after = -1;           ///< answers before none come any more
-  long nonsense_after = -1;       ///< answers before all are nonsense
-  long swallow = 0;               ///< every so many commands one is not answered; 0: all are
-  long cut = 0;                   ///< every so many answers one is cut short
-  long unhomed_after = -1;        ///< answers before the encoders forget their zeros
-  long wild_after = -1;           ///< answers before the encoders say what no place of the handle fits
-  long stall_after = -1;          ///< packets taken before all others stall
+  bool firmware_is_dead = false;  ///< the loaded firmware does not answer
+  long mute_after = -1;           ///< number of answers after which it falls silent; -1: never
+  long nonsense_after = -1;       ///< number of answers after which all are nonsense; -1: never
+  long swallow = 0;               ///< one command in this many is not answered; 0: all are
+  long cut = 0;                   ///< one answer in this many is cut short; 0: none
+  long unhomed_after = -1;        ///< number of answers after which the encoders lose their zeros; -1: never
+  long wild_after = -1;           ///< number of answers after which the encoders fit no place of the handle; -1: never
+  long stall_after = -1;          ///< number of packets after which all others stall; -1: never
   bool refuses_controls = false;
   bool deaf = false;  ///< takes no packets
 };
 
-/// A Novint Falcon: the chip that makes a serial line of USB, the loader and the firmware behind it, and three motors
-/// that move the handle, which a hand holds by a spring. The handle's mass, losses and the hand are guesses.
+/// A Novint Falcon: the chip that turns USB into a serial line, the loader and the firmware behind it, and three motors
+/// that move the handle. A hand holds the handle by a spring. The handle's mass, the losses and the hand are guesses.
 class FalconModel final : public UsbModel {
  public:
-  static constexpr double full_newton = 8;  ///< in the plane at the workspace's middle, where it is least
+  static constexpr double full_newton = 8;  ///< at the workspace's middle, in the weakest direction of the plane
 
   explicit FalconModel(FalconFaults faults = {}, bool runs_firmware = false);
 
@@ -44,16 +44,16 @@ class FalconModel final : public UsbModel {
   std::optional<Bytes> give(std::uint8_t endpoint) override;
   void step() override;
 
-  /// N at the handle.
+  /// The force at the handle, in N.
   glm::dvec3 force() const;
 
   FalconFaults faults;
   std::vector<std::string> log;  ///< "C 9 1", "OUT 0A 43 0D", "OUT <AAAAAAAAAAAABA>"; of firmware "OUT 62 bytes"
   bool logs = true;
-  bool moves = true;  ///< the handle does; where that is dear, as on an emulated processor, it may stand still
+  bool moves = true;  ///< false: the handle stands still, which saves time on an emulated processor
   bool runs_firmware = false;
   Bytes firmware;        ///< as it was loaded
-  int homes_after = 20;  ///< commands that keep homing before the encoders have found their zeros; -1: never
+  int homes_after = 20;  ///< number of homing commands until the encoders find their zeros; -1: never
   glm::dvec3 place{0, 0, 0.12}, velocity{0};
   glm::dvec3 hand{0, 0, 0.12};  ///< where the hand's spring pulls
   double hand_stiffness = 100;  ///< N/m

@@ -27,7 +27,7 @@ std::vector<Answer> read(const std::string& text) {
   return read(text, reader);
 }
 
-TEST(FalconPackets, ACommandIsNibblesFromA) {
+TEST(FalconPackets, ACommandEncodesNibblesFromTheLetterA) {
   // tests/reference/usb_exchanges.md and FalconFirmwareNovintSDK.h: least significant nibble first, each plus 0x41.
   EXPECT_EQ(text_of({{0, 0, 0}, false}), "<AAAAAAAAAAAAAA>");
   EXPECT_EQ(text_of({{0, 0, 0}, true}), "<AAAAAAAAAAAABA>");
@@ -40,7 +40,7 @@ TEST(FalconPackets, TorquesAreCapped) {
   EXPECT_EQ(text_of({{-4096, -4097, -32768}, false}), "<AAAPAAAPAAAPAA>");
 }
 
-TEST(FalconPackets, AnAnswerIsEncodersButtonsAndZerosFound) {
+TEST(FalconPackets, AnAnswerHasEncodersButtonsAndHomedFlags) {
   // The header's own example: JFKP is FA59 hexadecimal, -1447 in sixteen bits.
   EXPECT_EQ(read("<JFKPAAAAPPPHAA>"), (std::vector<Answer>{{{-1447, 0, 32767}, 0, 0}}));
   const char all = static_cast<char>(0x41 + 0x70 + 0x05);
@@ -51,11 +51,11 @@ TEST(FalconPackets, AnAnswerIsEncodersButtonsAndZerosFound) {
   EXPECT_FALSE(read(std::string("<AAAAAAAAAAAA") + static_cast<char>(0x41 + 0x30) + "A>")[0].is_homed());
 }
 
-TEST(FalconPackets, WhatIsNoAnswerIsSkipped) {
+TEST(FalconPackets, OtherBytesThanAnswersAreSkipped) {
   AnswerReader reader;
   EXPECT_EQ(read("xy<AAAA", reader).size(), 0u);
   EXPECT_EQ(reader.skipped(), 2);
-  EXPECT_EQ(read("<BAAAAAAAAAAAAA>", reader).size(), 1u) << "one that is cut short, then a whole one";
+  EXPECT_EQ(read("<BAAAAAAAAAAAAA>", reader).size(), 1u) << "a truncated answer, then a whole one";
   EXPECT_EQ(reader.skipped(), 7);
   EXPECT_EQ(read("<AAAAAAAQAAAAAA>", reader).size(), 0u) << "Q is no nibble";
   EXPECT_EQ(read("<AAAAAAAAAAAAAA?", reader).size(), 0u);
@@ -63,7 +63,7 @@ TEST(FalconPackets, WhatIsNoAnswerIsSkipped) {
   EXPECT_EQ(read("<AAAAAAAAAAAAAA><CAAAAAAAAAAAAA>", reader).size(), 2u);
 }
 
-TEST(FalconPackets, TheChipsStatusIsNoneOfIt) {
+TEST(FalconPackets, TheChipsStatusBytesAreLeftOut) {
   const std::uint8_t bytes[] = {0x01, 0x60, '<', 'A'};
   EXPECT_EQ(payload(bytes).size(), 2u);
   EXPECT_EQ(payload(bytes)[0], '<');

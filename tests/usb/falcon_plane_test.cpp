@@ -29,12 +29,12 @@ TEST(FalconPlane, FullForceIsAMotorsWholeTorqueInTheWorstDirection) {
     const double angle = degrees * 3.14159265358979323846 / 180;
     const auto push = plane.push(full * glm::dvec2(std::cos(angle), std::sin(angle)), 0);
     most = std::max(most, largest(push.torques));
-    EXPECT_NEAR(glm::length(push.force), full, 0.02) << "encoders are a little beside the middle";
+    EXPECT_NEAR(glm::length(push.force), full, 0.02) << "whole encoder counts lie slightly off the middle";
   }
   EXPECT_NEAR(most, most_torque, 8);
 }
 
-TEST(FalconPlane, KeepsTheDirectionOfWhatIsTooMuch) {
+TEST(FalconPlane, KeepsTheDirectionOfAForceThatIsTooLarge) {
   FalconPlane plane(full, none);
   for (const glm::dvec2 place : {glm::dvec2(0), glm::dvec2(0.05, 0), glm::dvec2(-0.03, 0.035)}) {
     ASSERT_TRUE(plane.see(at(workspace_centre + glm::dvec3(place, 0)), 0));
@@ -46,17 +46,17 @@ TEST(FalconPlane, KeepsTheDirectionOfWhatIsTooMuch) {
   }
 }
 
-TEST(FalconPlane, WhatIsNoForceIsNone) {
+TEST(FalconPlane, HandlesImpossibleForcesAndPlaces) {
   FalconPlane plane(full, none);
-  EXPECT_EQ(plane.push({1, 1}, 0).torques, Torques{}) << "before anything was seen";
+  EXPECT_EQ(plane.push({1, 1}, 0).torques, Torques{}) << "before the first position";
   ASSERT_TRUE(plane.see(at(workspace_centre), 0));
   EXPECT_EQ(plane.push({std::nan(""), 1}, 0).torques, Torques{});
   EXPECT_LE(largest(plane.push({HUGE_VAL, -HUGE_VAL}, 0).torques), most_torque);
   EXPECT_FALSE(plane.see({30000, -30000, 30000}, 1));
-  EXPECT_NEAR(plane.position().x, 0, 1e-4) << "where it was before";
+  EXPECT_NEAR(plane.position().x, 0, 1e-4) << "the last valid position";
 }
 
-TEST(FalconPlane, WhatIsToldIsWhatTheArmsExert) {
+TEST(FalconPlane, TheReportedForceIsTheForceOfTheArms) {
   FalconPlane plane(full);
   for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(0.04, -0.02, 0.01), glm::dvec3(-0.01, 0.045, -0.02)}) {
     ASSERT_TRUE(plane.see(at(workspace_centre + place), 0));
@@ -86,10 +86,10 @@ TEST(FalconPlane, TheHoldComesInGraduallyAndIsBounded) {
     before = hold;
   }
   EXPECT_NEAR(before, -3, 0.01) << "20 mm at 400 N/m would be 8 N";
-  EXPECT_NEAR(plane.push({0, 0}, 2'000'000).hold, 0, 0.01) << "anew after a pause";
+  EXPECT_NEAR(plane.push({0, 0}, 2'000'000).hold, 0, 0.01) << "starts again after a pause";
   plane.push({0, 0}, 2'050'000);
   plane.let_go();
-  EXPECT_NEAR(plane.push({0, 0}, 2'060'000).hold, 0, 0.01) << "and after it let go";
+  EXPECT_NEAR(plane.push({0, 0}, 2'060'000).hold, 0, 0.01) << "starts again after a release";
 }
 
 TEST(FalconPlane, TheForceInThePlaneComesFirst) {
@@ -104,7 +104,7 @@ TEST(FalconPlane, TheForceInThePlaneComesFirst) {
   }
 }
 
-/// The loop closed over the protocol: encoders of whole counts, a packet each way a millisecond, a light handle.
+/// Closes the loop over the protocol: encoders with whole counts, one packet each way per millisecond, a light handle.
 TEST(FalconPlane, HoldsTheHandleInThePlaneWithoutShaking) {
   FalconModel model({}, true);
   model.logs = false;
@@ -123,7 +123,7 @@ TEST(FalconPlane, HoldsTheHandleInThePlaneWithoutShaking) {
   }
   EXPECT_NEAR(furthest_late, 0.01 * 100 / 500, 0.0005) << "a hand of 100 N/m against 400 N/m";
   EXPECT_LT(fastest_late, 0.005);
-  EXPECT_NEAR(model.place.x, 0.01 + 1.0 / 100, 0.0005) << "1 N against the hand";
+  EXPECT_NEAR(model.place.x, 0.01 + 1.0 / 100, 0.0005) << "1 N against a hand of 100 N/m";
   EXPECT_NEAR(plane.position().x, model.place.x, 0.0001);
   EXPECT_NEAR(plane.position().y, model.place.y, 0.0001);
 }

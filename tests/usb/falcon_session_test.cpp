@@ -10,7 +10,7 @@ namespace {
 
 using State = falcon::FalconSession::State;
 
-/// 200 bytes that are not all alike: three chunks of 62 and one of 14.
+/// 200 bytes with different values. They make three chunks of 62 bytes and one of 14.
 std::vector<std::uint8_t> firmware() {
   std::vector<std::uint8_t> bytes;
   for (int i = 0; i < 200; ++i) bytes.push_back(static_cast<std::uint8_t>(i * 7));
@@ -31,7 +31,7 @@ TEST(FalconSession, LoadsFirmwareAsTheProtocolSays) {
   EXPECT_EQ(bus.session.counts().firmware_chunks, 4);
   EXPECT_EQ(bus.most_writes, 1);
 
-  // tests/reference/usb_exchanges.md, Falcon. Before it, is one there? Five packets without torque that nobody answers.
+  // tests/reference/usb_exchanges.md, Falcon. The driver first tests for firmware: five unanswered packets, no torque.
   const std::string question = "OUT <AAAAAAAAAAAADA>";
   std::vector<std::string> expected{"C 9 00 01", "C 3 00 02", "C 0 00 01", "C 0 00 02"};
   expected.insert(expected.end(), 5, question);
@@ -46,7 +46,7 @@ TEST(FalconSession, LoadsFirmwareAsTheProtocolSays) {
             expected);
 }
 
-TEST(FalconSession, ADeviceThatRunsFirmwareIsNotGivenAny) {
+TEST(FalconSession, ADeviceThatRunsFirmwareIsNotLoaded) {
   FalconModel model({}, true);
   FalconBus bus(model, {});
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::running; }));
@@ -54,7 +54,7 @@ TEST(FalconSession, ADeviceThatRunsFirmwareIsNotGivenAny) {
   for (const std::string& line : model.log) EXPECT_NE(line, "C 3 41 38");
 }
 
-TEST(FalconSession, WithoutFirmwareItSaysThatItWantsSome) {
+TEST(FalconSession, WithoutAFirmwareFileTheReasonAsksForOne) {
   FalconModel model;
   FalconBus bus(model, {});
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::over; }));
@@ -77,7 +77,7 @@ TEST(FalconSession, NothingIsPushedBeforeAllEncodersAreHomed) {
   EXPECT_EQ(model.lights, 2) << "red";
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::running; }));
   for (int i = 0; i < 10; ++i) bus.frame();
-  EXPECT_EQ(model.torques, glm::ivec3(0)) << "what was commanded before does not count";
+  EXPECT_EQ(model.torques, glm::ivec3(0)) << "commands from before homing have no effect";
   EXPECT_EQ(model.lights, 4) << "green";
   bus.session.command({1000, -2000, 4096}, bus.now);
   for (int i = 0; i < 3; ++i) bus.frame();
@@ -129,7 +129,7 @@ TEST(FalconSession, RunningAllocatesNothing) {
   EXPECT_EQ(bus.session.counts().answers, answers + 1000);
 }
 
-TEST(FalconSession, SilenceLetsTheMotorsGo) {
+TEST(FalconSession, WithoutCommandsTheTorqueEnds) {
   FalconModel model({}, true);
   FalconBus bus(model, {});
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::running; }));
@@ -159,7 +159,7 @@ TEST(FalconSession, LeavesWithoutTorque) {
   EXPECT_EQ(model.log[model.log.size() - 2], model.log.back());
 }
 
-TEST(FalconSession, StoppedAnywhereItEndsWithoutTorque) {
+TEST(FalconSession, AStopAtAnyStepLeavesNoTorque) {
   for (int frames = 0; frames < 400; frames += 7) {
     FalconModel model;
     FalconBus bus(model, with_firmware());
@@ -174,7 +174,7 @@ TEST(FalconSession, StoppedAnywhereItEndsWithoutTorque) {
   }
 }
 
-TEST(FalconSession, UnpluggedItIsOverAtOnce) {
+TEST(FalconSession, AnUnpluggedDeviceEndsTheSessionAtOnce) {
   FalconModel model({}, true);
   FalconBus bus(model, {});
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::running; }));
@@ -184,7 +184,7 @@ TEST(FalconSession, UnpluggedItIsOverAtOnce) {
   EXPECT_EQ(bus.session.reason(), "it was unplugged");
 }
 
-TEST(FalconSession, BearsWithAnswersThatAreMissingOrCut) {
+TEST(FalconSession, ToleratesMissingAndTruncatedAnswers) {
   FalconModel model({.swallow = 10, .cut = 17}, true);
   FalconBus bus(model, {});
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::running; }));
@@ -233,7 +233,7 @@ TEST(FalconSession, EachFaultHasItsReasonAndEndsWithoutTorque) {
     }
     EXPECT_EQ(bus.session.state(), State::over) << fault.reason;
     EXPECT_EQ(bus.session.reason(), fault.reason);
-    // One that takes nothing more cannot be told.
+    // A device that takes no more packets cannot be told to release its motors.
     if (fault.faults.stall_after < 0) {
       EXPECT_EQ(model.torques, glm::ivec3(0)) << fault.reason;
     }

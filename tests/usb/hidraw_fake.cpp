@@ -24,7 +24,7 @@ bool HidrawFake::take_report() {
 }
 
 int HidrawFake::answer(unsigned long request, void* argument) {
-  while (take_report()) {  // the kernel's write returns when the device has it, so nothing overtakes it
+  while (take_report()) {  // the kernel's write returns when the device has the report, so later reports stay behind it
   }
   auto* bytes = static_cast<std::uint8_t*>(argument);
   const std::size_t size = _IOC_SIZE(request);

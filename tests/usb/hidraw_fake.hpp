@@ -5,13 +5,13 @@
 
 namespace wale::test {
 
-/// A hidraw node with a model of a joystick behind it. One output report and one input report go by in each frame.
+/// A hidraw node with a model of a joystick behind it. In each frame, one output report and one input report pass.
 class HidrawFake final : public NodeFake {
  public:
   explicit HidrawFake(PidModel model) : model_(std::move(model)) { start(); }
   ~HidrawFake() override { stop(); }
 
-  /// Calls `look` with the model while nobody else uses it.
+  /// Calls `look` with the model, under the lock.
   template <class Look>
   auto with_model(Look look) {
     const std::lock_guard lock(mutex_);

@@ -50,7 +50,7 @@ TEST(UdevRule, TheFileHasItForEachDeclaredDevice) {
     }
   }
   EXPECT_GT(expected, 0u);
-  EXPECT_EQ(rules.size(), expected) << "and no others";
+  EXPECT_EQ(rules.size(), expected) << "the file has other rules, too";
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ unsigned long inode_of(int descriptor) {
 }  // namespace
 
 NodeFake::NodeFake() {
-  signal(SIGPIPE, SIG_IGN);  // a write to a node fails without one
+  signal(SIGPIPE, SIG_IGN);  // a write to a node fails without a signal
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends_) != 0) throw std::runtime_error("no socketpair");
   inode_ = inode_of(ends_[0]);
   const std::lock_guard lock(fakes_mutex);

@@ -9,9 +9,9 @@
 
 namespace wale::test {
 
-/// A device's node without a kernel: one end of a socketpair that keeps packets apart, for the driver to read, write
-/// and wait on, and `ioctl`, which finds the fake by the socket. A thread of its own passes frames, a millisecond or
-/// more apart, and counts the time that drivers go by.
+/// A device's node without a kernel. The driver reads, writes and polls one end of a socketpair, which keeps packets
+/// apart; `ioctl` finds the fake by the socket. The fake's own thread passes one frame each millisecond or slower. It
+/// counts frames as the drivers' time.
 class NodeFake {
  public:
   NodeFake();
@@ -19,22 +19,22 @@ class NodeFake {
   NodeFake(const NodeFake&) = delete;
   NodeFake& operator=(const NodeFake&) = delete;
 
-  /// The driver's end. Open as long as this lives.
+  /// The driver's end of the socketpair. It is open for the lifetime of the fake.
   int descriptor() const { return ends_[0]; }
   void unplug();
 
   static int ioctl(int descriptor, unsigned long request, void* argument);
   static std::int64_t now() noexcept;
-  /// For drivers: this fake's ioctl and time.
+  /// The fake's ioctl and time, for drivers.
   static HidPidDevice::Options options();
 
  protected:
-  /// Under the lock: answers a call as the kernel does, or sets `errno`.
+  /// Answers a call as the kernel does, or sets `errno`. Called under the lock.
   virtual int answer(unsigned long request, void* argument) = 0;
-  /// Under the lock, once a frame.
+  /// Called once per frame, under the lock.
   virtual void frame() = 0;
   int device_end() const { return ends_[1]; }
-  /// Of derived classes, when they are whole and before they are not.
+  /// Derived classes call one at the end of their constructor, the other at the start of their destructor.
   void start();
   void stop();
 

@@ -15,8 +15,8 @@ std::vector<std::uint8_t> bytes_of(const Packet& packet) { return {packet.view()
 
 ReportDescriptor parsed(const PidFamily& family) { return *parse_report_descriptor(report_descriptor(family)); }
 
-TEST(OpenFFBoardReport, IsBytesAsItsHeaderSays) {
-  // A1 type8 class16 instance8 command32 data64 address64, little-endian: is torque of axis 1?
+TEST(OpenFFBoardReport, HasTheBytesOfOpenFFBoardsHeader) {
+  // A1 type8 class16 instance8 command32 data64 address64, little-endian. The report asks for the torque of axis 1.
   EXPECT_EQ(hex(bytes_of(openffboard::encode({openffboard::Type::request, 0xa01, 1, 0x0d, 0, 0}))),
             "A1 01 01 0A 01 0D 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00");
   const openffboard::Message answer{openffboard::Type::request, 0xa01, 1, 0x0d, -2, 0x0123456789abcdef};
@@ -37,7 +37,7 @@ TEST(OpenFFBoardReport, IsFoundInTheDescriptorOnly) {
   for (Report& report : descriptor.reports) {
     if (report.id == 0xa1 && report.kind == ReportKind::input) report.fields[4].bits = 32;
   }
-  EXPECT_FALSE(openffboard::has_reports(descriptor)) << "its numbers are elsewhere";
+  EXPECT_FALSE(openffboard::has_reports(descriptor)) << "its numbers are at other places";
 }
 
 TEST(OpenFFBoardReport, TellsTorqueAndPositionOfBothAxes) {
@@ -62,7 +62,7 @@ TEST(OpenFFBoardReport, TellsTorqueAndPositionOfBothAxes) {
   EXPECT_EQ(bus.session.counts().other_reports, 10);
 }
 
-TEST(OpenFFBoardReport, TakesNoPacketThatAForceNeeds) {
+TEST(OpenFFBoardReport, LeavesAllPacketsThatForcesNeed) {
   PidModel model(openffboard());
   PidBus bus(model, {.effect_duration = endless, .telemetry_period = 0.001});
   bus.settle();
@@ -76,7 +76,7 @@ TEST(OpenFFBoardReport, TakesNoPacketThatAForceNeeds) {
   EXPECT_LE(bus.session.telemetry()->asked, 5);
 }
 
-TEST(OpenFFBoardReport, WhatItDoesNotKnowIsCounted) {
+TEST(OpenFFBoardReport, UnknownAnswersAreCounted) {
   PidModel model(openffboard(), {.knows_no_vendor = true});
   PidBus bus(model);
   bus.settle();
@@ -89,7 +89,7 @@ TEST(OpenFFBoardReport, WhatItDoesNotKnowIsCounted) {
   EXPECT_FALSE(bus.session.was_lost());
 }
 
-TEST(OpenFFBoardReport, OthersAreAskedNothing) {
+TEST(OpenFFBoardReport, OtherDevicesGetNoQuestions) {
   PidModel model(rhino());
   PidBus bus(model);
   bus.settle();

@@ -11,8 +11,8 @@
 
 namespace wale::test {
 
-/// A session and a model of a device, without any USB between them: frames of a millisecond, in each of which one
-/// packet goes each way and control transfers end. Time is counted, never measured.
+/// A session and a model of a device without USB between them. In each frame of a millisecond, one packet goes each way
+/// and control transfers end. Time is the number of frames, so the clock does not matter.
 class PidBus {
  public:
   static constexpr std::int64_t frame_time = 1000, timeout = 100'000;  // microseconds
@@ -36,7 +36,7 @@ class PidBus {
     pump();
   }
 
-  /// Submits whatever the session wants now.
+  /// Submits the transfers that the session asks for now.
   void pump() {
     while (auto transfer = session.next(now)) {
       if (model_ == nullptr) {
@@ -49,7 +49,7 @@ class PidBus {
     }
   }
 
-  /// Until the session runs or is over, at most a second of frames.
+  /// Passes frames until the session runs or has ended, for at most one second.
   void settle() {
     pump();
     for (int i = 0; i < 1000 && (session.state() == hid::PidSession::State::setting_up ||
@@ -65,7 +65,7 @@ class PidBus {
     for (const Submitted& each : gone) session.finish(each.transfer, hid::Outcome::gone, {}, now);
   }
 
-  /// A Set Constant Force packet, and the newest command when it was submitted.
+  /// A Set Constant Force packet, with the newest command at its submission.
   struct Sent {
     hid::Packet packet;
     glm::dvec2 newest{0};

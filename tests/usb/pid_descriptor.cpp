@@ -66,7 +66,7 @@ void write_set_effect(Items& items, const PidFamily& family) {
 }
 
 void write_control(Items& items, const PidFamily& family) {
-  // Both ways are met: the field's usage as the report's collection, or within a collection of its own.
+  // Devices use both forms: the field's usage on the report's collection, or inside its own collection.
   if (family.control_is_mask)
     items.begin(0x95).id(family.control).begin(0x96);
   else
@@ -74,7 +74,7 @@ void write_control(Items& items, const PidFamily& family) {
   for (const std::uint8_t order : family.control_orders) items.use(order);
   const auto count = static_cast<int>(family.control_orders.size());
   if (family.control_is_mask) {
-    // The range of one bit is what OpenFFBoard declares, meaningless as it is.
+    // OpenFFBoard declares the range of one bit here, which has no meaning.
     items.logical(1, count).physical(1, count).size(1, static_cast<std::uint16_t>(count)).output(variable);
     if (count < 8) items.size(static_cast<std::uint8_t>(8 - count), 1).output(constant);
     items.end();
@@ -111,8 +111,8 @@ void write_features(Items& items, const PidFamily& family) {
       .end();
 }
 
-/// As OpenFFBoard has it, usb_hid_ffb_desc.h: usages 1 .. 6 of page FF00, 8 to 64 bits, with a range that means
-/// nothing.
+/// The vendor's report as in OpenFFBoard's usb_hid_ffb_desc.h: usages 1 .. 6 of page FF00, with 8 to 64 bits and a
+/// range without meaning.
 void write_vendor_reports(Items& items) {
   items.page(0xff00).begin(0x00, 1);
   for (const bool is_out : {true, false}) {
@@ -148,7 +148,7 @@ std::vector<std::uint8_t> report_descriptor(const PidFamily& family) {
   items.use(0x22).logical(1, 40).physical(1, 40).size(7, 1).input(variable).end();
 
   write_set_effect(items, family);
-  begin_output(items, 0x5a, family.envelope);  // without which Linux's driver has no use for a constant force
+  begin_output(items, 0x5a, family.envelope);  // Linux's driver plays a constant force only with an envelope
   for (const std::uint8_t level : {0x5b, 0x5d}) number(items, level, 16, family.magnitude_maximum);
   for (const std::uint8_t time : {0x5c, 0x5e}) number(items, time, 16, 32767);
   items.end();

@@ -6,8 +6,8 @@
 
 namespace wale::test {
 
-/// How one family of force-feedback joysticks lays out its reports. The tests' descriptors are written from it, and the
-/// model of the device reads and writes packets by it, not by what the driver finds in the descriptor.
+/// The layout of reports of one family of force-feedback joysticks. The tests write descriptors from it. The model of
+/// the device reads and writes packets by it, and so does not depend on the driver's reading of the descriptor.
 struct PidFamily {
   enum class Delay { before_gain, last, absent };
 
@@ -31,8 +31,8 @@ struct PidFamily {
   bool has_vendor_report = false;  ///< OpenFFBoard's A1
 };
 
-/// The families of PID devices: its ids, widths, ranges, missing fields and kinds of Device Control. Ids that the
-/// table does not have are the next free ones.
+/// The families of PID devices: ids, widths, ranges, missing fields and kinds of Device Control. An id that the table
+/// lacks is the next free one.
 PidFamily openffboard();
 PidFamily rhino();
 PidFamily adapt_ffb_joy();

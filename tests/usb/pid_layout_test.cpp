@@ -36,7 +36,7 @@ std::string bytes_of(const Packet& packet) {
   return test::hex({packet.bytes.begin(), packet.bytes.begin() + packet.size});
 }
 
-/// Replaces the only place where `from` stands, both as `test::hex`.
+/// Replaces the only occurrence of `from`. Both strings are written as by `test::hex`.
 std::vector<std::uint8_t> replaced(const PidFamily& family, const std::string& from, const std::string& to) {
   std::string text = test::hex(test::report_descriptor(family));
   const std::size_t at = text.find(from);
@@ -129,7 +129,7 @@ TEST(PidLayout, StateReport) {
   EXPECT_FALSE(decode_state(layout, test::from_hex("01 12 05"))) << "another report";
 }
 
-TEST(PidLayout, WhatMayBeMissing) {
+TEST(PidLayout, OptionalFieldsMayBeMissing) {
   const auto without = [](const PidFamily& family, const char* from) {
     auto result = laid_out(replaced(family, from, "09 F1 A1 02"));
     return *result;
@@ -145,7 +145,7 @@ TEST(PidLayout, WhatMayBeMissing) {
   EXPECT_TRUE(axes.has_axes());
 }
 
-TEST(PidLayout, LiesAreRefused) {
+TEST(PidLayout, ContradictionsAreRefused) {
   // +-32767 in 8 bits
   EXPECT_EQ(refusal_of(replaced(test::openffboard(), "09 70 16 01 80 26 FF 7F 36 01 80 46 FF 7F 75 10",
                                 "09 70 16 01 80 26 FF 7F 36 01 80 46 FF 7F 75 08")),
@@ -214,7 +214,7 @@ TEST(PidPackets, Input) {
   EXPECT_EQ(state->y, 10000);
   EXPECT_TRUE(state->button);
   bytes[9] = 0, bytes[10] = 0x80;
-  EXPECT_EQ(decode_input(layout, bytes)->x, -32767) << "held within its range";
+  EXPECT_EQ(decode_input(layout, bytes)->x, -32767) << "clamped to its range";
   EXPECT_FALSE(decode_input(layout, std::span(bytes).first(24))) << "short";
   bytes[0] = 2;
   EXPECT_FALSE(decode_input(layout, bytes)) << "another report";

@@ -57,7 +57,7 @@ TEST(PidSession, SetsUpOpenFFBoardByteForByte) {
   EXPECT_EQ(model.wrong_reports, 0);
 }
 
-TEST(PidSession, EndlessEffectsWhereAskedFor) {
+TEST(PidSession, EffectsAreEndlessOnRequest) {
   PidModel model(openffboard());
   PidBus bus(model, {.effect_duration = hid::endless});
   bus.settle();
@@ -73,7 +73,7 @@ TEST(PidSession, StopsByteForByte) {
   bus.settle();
   run_ticks(bus, 10, wandering);
   bus.session.stop();
-  for (int i = 0; i < 3; ++i) bus.frame();  // what was on its way comes first
+  for (int i = 0; i < 3; ++i) bus.frame();  // packets under way arrive first
   model.log.erase(model.log.begin(), model.log.end() - 1);
   bus.settle();
   const std::vector<std::string> leaving{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00", "OUT 0A 02 03 00",
@@ -97,13 +97,13 @@ TEST(PidSession, TenThousandTicksOfEachFamily) {
     const long before = model.outputs;
     const std::int64_t start = bus.now;
     run_ticks(bus, 10'000, wandering);
-    for (const PidBus::Sent& sent : bus.forces) {  // nothing but the newest command ever goes out
+    for (const PidBus::Sent& sent : bus.forces) {  // only the newest command ever goes out
       const double wanted = sent.packet.bytes[1] == 1 ? sent.newest.x : sent.newest.y;
       ASSERT_NEAR(sent_counts(sent), wanted * family.magnitude_maximum, 0.5 + 1e-9) << family.name;
     }
     const auto& counts = bus.session.counts();
     EXPECT_EQ(model.wrong_reports, 0) << family.name;
-    // Each period one packet: a force, or what keeps the effects alive.
+    // Each period has one packet: a force, or a refresh that keeps an effect playing.
     const std::int64_t frames = (bus.now - start) / PidBus::frame_time;
     EXPECT_NEAR(static_cast<double>(counts.forces_sent[0] + counts.forces_sent[1] + counts.refreshes),
                 static_cast<double>(model.outputs - before), 2)
@@ -116,7 +116,7 @@ TEST(PidSession, TenThousandTicksOfEachFamily) {
     EXPECT_EQ(counts.bad_inputs, 0);
     EXPECT_LE(bus.most_in_flight, 2u);
 
-    // And once the command stands still, the device exerts it.
+    // When the command no longer changes, the device exerts it.
     run_ticks(bus, 5, [](long) { return glm::dvec2(0.5, -0.25); });
     EXPECT_NEAR(model.force().x, 0.5, tolerance(family)) << family.name;
     EXPECT_NEAR(model.force().y, -0.25, tolerance(family)) << family.name;
@@ -150,8 +150,8 @@ TEST(PidSession, ANewerCommandReplacesThePendingOne) {
   for (int i = 0; i < 100; ++i) {  // faster than frames
     bus.command({0.001 * i, -0.001 * i}, bus.now);
   }
-  EXPECT_EQ(bus.forces.size(), 2u) << "as many as may be on their way; nothing queues behind them";
-  EXPECT_EQ(bus.session.counts().overwritten, 97) << "all but the two that went out and the one that waits";
+  EXPECT_EQ(bus.forces.size(), 2u) << "at most two are under way, and none queue behind them";
+  EXPECT_EQ(bus.session.counts().overwritten, 97) << "all except the two sent and the one waiting";
   for (int i = 0; i < 4; ++i) bus.frame();
   EXPECT_NEAR(model.force().x, 0.099, 1e-4);
   EXPECT_NEAR(model.force().y, -0.099, 1e-4);
@@ -172,20 +172,20 @@ TEST(PidSession, ASwapLeavesNothingOfTheOldForce) {
   }
 }
 
-TEST(PidSession, EffectsEndWhenNobodySpeaksAnyMore) {
+TEST(PidSession, EffectsEndWithoutFurtherPackets) {
   for (const PidFamily& family : all_families()) {
     PidModel model(family);
     PidBus bus(model);
     bus.settle();
     run_ticks(bus, 2000, [](long) { return glm::dvec2(0.5, 0.5); });
-    EXPECT_NEAR(model.force().x, 0.5, tolerance(family)) << "kept for longer than an effect lasts";
+    EXPECT_NEAR(model.force().x, 0.5, tolerance(family)) << "refreshes keep the force beyond the effect's duration";
     for (int i = 0; i < 249; ++i) model.step();  // the process is killed: no frame has a packet any more
     for (int i = 0; i < 2; ++i) model.step();
     EXPECT_EQ(model.force(), glm::dvec2(0)) << family.name;
   }
 }
 
-TEST(PidSession, ALoopThatHangsLosesItsForce) {
+TEST(PidSession, TheForceEndsWhenTheLoopHangs) {
   PidModel model(openffboard());
   PidBus bus(model);
   bus.settle();
@@ -196,7 +196,7 @@ TEST(PidSession, ALoopThatHangsLosesItsForce) {
   EXPECT_EQ(model.force(), glm::dvec2(0));
   EXPECT_EQ(bus.session.counts().silences, 1);
   run_ticks(bus, 400, [](long) { return glm::dvec2(0.25, 0); });
-  EXPECT_NEAR(model.force().x, 0.25, 1e-3) << "and has it again when it comes back";
+  EXPECT_NEAR(model.force().x, 0.25, 1e-3) << "the force returns with the loop";
 }
 
 TEST(PidSession, WithoutDirectionsEachAxisIsEnabled) {
@@ -212,7 +212,7 @@ TEST(PidSession, WithoutDirectionsEachAxisIsEnabled) {
   EXPECT_NEAR(model.force().y, -0.25, 1e-4);
 }
 
-TEST(PidSession, OneEffectIsTurned) {
+TEST(PidSession, ASingleEffectChangesItsDirection) {
   const auto check = [](PidModel& model) {
     PidBus bus(model);
     bus.settle();
@@ -227,7 +227,7 @@ TEST(PidSession, OneEffectIsTurned) {
     }
     const long turns = bus.session.counts().directions_sent;
     run_ticks(bus, 100, [](long tick) { return wandering(tick).x * glm::dvec2(0.6, 0.8); });
-    EXPECT_LE(bus.session.counts().directions_sent, turns + 1) << "a force along a line turns nothing";
+    EXPECT_LE(bus.session.counts().directions_sent, turns + 1) << "a force along a line needs no new direction";
     EXPECT_EQ(model.wrong_reports, 0);
   };
   PidFamily one = openffboard();
@@ -247,7 +247,7 @@ TEST(PidSession, UnpluggedAndReplugged) {
   EXPECT_EQ(bus.session.state(), State::over);
   EXPECT_TRUE(bus.session.was_lost());
   EXPECT_EQ(bus.session.reason(), "it was unplugged");
-  EXPECT_FALSE(bus.session.next(bus.now)) << "nothing is sent to what is not there";
+  EXPECT_FALSE(bus.session.next(bus.now)) << "nothing is sent to an unplugged device";
 
   PidModel again(openffboard());
   PidBus second(again);
@@ -296,7 +296,7 @@ TEST(PidSession, StoppedAtEveryStepOfSettingUp) {
   }
 }
 
-TEST(PidSession, TwoDevicesKnowNothingOfEachOther) {
+TEST(PidSession, TwoDevicesAreIndependent) {
   PidModel left(openffboard()), right(rhino());
   PidBus first(left), second(right);
   for (int i = 0; i < 40; ++i) {
@@ -327,9 +327,9 @@ TEST(PidSession, InputIsThePositionOfTheStick) {
   }
 }
 
-// A device that does not do as it says.
+// Devices that break the protocol.
 
-/// Sets up and runs; what it is lost by, and whether force is left.
+/// Sets up and runs a session. Returns the reason for its loss, and the force that is left.
 struct Ending {
   std::string reason;
   glm::dvec2 force;
@@ -383,14 +383,14 @@ TEST(PidFaults, HasNoRoom) {
   EXPECT_EQ(ending_of(model).reason, "it has room for one effect only, and its effects have no direction");
 }
 
-TEST(PidFaults, NeverSaysWhetherItHasMadeAnEffect) {
+TEST(PidFaults, NeverConfirmsAnEffect) {
   PidModel soon(openffboard(), {.pending_loads = 5}), never(openffboard(), {.pending_loads = 1000});
   EXPECT_EQ(ending_of(soon).reason, "");
   EXPECT_EQ(ending_of(never).reason, "it does not report whether it has created an effect");
 }
 
 TEST(PidFaults, FallsSilent) {
-  // One that sends only when something changes answers when it is asked, or refuses to be; one that has died does not.
+  // A device that reports only changes still answers or refuses a question. A dead device does neither.
   PidModel asked(openffboard(), {.no_inputs_after = 100}),
       refuses(openffboard(), {.no_inputs_after = 100, .stalls_polls = true});
   EXPECT_EQ(ending_of(asked).reason, "");
@@ -407,14 +407,14 @@ TEST(PidFaults, AFewBadInputsAreForgiven) {
   const auto input = bus.session.input();
   for (int i = 0; i < 7; ++i) bus.session.receive(from_hex("01 02"), bus.now);
   EXPECT_EQ(bus.session.state(), State::running);
-  EXPECT_EQ(bus.session.input()->x, input->x) << "the last good one stands";
+  EXPECT_EQ(bus.session.input()->x, input->x) << "the last good report stays valid";
   bus.session.receive(from_hex("02 13 00"), bus.now);  // PID state is a report of its own
   EXPECT_EQ(bus.session.counts().other_reports, 1);
   bus.session.receive(from_hex("01 02"), bus.now);
   EXPECT_TRUE(bus.session.was_lost());
 }
 
-TEST(PidFaults, LiesInItsDescriptor) {
+TEST(PidFaults, HasAFalseDescriptor) {
   PidModel model(openffboard());
   EXPECT_EQ(ending_of(model, 10, static_cast<std::uint16_t>(model.descriptor.size() + 10)).reason,
             "its report descriptor is cut short");

@@ -15,13 +15,12 @@
 #include "tests/usb/hidraw_fake.hpp"
 #include "tests/usb/profiles.hpp"
 
-// The driver's own threads against nodes without a kernel. What is asserted is counts, order and bytes, never how long
-// anything took.
+// The driver's own threads with nodes that need no kernel. The tests assert counts, order and bytes, never durations.
 
 namespace wale::test {
 namespace {
 
-/// Throws std::runtime_error when it has looked so often, a millisecond or more apart, that it never will.
+/// Looks once per millisecond or slower. Throws std::runtime_error after a fixed number of looks.
 void until(const std::function<bool()>& holds, int line = __builtin_LINE()) {
   constexpr int most_looks = 60'000;
   for (int look = 0; look < most_looks; ++look) {
@@ -55,18 +54,18 @@ glm::dvec2 force_of(HidrawFake& fake) {
 }
 bool is_near(glm::dvec2 a, glm::dvec2 b) { return std::abs(a.x - b.x) < 1e-3 && std::abs(a.y - b.y) < 1e-3; }
 
-/// Whether any Set Constant Force packet of OpenFFBoard in a log says a force.
+/// Whether a log has a Set Constant Force packet of OpenFFBoard with a force other than zero.
 bool pushes(const std::vector<std::string>& log) {
   return std::ranges::any_of(
       log, [](const std::string& line) { return line.starts_with("OUT 05 ") && line.substr(10) != "00 00"; });
 }
 
-TEST(HidrawTransport, AWholeLifeThatLeavesOthersTheirEffects) {
+TEST(HidrawTransport, RunsFromStartToEndAndLeavesOtherEffectsAlone) {
   HidrawFake fake{PidModel(openffboard())};
   auto device = opened(fake);
   EXPECT_EQ(device->transport(), PidTransportKind::hidraw);
   EXPECT_EQ(device->manner(), "one effect for each axis, by direction, by hidraw");
-  // As through libusb, but for the reset, which would end what others play.
+  // The same as through libusb, without the reset: it would end other programs' effects.
   const std::vector<std::string> expected{"GET 13",
                                           "OUT 0C 01",
                                           "OUT 0D FF",
@@ -165,7 +164,7 @@ TEST(HidrawTransport, NoticesThatARivalHasStoppedItsEffects) {
   fake.with_model([](PidModel& model) { model.output({0x0c, 4}); });
   until([&] {
     device->command({3, 0});
-    // One that falls into the moments after a start is taken for the end of what was started before.
+    // The driver takes a stop right after a start for the end of the earlier effect.
     if (!device->was_lost()) fake.with_model([](PidModel& model) { model.output({0x0c, 4}); });
     return device->was_lost();
   });
@@ -184,7 +183,7 @@ TEST(HidrawTransport, NoticesAResetOfADeviceThatTellsNoState) {
   });
   fake.with_model([](PidModel& rival) {
     rival.output({0x0c, 8});
-    rival.control({0x21, 9, 0x11, 3, 0, 0, 4, 0}, {0x11, 1, 0, 0});  // and makes an effect: block 1 once more
+    rival.control({0x21, 9, 0x11, 3, 0, 0, 4, 0}, {0x11, 1, 0, 0});  // makes an effect, which gets block 1 again
   });
   until([&] {
     device->command({3, 0});
@@ -235,11 +234,11 @@ TEST(HidrawTransport, SaysWhyItCannotBeUsed) {
   EXPECT_EQ(forceless.error().code, Code::no_force_device);
 }
 
-TEST(EvdevTransport, AWholeLife) {
+TEST(EvdevTransport, RunsFromStartToEnd) {
   EvdevFake fake;
   auto device = opened(fake);
   EXPECT_EQ(device->transport(), PidTransportKind::evdev);
-  EXPECT_EQ(fake.fuzz(), 0) << "or a hand would be felt in steps of 1/256";
+  EXPECT_EQ(fake.fuzz(), 0) << "with fuzz, positions come in steps of 1/256";
   until([&] { return fake.effects().size() == 2 && fake.effects()[0].plays && fake.effects()[1].plays; });
   const std::vector<std::string> set_up = fake.log();
   const auto is_any = [&](const std::string& line) { return std::ranges::find(set_up, line) != set_up.end(); };
@@ -263,13 +262,13 @@ TEST(EvdevTransport, AWholeLife) {
     device->command({4, 2});
     return device->counts().refreshes > 4;
   });
-  EXPECT_TRUE(is_near(fake.force(), {0.4, -0.2})) << "effects of a quarter of a second are played again in time";
+  EXPECT_TRUE(is_near(fake.force(), {0.4, -0.2})) << "effects last a quarter of a second, and are played again in time";
   device.reset();
   EXPECT_TRUE(fake.effects().empty());
-  EXPECT_EQ(fake.fuzz(), 255) << "as it was";
+  EXPECT_EQ(fake.fuzz(), 255) << "its value from before";
 }
 
-TEST(EvdevTransport, OneEffectIsTurned) {
+TEST(EvdevTransport, ASingleEffectChangesItsDirection) {
   EvdevFake fake({.most_effects = 1, .room = 1});
   const auto device = opened(fake);
   EXPECT_EQ(device->arrangement(), hid::Arrangement::combined);
@@ -281,7 +280,7 @@ TEST(EvdevTransport, OneEffectIsTurned) {
   }
 }
 
-TEST(EvdevTransport, RoomForOneOfTwoIsTurnedToo) {
+TEST(EvdevTransport, WithRoomForOneEffectItChangesItsDirectionToo) {
   EvdevFake fake({.room = 1});
   EXPECT_EQ(opened(fake)->arrangement(), hid::Arrangement::combined);
 }
@@ -319,7 +318,7 @@ TEST(EvdevTransport, SaysWhyItCannotBeUsed) {
   EXPECT_EQ(code_of(full), Code::unusable_device);
 }
 
-TEST(PidTransport, ADescriptorThatIsNoDeviceIsRefused) {
+TEST(PidTransport, AFileDescriptorOfNoDeviceIsRefused) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   const auto reading = transport_of_descriptor(ends[0], NodeFake::ioctl);

@@ -5,7 +5,7 @@
 
 namespace wale::test {
 
-/// What a driver needs of a joystick of 16 bits: no mass, damping or friction.
+/// A profile with the entries that a driver needs, for a joystick of 16 bits. It has no mass, damping or friction.
 inline DeviceProfile joystick_profile() {
   return {.name = "joystick",
           .workspace_diameter = 0.2,
@@ -15,7 +15,7 @@ inline DeviceProfile joystick_profile() {
           .rate = 900};
 }
 
-/// And of the model of a Falcon.
+/// The same for the model of a Falcon.
 inline DeviceProfile falcon_profile() {
   return {.name = "falcon",
           .workspace_diameter = 0.1,

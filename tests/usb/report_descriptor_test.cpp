@@ -53,7 +53,7 @@ TEST(ReportDescriptor, MouseOfTheStandard) {
   EXPECT_EQ(axes.bit_offset, 8u);
   EXPECT_EQ(axes.logical_minimum, -127);
   EXPECT_EQ(axes.logical_maximum, 127);
-  EXPECT_EQ(axes.physical_minimum, -127) << "nothing declared: the logical range";
+  EXPECT_EQ(axes.physical_minimum, -127) << "without a declared physical range, the logical range holds";
   EXPECT_TRUE(axes.relative);
   EXPECT_EQ(axes.collection, 1);
   EXPECT_EQ(axes.find(usage(1, 0x31)), 1u);
@@ -69,7 +69,7 @@ TEST(ReportDescriptor, SeveralTopLevelCollectionsAndIds) {
   const ReportDescriptor two = parsed(items.bytes);
   ASSERT_EQ(two.reports.size(), 2u);
   EXPECT_EQ(two.reports[0].id, 1);
-  EXPECT_EQ(two.reports[0].bytes(), 4u) << "id, 10 + 6 bits, and 8 more that came later";
+  EXPECT_EQ(two.reports[0].bytes(), 4u) << "id, 10 + 6 bits, and 8 later bits";
   EXPECT_EQ(two.reports[0].fields[1].bit_offset, 16u);
   EXPECT_EQ(two.reports[1].bytes(), 2u);
   EXPECT_EQ(two.find(ReportKind::input, 2), &two.reports[1]);
@@ -91,7 +91,7 @@ TEST(ReportDescriptor, PushAndPopKeepTheGlobals) {
   EXPECT_EQ(after.bit_offset, 32u);
 }
 
-TEST(ReportDescriptor, UsagesOfFourBytesSayTheirPage) {
+TEST(ReportDescriptor, UsagesOfFourBytesIncludeTheirPage) {
   Items items;
   items.page(0x0f).begin(0x57).use(0x000a0001).use(0x000a0002).use(0x52).size(8, 3).logical(0, 255).output(2).end();
   const ReportDescriptor extended = parsed(items.bytes);
@@ -117,7 +117,7 @@ TEST(ReportDescriptor, SignsOfRanges) {
   items.page(1).begin(4, 1);
   items.raw({0x15, 0x00, 0x25, 0xff, 0x09, 0x30}).size(8, 1).input(2);               // 255 in one byte
   items.raw({0x16, 0x01, 0x80, 0x26, 0xff, 0x7f, 0x09, 0x31}).size(16, 1).input(2);  // -32767 .. 32767
-  items.raw({0x14, 0x27, 0xff, 0xff, 0xff, 0xff, 0x09, 0x32}).size(32, 1).input(2);  // no data at all is 0
+  items.raw({0x14, 0x27, 0xff, 0xff, 0xff, 0xff, 0x09, 0x32}).size(32, 1).input(2);  // an item without data is 0
   items.raw({0x55, 0x0e}).raw({0x09, 0x33}).input(2).raw({0x55, 0xfd, 0x09, 0x34}).input(2).end();
   const auto fields = parsed(items.bytes).reports.at(0).fields;
   EXPECT_EQ(fields.at(0).logical_maximum, 255);
@@ -129,7 +129,7 @@ TEST(ReportDescriptor, SignsOfRanges) {
   EXPECT_EQ(fields.at(4).unit_exponent, -3);
 }
 
-TEST(ReportDescriptor, ArraysNameTheirValues) {
+TEST(ReportDescriptor, FieldsThatAreArraysHaveAUsageForEachValue) {
   Items items;
   items.page(0x0f).begin(0x78).raw({0x19, 0x79, 0x29, 0x7b}).logical(1, 3).size(8, 1).output(0).end();
   const auto array = parsed(items.bytes).reports.at(0).fields.at(0);

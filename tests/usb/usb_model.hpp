@@ -8,8 +8,8 @@
 
 namespace wale::test {
 
-/// A USB device without any USB: its descriptors, and what it makes of the packets at its endpoints. Time goes by
-/// `step`s of a millisecond, the frames of full-speed USB.
+/// A model of a USB device: its descriptors, and its answers to packets at its endpoints. Each `step` is a millisecond,
+/// a frame of full-speed USB.
 class UsbModel {
  public:
   using Bytes = std::vector<std::uint8_t>;
@@ -24,19 +24,20 @@ class UsbModel {
 
   virtual std::string name() const = 0;
   virtual Bytes device_descriptor() const = 0;
-  /// With the descriptors of interfaces and endpoints.
+  /// The configuration descriptor, with the descriptors of interfaces and endpoints.
   virtual Bytes configuration_descriptor() const = 0;
 
-  /// A control transfer with its 8 bytes of set-up and what goes out; what comes in. Nothing: the endpoint stalls.
+  /// Takes a control transfer: its 8 bytes of set-up and its outgoing data. Returns the incoming data. Empty if the
+  /// endpoint stalls.
   virtual std::optional<Bytes> control(const SetUp& setup, const Bytes& out) = 0;
-  /// How many frames a control transfer takes; nothing: it never ends.
+  /// The number of frames that a control transfer takes. Empty if it never ends.
   virtual std::optional<int> control_frames(const SetUp&) const { return 0; }
 
-  /// Whether it takes a packet in this frame.
+  /// Whether the endpoint takes a packet in this frame.
   virtual bool listens(std::uint8_t /*endpoint*/) const { return true; }
-  /// A packet to an endpoint; false: the endpoint stalls.
+  /// Takes a packet to an endpoint. Returns false if the endpoint stalls.
   virtual bool take(std::uint8_t endpoint, const Bytes& packet) = 0;
-  /// The packet that an endpoint has in this frame, if it has one.
+  /// The packet that an endpoint sends in this frame, if any.
   virtual std::optional<Bytes> give(std::uint8_t endpoint) = 0;
 
   virtual void step() = 0;

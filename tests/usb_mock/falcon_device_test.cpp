@@ -18,21 +18,21 @@
 #include "tests/usb_mock/usb_driver.hpp"
 #include "wale/stage.hpp"
 
-// Unmodified libusb and all of the Falcon's driver, against one that is not there: counts, order and bytes.
+// Runs unmodified libusb and the whole Falcon driver with a mock Falcon. The tests assert counts, order and bytes.
 
 namespace wale::test::falcon_device {
 namespace {
 
 constexpr std::size_t firmware_bytes = 5000;
 
-/// What is no firmware, but as long as one.
+/// Arbitrary bytes of the same length as firmware.
 std::string bytes_of_firmware() {
   std::string bytes;
   for (std::size_t i = 0; i < firmware_bytes; ++i) bytes.push_back(static_cast<char>(i * 31 >> 3));
   return bytes;
 }
 
-/// The environment says otherwise as long as it lives.
+/// Overrides an environment variable for its lifetime.
 class Environment {
  public:
   Environment(const char* name, const char* value) : name_(name) {
@@ -86,7 +86,7 @@ glm::ivec3 torques(Mock& mock) {
   return mock->with_model([](FalconModel& model) { return model.torques; });
 }
 
-TEST_F(FalconDriver, AWholeLife) {
+TEST_F(FalconDriver, RunsFromStartToEnd) {
   const auto mock = mock_.plug(FalconModel(), 1);
   EXPECT_TRUE(is_falcon(found(1)));
   auto device = opened(1);
@@ -96,7 +96,7 @@ TEST_F(FalconDriver, AWholeLife) {
     EXPECT_EQ(model.firmware.size(), firmware_bytes);
     EXPECT_EQ(model.firmware[1000], static_cast<std::uint8_t>(1000 * 31 >> 3));
     EXPECT_TRUE(model.is_homed);
-    model.hand = {0.01, -0.02, 0.125};  // beside the plane, in which it is held
+    model.hand = {0.01, -0.02, 0.125};  // the hand is beside the plane, the driver holds the handle in the plane
     model.logs = false;
   });
 
@@ -113,10 +113,11 @@ TEST_F(FalconDriver, AWholeLife) {
   EXPECT_GT(good, ticks / 2);
   const auto counts = device->counts();
   EXPECT_GT(counts.answers, 300);
-  EXPECT_LE(std::abs(counts.answers - counts.commands_sent), 6) << "in turns; five of probing";
+  EXPECT_LE(std::abs(counts.answers - counts.commands_sent), 6)
+      << "commands and answers take turns; five commands are from probing";
   EXPECT_EQ(counts.skipped_bytes, 0);
 
-  // The handle is where the device says, in the plane, and the hand is pushed the way that was asked for.
+  // The device reports the place of the handle in the plane. The force on the hand has the commanded direction.
   run_until(mock_, [&] {
     device->command({1.5f, -1});
     const Reading reading = device->sample();
@@ -136,11 +137,11 @@ TEST_F(FalconDriver, AWholeLife) {
   });
   EXPECT_EQ(mock->claims, 1);
   EXPECT_EQ(mock->releases, 1);
-  EXPECT_EQ(mock->drivers_back, 1) << "the kernel's driver";
+  EXPECT_EQ(mock->drivers_back, 1) << "the kernel's driver is attached again";
   EXPECT_EQ(mock->unknown_ioctls, 0);
 }
 
-TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
+TEST_F(FalconDriver, WaitsUntilAPersonHomesIt) {
   FalconModel model({}, true);
   model.homes_after = -1;
   const auto mock = mock_.plug(std::move(model), 1);
@@ -163,14 +164,14 @@ TEST_F(FalconDriver, WaitsForSomebodyWhoHomesIt) {
   options.stop = &stop;
   options.homing_patience = 1e9;
   options.ask = [&](const std::string&) { stop = true; };
-  EXPECT_EQ(refusal(1, options), not_homed) << "nobody wants it any more";
+  EXPECT_EQ(refusal(1, options), not_homed) << "the caller has given up";
   options.stop = nullptr;
   options.ask = {};
   options.homing_patience = 0.05;
   EXPECT_EQ(refusal(1, options), not_homed);
 }
 
-TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
+TEST_F(FalconDriver, TheErrorOfMissingFirmwareNamesItsSource) {
   mock_.plug(FalconModel(), 1);
   FalconOptions options = falcon_in_mock_time();
   options.firmware = "/nowhere/falcon.bin";
@@ -180,10 +181,10 @@ TEST_F(FalconDriver, MissingFirmwareSaysWhereItComesFrom) {
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   }
   const auto running = mock_.plug(FalconModel({}, true), 2);
-  EXPECT_NE(opened(2, options), nullptr) << "one that has its firmware needs no file";
+  EXPECT_NE(opened(2, options), nullptr) << "a Falcon with firmware needs no file";
 }
 
-TEST(FalconFirmware, IsLookedForWhereTheEnvironmentSays) {
+TEST(FalconFirmware, TheEnvironmentNamesItsFile) {
   const TemporaryFolder home, data;
   const Environment at_home("HOME", home.path().c_str()), nowhere("XDG_DATA_HOME", nullptr),
       none("WALE_FALCON_FIRMWARE", nullptr);
@@ -194,7 +195,7 @@ TEST(FalconFirmware, IsLookedForWhereTheEnvironmentSays) {
   EXPECT_EQ(falcon_firmware_path(), "/mine.bin");
 }
 
-TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
+TEST_F(FalconDriver, IsUnpluggedWhileRunningAndPluggedInAgain) {
   std::atomic<int> arrived{0}, left{0};
   ASSERT_TRUE(context()->watch([&](const UsbEvent& event) { ++(event.arrived ? arrived : left); }));
   const auto mock = mock_.plug(FalconModel({}, true), 1);
@@ -212,7 +213,7 @@ TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
   EXPECT_EQ(device->command({2, 1}), Force(0));
   await([&] { return left == 1; });
 
-  const auto again = mock_.plug(FalconModel(), 1);  // it was without power, and so without firmware
+  const auto again = mock_.plug(FalconModel(), 1);  // without power it lost its firmware
   await([&] { return arrived == 2; });
   const auto second = opened(1);
   ASSERT_NE(second, nullptr);
@@ -223,7 +224,7 @@ TEST_F(FalconDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
   });
 }
 
-TEST_F(FalconDriver, AStageIsFeltOnIt) {
+TEST_F(FalconDriver, GivesTheForcesOfAStage) {
   const auto mock = mock_.plug(FalconModel({}, true), 1);
   DeviceProfile profile = sandpaper();
   auto result = FalconDevice::open(context(), found(1), profile, falcon_in_mock_time());
@@ -272,7 +273,7 @@ TEST_F(FalconDriver, FaultsEndInNoForce) {
   }
 }
 
-TEST_F(FalconDriver, PlacesThatNoHandleHasAreNotPushedAt) {
+TEST_F(FalconDriver, GivesNoForceAtImpossiblePlaces) {
   const auto mock = mock_.plug(FalconModel({.wild_after = 300}, true), 1);
   auto device = opened(1);
   ASSERT_NE(device, nullptr);
@@ -286,14 +287,14 @@ TEST_F(FalconDriver, PlacesThatNoHandleHasAreNotPushedAt) {
   EXPECT_FALSE(device->was_lost());
 }
 
-TEST_F(FalconDriver, IsListedWithWhatItNeeds) {
+TEST_F(FalconDriver, IsListedWithItsRequirements) {
   const auto mock = mock_.plug(FalconModel(), 1);
   found(1);
   const Environment none("WALE_FALCON_FIRMWARE", "/nowhere/falcon.bin");
   const Connections connections{context()};
   const auto listed = find_driver(drivers(), "novint-falcon")->find(connections, nullptr);
   ASSERT_EQ(listed.size(), 1u);
-  EXPECT_TRUE(find_driver(drivers(), "hid-pid")->find(connections, nullptr).empty()) << "it is none of the HID class";
+  EXPECT_TRUE(find_driver(drivers(), "hid-pid")->find(connections, nullptr).empty()) << "it is not of the HID class";
   EXPECT_EQ(listed[0].name, "Novint Falcon");
   EXPECT_EQ(listed[0].can, "three motors, used as two axes in a plane, 4096 steps of torque to each side");
   ASSERT_TRUE(listed[0].obstacle);

@@ -1,5 +1,5 @@
-// What `wale feel`, `wale devices` and `wale devices --identify` do with a device, from finding it to letting it go, on
-// the way that they take: the devices are not there, everything else is. Counts, order and bytes, never durations.
+// `wale feel`, `wale devices` and `wale devices --identify` with mock devices, from finding a device to releasing it.
+// All other parts are the real ones. The tests assert counts, order and bytes, never durations.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -41,7 +41,7 @@ std::vector<std::string> log_of(const std::shared_ptr<MockJoystick>& joystick) {
   return joystick->with_model([](PidModel& model) { return model.log; });
 }
 
-/// The counts that OpenFFBoard's Set Constant Force packets say of one of its blocks, but for those of setting up.
+/// The counts of OpenFFBoard's Set Constant Force packets to one block, without the packets of setting up.
 std::vector<int> pushes_in(const std::vector<std::string>& log, int block) {
   std::vector<int> pushes;
   for (const std::string& line : log) {
@@ -74,7 +74,7 @@ class Feeling : public testing::Test {
  protected:
   Feeling() : connections_(Connections::open()) {}
 
-  /// What is plugged in, once there are so many.
+  /// The devices that are plugged in. Waits until there are this many.
   std::vector<PluggedIn> found(std::size_t count) const {
     std::vector<PluggedIn> all;
     await([&] { return (all = plugged_in(connections_)).size() == count; });
@@ -99,7 +99,7 @@ class Feeling : public testing::Test {
   Library library_;
 };
 
-TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
+TEST_F(Feeling, AutoFindsADeviceThatIsUnpluggedAndPluggedInAgain) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1), other = mock_.plug(PidModel(rhino()), 2);
   const ChosenDevice device = chosen("auto", 2);
   EXPECT_EQ(device.declared->profile.name, "openffboard");
@@ -139,7 +139,7 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   EXPECT_TRUE(report.manner.starts_with("one effect for each axis, by direction, by libusb")) << report.manner;
   EXPECT_GT(result.guards.lost, 0);
 
-  // No force and no patch while it is lost; back from there, the slew is what the first force is held to.
+  // While the device is lost there is no force and no patch. After its return, the slew limits the first force.
   const DeviceProfile& profile = joystick->profile();
   const double step = profile.slew / profile.rate + 2 * profile.force_step();
   long lost = 0;
@@ -158,14 +158,14 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
   joystick.reset();
   EXPECT_EQ(first(log_of(stick), set_up_of_openffboard.size()), set_up_of_openffboard);
   const auto log = log_of(again);
-  EXPECT_EQ(first(log, set_up_of_openffboard.size()), set_up_of_openffboard) << "set up anew";
-  EXPECT_EQ(last(log, leave_of_openffboard.size()), leave_of_openffboard) << "and left";
+  EXPECT_EQ(first(log, set_up_of_openffboard.size()), set_up_of_openffboard) << "set up again";
+  EXPECT_EQ(last(log, leave_of_openffboard.size()), leave_of_openffboard) << "ended in order";
   for (const auto& one : {stick, again})
     EXPECT_EQ(one->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
-  EXPECT_TRUE(log_of(other).empty()) << "the other one is left alone";
+  EXPECT_TRUE(log_of(other).empty()) << "the other device is left alone";
   EXPECT_EQ(again->releases, again->claims);
 
-  // What either was told along x are forces that ticks commanded, in their order, some left out.
+  // The forces along x that each device got are commanded forces of ticks, in order. Some ticks are left out.
   std::size_t tick = 0;
   long told = 0;
   for (const auto& one : {stick, again})
@@ -174,13 +174,13 @@ TEST_F(Feeling, FoundByAutoUnpluggedInTheMiddleAndFeltAgain) {
       const auto& ticks = result.record.ticks;
       const auto is_it = [&] { return std::lround(ticks[tick].force.x / profile.force_newton * 32767) == counts; };
       while (tick < ticks.size() && !is_it()) ++tick;
-      ASSERT_LT(tick, ticks.size()) << "a force that no later tick commanded: " << counts;
+      ASSERT_LT(tick, ticks.size()) << "no later tick commanded this force: " << counts;
       ++told;
     }
   EXPECT_GT(told, 200);
 }
 
-TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
+TEST_F(Feeling, OneOfTwoDevicesIsUnplugged) {
   const auto left = mock_.plug(PidModel(openffboard()), 1), right = mock_.plug(PidModel(openffboard()), 2);
   const ChosenDevice on_left = chosen("1-1", 2), on_right = chosen("1-2", 2);
   EXPECT_EQ(on_right.plugged->port, "1-2");
@@ -206,16 +206,16 @@ TEST_F(Feeling, TwoAtOnceAndOneOfThemUnplugged) {
   EXPECT_GT(of_first.guards.lost, 0);
   EXPECT_EQ(of_second.guards.lost, 0);
   EXPECT_EQ(first_joystick->report().losses, 1);
-  EXPECT_EQ(first_joystick->report().returns, 0) << "the other one of its like is not taken for it";
+  EXPECT_EQ(first_joystick->report().returns, 0) << "the other device of the same kind does not replace it";
   EXPECT_EQ(first_joystick->report().refusal, "it is not plugged in");
   EXPECT_EQ(second_joystick->report().losses, 0);
   EXPECT_GT(pushes_in(log_of(right), 1).size(), pushes_in(log_of(left), 1).size());
   second_joystick.reset();
   EXPECT_EQ(last(log_of(right), leave_of_openffboard.size()), leave_of_openffboard);
-  EXPECT_EQ(right->claims, claims) << "nor looked at";
+  EXPECT_EQ(right->claims, claims) << "the driver does not claim it, either";
 }
 
-TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
+TEST_F(Feeling, AnUnknownStickUsesTheGenericProfileWithAWarning) {
   PidFamily family = arduino();
   family.vendor = 0x1234;
   family.product = 0x5678;
@@ -237,7 +237,7 @@ TEST_F(Feeling, AnUnknownStickIsTakenForTheGenericOneAndSaysSo) {
   EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
 }
 
-// The binary itself, in a process of its own.
+// Tests of the `wale` program in its own process.
 
 struct Outcome {
   int status = -1;
@@ -249,7 +249,7 @@ std::string text_of(const std::string& path) {
   return std::string{std::istreambuf_iterator<char>(file), {}};
 }
 
-/// `wale` with these words, killed in the end if it has not ended.
+/// A process of `wale` with these arguments. The destructor kills it if it still runs.
 class Running {
  public:
   explicit Running(const std::string& words) {
@@ -264,10 +264,10 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  /// On standard error, by now.
+  /// Its standard error so far.
   std::string said() const { return text_of(err_); }
   void interrupt() const { kill(child_, SIGINT); }
-  /// Once it has ended.
+  /// Waits for the end of the process.
   Outcome outcome() {
     int status = 0;
     waitpid(std::exchange(child_, 0), &status, 0);
@@ -298,7 +298,7 @@ TEST_F(Feeling, APersonPlugsItInAndFeelsCorduroy) {
   EXPECT_EQ(first(log, set_up_of_openffboard.size()), set_up_of_openffboard);
   EXPECT_EQ(last(log, leave_of_openffboard.size()), leave_of_openffboard);
   EXPECT_GT(pushes_in(log, 1).size(), 50u);
-  // Counted by whoever sent them. Leaving sends one more, and so may the end of the run after it was reported.
+  // The sender counts the packets. The session's end sends one more, and the end of the run may send another after it.
   const auto sent = json.at("plugged").at("tally").at("forces_sent_x").get<std::size_t>();
   EXPECT_LE(sent + 1, pushes_in(log, 1).size());
   EXPECT_GE(sent + 2, pushes_in(log, 1).size());
@@ -306,7 +306,7 @@ TEST_F(Feeling, APersonPlugsItInAndFeelsCorduroy) {
   EXPECT_TRUE(contains(run_wale("feel " + corduroy + " --seconds 0.5").out, "driven       one effect for each axis"));
 }
 
-TEST_F(Feeling, WhatIsNamedIsMeantReally) {
+TEST_F(Feeling, ADeviceOnTheCommandLineIsTheRealOne) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1), rhino_stick = mock_.plug(PidModel(rhino()), 2);
   found(2);
   const auto device_of = [](const std::string& spelling) -> std::string {
@@ -321,11 +321,11 @@ TEST_F(Feeling, WhatIsNamedIsMeantReally) {
   const std::size_t before = log_of(stick).size() + log_of(rhino_stick).size();
   EXPECT_EQ(device_of("simulated"), "simulated");
   EXPECT_EQ(device_of("simulated:openffboard"), "simulated");
-  EXPECT_EQ(device_of("sandpaper"), "simulated") << "declared, and nothing that could be plugged in";
-  EXPECT_EQ(log_of(stick).size() + log_of(rhino_stick).size(), before) << "nothing was said to either";
+  EXPECT_EQ(device_of("sandpaper"), "simulated") << "declared, but not a device that can be plugged in";
+  EXPECT_EQ(log_of(stick).size() + log_of(rhino_stick).size(), before) << "neither device got a packet";
 }
 
-TEST_F(Feeling, WhatIsNamedAndNotThereIsWaitedFor) {
+TEST_F(Feeling, ADeviceOnTheCommandLineIsAwaited) {
   mock_.plug(PidModel(rhino()), 2);
   found(1);
   const std::pair<const char*, const char*> asked[] = {{"openffboard", "no openffboard is plugged in"},
@@ -368,7 +368,7 @@ TEST_F(Feeling, WaitingEnds) {
   EXPECT_EQ(taken->claims, 0);
 }
 
-TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
+TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithARemedy) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
   const TemporaryFolder folder;
@@ -386,8 +386,8 @@ TEST_F(Feeling, AProgramForAnotherDeviceIsRefusedWithTheMend) {
   EXPECT_TRUE(log_of(stick).empty());
 }
 
-TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
-  EXPECT_TRUE(contains(run_wale("devices").out, "no device that could be felt on"));
+TEST_F(Feeling, DevicesListsPluggedInDevicesAndObstacles) {
+  EXPECT_TRUE(contains(run_wale("devices").out, "no device to feel on"));
   mock_.plug(PidModel(openffboard()), 1);
   PidModel plain(arduino());
   plain.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");
@@ -413,7 +413,7 @@ TEST_F(Feeling, DevicesSaysWhatIsPluggedInAndWhatIsInTheWay) {
   EXPECT_TRUE(contains(felt.err, "cannot be used: another program has claimed it")) << felt.err;
 }
 
-TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
+TEST_F(Feeling, IdentifyFindsTheAxesAndLeavesNoForce) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   stick->with_model([](PidModel& model) { model.let_go(); });
   found(1);
@@ -425,10 +425,10 @@ TEST_F(Feeling, IdentifyFindsHowItLiesAndLeavesItAtRest) {
   EXPECT_TRUE(contains(identified.out, "  gain unknown\n")) << identified.out;
   EXPECT_TRUE(contains(identified.err, "Keep your hand off the handle"));
   EXPECT_EQ(last(log_of(stick), leave_of_openffboard.size()), leave_of_openffboard);
-  // A fifth of its force at most: 6554 of 32767.
+  // At most a fifth of its force: 6554 of 32767.
   for (const int block : {1, 2})
     for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
-  // What was printed, in the folder of a material, is what that material is then felt on.
+  // A printed declaration in the folder of a material is the device of that material.
   const TemporaryFolder folder;
   folder.write("devices.wale", identified.out);
   std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
@@ -456,7 +456,7 @@ TEST_F(Feeling, IdentifyIsEndedAtOnceByCtrlC) {
   EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
 }
 
-/// How many of this process's threads have a SCHED_FIFO priority.
+/// The number of this process's threads with a SCHED_FIFO priority.
 int threads_with(int priority) {
   int count = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -469,7 +469,7 @@ int threads_with(int priority) {
   return count;
 }
 
-TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
+TEST_F(Feeling, ThreadsOfADeviceHaveAPriorityJustBelowTheLoops) {
   std::atomic<bool> is_permitted{false};
   std::thread([&] {
     sched_param parameters{};
@@ -481,7 +481,7 @@ TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
   const ChosenDevice device = chosen("auto", 1);
   EXPECT_EQ(threads_with(loop_priority - 1), 0);
   const auto joystick = opened(device);
-  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "that of libusb's events and that which submits forces";
+  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "one thread for libusb's events, one that submits forces";
   mock_.unplug(stick);
   await([&] { return joystick->sample().contact == Contact::lost; });
   mock_.plug(PidModel(openffboard()), 1);
@@ -489,7 +489,7 @@ TEST_F(Feeling, TheThreadsThatServeADeviceAreJustBelowTheLoops) {
     joystick->elapse(1);
     return joystick->sample().contact == Contact::good;
   });
-  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "also when it is set up anew";
+  EXPECT_EQ(threads_with(loop_priority - 1), 2) << "the same after a second set-up";
 }
 
 }  // namespace

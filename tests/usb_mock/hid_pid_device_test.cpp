@@ -20,8 +20,8 @@
 #include "tests/usb_mock/usb_driver.hpp"
 #include "wale/stage.hpp"
 
-// Unmodified libusb and all of the driver, against devices that are not there. What is asserted is counts, order and
-// bytes, never how long anything took.
+// Runs unmodified libusb and the whole driver with mock devices. The tests assert counts, order and bytes, never
+// durations.
 
 namespace wale::test {
 namespace {
@@ -63,7 +63,7 @@ std::vector<Sent> forces_in(const std::vector<std::string>& log) {
   return sent;
 }
 
-TEST_F(UsbDriver, FindsItAndWhatItHas) {
+TEST_F(UsbDriver, FindsADeviceAndItsProperties) {
   mock_.plug(PidModel(openffboard()), 1);
   const UsbDeviceInfo info = found(1);
   EXPECT_EQ(in_words(info.vendor, info.product), "1209:ffb0");
@@ -71,7 +71,7 @@ TEST_F(UsbDriver, FindsItAndWhatItHas) {
   EXPECT_EQ(info.hid, (std::vector<UsbHidInterface>{{0, bytes, 0x83, 0x02, 64, 1, 1}}));
 }
 
-TEST_F(UsbDriver, ListsWhatIsPluggedInAndTouchesNothing) {
+TEST_F(UsbDriver, ListsDevicesWithoutSendingReports) {
   const auto felt = mock_.plug(PidModel(openffboard()), 1);
   PidModel stick(arduino());
   stick.descriptor = from_hex("05 01 09 04 A1 01 09 30 15 00 25 7F 75 08 95 01 81 02 C0");
@@ -109,7 +109,7 @@ TEST(UsbRefusal, PermissionComesWithTheRuleToInstall) {
             "to /etc/udev/rules.d/70-wale.rules, then plug it in again");
 }
 
-TEST_F(UsbDriver, AWholeLife) {
+TEST_F(UsbDriver, RunsFromStartToEnd) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
   auto device = opened(1);
   ASSERT_NE(device, nullptr);
@@ -126,7 +126,7 @@ TEST_F(UsbDriver, AWholeLife) {
   ASSERT_GE(set_up.size(), expected.size());
   EXPECT_EQ(std::vector<std::string>(set_up.begin(), set_up.begin() + static_cast<long>(expected.size())), expected);
 
-  // Each tick's force says which tick it is of: x grows, y (to the user, so of the other sign) grows with it.
+  // Each force identifies its tick: x grows with each tick, and so does y, which points to the user and changes sign.
   constexpr long ticks = 10'000;
   const Force last(static_cast<float>(ticks / 32767.0 * 10));
   run_ticks(mock_, ticks, [&](long tick) {
@@ -146,20 +146,21 @@ TEST_F(UsbDriver, AWholeLife) {
   });
   const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
   const auto counts = device->counts();
-  EXPECT_EQ(counts.forces_sent[0] + counts.forces_sent[1] + 2, static_cast<long>(sent.size())) << "two of set-up";
+  EXPECT_EQ(counts.forces_sent[0] + counts.forces_sent[1] + 2, static_cast<long>(sent.size()))
+      << "two packets are from setting up";
   EXPECT_GT(sent.size(), 100u);
   int newest[3] = {0, 0, 0};
   for (std::size_t i = 2; i < sent.size(); ++i) {
     const int size = sent[i].block == 1 ? sent[i].counts : -sent[i].counts;
     ASSERT_GT(size, newest[sent[i].block]) << "no old force after a newer one, and none twice";
     newest[sent[i].block] = size;
-    ASSERT_NE(sent[i].block, sent[i - 1].block) << "axes alternate when both have something new to say";
+    ASSERT_NE(sent[i].block, sent[i - 1].block) << "axes alternate when both have a new force";
   }
   EXPECT_GT(counts.refreshes, 10);
   EXPECT_EQ(counts.bad_inputs, 0);
   EXPECT_GT(counts.inputs, 100);
 
-  // The stick is where the device says.
+  // The device reports the place of the stick.
   run_until(mock_, [&] {
     device->command(last);
     const Reading reading = device->sample();
@@ -177,11 +178,11 @@ TEST_F(UsbDriver, AWholeLife) {
     EXPECT_EQ(model.force(), glm::dvec2(0));
   });
   EXPECT_EQ(joystick->releases, 1);
-  EXPECT_EQ(joystick->drivers_back, 1) << "the kernel's driver";
+  EXPECT_EQ(joystick->drivers_back, 1) << "the kernel's driver is attached again";
   EXPECT_EQ(joystick->unknown_ioctls, 0);
 }
 
-TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
+TEST_F(UsbDriver, GivesTheForcesOfAStageAndOfASwap) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
   auto result = HidPidDevice::open(context(), found(1), sandpaper(), in_mock_time());
   const auto device = *std::move(result);
@@ -200,7 +201,7 @@ TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
   EXPECT_GE(calls, 3);
   await([&] { return joystick->with_model([](PidModel& model) { return model.force(); }) == glm::dvec2(0); });
 
-  // What went out along x is what the ticks commanded, in their order, some ticks left out.
+  // The forces sent along x are commanded forces of ticks, in order. Some ticks are left out.
   const auto& ticks = ran->record.ticks;
   const auto sent = forces_in(joystick->with_model([](PidModel& model) { return model.log; }));
   std::size_t tick = 0;
@@ -208,14 +209,14 @@ TEST_F(UsbDriver, AStageIsFeltOnItAndASwapToo) {
   for (std::size_t i = 2; i < sent.size(); ++i) {
     if (sent[i].block != 1 || sent[i].counts == 0) continue;
     while (tick < ticks.size() && std::lround(ticks[tick].force.x / 10 * 32767) != sent[i].counts) ++tick;
-    ASSERT_LT(tick, ticks.size()) << "a force that no later tick commanded: packet " << i;
+    ASSERT_LT(tick, ticks.size()) << "no later tick commanded this force: packet " << i;
     ++found_again;
   }
   EXPECT_GT(found_again, 50);
   EXPECT_EQ(joystick->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
 }
 
-TEST_F(UsbDriver, AKilledProcessIsFeltNoLonger) {
+TEST_F(UsbDriver, TheForceOfAKilledProcessEnds) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
   const auto force = [&] { return joystick->with_model([](PidModel& model) { return model.force(); }); };
@@ -230,7 +231,8 @@ TEST_F(UsbDriver, AKilledProcessIsFeltNoLonger) {
   EXPECT_TRUE(WIFSIGNALED(status));
   joystick->close_all();
   await([&] { return force() == glm::dvec2(0); });
-  EXPECT_TRUE(joystick->with_model([](PidModel& model) { return model.effects[1].plays; })) << "nobody stopped it";
+  EXPECT_TRUE(joystick->with_model([](PidModel& model) { return model.effects[1].plays; }))
+      << "the effect was not stopped";
 }
 
 TEST_F(UsbDriver, EachFamilyIsFelt) {
@@ -248,7 +250,7 @@ TEST_F(UsbDriver, EachFamilyIsFelt) {
   }
 }
 
-TEST_F(UsbDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
+TEST_F(UsbDriver, IsUnpluggedWhileRunningAndPluggedInAgain) {
   std::atomic<int> arrived{0}, left{0};
   ASSERT_TRUE(context()->watch([&](const UsbEvent& event) {
     EXPECT_EQ(event.vendor, 0x1209);
@@ -276,7 +278,7 @@ TEST_F(UsbDriver, UnpluggedInTheMiddleAndPluggedInAgain) {
   });
 }
 
-TEST_F(UsbDriver, TwoAtOnce) {
+TEST_F(UsbDriver, RunsTwoDevicesAtOnce) {
   const auto left = mock_.plug(PidModel(openffboard()), 1), right = mock_.plug(PidModel(rhino()), 2);
   auto first = opened(1);
   const auto second = opened(2);
@@ -301,7 +303,7 @@ TEST_F(UsbDriver, TwoAtOnce) {
   });
 }
 
-TEST_F(UsbDriver, IsLetGoInAnyOrder) {
+TEST_F(UsbDriver, OwnersMayEndInAnyOrder) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
   std::unique_ptr<HidPidDevice> device;
   {
@@ -313,10 +315,10 @@ TEST_F(UsbDriver, IsLetGoInAnyOrder) {
   device.reset();
   opened(1).reset();  // at once
   const auto third = opened(1);
-  mock_.unplug(joystick);  // and one that is let go while it goes
+  mock_.unplug(joystick);  // a device is released while it is unplugged
 }
 
-// Devices that do not do as they say.
+// Devices that break the protocol.
 
 TEST_F(UsbDriver, SaysWhyItCannotBeUsed) {
   const auto refused = [&](PidModel model, int port) {
@@ -378,7 +380,7 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
   }
 }
 
-/// Opens the joystick at port 1 in a process of its own and pushes to the right with 3 N.
+/// Opens the joystick at port 1 in a separate process, and pushes to the right with 3 N.
 [[noreturn]] void push_for_ever() {
   const auto context = *UsbContext::open();
   for (const UsbDeviceInfo& info : context->devices()) {

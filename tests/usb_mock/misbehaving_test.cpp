@@ -8,8 +8,8 @@
 #include "tests/usb/profiles.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 
-// Joysticks that do not do as they say, or not when they should, through unmodified libusb: what is felt stays in order
-// and bounded, or ends in no force and a reason.
+// Joysticks that break the protocol or answer late, through unmodified libusb. Forces stay in order and within bounds,
+// or the device ends without force and with a reason.
 
 namespace wale::test::misbehaving {
 namespace {
@@ -35,7 +35,7 @@ class MisbehavingUsb : public MockedUsb {
   }
 };
 
-/// The counts of the Set Constant Force packets to a block that are not none, by whichever endpoint.
+/// The nonzero counts of the Set Constant Force packets to a block, through either endpoint.
 std::vector<int> forces_to(int block, const std::vector<std::string>& log) {
   std::vector<int> forces;
   for (const std::string& line : log) {
@@ -58,10 +58,10 @@ glm::dvec2 force_of(Mock& mock) {
   return mock->with_model([](PidModel& model) { return model.force(); });
 }
 
-/// To the right, so many steps of 1 / 32767 of the device's force.
+/// A force to the right, in steps of 1 / 32767 of the device's full force.
 Force steps(long count) { return {static_cast<float>(static_cast<double>(count) / 32767 * 10), 0}; }
 
-/// Pushes to the right, in each tick by a step more.
+/// Pushes to the right. The force grows by one step per tick.
 void push_harder_and_harder(UsbMock& mock, HidPidDevice& device, long ticks) {
   run_ticks(mock, ticks, [&](long tick) {
     device.sample();
@@ -69,7 +69,7 @@ void push_harder_and_harder(UsbMock& mock, HidPidDevice& device, long ticks) {
   });
 }
 
-/// And stays at that until it is felt.
+/// Keeps the last force until the model exerts it.
 template <class Mock>
 void push_until_felt(UsbMock& usb, Mock& mock, HidPidDevice& device, long count) {
   run_until(usb, [&] {
@@ -78,7 +78,7 @@ void push_until_felt(UsbMock& usb, Mock& mock, HidPidDevice& device, long count)
   });
 }
 
-TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen) {
+TEST_F(MisbehavingUsb, TenThousandTicksWithDelaysAndSomeNonsense) {
   const auto mock = mock_.plug(PidModel(openffboard(), {.nonsense_every = 7, .short_every = 5, .late = 3}), 1);
   auto device = opened(1);
   ASSERT_NE(device, nullptr);
@@ -92,7 +92,8 @@ TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen
   expect_rising(forces);
   EXPECT_EQ(static_cast<long>(forces.size()), counts.forces_sent[0]);
   EXPECT_GT(counts.overwritten, 0);
-  EXPECT_LE(counts.forces_sent[0], ticks / 3 + 10) << "three frames for each: most are never sent, none queues";
+  EXPECT_LE(counts.forces_sent[0], ticks / 3 + 10)
+      << "each packet takes three frames, so most forces are never sent and none queue";
   EXPECT_GT(counts.bad_inputs, 50);
   EXPECT_GT(counts.inputs, counts.bad_inputs);
   EXPECT_GT(counts.refreshes, 10);
@@ -102,7 +103,7 @@ TEST_F(MisbehavingUsb, TenThousandTicksOfOneThatIsLateAndTellsNonsenseNowAndThen
   EXPECT_EQ(mock->releases, 1);
 }
 
-TEST_F(MisbehavingUsb, OneThatBecomesTooLateIsLost) {
+TEST_F(MisbehavingUsb, ADeviceThatBecomesTooSlowIsLost) {
   const auto mock = mock_.plug(PidModel(openffboard()), 1);
   auto device = opened(1, 1000);
   ASSERT_NE(device, nullptr);
@@ -116,10 +117,10 @@ TEST_F(MisbehavingUsb, OneThatBecomesTooLateIsLost) {
   EXPECT_EQ(device->reason(), "it does not answer in time");
   mock->with_model([](PidModel& model) { model.faults.late = 0; });
   device.reset();
-  await([&] { return force_of(mock) == glm::dvec2(0); });  // told, or its effects have run out
+  await([&] { return force_of(mock) == glm::dvec2(0); });  // the driver has stopped the effects, or they have ended
 }
 
-TEST_F(MisbehavingUsb, WithoutAnOutEndpointAllGoesByTheControlEndpoint) {
+TEST_F(MisbehavingUsb, WithoutAnOutEndpointAllReportsUseTheControlEndpoint) {
   const auto mock = mock_.plug(PidModel(openffboard(), {.has_no_out = true}), 1);
   auto device = opened(1);
   ASSERT_NE(device, nullptr);
@@ -136,12 +137,12 @@ TEST_F(MisbehavingUsb, WithoutAnOutEndpointAllGoesByTheControlEndpoint) {
   });
 }
 
-TEST_F(MisbehavingUsb, LiesAreFoundOutWhileItIsSetUp) {
+TEST_F(MisbehavingUsb, FalseDescriptionsAreFoundDuringSetUp) {
   struct Case {
     PidModel model;
     const char* reason;
   };
-  PidModel another(rhino());  // answers as another family than its descriptor is of
+  PidModel another(rhino());  // its answers are of another family than its descriptor
   another.descriptor = report_descriptor(openffboard());
   PidModel magnitude(openffboard());
   // The magnitude's range of 16 bits, 16 01 80 26 FF 7F, as that of 8 bits: 75 10 after it becomes 75 08.
@@ -177,7 +178,7 @@ TEST_F(MisbehavingUsb, PositionsStayWithinTheDeclaredRange) {
   EXPECT_EQ(device->sample().counts, glm::ivec2(-32767, 32767)) << "half of the profile's 65534 counts";
 }
 
-TEST_F(MisbehavingUsb, OneThatStallsDoesNotDisturbTheOtherNorTheOneAfterIt) {
+TEST_F(MisbehavingUsb, AStallDisturbsNeitherAnotherDeviceNorALaterOne) {
   const auto bad = mock_.plug(PidModel(openffboard(), {.stall_outputs_after = 60}), 1);
   const auto good = mock_.plug(PidModel(openffboard()), 2);
   auto first = opened(1), second = opened(2);
@@ -191,10 +192,10 @@ TEST_F(MisbehavingUsb, OneThatStallsDoesNotDisturbTheOtherNorTheOneAfterIt) {
   EXPECT_FALSE(second->was_lost());
   expect_rising(forces_to(1, good->with_model([](PidModel& model) { return model.log; })));
   first.reset();
-  EXPECT_EQ(force_of(bad), glm::dvec2(0)) << "stopped by the control endpoint";
+  EXPECT_EQ(force_of(bad), glm::dvec2(0)) << "stopped through the control endpoint";
   bad->with_model([](PidModel& model) { model.faults = {}; });
   first = opened(1);
-  ASSERT_NE(first, nullptr) << "and usable again";
+  ASSERT_NE(first, nullptr) << "usable again";
   run_until(mock_, [&] {
     first->command({5, 0});
     return std::abs(force_of(bad).x - 0.5) < 1e-3;

@@ -16,8 +16,8 @@
 
 namespace wale::test {
 
-/// Waits until `holds`, with frames that pass by themselves; throws std::runtime_error when it has looked so often, a
-/// millisecond or more apart, that it never will.
+/// Waits until `holds`, while frames pass by themselves. It looks once per millisecond or slower, and throws
+/// std::runtime_error after a fixed number of looks.
 template <class Condition>
 void await(Condition holds, int line = __builtin_LINE()) {
   constexpr int most_looks = 60'000;
@@ -28,7 +28,7 @@ void await(Condition holds, int line = __builtin_LINE()) {
   throw std::runtime_error("awaited in vain in line " + std::to_string(line));
 }
 
-/// Ticks in step with the mock's frames, as a loop of their rate does that is never late.
+/// Runs ticks in step with the mock's frames, like a loop of the same rate that is never late.
 template <class Serve>
 void run_ticks(UsbMock& mock, long ticks, Serve serve) {
   const UsbMock::InStep in_step(mock);
@@ -38,7 +38,7 @@ void run_ticks(UsbMock& mock, long ticks, Serve serve) {
   }
 }
 
-/// As `run_ticks`, until `holds`; throws std::runtime_error when that takes more than a minute of the mock's time.
+/// As `run_ticks`, until `holds`. Throws std::runtime_error after a minute of the mock's time.
 template <class Condition>
 void run_until(UsbMock& mock, Condition holds, int line = __builtin_LINE()) {
   const UsbMock::InStep in_step(mock);
@@ -50,10 +50,10 @@ void run_until(UsbMock& mock, Condition holds, int line = __builtin_LINE()) {
   throw std::runtime_error("ticked in vain in line " + std::to_string(line));
 }
 
-/// A device whose ticks are the mock's frames, for a loop that is not the test's own.
+/// A device whose ticks are the mock's frames, for a loop that the test does not run itself.
 class InStepDevice final : public Device {
  public:
-  /// Both outlive it.
+  /// Both arguments must outlive the object.
   InStepDevice(UsbMock& mock, Device& device) : mock_(mock), device_(device), in_step_(mock) {}
 
   const DeviceProfile& profile() const noexcept override { return device_.profile(); }
@@ -71,7 +71,7 @@ class InStepDevice final : public Device {
   UsbMock::InStep in_step_;
 };
 
-/// For drivers in this process: they go by the mock's time, and their transfers may take as long as they like.
+/// The time limit of transfers of drivers in this process. These drivers use the mock's time.
 constexpr unsigned unhurried = 30'000;  // ms
 inline HidPidDevice::Options in_mock_time() {
   HidPidDevice::Options options;
@@ -86,7 +86,7 @@ inline FalconOptions falcon_in_mock_time() {
   return options;
 }
 
-/// A mock of USB, and unmodified libusb that sees it.
+/// A mock of USB, and unmodified libusb on top of it.
 class MockedUsb : public testing::Test {
  protected:
   MockedUsb() {
@@ -96,7 +96,7 @@ class MockedUsb : public testing::Test {
 
   std::shared_ptr<UsbContext> context() const { return context_; }
 
-  /// The device at a port, once libusb sees it.
+  /// The device at a port. Waits until libusb sees it.
   UsbDeviceInfo found(int port) const {
     UsbDeviceInfo found;
     await([&] {

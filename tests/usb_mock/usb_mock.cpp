@@ -22,12 +22,12 @@ namespace {
 
 constexpr unsigned long disconnect_claim = 0x8108551b;  // USBDEVFS_DISCONNECT_CLAIM with its argument's size
 constexpr std::uint8_t in_bit = 0x80;
-constexpr std::chrono::milliseconds frame_time(1);  // at least, of frames that pass by themselves
+constexpr std::chrono::milliseconds frame_time(1);  // the least duration of frames that pass by themselves
 
 std::atomic<std::int64_t> microseconds_passed{0};
 
-/// What stands for the kernel, which waits for no processor, goes before the drivers that wait for it. False: that is
-/// not permitted, and they may have to wait.
+/// Gives this thread a real-time priority above the drivers' threads, because it stands for the kernel. Returns false
+/// if that is not permitted; drivers may then have to wait.
 bool go_before_all_others() {
   sched_param parameters{};
   parameters.sched_priority = loop_priority + 1;
@@ -108,7 +108,7 @@ void MockUsbDevice::release(const Urb& urb) {
   if (urb.client != nullptr) g_object_unref(urb.client);
 }
 
-/// Who has closed the device, or was killed, has nothing under way any more, as usbfs sees to. Under the lock.
+/// Drops the transfers of clients that closed the device or were killed, as usbfs does. Called under the lock.
 void MockUsbDevice::forget_the_closed() {
   const auto forget_in = [](std::deque<Urb>& queue) {
     std::erase_if(queue, [](const Urb& urb) {
@@ -149,7 +149,7 @@ bool MockUsbDevice::wait_until_served() {
   return false;
 }
 
-/// Ready is what has something to reap.
+/// A client is ready when it has a transfer to reap.
 void MockUsbDevice::show_whether_ready() {
   const bool is_ready = !done_.empty();
   if (is_ready == is_shown_ready_) return;
@@ -242,7 +242,7 @@ void MockUsbDevice::control(const Urb& urb) {
 int MockUsbDevice::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
   Urb urb;
   urb.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
-  if (urb.urb == nullptr) return EFAULT;  // who asked has been killed since
+  if (urb.urb == nullptr) return EFAULT;  // the client was killed after its request
   const usbdevfs_urb& wanted = urb_of(urb.urb);
   if (wanted.buffer_length > 0) {
     urb.buffer = umockdev_ioctl_data_resolve(urb.urb, offsetof(usbdevfs_urb, buffer),

@@ -19,8 +19,8 @@
 
 namespace wale::test {
 
-/// A USB device as usbfs shows it to an unmodified libusb: its node answers the ioctls by which transfers are submitted
-/// and reaped, and a model of the device makes the packets. Runs under umockdev-wrapper only.
+/// A USB device as usbfs shows it to an unmodified libusb. Its node answers the ioctls that submit and reap transfers.
+/// A model of the device makes the packets. It works only under umockdev-wrapper.
 class MockUsbDevice {
  public:
   MockUsbDevice(UMockdevTestbed* testbed, std::unique_ptr<UsbModel> model, int port, int address);
@@ -28,15 +28,16 @@ class MockUsbDevice {
   MockUsbDevice(const MockUsbDevice&) = delete;
   MockUsbDevice& operator=(const MockUsbDevice&) = delete;
 
-  /// One frame: at most one packet for each endpoint.
+  /// Passes one frame, with at most one packet per endpoint.
   void frame();
-  /// Whether the driver has taken whatever has ended, and has asked for more in vain: what it does about that is done.
+  /// Whether the driver has reaped all ended transfers and has found no more. It has then reacted to all of them.
   bool is_served();
-  /// Waits for that; false: it has waited for long.
+  /// Waits until the driver is served. Returns false after a long wait.
   bool wait_until_served();
-  /// Whatever is on its way ends, and nothing is taken any more.
+  /// Ends all transfers under way. The device takes no more.
   void unplug();
-  /// Nobody has it open any more, as after a process that was killed: that the kernel would see, and this cannot.
+  /// Closes the device for all clients, as the kernel does when a process is killed. The mock cannot notice that
+  /// itself.
   void close_all();
 
   const std::string& syspath() const { return syspath_; }
@@ -55,8 +56,8 @@ class MockUsbDevice {
   struct Urb {
     UMockdevIoctlData* urb = nullptr;
     UMockdevIoctlData* buffer = nullptr;
-    UMockdevIoctlClient* client = nullptr;  // whose it is
-    long due = 0;                           // of a control transfer: the frame in which it ends
+    UMockdevIoctlClient* client = nullptr;  // the owner
+    long due = 0;                           // for a control transfer: the frame in which it ends
   };
 
   static gboolean when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
@@ -78,20 +79,20 @@ class MockUsbDevice {
   gulong connection_ = 0;
   std::map<std::uint8_t, std::deque<Urb>> endpoints_;
   std::deque<Urb> controls_, done_;
-  UMockdevIoctlClient* unserved_ = nullptr;  // for whom one has ended, until it has asked for more in vain
+  UMockdevIoctlClient* unserved_ = nullptr;  // has an ended transfer, and has not yet found that there are no more
   long frame_ = 0;
   int fifo_ = -1;
   bool is_shown_ready_ = true, is_gone_ = false;
 };
 
-/// One that a model of this kind makes.
+/// A mock device with a model of type `Model`.
 template <class Model>
 class MockDevice final : public MockUsbDevice {
  public:
   MockDevice(UMockdevTestbed* testbed, Model model, int port, int address)
       : MockUsbDevice(testbed, std::make_unique<Model>(std::move(model)), port, address) {}
 
-  /// Calls `look` with the model while nobody else uses it.
+  /// Calls `look` with the model, under the lock.
   template <class Look>
   auto with_model(Look look) {
     const std::lock_guard lock(mutex_);
@@ -100,18 +101,19 @@ class MockDevice final : public MockUsbDevice {
 };
 using MockJoystick = MockDevice<PidModel>;
 
-/// The models' time, for a driver in this process: a millisecond for each frame that has passed.
+/// The models' time, for a driver in this process: one millisecond per frame.
 std::int64_t mock_microseconds() noexcept;
 
-/// A testbed with devices, and what makes their frames pass. A frame passes only when every device is served, so that a
-/// driver that has to wait for the processor misses none: by themselves, a millisecond each or slower, or one by one,
-/// by the test's thread, while it keeps `InStep`.
+/// A testbed with devices, and the thread that passes their frames. A frame passes only when every device is served, so
+/// a driver that waits for the processor misses none. Frames pass by themselves, each in a millisecond or more. While
+/// an `InStep` exists, only the test's thread passes them.
 class UsbMock {
  public:
   UsbMock();
   ~UsbMock();
 
-  /// Plugs one in at a port, 1 .. 9, under a new address each time; as one that another program has claimed, if so.
+  /// Plugs a device in at a port, 1 .. 9, with a new address each time. If `is_claimed_elsewhere`, another program has
+  /// claimed it.
   template <class Model>
   std::shared_ptr<MockDevice<Model>> plug(Model model, int port, bool is_claimed_elsewhere = false) {
     auto device = std::make_shared<MockDevice<Model>>(testbed_, std::move(model), port, ++address_);
@@ -121,7 +123,7 @@ class UsbMock {
   }
   void unplug(const std::shared_ptr<MockUsbDevice>& device);
 
-  /// While it lives frames pass only by `pass_frame`, of the thread that made it.
+  /// While it exists, frames pass only by `pass_frame`, from the thread that made it.
   class InStep {
    public:
     explicit InStep(UsbMock& mock) : mock_(mock) { ++mock_.in_step_; }
@@ -132,11 +134,11 @@ class UsbMock {
    private:
     UsbMock& mock_;
   };
-  /// One frame, and what the driver does about it on its event thread. Throws std::runtime_error where the driver does
-  /// not take what has ended.
+  /// Passes one frame, and waits until the driver's event thread has reacted. Throws std::runtime_error if the driver
+  /// does not reap the ended transfers.
   void pass_frame();
 
-  /// Frames since the beginning.
+  /// The number of frames since the start.
   long frames() const { return frames_.load(); }
 
  private:

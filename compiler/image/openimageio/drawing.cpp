@@ -51,7 +51,7 @@ std::vector<float> surroundings(std::span<const float> values, int side, double 
   using namespace OIIO::ImageBufAlgo;
   OIIO::ImageBuf source(OIIO::ImageSpec(side, side, 1, OIIO::TypeFloat));
   source.set_pixels(source.roi(), OIIO::TypeFloat, values.data());
-  // A blur of a reduced picture is as good, and faster.
+  // Blurring a reduced picture gives nearly the same result, faster.
   const int small = std::clamp(static_cast<int>(12 * side / reach), 16, side);
   const auto width = static_cast<float>(reach * small / side);
   const auto few = resize(source, "triangle", 0.0f, OIIO::ROI(0, small, 0, small, 0, 1, 0, 1), 1);

@@ -94,7 +94,7 @@ class TemporaryFile {
   bool whole_ = false;
 };
 
-/// OpenImageIO's words on one line, or ours where it has none.
+/// OpenImageIO's message on one line, or `otherwise` if it gives none.
 std::string words_of(std::string error, const std::string& otherwise) {
   const auto lines = OIIO::Strutil::splits(OIIO::Strutil::strip(error), "\n");
   const std::string words = OIIO::Strutil::join(lines, "; ");

@@ -11,32 +11,32 @@
 
 namespace wale {
 
-/// A simulated person: a hand and how it explores unless told otherwise.
+/// A simulated person: a hand, and the motions by which it explores by default.
 struct SimulatedPerson {
   HandModel hand;
   Lateral lateral;
   Circular circular;
-  std::string source;  ///< where the figures come from
+  std::string source;  ///< the source of the figures
 };
 
 /// Materials and levels by name, compiled for a device.
 ///
-/// Everything it knows is part of the library itself: no folder of calibrations is needed at run time.
+/// All materials and calibrations are in the binary: no files are needed at run time.
 class Library {
  public:
   Library();
   ~Library();
 
-  /// A surface of that much of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors name the
-  /// argument: W0201 for an unknown percept or level, W0406 for a level outside 0 .. 1, W0601 for an unknown device,
-  /// and the codes of what the device cannot render.
+  /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors name the
+  /// argument: W0201 for an unknown percept or level, W0406 for a level outside 0 .. 1, W0601 for an unknown device;
+  /// and the errors of a percept that the device cannot render.
   Result<Program> level(const std::string& percept, const std::string& level,
                         const std::string& device = "sandpaper") const;
 
-  /// A material by name ("corduroy"), or of a Wale file or patch program; `name` is which of the file's materials, by
-  /// default the only or first one. Names are found by the rule of the command line (`wale find` lists them). Errors: a
-  /// file or name that cannot be found (W0501, W0201, W0217), a program that does not load (W0606), or the first error
-  /// in the file, with its line.
+  /// A material by name ("corduroy"), or from a Wale file or patch program; `name` chooses one of the file's materials,
+  /// by default the first one. Names are found by the rule of the command line (`wale find` lists them). Errors: a file
+  /// or name that cannot be found (W0501, W0201, W0217), a program that does not load (W0606), or the first error in
+  /// the file, with its line.
   Result<Program> material(const std::string& file_or_name, const std::string& name = {},
                            const std::string& device = "sandpaper") const;
 

@@ -13,7 +13,7 @@ extern const Driver falcon_driver;
 
 namespace {
 
-/// Only a conversation with it would tell whether it has its firmware, so a missing file is an obstacle.
+/// Whether the device has its firmware is not known without opening it, so a missing file counts as an obstacle.
 void describe_falcon(PluggedIn& listed, const KernelNodes&, libusb_device_handle*) {
   listed.can = "three motors, used as two axes in a plane, " + std::to_string(falcon::most_torque) +
                " steps of torque to each side";

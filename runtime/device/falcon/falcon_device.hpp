@@ -21,32 +21,32 @@ namespace wale {
 bool is_falcon(const UsbDeviceInfo& info);
 
 struct FalconOptions {
-  FalconTransport::Options transport;  ///< except for the firmware, which is read from its file
+  FalconTransport::Options transport;  ///< its firmware is ignored and read from the file below
   falcon::HoldInPlane hold;
-  /// The user's own file, needed and read only after the device was without power.
+  /// The user's own firmware file, read only if the device runs no firmware, as after a loss of power.
   std::filesystem::path firmware = falcon_firmware_path();
-  /// s; how long opening waits for a person to home it.
+  /// s, for which opening waits for a person to home it.
   double homing_patience = 60;
-  /// True: stop waiting for the person; null: never. Outlives the opening.
+  /// Becomes true to stop waiting for the person; null: never. Must outlive the opening.
   const std::atomic<bool>* stop = nullptr;
-  /// Told what the person has to do, on the thread that opens.
+  /// Called with the request to the person, on the thread that opens.
   std::function<void(const std::string&)> ask = {};
-  /// s after the newest answer; then the position counts as stale.
+  /// s after the newest answer, from which on the position counts as stale.
   double stale_after = 0.02;
 };
 
 /// A Novint Falcon as a joystick of two axes: an upright plane across its middle, x to the right, y up, which stands
 /// for "away from the user". The handle is held in it (`falcon::HoldInPlane`). Positions are in the profile's counts.
-/// The profile's peak force is that of a motor's whole torque at the workspace's middle; towards the rim it is less,
-/// and `command` returns the force that is exerted.
+/// The profile's peak force is that of a motor's whole torque at the workspace's middle. Towards the rim the greatest
+/// force is less; `command` returns the exerted force.
 ///
-/// It pushes only while it is commanded, and never before its encoders are homed. A lost one (`was_lost`) reads its
-/// last place.
+/// It pushes only while it is commanded, and never before its encoders are homed. A lost device (`was_lost`) reads its
+/// last position.
 class FalconDevice final : public PluggedDevice {
  public:
-  /// Loads the firmware where the device runs none, and waits until it is homed. The profile's counts and force are
-  /// positive. The error says what is in the way: permissions and the rule that gives them, another program, missing
-  /// firmware and where it comes from, or a handle that nobody has moved.
+  /// Loads the firmware if the device runs none, and waits until it is homed. The profile's counts and force must be
+  /// positive. The error names the obstacle: a missing permission and the rule that gives it, another program, missing
+  /// firmware and its source, or a handle that nobody has moved.
   static Result<std::unique_ptr<FalconDevice>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
                                                     DeviceProfile profile, const FalconOptions& options = {});
 

@@ -11,16 +11,16 @@ namespace wale::falcon {
 
 // The Novint Falcon is a delta robot: three arms on its base hold the handle, each by a shin of two parallel rods, so
 // that the handle keeps its attitude. R. E. Stamper, "A Three Degree of Freedom Parallel Manipulator with Only
-// Translational Degrees of Freedom", PhD 97-4, University of Maryland 1997; the lengths as libnifalcon has measured
-// them (include/falcon/core/FalconGeometry.h). Places are metres from the middle of the base: x to the right, y up, z
-// out of the device towards the user.
+// Translational Degrees of Freedom", PhD 97-4, University of Maryland 1997; the lengths are those that libnifalcon has
+// (include/falcon/core/FalconGeometry.h). Places are in metres from the middle of the base: x to the right, y up, z out
+// of the device towards the user.
 //
 // All of it is real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 
 /// Encoder counts of the three motors: top, right, left.
 using Encoders = std::array<std::int16_t, 3>;
 
-/// Where the workspace is widest: the arms reach 55 mm to every side of it.
+/// The place at which the workspace is widest: the arms reach 55 mm to every side of it.
 constexpr glm::dvec3 workspace_centre{0, 0, 0.12};
 
 /// The angle of an arm in radians: 0 points away from the device's axis, positive angles turn towards the user.
@@ -28,19 +28,19 @@ glm::dvec3 angles_of(const Encoders& encoders) noexcept;
 /// Rounded to the nearest count, and limited to 16 bits.
 Encoders encoders_of(const glm::dvec3& angles) noexcept;
 
-/// The angles of the arms while the handle is at `place`; nothing where they do not reach it.
+/// The angles of the arms (rad) while the handle is at `place` (m); nothing if the arms do not reach it.
 std::optional<glm::dvec3> inverse(const glm::dvec3& place) noexcept;
 
-/// The place of the handle at these angles, to a nanometre; nothing where the shins cannot meet with all knees
+/// The place of the handle (m) at these angles (rad), to a nanometre; nothing if the shins cannot meet with all knees
 /// outwards.
 std::optional<glm::dvec3> forward(const glm::dvec3& angles) noexcept;
 
-/// How the arms turn with the handle, rad/m: column i is the change of the three angles by a movement along axis i.
-/// `angles` are those of `place`. Nothing where an arm is stretched out and cannot turn.
+/// The derivative of the arms' angles by the handle's place, rad/m: column i is the change of the three angles by a
+/// movement along axis i. `angles` must be those of `place`. Nothing if an arm is stretched out and cannot turn.
 std::optional<glm::dmat3> turning(const glm::dvec3& place, const glm::dvec3& angles) noexcept;
 
 /// The torques of the arms (N m) that push the handle with `force` (N), and the reverse. No power is lost between the
-/// two, so force = transposed(turning) * torque. Nothing where the arms cannot push in every direction.
+/// two, so force = transposed(turning) * torque. Nothing if the arms cannot push in every direction.
 std::optional<glm::dvec3> torques_for(const glm::dmat3& turning, const glm::dvec3& force) noexcept;
 glm::dvec3 force_by(const glm::dmat3& turning, const glm::dvec3& torques) noexcept;
 

@@ -8,8 +8,8 @@ namespace {
 constexpr std::uint8_t first = '<', last = '>', zero = 0x41;
 constexpr std::size_t status_at = 13, filler_at = 14;
 
-/// Whether a byte may stand at a place of an answer. `first` may stand in the first place only, so it always begins
-/// one.
+/// Whether a byte is possible at index `at` of an answer. `first` is possible only at index 0, so it always begins an
+/// answer.
 bool may_stand(std::uint8_t byte, std::size_t at) noexcept {
   if (at == 0) return byte == first;
   if (at < status_at) return byte >= zero && byte < zero + 16;

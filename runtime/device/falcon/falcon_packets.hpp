@@ -25,7 +25,7 @@ constexpr std::int16_t most_torque = 4096;
 enum class Light : std::uint8_t { none = 0, red = 2, green = 4, blue = 8 };
 
 struct Command {
-  Torques torques{};         ///< limited to what the motors take
+  Torques torques{};         ///< clamped to +-most_torque
   bool keeps_homing = true;  ///< the encoders search their zeros, and report them
   Light light = Light::none;
 };
@@ -40,7 +40,8 @@ struct Answer {
   friend bool operator==(const Answer&, const Answer&) = default;
 };
 
-/// Finds answers in a stream of bytes, however it is cut. Bytes of no answer are skipped and counted.
+/// Finds answers in a stream of bytes, which may arrive in pieces of any length. Skips and counts bytes that belong to
+/// no answer.
 class AnswerReader {
  public:
   /// The answer that `byte` completes; nothing while none is complete.
@@ -54,7 +55,7 @@ class AnswerReader {
   long skipped_ = 0;
 };
 
-/// The bytes of the serial line in a packet of the USB chip: all but its two bytes of line status.
+/// The bytes of the serial line in a packet of the USB chip, without its two bytes of line status.
 std::span<const std::uint8_t> payload(std::span<const std::uint8_t> usb_packet) noexcept;
 
 }  // namespace wale::falcon

@@ -8,12 +8,12 @@
 namespace wale::falcon {
 namespace {
 
-constexpr double speed_filter = 0.005;           // s, the time constant: encoder steps are a few cm/s a period
+constexpr double speed_filter = 0.005;           // s, the time constant: one encoder step in a period is a few cm/s
 constexpr std::int64_t longest_pause = 100'000;  // microseconds between pushes before the hold comes in anew
 
 double largest(const glm::dvec3& v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Steps of torque per N m, so that `full_newton` in the worst direction is the motors' most.
+/// Steps of torque per N m: `full_newton` in the worst direction takes the motors' greatest torque.
 double steps_per_newton_metre(double full_newton) noexcept {
   const auto angles = inverse(workspace_centre);
   const glm::dmat3 by_force = glm::inverse(glm::transpose(*turning(workspace_centre, *angles)));

@@ -15,7 +15,7 @@ struct HoldInPlane {
   double stiffness = 400;  ///< N/m; 0: the handle is free to leave the plane
   double damping = 1;      ///< N s/m
   double most = 3;         ///< N
-  double coming_in = 0.5;  ///< s, from nothing to all of it, whenever pushing begins
+  double coming_in = 0.5;  ///< s, in which the hold grows from nothing to its full strength when pushing begins
 };
 
 /// A Falcon as a joystick of two axes: the upright plane across its middle, x to the right, y up ("away from the user",
@@ -27,7 +27,8 @@ class FalconPlane {
   /// The motors' own figures are not published, so this comes from the device's profile.
   explicit FalconPlane(double full_newton, const HoldInPlane& hold = {});
 
-  /// Takes the encoders' counts. False: no place of the handle fits them, and the previous place is kept.
+  /// Takes the encoders' counts at time `now` (microseconds). False: no place of the handle fits them, and the previous
+  /// place stays.
   bool see(const Encoders& encoders, std::int64_t now) noexcept;
 
   /// m from the workspace's middle.
@@ -36,11 +37,11 @@ class FalconPlane {
 
   struct Push {
     Torques torques{};
-    glm::dvec2 force{0};  ///< N, what these torques exert in the plane
-    double hold = 0;      ///< N, and across it
+    glm::dvec2 force{0};  ///< N, exerted by these torques in the plane
+    double hold = 0;      ///< N, exerted by these torques across the plane
   };
-  /// The torques for a force (N) in the plane, where the handle was last seen. A force beyond the motors is made
-  /// smaller in its direction; not-a-number counts as none.
+  /// The torques for a force (N) in the plane at the newest place of the handle. A force beyond the motors keeps its
+  /// direction and becomes smaller; not-a-number counts as no force.
   Push push(glm::dvec2 force, std::int64_t now) noexcept;
 
   /// Pushes nothing until the next `push`.

@@ -45,7 +45,7 @@ std::optional<Transfer> FalconSession::next(std::int64_t now) noexcept {
     default: break;
   }
   if (!controls.empty()) {
-    // Bytes still on their way belong to the previous mode.
+    // Waits for transfers under way, whose bytes belong to the previous mode.
     if (write_under_way_ || read_under_way_) return std::nullopt;
     Transfer transfer;
     transfer.request = controls[at_].request;
@@ -72,7 +72,7 @@ std::optional<Transfer> FalconSession::next(std::int64_t now) noexcept {
   return std::nullopt;
 }
 
-/// The bytes that the step writes.
+/// The write transfer of the present step.
 Transfer FalconSession::written(std::int64_t now) noexcept {
   Transfer transfer;
   transfer.kind = Transfer::Kind::write;
@@ -106,7 +106,7 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
   return transfer;
 }
 
-/// The answer that the loader should give now; while the firmware is loaded, the echo of it.
+/// The answer that the loader should give now; while the firmware is loaded, its echo.
 std::span<const std::uint8_t> FalconSession::expected() const noexcept {
   switch (step_) {
     case Step::hello: return hello_answer;

@@ -18,7 +18,7 @@ constexpr std::uint8_t out_endpoint = 0x02, in_endpoint = 0x81;
 /// The size of the chip's packets; a read must not ask for more.
 constexpr std::size_t most_usb_bytes = 64;
 
-/// A transfer that the session wants made.
+/// A transfer that the session asks its caller to make.
 struct Transfer {
   enum class Kind : std::uint8_t {
     control,  ///< request type 0x40 (vendor, out), index 0, no data
@@ -36,31 +36,31 @@ struct Transfer {
 };
 
 struct FalconSessionOptions {
-  /// The user's own file, loaded where the device runs no firmware. Empty: there is none.
+  /// The bytes of the user's own firmware, loaded if the device runs none. Empty: there is none.
   std::vector<std::uint8_t> firmware;
-  double command_silence = 0.1;  ///< s without a command after which the motors are let go
-  double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
-  int most_silences = 10;        ///< in a row; then the device is lost
+  double command_silence = 0.1;  ///< s without a command, after which the torques become 0
+  double answer_silence = 0.03;  ///< s without an answer, after which the device is asked again
+  int most_silences = 10;        ///< in a row, after which the device is lost
 };
 
 /// What a session has done since it was made.
 struct FalconSessionCounts {
   long commands_sent = 0;     ///< packets with torques, homing included
-  long answers = 0;           ///< valid ones
-  long skipped_bytes = 0;     ///< that belong to no answer
+  long answers = 0;           ///< valid answers
+  long skipped_bytes = 0;     ///< bytes that belong to no answer
   long silences = 0;          ///< times that no answer came
   long overwritten = 0;       ///< commands that a newer one replaced before it was sent
   long command_silences = 0;  ///< times that no command came
-  long firmware_chunks = 0;   ///< sent and echoed
+  long firmware_chunks = 0;   ///< chunks sent and echoed
 };
 
-/// The life of a Novint Falcon, without USB: it gives the next transfers and takes their results. The device runs the
-/// firmware that it has, or gets one. Then its encoders find their zeros, for which a person moves the handle through
-/// the whole workspace. Then torques and encoder counts alternate strictly. There is no torque before all three
-/// encoders are homed, while nobody commands, and in the last packets.
+/// The protocol of a Novint Falcon, without USB: it gives the next transfers and takes their results. If the device
+/// runs no firmware, it loads one. Then the encoders find their zeros, for which a person moves the handle through the
+/// whole workspace. Then torques and encoder counts alternate strictly. There is no torque before all three encoders
+/// are homed, without commands, and in the last packets.
 ///
-/// The protocol knows no durations, so a Falcon whose process is killed may keep pushing until it is opened again or
-/// loses its power. The first packet that it gets here is therefore without torque.
+/// The protocol has no durations, so a Falcon whose process is killed may keep pushing until it is opened again or
+/// loses its power. The first packet of a session therefore has no torque.
 ///
 /// One thread at a time. Times are microseconds of any steady clock.
 class FalconSession {
@@ -69,8 +69,8 @@ class FalconSession {
     setting_up,
     homing,  ///< it answers, and waits for somebody to move the handle
     running,
-    leaving,  ///< lets the motors go
-    over      ///< nothing more to do: `was_lost` and `reason` say why
+    leaving,  ///< sets the torques to 0
+    over      ///< ended: `was_lost` and `reason` say why
   };
 
   explicit FalconSession(FalconSessionOptions options = {});
@@ -80,7 +80,7 @@ class FalconSession {
   bool was_lost() const noexcept { return lost_; }
   /// Why it was lost, a literal; empty while it is not.
   std::string_view reason() const noexcept { return reason_; }
-  /// It was lost because the device runs no firmware and none was given.
+  /// Whether it was lost because the device runs no firmware and none was given.
   bool wants_firmware() const noexcept { return wants_firmware_; }
 
   const FalconSessionCounts& counts() const noexcept { return counts_; }
@@ -98,7 +98,7 @@ class FalconSession {
   /// The torques from now on. Ignored unless running. Real-time.
   void command(const Torques& torques, std::int64_t now) noexcept;
 
-  /// Sends no torque, and ends the session then. Real-time.
+  /// Sends zero torque, then ends the session. Real-time.
   void stop() noexcept;
 
  private:

@@ -36,7 +36,7 @@ Result<std::unique_ptr<FalconTransport>> FalconTransport::open(std::shared_ptr<U
   int error = libusb_open(device, &handle);
   libusb_unref_device(device);
   if (error != 0) return refused(error);
-  libusb_set_auto_detach_kernel_driver(handle, 1);  // the one for serial lines
+  libusb_set_auto_detach_kernel_driver(handle, 1);  // the kernel's driver for serial lines
   error = libusb_claim_interface(handle, first_interface);
   if (error != 0) {
     libusb_close(handle);
@@ -67,7 +67,7 @@ FalconTransport::~FalconTransport() {
     std::unique_lock lock(mutex_);
     session_.stop();
     pump();
-    // Each of the last transfers ends, at the latest by its timeout.
+    // Each of the last transfers ends, at the latest after its timeout.
     changed_.wait(lock, [&] { return session_.state() == falcon::FalconSession::State::over; });
     closes_ = true;
     for (const Slot& slot : slots_) {
@@ -124,7 +124,7 @@ void FalconTransport::publish() {
   changed_.notify_all();
 }
 
-/// Submits the transfers that the session wants. Under the lock.
+/// Submits the transfers that the session asks for. Under the lock.
 void FalconTransport::pump() {
   const std::uint64_t wanted = wanted_.load(std::memory_order_acquire);
   if (const auto number = static_cast<std::uint16_t>(number_in(wanted, 3)); number != taken_) {

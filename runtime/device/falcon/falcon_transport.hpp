@@ -29,8 +29,8 @@ class FalconTransport {
     MicrosecondClock now = microseconds_now;  ///< measures silences and the handle's speed
   };
 
-  /// Claims the device and sets it up as far as homing: some seconds where it has no firmware yet. An error says why
-  /// the device cannot be used, and leaves it without force.
+  /// Claims the device and sets it up as far as homing; takes some seconds if it has no firmware yet. The error says
+  /// why the device cannot be used; the device is left without force.
   static Result<std::unique_ptr<FalconTransport>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
                                                        Options options);
   /// Ends all torque, waits for transfers under way, and gives the interface back.
@@ -38,8 +38,8 @@ class FalconTransport {
   FalconTransport(const FalconTransport&) = delete;
   FalconTransport& operator=(const FalconTransport&) = delete;
 
-  /// Waits at most so many seconds for the encoders to find their zeros, while a person moves the handle; true once
-  /// they have.
+  /// Waits at most so many seconds for the encoders to find their zeros, while a person moves the handle. Returns
+  /// whether they have.
   bool wait_until_homed(double seconds);
 
   /// Sets the torques; newer ones replace them. Ignored before it is homed. Real-time: one atomic store.
@@ -48,7 +48,7 @@ class FalconTransport {
   struct Seen {
     falcon::Encoders encoders{};
     std::uint8_t buttons = 0;
-    bool is_running = false;  ///< homed, so that the encoders mean a place
+    bool is_running = false;  ///< homed, so that the encoders give a position
     std::int64_t heard = 0;   ///< microseconds of the options' clock
   };
   /// The newest answer. Real-time: two atomic loads.

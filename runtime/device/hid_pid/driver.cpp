@@ -22,7 +22,7 @@ extern const Driver hid_pid_driver;
 
 namespace {
 
-/// The report descriptor as the device tells it, where nobody has claimed the interface: nothing is detached.
+/// The report descriptor from the device itself, if no program has claimed the interface. Detaches no driver.
 Result<std::vector<std::uint8_t>> descriptor_from_device(libusb_device_handle* handle, const UsbDeviceInfo& info,
                                                          const UsbHidInterface& interface) {
   if (const int error = libusb_claim_interface(handle, interface.number); error != 0) {
@@ -42,7 +42,7 @@ Result<std::vector<std::uint8_t>> descriptor_from_device(libusb_device_handle* h
   return bytes;
 }
 
-/// What a device whose reports are laid out so can do, in a line.
+/// The abilities of a device with this report descriptor, in a line.
 Result<std::string> abilities(std::span<const std::uint8_t> report_descriptor) {
   const auto descriptor = hid::parse_report_descriptor(report_descriptor);
   if (!descriptor) return descriptor.error();
@@ -89,7 +89,7 @@ void describe_hid_pid(PluggedIn& listed, const KernelNodes& nodes, libusb_device
   }
 }
 
-/// Joysticks of USB's PID class, and all other HID devices, with the reason why they are none.
+/// Joysticks of USB's PID class, and all other HID devices with the reason why they are not such joysticks.
 std::vector<PluggedIn> find_hid_pid(const Connections& connections, const PluggedIn* like) {
   const auto numbers = like != nullptr ? read_usb_numbers(like->numbers) : std::nullopt;
   if (like != nullptr && !numbers) return {};

@@ -19,7 +19,7 @@ namespace wale {
 namespace {
 
 constexpr std::int64_t full_level = 32767;  // linux/input.h: ff_constant_effect
-// Of a turn in 65536 steps. The driver hands them to the device as the PID class means them: a force of level m is
+// Directions in 65536ths of a turn. The driver passes them on with the meaning of the PID class: a force of level m is
 // m sin along x and -m cos along y, which points to the user.
 constexpr std::uint16_t toward_x = 0x4000, toward_y = 0x8000;
 constexpr double steps_per_radian = 65536 / (2 * 3.14159265358979323846);
@@ -125,8 +125,8 @@ Result<> EvdevTransport::set_up() {
   return {};
 }
 
-/// The driver says that a joystick's positions are good to 1/256 of their range, and the input layer passes no smaller
-/// change on; that is no resolution for a hand.
+/// By default the driver declares a fuzz of 1/256 of a joystick's range, and the input layer drops smaller changes.
+/// That is too coarse for a hand, so this sets the fuzz to 0.
 Result<> EvdevTransport::set_up_positions() {
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     const auto axis = static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y);
@@ -134,7 +134,7 @@ Result<> EvdevTransport::set_up_positions() {
     if (positions_[i].minimum >= positions_[i].maximum) return Error{Code::unlike_device, "it sends no position"};
     input_absinfo finest = positions_[i];
     finest.fuzz = 0;
-    node_.call(EVIOCSABS(axis), &finest);  // without it, it is only coarser
+    node_.call(EVIOCSABS(axis), &finest);  // if this fails, positions are only coarser
   }
   ranges_.x_minimum = positions_[0].minimum;
   ranges_.x_maximum = positions_[0].maximum;
@@ -181,7 +181,7 @@ EvdevTransport::~EvdevTransport() {
     effects_[i].u.constant.level = 0;
     node_.call(EVIOCSFF, &effects_[i]);
     tell(static_cast<std::uint16_t>(effects_[i].id), 0);
-    // By value, as the kernel takes it.
+    // The kernel takes the effect's number by value.
     node_.call(EVIOCRMFF, reinterpret_cast<void*>(static_cast<std::intptr_t>(effects_[i].id)));
   }
   for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -195,7 +195,7 @@ EvdevTransport::~EvdevTransport() {
 void EvdevTransport::write_forces() {
   constexpr std::int64_t patience = 20'000;  // microseconds; the longest wait between checks for refreshes and silence
   while (true) {
-    // While something waits for its turn, only a newer command is taken, and nothing is waited for.
+    // While an update is pending, it takes a newer command but does not wait for one.
     const auto wanted = wait_for_command(pending_ ? 0 : patience);
     if (is_ending()) return;
     const std::int64_t now = now_();
@@ -311,7 +311,7 @@ void EvdevTransport::read_positions() {
 
 void EvdevTransport::take(const input_event& event) {
   if (event.type == EV_SYN && event.code == SYN_DROPPED) {
-    is_dropping_ = true;  // until the next report: what came is incomplete
+    is_dropping_ = true;  // until the next report: the present one is incomplete
     return;
   }
   if (event.type == EV_SYN && event.code == SYN_REPORT) {
@@ -328,7 +328,7 @@ void EvdevTransport::take(const input_event& event) {
   if (event.type == EV_KEY && event.code == BTN_JOYSTICK) button_ = event.value != 0;
 }
 
-/// Positions are told when they change, so that the first ones are asked for.
+/// Asks for the present positions, because the kernel reports them only when they change.
 void EvdevTransport::read_state() {
   for (std::size_t i = 0; i < place_.size(); ++i) {
     input_absinfo now{};

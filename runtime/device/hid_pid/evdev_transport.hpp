@@ -13,14 +13,14 @@
 
 namespace wale {
 
-/// A node of the kernel's input layer, /dev/input/eventN, whose driver makes constant forces of its own. It needs no
-/// udev rule, because joysticks are the seated user's anyway.
+/// A node of the kernel's input layer, /dev/input/eventN, whose driver makes constant forces. It needs no udev rule,
+/// because systemd gives joysticks to the seated user.
 class EvdevNode {
  public:
-  /// Fails with `unlike_device` where the driver makes no constant force, or tells no X and Y.
+  /// Error: `unlike_device` if the driver makes no constant force, or reports no X and Y.
   static Result<EvdevNode> open(const std::string& path, IoctlCall ioctl = system_ioctl);
-  /// Of a descriptor that somebody else opened for reading and writing; it stays theirs, but effects belong to the open
-  /// file, so that they end only when it is closed too.
+  /// From a descriptor that another party opened for reading and writing, and still owns. Effects belong to the open
+  /// file, so they end only when that descriptor is closed too.
   static Result<EvdevNode> of(int descriptor, IoctlCall ioctl = system_ioctl);
 
   int descriptor() const noexcept { return descriptor_.get(); }
@@ -41,19 +41,19 @@ class EvdevNode {
 
 /// A joystick through effects of the kernel's driver, which writes the reports of the PID class itself.
 ///
-/// Two effects, one turned to each axis, where the driver has room for two: a change of level is then one report, Set
-/// Constant Force. With one effect a change of direction takes two, Set Effect as well, and between them the old
-/// magnitude acts along the new direction; that is kept for drivers with room for one.
+/// If the driver has room for two effects, each is turned to one axis, and a change of level is one report, Set
+/// Constant Force. With room for one effect only, a change of direction takes a second report, Set Effect, and between
+/// the two the old magnitude acts along the new direction.
 ///
-/// An update returns before its report has gone, and the driver queues up to 256 of them, old forces before new ones.
-/// Nothing tells when it has gone, so updates are paced below the rate at which the device takes reports. Nor is it
-/// told when another program resets the device through hidraw. When the node is closed, also by a kill, the kernel
-/// erases the effects.
+/// An update returns before its report has been sent, and the driver queues up to 256 reports, old forces before new
+/// ones. It does not report when one has been sent, so updates are paced below the rate at which the device takes
+/// reports. It also does not report when another program resets the device through hidraw. When the node is closed,
+/// also by a kill, the kernel erases the effects.
 class EvdevTransport final : public PidTransport {
  public:
   struct Limits {
-    std::int64_t force_steps = 32767;  ///< levels to each side that are told apart, 1 .. 32767
-    int report_interval = 1;           ///< ms, in which the device takes a report (bInterval); updates are half as many
+    std::int64_t force_steps = 32767;  ///< distinct levels to each side, 1 .. 32767
+    int report_interval = 1;           ///< ms per report that the device takes (bInterval); updates take twice as long
   };
 
   /// Sets two effects up with no force, and plays them.

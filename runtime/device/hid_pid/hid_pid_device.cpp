@@ -6,7 +6,7 @@
 namespace wale {
 namespace {
 
-constexpr int hid_signs[2] = {1, -1};  // of HID's axes along ours: its y points to the user (HID 1.11 section 5.9)
+constexpr int hid_signs[2] = {1, -1};  // HID's axes relative to ours: its y points to the user (HID 1.11 section 5.9)
 
 int scaled_counts(std::int32_t raw, std::int64_t minimum, std::int64_t maximum, double counts, int sign) noexcept {
   const double length = static_cast<double>(maximum - minimum);
@@ -14,13 +14,13 @@ int scaled_counts(std::int32_t raw, std::int64_t minimum, std::int64_t maximum, 
   return sign * static_cast<int>(std::lround((raw - centre) * counts / length));
 }
 
-/// The nearest step of force, `fraction` of `full` steps; not-a-number is none.
+/// `fraction` of `full` steps of force, rounded to the nearest; 0 for not-a-number.
 std::int64_t force_steps(double fraction, std::int64_t full) noexcept {
   if (std::isnan(fraction)) return 0;
   return std::llround(std::clamp(fraction, -1.0, 1.0) * static_cast<double>(full));
 }
 
-/// Levels of force to each side that the profile tells apart, within what evdev can say.
+/// The profile's number of force levels to each side, at most that of evdev.
 std::int64_t levels_of(const DeviceProfile& profile) noexcept {
   constexpr double most = 32767;
   return static_cast<std::int64_t>(std::clamp(std::round(profile.force_counts), 1.0, most));

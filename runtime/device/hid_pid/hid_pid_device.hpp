@@ -12,13 +12,13 @@
 
 namespace wale {
 
-/// A force-feedback joystick of USB's PID class, whatever its report descriptor makes of it. Positions are scaled from
-/// the descriptor's range to the profile's counts, forces from the profile's peak force to the descriptor's range.
-/// HID's y points to the user, and is turned: here x points to the right and y away. The caller turns the axes further
-/// as the device's `DeviceWiring` says.
+/// A force-feedback joystick of USB's PID class, laid out by its report descriptor. Positions are scaled from the
+/// descriptor's range to the profile's counts, forces from the profile's peak force to the descriptor's range. HID's y
+/// points to the user and is reversed: here x points to the right and y away. The caller turns the axes further by the
+/// device's `DeviceWiring`.
 ///
-/// Where two axes have an effect each, each packet carries one axis: they alternate when both change, which halves the
-/// rate of each. A device that is lost (`was_lost`) pushes no more and stays where it was last seen.
+/// If each of two axes has an effect, each packet carries one axis: they alternate when both change, which halves the
+/// rate of each. A lost device (`was_lost`) exerts no force and keeps its last position.
 class HidPidDevice final : public PluggedDevice {
  public:
   struct Options : PidTransportOptions {
@@ -26,14 +26,14 @@ class HidPidDevice final : public PluggedDevice {
   };
 
   /// Takes the first interface of the device that can push, and sets it up from zero force. The profile's counts and
-  /// force are positive. The error says what is in the way: permissions and the rule that gives them, another program,
-  /// that it is no force device, or what its descriptor lacks.
+  /// force must be positive. The error names the obstacle: a missing permission and the rule that gives it, another
+  /// program, that it is no force device, or what its descriptor lacks.
   static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context,
                                                     const UsbDeviceInfo& info, DeviceProfile profile,
                                                     const Options& options = {});
-  /// Uses a hidraw, evdev or usbfs node that somebody else has opened for reading and writing, such as a portal or a
-  /// broker; which of them it is, is found out. The descriptor stays theirs. The context is for usbfs and may be null
-  /// otherwise; `options.transport` is not looked at.
+  /// Uses a hidraw, evdev or usbfs node that another party, such as a portal or a broker, has opened for reading and
+  /// writing. Detects the kind of the node. The other party still owns the descriptor. The context is for usbfs and may
+  /// be null otherwise; `options.transport` is ignored.
   static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context, int descriptor,
                                                     DeviceProfile profile, const Options& options = {});
 
@@ -50,7 +50,7 @@ class HidPidDevice final : public PluggedDevice {
   PidTransportKind transport() const noexcept { return transport_->kind(); }
   hid::Arrangement arrangement() const { return transport_->arrangement(); }
   hid::PidSessionCounts counts() const { return transport_->counts(); }
-  /// What the device's firmware tells of its motors, where it is OpenFFBoard's; nothing otherwise. Not real-time.
+  /// What OpenFFBoard's firmware reports about its motors; nothing from other firmware. Not real-time.
   std::optional<hid::Telemetry> telemetry() const { return transport_->telemetry(); }
 
  private:

@@ -19,7 +19,7 @@
 namespace wale {
 namespace {
 
-/// The 256 bytes that ioctl's 14 bits of size hold many times over, and more than any report of the PID class.
+/// More than any report of the PID class, and within the 14 bits that an ioctl has for a size.
 constexpr std::size_t most_report_bytes = 4096;
 
 constexpr std::uint8_t output_report = 2, feature_report = 3;
@@ -109,7 +109,7 @@ void HidrawChannel::close() {
   }
   writer_.join();
   const std::uint64_t one = 1;
-  if (write(ends_reading_.get(), &one, sizeof one) < 0) return;  // cannot be: an eventfd of ours takes it
+  if (write(ends_reading_.get(), &one, sizeof one) < 0) return;  // does not happen: an own eventfd always takes it
   if (reader_.joinable()) reader_.join();
 }
 
@@ -185,7 +185,7 @@ void HidrawChannel::read_inputs() {
     if (got > 0) {
       listener_.received({report.data(), static_cast<std::size_t>(got)});
     } else if (got == 0 || (errno != EINTR && errno != EAGAIN)) {
-      // hidraw says EIO of a device that has gone, and so does hardly anything else.
+      // hidraw returns EIO for a device that is gone, and rarely for another reason.
       return listener_.silenced("it was unplugged", Outcome::gone);
     }
   }

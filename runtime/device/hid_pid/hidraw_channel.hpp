@@ -17,13 +17,13 @@ namespace wale {
 class HidrawNode {
  public:
   static Result<HidrawNode> open(const std::string& path, IoctlCall ioctl = system_ioctl);
-  /// Of a descriptor that somebody else opened for reading and writing; it stays theirs.
+  /// From a descriptor that another party opened for reading and writing, and still owns.
   static Result<HidrawNode> of(int descriptor, IoctlCall ioctl = system_ioctl);
 
   int descriptor() const noexcept { return descriptor_.get(); }
   /// The device's report descriptor, as the kernel's driver has read it.
   std::span<const std::uint8_t> report_descriptor() const noexcept { return report_descriptor_; }
-  /// Whether reports begin with an id. Where they do not, hidraw wants a 0 before each.
+  /// Whether reports begin with an id. If not, hidraw expects a 0 before each.
   bool has_ids() const noexcept { return has_ids_; }
   int call(unsigned long request, void* argument) const { return ioctl_(descriptor_.get(), request, argument); }
 
@@ -37,8 +37,8 @@ class HidrawNode {
   bool has_ids_ = true;
 };
 
-/// A channel over a hidraw node. Each write blocks until the device has taken the report, at most the 5 s that the
-/// kernel allows, so that a thread of its own makes the transfers, one after another.
+/// A channel over a hidraw node. Each write blocks until the device has taken the report, for at most the 5 s that the
+/// kernel allows, so a separate thread makes the transfers, one after another.
 class HidrawChannel final : public ReportChannel {
  public:
   HidrawChannel(HidrawNode node, const PidTransportOptions& options, Listener& listener);

@@ -36,7 +36,7 @@ Result<LibusbInterface> LibusbInterface::claim(std::shared_ptr<UsbContext> conte
 Result<LibusbInterface> LibusbInterface::claim(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor,
                                                libusb_device_handle* handle, const UsbDeviceInfo& info,
                                                const UsbHidInterface& interface) {
-  libusb_set_auto_detach_kernel_driver(handle, 1);  // a system without such drivers has none in the way
+  libusb_set_auto_detach_kernel_driver(handle, 1);  // may fail: a system without this feature has no such drivers
   if (const int error = libusb_claim_interface(handle, interface.number); error != 0) {
     libusb_close(handle);
     return why_not_usable(error, info);
@@ -67,11 +67,11 @@ LibusbChannel::LibusbChannel(LibusbInterface interface, const PidTransportOption
       set_up_timeout_(options.set_up_timeout),
       most_outputs_(std::max(1, options.session.most_in_flight)) {
   const UsbHidInterface& described = interface_.description();
-  // Whole packets, so that no report runs over; one that fills its packets ends there too.
+  // The buffer holds whole packets, so that no report overflows it; a report that fills its packets ends there too.
   const std::size_t packet = std::max<std::size_t>(1, described.in_bytes);
   const std::size_t input_bytes = (hid::most_packet_bytes + packet - 1) / packet * packet;
   for (int i = 0; i < inputs_under_way && described.in_endpoint != 0; ++i) add_slot(true, input_bytes);
-  // One more than can be under way: the listener submits the next while the slot of the last still holds its answer.
+  // One more slot than transfers under way: the listener submits the next one while a slot still holds the last answer.
   for (int i = 0; i < controls + most_outputs_ + 1; ++i) {
     add_slot(false, LIBUSB_CONTROL_SETUP_SIZE + most_control_bytes);
   }

@@ -16,15 +16,14 @@ struct libusb_transfer;
 
 namespace wale {
 
-/// An interface of a device that is claimed for us alone, through libusb. The kernel's driver is detached when it is
-/// claimed and attached again when it is given back, however that comes about; only a process that is killed leaves the
-/// stick without one until it is plugged in again, or used through libusb again. Transfers end on the context's event
-/// thread.
+/// An interface of a device that is claimed for this process alone, through libusb. Claiming it detaches the kernel's
+/// driver, and destroying this object attaches it again. Only a killed process leaves the stick without a driver, until
+/// it is plugged in again or used through libusb again. Transfers end on the context's event thread.
 class LibusbInterface {
  public:
   static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
                                        const UsbHidInterface& interface);
-  /// Of a usbfs node that somebody else has opened; it stays theirs.
+  /// From a usbfs node that another party opened, and still owns.
   static Result<LibusbInterface> claim(std::shared_ptr<UsbContext> context, int descriptor, const UsbDeviceInfo& info,
                                        const UsbHidInterface& interface);
   LibusbInterface(LibusbInterface&&) noexcept;
@@ -42,7 +41,7 @@ class LibusbInterface {
                                        const UsbHidInterface& interface);
 
   std::shared_ptr<UsbContext> context_;
-  OwnedDescriptor descriptor_;  // beneath the handle, where libusb did not open it
+  OwnedDescriptor descriptor_;  // of the handle, if libusb did not open it
   libusb_device_handle* handle_;
   UsbHidInterface interface_;
 };

@@ -61,7 +61,7 @@ Error without_node(PidTransportKind kind) {
   return {Code::absent_device, "the kernel's driver has made no hidraw node for it", "plug it in again"};
 }
 
-/// What is tried of one device.
+/// An attempt to open one device.
 struct Attempt {
   const std::shared_ptr<UsbContext>& context;
   const UsbDeviceInfo& info;
@@ -84,7 +84,7 @@ struct Attempt {
                       options);
   }
 
-  /// By the first interface that can push: a keyboard beside the joystick is not what stands in the way.
+  /// Opens the first interface that can push. Its error counts, not that of a keyboard interface beside the joystick.
   Opened open(PidTransportKind kind) const {
     Opened last = Error{Code::no_force_device, "it is not a force device: it has no interface of the HID class"};
     for (const UsbHidInterface& interface : info.hid) {
@@ -97,12 +97,12 @@ struct Attempt {
   }
 };
 
-/// Whether another transport may do where one failed so.
+/// Whether another transport may work after this error.
 bool may_fall_back(const Error& error) {
   return error.code == Code::no_permission || error.code == Code::absent_device;
 }
 
-/// Says which device it is about, and how permission is given.
+/// Adds the device's numbers, and how to give permission.
 Error about(const UsbDeviceInfo& info, Error error) {
   if (error.code == Code::no_permission) error.mend = how_to_permit(info.vendor, info.product);
   error.sentence = in_words(info.vendor, info.product) + ": " + error.sentence;
@@ -117,11 +117,11 @@ void add_reason(std::string& why, PidTransportKind kind, const std::string& reas
 }  // namespace
 
 // Measured by `tests/qemu/run rates` on 2026-11-22: the model of OpenFFBoard (full speed, a report each millisecond, an
-// effect for each axis) behind vhci_hcd in QEMU without hardware acceleration, on a machine of two processors with
-// nothing else to do, twice by each transport, 4500 ticks in which both axes change. `loop`: ticks a second that the
-// loop came to, of 900. Reports that reached the device for each axis a second; the age of their force on arrival, in
-// ms; reports that the kernel took and the device never got; the share of a processor that the transport's threads
-// needed.
+// effect for each axis) behind vhci_hcd in QEMU without hardware acceleration, on an otherwise idle machine of two
+// processors, twice by each transport, 4500 ticks in which both axes change. `loop`: ticks per second that the loop
+// achieved, of 900. `x`, `y`: reports per second and axis that reached the device. `median` to `most`: the age of their
+// force on arrival, ms. `lost`: reports that the kernel took and the device never got. `processor`: the share of a
+// processor that the transport's threads used.
 //
 //                          loop   x    y    median  99 %   most   lost  processor
 //   Linux 6.1.0-56   hidraw  897  484  484     1.4     2      9      0     16 %
@@ -140,12 +140,12 @@ void add_reason(std::string& why, PidTransportKind kind, const std::string& reas
 //                    libusb  472  110  109     3.0    44     72      0     19 %
 //                    evdev   388   61   61   449     738    752    817      5 %
 //
-// hidraw and libusb wait for the device and lose nothing, so their forces are as fresh as the device is fast. hidraw is
-// a millisecond fresher, costs no more, and games go on seeing the stick: it comes first. libusb works where the
-// kernel's driver has made no hidraw node, but takes the stick from games. evdev needs least, but brings less than half
-// as many forces, and it queues what the device has not taken yet, old forces before new ones, and drops the newest
-// where the queue is full: where the device or the machine falls behind for a moment, forces are late for long. It is
-// the last resort, for users without permission to the other two.
+// hidraw and libusb wait for the device and lose nothing, so their forces are as fresh as the device allows. hidraw's
+// forces are a millisecond fresher, it costs no more, and games still see the stick: it comes first. libusb also works
+// without a hidraw node, but takes the stick from games. evdev costs least, but sends less than half as many forces. It
+// queues reports that the device has not taken yet, old forces before new ones, and drops the newest ones when the
+// queue is full: if the device or the machine falls behind for a moment, forces stay late for long. It is the last
+// resort, for users without permission for the other two.
 std::array<PidTransportKind, 3> transports_by_preference() noexcept {
   return {PidTransportKind::hidraw, PidTransportKind::libusb, PidTransportKind::evdev};
 }
@@ -214,7 +214,7 @@ Result<std::unique_ptr<PidTransport>> open_pid_transport(const std::shared_ptr<U
                                                          std::int64_t force_steps, const PidTransportOptions& options) {
   const Result<PidTransportKind> kind = transport_of_descriptor(descriptor, options.ioctl);
   if (!kind) return kind.error();
-  // Who gave the descriptor may use the device as well, and nobody can tell: nothing of theirs is reset.
+  // The party that handed over the descriptor may also use the device, so the session does not reset it.
   if (*kind == PidTransportKind::hidraw) return open_hidraw(HidrawNode::of(descriptor, options.ioctl), true, options);
   if (*kind == PidTransportKind::evdev)
     return open_evdev(EvdevNode::of(descriptor, options.ioctl), {.force_steps = force_steps}, options);

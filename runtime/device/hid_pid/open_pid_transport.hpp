@@ -13,12 +13,12 @@
 
 namespace wale {
 
-/// In the order in which they are tried; open_pid_transport.cpp has the figures that it rests on.
+/// The transports in the order in which they are tried. open_pid_transport.cpp has the measurements behind the order.
 std::array<PidTransportKind, 3> transports_by_preference() noexcept;
 
-/// The transport that would be taken, as far as files and permissions tell without opening anything.
+/// The transport that would be taken, judged by files and permissions without opening anything.
 struct PidTransportChoice {
-  std::optional<PidTransportKind> kind;  ///< none: nothing can be used
+  std::optional<PidTransportKind> kind;  ///< none: no transport can be used
   std::string why;  ///< in a line: "libusb, because there is no permission to open /dev/hidraw3"; empty without one
 };
 /// With `wanted`, only that one is considered.
@@ -27,22 +27,23 @@ PidTransportChoice choose_transport(const UsbDeviceInfo& info, const KernelNodes
 
 struct OpenedPidTransport {
   std::unique_ptr<PidTransport> transport;
-  std::string why;  ///< why it is not the one tried first; empty: it is
+  std::string why;  ///< why it is not the transport tried first; empty if it is
 };
 
-/// Opens the first interface of the device that can push, by the first transport that is there and permitted, or by
-/// `wanted` alone, and sets it up from zero force. `force_steps`, of each side, is how finely evdev tells levels apart;
-/// the others go by the report descriptor. May take a second. The error is that of the transport that came nearest; the
-/// device is left as it was.
+/// Opens the first interface of the device that can push, by the first transport that exists and is permitted, or by
+/// `wanted` alone, and sets it up from zero force. `force_steps` is the number of force levels to each side with evdev;
+/// the other transports take it from the report descriptor. May take a second. The error is that of the transport that
+/// came nearest; the device is left as it was.
 Result<OpenedPidTransport> open_pid_transport(const std::shared_ptr<UsbContext>& context, const UsbDeviceInfo& info,
                                               std::int64_t force_steps, const PidTransportOptions& options,
                                               std::optional<PidTransportKind> wanted = std::nullopt);
 
-/// Which transport an open descriptor belongs to: a hidraw, evdev or usbfs node, open for reading and writing.
+/// The transport of an open descriptor, which must be a hidraw, evdev or usbfs node that is open for reading and
+/// writing. Error: `malformed_value`.
 Result<PidTransportKind> transport_of_descriptor(int descriptor, IoctlCall ioctl = system_ioctl);
 
-/// Uses a node that somebody else has opened, such as a portal or a broker. It stays theirs, and is used through a
-/// second descriptor until the transport is gone. A context is needed for usbfs only.
+/// Uses a node that another party, such as a portal or a broker, has opened and still owns. The transport uses a second
+/// descriptor of it until it is destroyed. Only usbfs needs a context.
 Result<std::unique_ptr<PidTransport>> open_pid_transport(const std::shared_ptr<UsbContext>& context, int descriptor,
                                                          std::int64_t force_steps, const PidTransportOptions& options);
 

@@ -27,16 +27,16 @@ bool fits(const Field& field) {
   return field.logical_minimum >= -(one << (field.bits - 1)) && field.logical_maximum < one << (field.bits - 1);
 }
 
-/// An element of a field and the collection that it was looked for in.
+/// An element of a field, and the collection in which it was searched.
 struct Element {
   const Field* field = nullptr;
   std::uint32_t index = 0;
 };
 
-/// Finds the numbers of one report. Keeps the first error only: later ones may follow from it.
+/// Finds the numbers of one report. Keeps only the first error, because later ones may follow from it.
 class Search {
  public:
-  /// The first report with a field within a collection of usage `what`; errors call it `name`.
+  /// Searches the first report with a field within a collection of usage `what`; errors call the report `name`.
   Search(const ReportDescriptor& descriptor, ReportKind kind, Usage what, const char* name, std::string& wrong)
       : descriptor_(&descriptor), what_(what), name_(name), wrong_(&wrong) {
     for (const Report& report : descriptor.reports) {
@@ -287,7 +287,7 @@ Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor) {
   layout.block_load.success = load.order(usages::load_success, "load success");
   layout.block_load.full = load.order_if_any(usages::load_full, "load full");
 
-  // The usage of the report's collection is that of the report with some devices and that of the field with others.
+  // Some devices give the report's collection the usage of the report, others that of the field.
   Search control(descriptor, ReportKind::output, usages::device_control, "Device Control", wrong);
   if (!control.found()) {
     control = Search(descriptor, ReportKind::output, usages::device_control_report, "Device Control", wrong);

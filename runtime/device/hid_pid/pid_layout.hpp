@@ -7,7 +7,7 @@
 
 namespace wale::hid {
 
-/// Where a number stands in a packet, little-endian, and the values that it may have.
+/// The place of a number in a packet, little-endian, and the values that it may have.
 struct Number {
   std::uint16_t bit = 0;  ///< from the packet's first bit; an id byte counts
   std::uint8_t bits = 0;  ///< 1 .. 32; 0: the report has no such number
@@ -17,7 +17,7 @@ struct Number {
   friend bool operator==(const Number&, const Number&) = default;
 };
 
-/// A value that says one thing, such as "start": a bit of its own, or the number of it in a field for many such.
+/// An order, such as "start": a bit of its own, or one of the values of a field for several orders.
 struct Order {
   Number number;
   std::int64_t value = 0;
@@ -38,8 +38,8 @@ struct PacketShape {
 /// A packet of a full-speed interrupt endpoint holds no more (USB 2.0, section 5.7.3).
 constexpr std::size_t most_packet_bytes = 64;
 
-/// Which reports a device of USB's PID class wants, and where their numbers stand, as its descriptor says. A field
-/// that is not marked "may be missing" is there.
+/// The reports of a device of USB's PID class, and the places of their numbers, by its descriptor. Every field exists
+/// unless it is marked "may be missing".
 struct PidLayout {
   struct Input : PacketShape {
     Number x, y;
@@ -49,16 +49,16 @@ struct PidLayout {
     Number block_index;
     Order constant_force;  ///< the effect's type
     Number duration;
-    double duration_step = 0;         ///< s, what one count of `duration` stands for
+    double duration_step = 0;         ///< s per count of `duration`
     Number gain;                      ///< may be missing
     Number enable_x, enable_y;        ///< may be missing, both together
     Number direction_enable;          ///< may be missing
     std::array<Number, 2> direction;  ///< polar, the first one counts; may be missing, unless `enable_x` is
-    double direction_step = 0;        ///< degrees, what one count of `direction` stands for
+    double direction_step = 0;        ///< degrees per count of `direction`
   };
   struct SetConstantForce : PacketShape {
     Number block_index, magnitude;  ///< magnitude has both signs
-    /// Counts, what full force is: the range's smaller side, so that both signs are alike.
+    /// The counts of full force: the smaller side of the range, so that both signs are equally strong.
     std::int64_t full() const {
       return magnitude.maximum < -magnitude.minimum ? magnitude.maximum : -magnitude.minimum;
     }
@@ -110,9 +110,9 @@ struct PidLayout {
   bool has_axes() const { return bool(set_effect.enable_x); }
 };
 
-/// Finds the reports of a force-feedback joystick by their usages. An error where a needed field is missing, where a
-/// declared range does not fit in its bits, or where a packet exceeds `most_packet_bytes`: "it has no Set Constant
-/// Force report (usage 0F:73)". The code is `no_force_device` where nothing is of the PID class, else `unlike_device`.
+/// Finds the reports of a force-feedback joystick by their usages. Errors: `no_force_device` if no report is of the PID
+/// class; `unlike_device` if a needed field is missing, a declared range does not fit in its bits, or a packet exceeds
+/// `most_packet_bytes`: "it has no Set Constant Force report (usage 0F:73)".
 Result<PidLayout> find_pid_layout(const ReportDescriptor& descriptor);
 
 }  // namespace wale::hid

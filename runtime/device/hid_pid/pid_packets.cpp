@@ -13,7 +13,7 @@ Packet begin(const PacketShape& shape) noexcept {
   return packet;
 }
 
-/// Writes the low bits of `value`; where there is no such number, nothing.
+/// Writes the low bits of `value`, or nothing if the report has no such number.
 void put(Packet& packet, const Number& number, std::int64_t value) noexcept {
   for (std::uint32_t i = 0; i < number.bits; ++i) {
     const std::uint32_t bit = number.bit + i;
@@ -29,7 +29,7 @@ void put(Packet& packet, const Number& number, std::int64_t value) noexcept {
 
 void put(Packet& packet, const Order& order) noexcept { put(packet, order.number, order.value); }
 
-/// The number as its bits say, signed if it may be negative. Nothing beyond the end.
+/// Reads a number, signed if its range has negative values. Nothing if it lies beyond the end.
 std::optional<std::int64_t> get(std::span<const std::uint8_t> bytes, const Number& number) noexcept {
   if (!number || (number.bit + number.bits + 7u) / 8 > bytes.size()) return std::nullopt;
   std::uint64_t value = 0;
@@ -48,7 +48,7 @@ bool is_of(const PacketShape& shape, std::span<const std::uint8_t> bytes) noexce
 
 std::int64_t all_ones(const Number& number) noexcept { return (std::int64_t{1} << number.bits) - 1; }
 
-/// `value` in counts of `step`, from the range's lower end, which not-a-number is too.
+/// `value` in counts of `step`, clamped to the range; not-a-number gives the range's lower end.
 std::int64_t counted(double value, double step, const Number& number) noexcept {
   if (std::isnan(value)) return number.minimum;
   const double counts = std::round(value / step) + static_cast<double>(number.minimum);
@@ -64,7 +64,7 @@ Packet encode_set_effect(const PidLayout& layout, const ConstantEffect& effect) 
   put(packet, report.block_index, effect.block_index);
   put(packet, report.constant_force);
   if (report.duration) {
-    // Neither nothing nor all ones: those may both mean "for ever".
+    // Neither 0 nor all ones, because devices may take both for an endless duration.
     const std::int64_t least = std::max<std::int64_t>(1, report.duration.minimum);
     const std::int64_t most = std::max(least, std::min(report.duration.maximum, all_ones(report.duration) - 1));
     put(packet, report.duration,

@@ -25,7 +25,7 @@ constexpr double endless = 0;
 /// An effect of the type constant force, without its force.
 struct ConstantEffect {
   std::uint8_t block_index = 0;
-  /// s; `endless`, or until it is started again. Clamped to one count of the report's field and to its largest value.
+  /// s, or `endless`; starting it again begins the time anew. Clamped between one count and the field's largest value.
   double duration = endless;
   /// Degrees from the direction away from the user, clockwise; a force of magnitude m is m sin along x and -m cos along
   /// y (HID PID 1.0, section 3.1.2.2.1: y points to the user). Ignored unless `by_direction`.
@@ -36,37 +36,37 @@ struct ConstantEffect {
 
 Packet encode_set_effect(const PidLayout& layout, const ConstantEffect& effect) noexcept;
 
-/// `magnitude` in -1 .. 1 of the device's full force; beyond that it is clamped, not-a-number is none.
+/// `magnitude` is a share of the device's full force, clamped to -1 .. 1; not-a-number gives 0.
 Packet encode_constant_force(const PidLayout& layout, std::uint8_t block_index, double magnitude) noexcept;
-/// The magnitude that such a packet says, in counts: `encode_constant_force` rounds to the nearest.
+/// The magnitude in such a packet, in counts: `encode_constant_force` rounds to the nearest.
 std::int64_t magnitude_counts(const PidLayout& layout, double magnitude) noexcept;
 
-/// Starts an effect: once, or again and again for ever (`endlessly`).
+/// Starts an effect: once, or repeated without end (`endlessly`).
 Packet encode_start(const PidLayout& layout, std::uint8_t block_index, bool endlessly) noexcept;
 Packet encode_stop(const PidLayout& layout, std::uint8_t block_index) noexcept;
 
 /// One of `layout.device_control`'s orders.
 Packet encode_device_control(const PidLayout& layout, const Order& order) noexcept;
-/// All of the force that the device has.
+/// Sets the device's gain to its maximum.
 Packet encode_full_gain(const PidLayout& layout) noexcept;
 Packet encode_create_constant_force(const PidLayout& layout) noexcept;
 Packet encode_block_free(const PidLayout& layout, std::uint8_t block_index) noexcept;
 
 /// The content of an input report. Decoding gives nothing for a packet that is too short or of another report.
 struct InputState {
-  std::int64_t x = 0, y = 0;  ///< held within the ranges of `layout.input`: some devices go a count beyond
+  std::int64_t x = 0, y = 0;  ///< clamped to the ranges of `layout.input`: some devices go a count beyond
   bool button = false;
 };
 std::optional<InputState> decode_input(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 
 struct BlockLoadAnswer {
   enum class Status { pending, loaded, full, failed } status = Status::pending;
-  std::uint8_t block_index = 0;  ///< of a loaded one: 1 .. 255
+  std::uint8_t block_index = 0;  ///< 1 .. 255 if it was loaded
 };
 /// `pending`: the status is 0, because the device has not finished yet.
 std::optional<BlockLoadAnswer> decode_block_load(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 
-/// The content of a PID State report, which a device sends by itself. Fields that its report lacks are empty.
+/// The content of a PID State report, which a device sends unasked. Fields that its report lacks are empty.
 struct DeviceState {
   std::optional<std::uint8_t> block_index;  ///< of the effect that it is about
   std::optional<bool> effect_plays;
@@ -74,7 +74,7 @@ struct DeviceState {
 };
 std::optional<DeviceState> decode_state(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 
-/// How many effects can play at once, as the pool report says.
+/// How many effects can play at once, from the pool report.
 std::optional<std::int64_t> decode_pool(const PidLayout& layout, std::span<const std::uint8_t> bytes) noexcept;
 
 }  // namespace wale::hid

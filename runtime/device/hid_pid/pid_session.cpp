@@ -32,7 +32,7 @@ PidSession::PidSession(const HidInterface& interface, const PidSessionOptions& o
 
 std::optional<Transfer> PidSession::next(std::int64_t now) noexcept {
   if (state_ == State::running) return running_transfer(now);
-  // Nothing overtakes: a step waits until all before it has ended.
+  // A step waits until all transfers before it have ended.
   const bool is_busy = step_under_way_ || in_flight_ > 0 || poll_under_way_ || look_under_way_;
   if (state_ == State::over || is_busy) return std::nullopt;
   auto transfer = step_transfer();
@@ -103,7 +103,7 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
   return std::nullopt;
 }
 
-/// To the step after this one.
+/// Goes to the next step.
 void PidSession::advance(std::int64_t now) noexcept {
   const auto each = [&](Step same, Step after) {  // for each effect, then on
     if (++effect_ < created_) {
@@ -153,7 +153,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
   switch (transfer.purpose) {
     case Transfer::Purpose::step:
       step_under_way_ = false;
-      // The session was stopped while this was on its way: the next step does not depend on its outcome.
+      // The session was stopped while this transfer was under way: the next step does not depend on its outcome.
       if (std::exchange(step_is_void_, false) && outcome != Outcome::gone) {
         if (outcome != Outcome::done && transfer.kind == Transfer::Kind::interrupt_out) out_failed_ = true;
         return;
@@ -168,7 +168,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
   if (outcome != Outcome::done && transfer.kind == Transfer::Kind::interrupt_out) out_failed_ = true;
   if (transfer.purpose == Transfer::Purpose::step) return finish_step(outcome, answer, now);
   if (state_ != State::running) return;
-  // Refusing to be asked is an answer, and some devices that send reports by themselves do.
+  // Some devices that send reports unasked refuse to be asked for one.
   if (transfer.purpose == Transfer::Purpose::poll && outcome == Outcome::stalled) return;
   if (transfer.purpose == Transfer::Purpose::look && outcome != Outcome::done) return;  // nothing depends on it
   switch (outcome) {
@@ -187,7 +187,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
 
 void PidSession::finish_step(Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now) {
   if (state_ == State::leaving) {
-    // It cannot be told more than it takes; one that answers nothing is not waited for any longer.
+    // Tries each step of leaving, but gives up on a device that has failed three times.
     if (outcome != Outcome::done && ++failures_leaving_ >= 3) step_ = Step::none;
     return advance(now);
   }
@@ -209,7 +209,7 @@ void PidSession::finish_step(Outcome outcome, std::span<const std::uint8_t> answ
   advance(now);
 }
 
-/// The answer to whether an effect was created.
+/// Takes the answer about a new effect.
 void PidSession::finish_load(Outcome outcome, std::span<const std::uint8_t> answer) {
   using Status = BlockLoadAnswer::Status;
   if (outcome == Outcome::timed_out) return lose("it does not answer in time", outcome);
@@ -244,7 +244,7 @@ void PidSession::finish_load(Outcome outcome, std::span<const std::uint8_t> answ
   step_ = created_ < effects() ? Step::create : Step::set;
 }
 
-/// The report descriptor has come.
+/// Takes the report descriptor.
 void PidSession::learn(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < interface_.report_descriptor_bytes) {
     return refuse({Code::unlike_device, "its report descriptor is cut short"});
@@ -330,7 +330,8 @@ Transfer PidSession::output(const Packet& packet, Transfer::Purpose purpose) con
   transfer.purpose = purpose;
   transfer.data = packet;
   transfer.length = packet.size;
-  // Every HID device takes reports by the control endpoint too: the way to stop one whose other endpoint has failed.
+  // Every HID device also takes reports by the control endpoint, so a device whose other endpoint failed can be
+  // stopped.
   if (!interface_.has_interrupt_out || out_failed_) {
     transfer.kind = Transfer::Kind::control_out;
     transfer.request_type = class_out;

@@ -16,20 +16,20 @@
 
 namespace wale::hid {
 
-/// What an interface's descriptors say, as far as the session needs it.
+/// The properties of an interface that the session needs.
 struct HidInterface {
   std::uint8_t number = 0;
   std::uint16_t report_descriptor_bytes = 0;
-  bool has_interrupt_out = true;  ///< otherwise output reports go by the control endpoint
+  bool has_interrupt_out = true;  ///< otherwise output reports use the control endpoint
 };
 
 struct PidSessionOptions {
-  /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never.
-  /// Playing effects are started again each third of it.
+  /// s, after which a device stops by itself if no more reports reach it, as after a kill; `endless`: never. Playing
+  /// effects are started again after each third of this time.
   double effect_duration = 0.25;
-  /// s without a command after which the force is none and effects are left to end.
+  /// s without a command, after which the force becomes 0 and effects end by themselves.
   double command_silence = 0.1;
-  /// s without an input report after which the device is asked for one.
+  /// s without an input report, after which the device is asked for one.
   double input_silence = 0.1;
   /// s between questions about its axes to a device that has OpenFFBoard's report for them, one number each; 0: none.
   double telemetry_period = 0.1;
@@ -42,10 +42,10 @@ struct PidSessionOptions {
   /// Whether setting up begins with a reset of the device, which also ends the effects of other programs.
   bool resets = true;
   int most_in_flight = 2;   ///< output reports on their way at once, at least 1
-  int most_bad_inputs = 8;  ///< one after another; then the device is lost
+  int most_bad_inputs = 8;  ///< in a row, after which the device is lost
 };
 
-/// A transfer that the session wants made.
+/// A transfer that the session asks its caller to make.
 struct Transfer {
   enum class Kind : std::uint8_t { control_in, control_out, interrupt_out };
   enum class Purpose : std::uint8_t { step, force, refresh, poll, telemetry, look };
@@ -62,9 +62,9 @@ using wale::Outcome;
 
 /// How two axes share the device's effects.
 enum class Arrangement : std::uint8_t {
-  by_direction,  ///< an effect for each axis, turned to it: what hosts usually send, so what devices do best
-  by_axis,       ///< an effect for each axis, enabled on it: where the device knows no directions
-  combined       ///< one effect, turned to the direction of the force anew: where the device has room for one only
+  by_direction,  ///< an effect for each axis, turned to it: hosts usually send this, so devices do it best
+  by_axis,       ///< an effect for each axis, enabled on it: for devices that know no directions
+  combined       ///< one effect, turned to each new direction of the force: for devices with room for only one
 };
 
 /// For people: "one effect for each axis, by direction".
@@ -85,13 +85,13 @@ struct PidSessionCounts {
   long states = 0;                    ///< reports of the device's state
 };
 
-/// The life of a force-feedback joystick of USB's PID class, without USB: it says which transfer comes next and takes
-/// how it went. Transfers of setting up and of leaving are made one by one, because a device's endpoints are not
-/// ordered against each other; while running, up to `most_in_flight` output reports and one poll are on their way.
+/// The protocol of a force-feedback joystick of USB's PID class, without USB: it gives the next transfer and takes its
+/// outcome. Transfers of setting up and leaving are made one by one, because a device's endpoints are not ordered
+/// relative to each other; while it runs, up to `most_in_flight` output reports and one poll are under way.
 ///
-/// There is never more than one force pending: `next` takes the newest command, so no old force queues. Effects play
-/// for a finite time and are refreshed, so that a device that honours durations stops when the process is killed. After
-/// a failure the device is told to stop as well as it goes, and the session is over.
+/// At most one force is pending: `next` takes the newest command, so no old force queues. Effects play for a finite
+/// time and are refreshed, so that a device that honours durations stops when the process is killed. After a failure
+/// the session tells the device to stop, as far as that is possible, and is over.
 ///
 /// One thread at a time. Times are microseconds of any steady clock.
 class PidSession {
@@ -100,7 +100,7 @@ class PidSession {
     setting_up,
     running,
     leaving,  ///< stops the device
-    over      ///< nothing more to do: `was_lost` and `reason` say why
+    over      ///< ended: `was_lost` and `reason` say why
   };
 
   explicit PidSession(const HidInterface& interface, const PidSessionOptions& options = {});
@@ -110,7 +110,7 @@ class PidSession {
   bool was_lost() const noexcept { return lost_; }
   /// Why it was lost; empty otherwise.
   std::string_view reason() const noexcept { return reason_; }
-  /// The code of that.
+  /// The code of that error.
   Code why() const noexcept { return why_; }
 
   /// Known once the descriptor has been read.
@@ -119,27 +119,27 @@ class PidSession {
   Arrangement arrangement() const noexcept { return arrangement_; }
   const PidSessionCounts& counts() const noexcept { return counts_; }
   const std::optional<InputState>& input() const noexcept { return input_; }
-  /// Nothing where the device has no report for it.
+  /// Nothing if the device has no report for it.
   const std::optional<Telemetry>& telemetry() const noexcept { return telemetry_; }
 
   /// The transfer to make now, if any; each is given to `finish` once it has ended.
   /// Real-time while running and leaving: allocates nothing, takes no lock, makes no system call, does not throw.
   std::optional<Transfer> next(std::int64_t now) noexcept;
 
-  /// `answer` is what came in. Real-time as `next` is; allocates while setting up.
+  /// `answer` has the bytes that came in. Real-time as `next` is; allocates while setting up.
   void finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now);
 
   /// An input report has come on the interrupt endpoint. Real-time.
   void receive(std::span<const std::uint8_t> report, std::int64_t now) noexcept;
 
-  /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user).
-  /// Not-a-number is none. Ignored unless running. Real-time.
+  /// The force to exert from now on, as shares -1 .. 1 of the device's full force along its own axes (y to the user).
+  /// Not-a-number gives no force. Ignored unless running. Real-time.
   void command(glm::dvec2 force, std::int64_t now) noexcept;
 
-  /// No force, all effects stopped and freed, actuators disabled: then the session is over. Real-time.
+  /// Sends zero force, stops and frees all effects, disables the actuators, then ends the session. Real-time.
   void stop() noexcept;
 
-  /// The transport has failed: as after a transfer with that outcome. `reason` outlives the session. Real-time.
+  /// The transport has failed: as after a transfer with that outcome. `reason` must outlive the session. Real-time.
   void lose(std::string_view reason, Outcome outcome) noexcept;
   void lose(std::string_view reason, Outcome outcome, Code why) noexcept;
 

@@ -16,8 +16,8 @@ std::optional<Transfer> PidSession::look_transfer(std::int64_t now) noexcept {
   return get_report(feature_report, layout_->block_load, Transfer::Purpose::look);
 }
 
-/// A block of ours that was given out again was freed before, which only a reset does: a device gives out no block that
-/// is in use. A block that is not ours is another program's, which has the same right to it as we have to ours.
+/// If the device has created an effect in one of our blocks, that block was freed before, which only a reset does: a
+/// device gives out no block that is in use. A block that is not ours belongs to another program and is left alone.
 void PidSession::take_look(std::span<const std::uint8_t> answer) noexcept {
   const auto load = decode_block_load(*layout_, answer);
   if (!load || load->status != BlockLoadAnswer::Status::loaded) return;
@@ -30,7 +30,7 @@ bool PidSession::is_ours(std::uint8_t block) const noexcept {
          blocks_.begin() + static_cast<std::ptrdiff_t>(created_);
 }
 
-/// Only what was seen to be true before counts when it turns false: firmware that never sets these bits is common.
+/// A bit counts as lost only if it was set before, because much firmware never sets these bits.
 void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept {
   if (!options_.is_shared || state_ != State::running) return;
   if (state.actuators_enabled) {
@@ -45,7 +45,7 @@ void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept
       continue;
     }
     if (!plays_seen_[i] || silent_) continue;
-    // The report of an end that came before our last start may still be on its way.
+    // A report of an end before our last start may still be under way.
     constexpr std::int64_t grace = 20'000;  // microseconds
     if (now - started_[i] < grace) continue;
     const bool has_run_out = duration_ != endless && now - started_[i] > microseconds(0.9 * duration_);
@@ -54,8 +54,8 @@ void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept
   }
 }
 
-/// The session no longer knows the device's state, and its blocks may belong to another program by now. So it sends
-/// nothing more; effects of ours that still play end with their duration.
+/// The session no longer knows the device's state, and its blocks may now belong to another program. So it sends
+/// nothing more; its own effects that still play end with their duration.
 void PidSession::dispossess() noexcept {
   lost_ = true;
   reason_ = "another program has reset it or stopped its effects";

@@ -74,21 +74,21 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
       ++in_flight_;
       return transfer;
     }
-    if (auto transfer = telemetry_transfer(now)) {  // nothing else has to go now
+    if (auto transfer = telemetry_transfer(now)) {  // no other transfer is pending
       ++in_flight_;
       return transfer;
     }
   }
   if (now - heard_ > microseconds(options_.input_silence) && !poll_under_way_) {
     poll_under_way_ = true;
-    heard_ = now;  // so that the next poll is another silence later
+    heard_ = now;  // the next poll comes after another silence
     ++counts_.polls;
     return get_report(input_report, layout_->input, Transfer::Purpose::poll);
   }
   return look_transfer(now);
 }
 
-/// The part of the newest command that the device does not have yet. The axes take turns.
+/// The transfer for the part of the newest command that the device does not have yet. The axes take turns.
 std::optional<Transfer> PidSession::force_transfer() noexcept {
   const auto purpose = Transfer::Purpose::force;
   if (arrangement_ != Arrangement::combined) {
@@ -107,8 +107,8 @@ std::optional<Transfer> PidSession::force_transfer() noexcept {
     return std::nullopt;
   }
 
-  // One effect: turned by at most 90 degrees, the magnitude having the sign that this needs. A force along one line
-  // turns nothing; while it turns, the last magnitude holds for one packet.
+  // One effect: it turns by at most 90 degrees, and the sign of the magnitude does the rest, so a force along one line
+  // never turns it. While it turns, the last magnitude acts for one packet.
   double magnitude = std::min(1.0, std::sqrt(wanted_.x * wanted_.x + wanted_.y * wanted_.y));
   if (magnitude_counts(*layout_, magnitude) != 0) {
     double direction = std::atan2(wanted_.x, -wanted_.y) * degrees_per_radian;
@@ -125,7 +125,7 @@ std::optional<Transfer> PidSession::force_transfer() noexcept {
       ++counts_.directions_sent;
       return output(turned, purpose);
     }
-    if (turned_) {  // along the direction that was sent, also if the command has moved on
+    if (turned_) {  // along the direction that was sent, even if there is a newer command
       const double radians = direction_ / degrees_per_radian;
       magnitude = wanted_.x * std::sin(radians) - wanted_.y * std::cos(radians);
     }
@@ -139,7 +139,7 @@ std::optional<Transfer> PidSession::force_transfer() noexcept {
   return output(encode_constant_force(*layout_, blocks_[0], magnitude), purpose);
 }
 
-/// The next question of four, x and y of torque and position in turns.
+/// The next of four questions: x and y of torque and position, in turns.
 std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcept {
   if (!telemetry_ || options_.telemetry_period <= 0 || now < telemetry_at_) return std::nullopt;
   telemetry_at_ = now + microseconds(options_.telemetry_period);
@@ -150,7 +150,7 @@ std::optional<Transfer> PidSession::telemetry_transfer(std::int64_t now) noexcep
   return output(openffboard::encode(question), Transfer::Purpose::telemetry);
 }
 
-/// Whether a report is the vendor's. Keeps the torques and positions in it.
+/// Whether a report is the vendor's; if so, keeps its torques and positions.
 bool PidSession::take_telemetry(std::span<const std::uint8_t> report) noexcept {
   const auto message = openffboard::decode(report);
   if (!message) return false;

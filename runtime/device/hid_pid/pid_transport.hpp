@@ -16,67 +16,67 @@
 
 namespace wale {
 
-/// The way by which forces reach a force-feedback joystick and positions come from it.
+/// The way by which forces reach a force-feedback joystick and positions are read from it.
 enum class PidTransportKind : std::uint8_t {
   hidraw,  ///< /dev/hidrawN: the kernel's driver stays, and games see the stick
   libusb,  ///< usbfs: exclusive; the kernel's driver is detached meanwhile
   evdev    ///< /dev/input/eventN: effects of the kernel's own force-feedback driver
 };
 
-/// "hidraw", as `--transport` spells it, and back; anything else is none.
+/// "hidraw", as `--transport` spells it, and the reverse, which gives nothing for other texts.
 std::string_view in_words(PidTransportKind kind) noexcept;
 std::optional<PidTransportKind> read_transport_kind(std::string_view text) noexcept;
 /// All of them, in the order of the kinds.
 inline constexpr std::array<std::string_view, 3> pid_transport_names{"hidraw", "libusb", "evdev"};
 
-/// The one system call on a device's node that a socket cannot stand in for where there is no device. As ioctl(2): less
-/// than 0 is a failure, with `errno`.
+/// ioctl(2) on a device's node: below 0 is a failure, with `errno`. Tests replace this call, because the socket that
+/// they use in place of a node does not answer it.
 using IoctlCall = int (*)(int descriptor, unsigned long request, void* argument);
 int system_ioctl(int descriptor, unsigned long request, void* argument);
 
 struct PidTransportOptions {
   hid::PidSessionOptions session;
-  unsigned timeout = 100;          ///< ms, of each transfer of libusb while running and leaving
-  unsigned set_up_timeout = 1000;  ///< ms, of each of setting up: a reset may take its time
-  /// SCHED_FIFO, of the thread that sends forces: best just below that of the loop, where permitted; 0: ordinary.
+  unsigned timeout = 100;          ///< ms, of each libusb transfer while running and leaving
+  unsigned set_up_timeout = 1000;  ///< ms, of each libusb transfer while setting up: a reset may take long
+  /// SCHED_FIFO priority of the thread that sends forces, if permitted: best just below the loop's. 0: ordinary.
   int priority = 0;
   MicrosecondClock now = microseconds_now;  ///< the clock that times refreshes and silence
   IoctlCall ioctl = system_ioctl;           ///< of hidraw and evdev
 };
 
-/// What the loop sees of a device that is set up and running: the newest command goes out on a thread of the transport,
-/// the newest position comes in on another, and nothing queues. Derived classes own those threads; this class is what
-/// the loop and they exchange.
+/// The loop's view of a device that is set up and running: one thread of the transport sends the newest command,
+/// another receives the newest position, and nothing queues. Derived classes own those threads; this class holds the
+/// values that they exchange with the loop.
 class PidTransport {
  public:
   virtual ~PidTransport();
   PidTransport(const PidTransport&) = delete;
   PidTransport& operator=(const PidTransport&) = delete;
 
-  /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user). A
+  /// The force to exert from now on, as shares -1 .. 1 of the device's full force along its own axes (y to the user). A
   /// newer command replaces it. Real-time: allocates nothing, takes no lock, does not throw; posts a semaphore.
   void command(glm::vec2 force) noexcept;
 
   struct Seen {
-    std::int32_t x = 0, y = 0;  ///< in the device's own counts, held within 28 bits
+    std::int32_t x = 0, y = 0;  ///< in the device's own counts, clamped to 28 bits
     bool button = false;
   };
   /// The newest position. Real-time: one atomic load.
   Seen seen() const noexcept;
 
-  /// The device is gone or has failed, or another program has reset it; it exerts no more force. Real-time: one atomic
-  /// load.
+  /// Whether the device is gone or has failed, or another program has reset it; then it exerts no force. Real-time: one
+  /// atomic load.
   bool was_lost() const noexcept { return lost_.load(std::memory_order_acquire); }
 
   virtual PidTransportKind kind() const noexcept = 0;
-  /// Why it was lost; empty otherwise. Not real-time, as all that follow; any thread.
+  /// Why it was lost; empty otherwise. This and all functions below are not real-time, and for any thread.
   virtual std::string reason() const = 0;
   virtual hid::PidSessionCounts counts() const = 0;
-  /// Nothing where the device or the transport has no such report.
+  /// Nothing if the device or the transport has no such report.
   virtual std::optional<hid::Telemetry> telemetry() const { return std::nullopt; }
   virtual hid::Arrangement arrangement() const = 0;
 
-  /// What a position and a force are counted in. Does not change.
+  /// The ranges of positions and forces, in counts. They do not change.
   struct Ranges {
     std::int64_t x_minimum = 0, x_maximum = 0, y_minimum = 0, y_maximum = 0;
     std::int64_t full_force = 0;  ///< counts to each side, at least 1
@@ -88,8 +88,8 @@ class PidTransport {
  protected:
   PidTransport();
 
-  /// For the thread that sends: waits for a command, until `most_microseconds` have passed or `stop_waiting`. Gives the
-  /// newest command if there was one since the last call.
+  /// For the thread that sends: waits for a command, until `most_microseconds` have passed or `stop_waiting` is called.
+  /// Returns the newest command since the last call, if any.
   std::optional<glm::vec2> wait_for_command(std::int64_t most_microseconds) noexcept;
   /// Ends waiting now and from now on.
   void stop_waiting() noexcept;

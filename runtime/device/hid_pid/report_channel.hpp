@@ -8,18 +8,18 @@
 
 namespace wale {
 
-/// Carries a device's reports by usbfs or hidraw. It makes the transfers that a `hid::PidSession` wants and reports how
-/// each ended.
+/// Carries a device's reports by usbfs or hidraw. It makes the transfers that a `hid::PidSession` asks for and tells
+/// its listener how each ended.
 class ReportChannel {
  public:
-  /// Told by threads of the channel, one at a time or several at once, and never from within a call to the channel.
+  /// Called by threads of the channel, also by several at once, but never from within a call to the channel.
   class Listener {
    public:
-    /// A transfer has ended; `answer` is what came in.
+    /// A transfer has ended; `answer` has the bytes that came in.
     virtual void ended(const hid::Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer) = 0;
-    /// An input report has come. An empty one is a report that could not be held.
+    /// An input report has come. It is empty if the report was too long for the channel's buffer.
     virtual void received(std::span<const std::uint8_t> report) = 0;
-    /// No input reports come any more. `reason` outlives the channel.
+    /// No more input reports come. `reason` outlives the channel.
     virtual void silenced(std::string_view reason, Outcome outcome) = 0;
 
    protected:
@@ -28,14 +28,14 @@ class ReportChannel {
 
   virtual ~ReportChannel() = default;
 
-  /// Begins to make a transfer, and returns at once. `done`: the listener will be told how it ended; anything else: it
-  /// could not begin, and nobody is told. Real-time once the session runs, but for the system calls of usbfs.
+  /// Begins a transfer and returns at once. `done`: the listener will be told how it ended. Other outcomes: it could
+  /// not begin, and the listener is not told. Real-time once the session runs, except for the system calls of usbfs.
   virtual Outcome submit(const hid::Transfer& transfer, bool is_setting_up) noexcept = 0;
-  /// Begins to take input reports, once. An outcome as of `submit`.
+  /// Begins to take input reports; call it once. The outcome is as for `submit`.
   virtual Outcome listen() noexcept = 0;
-  /// Waits until whatever was submitted has ended, and tells the listener nothing afterwards.
+  /// Waits until all submitted transfers have ended; afterwards the listener is not called.
   virtual void close() = 0;
-  /// At most so many transfers may be under way besides one poll.
+  /// The greatest number of transfers under way, besides one poll.
   virtual int most_under_way() const noexcept = 0;
   virtual hid::HidInterface interface() const noexcept = 0;
 };

@@ -46,7 +46,7 @@ const Report* ReportDescriptor::find(ReportKind kind, std::uint8_t id) const {
 
 namespace {
 
-/// An item's data: up to four bytes, whose sign the item decides.
+/// An item's data: up to four bytes. The kind of item decides whether they are signed.
 struct Data {
   std::uint32_t value = 0;
   std::uint32_t size = 0;  // bytes
@@ -59,7 +59,7 @@ struct Data {
   }
 };
 
-/// The global items, which last until they are said anew (HID 1.11 section 6.2.2.7).
+/// The global items, which apply until they are set anew (HID 1.11 section 6.2.2.7).
 struct Globals {
   std::uint32_t page = 0;
   Data logical_minimum, logical_maximum, physical_minimum, physical_maximum;
@@ -68,10 +68,10 @@ struct Globals {
   std::uint8_t id = 0;
 };
 
-/// A local usage before its page is settled.
+/// A local usage whose page may not be known yet.
 struct LocalUsage {
   UsageRange range;
-  bool is_extended = false;  // said its page itself
+  bool is_extended = false;  // it has a page of its own
 };
 
 /// The maximum of a range is signed if its minimum is negative; many devices write 255 in one byte.
@@ -267,7 +267,7 @@ class Parser {
     if (field.logical_minimum > field.logical_maximum) return fail("a logical minimum is above its maximum");
     field.physical_minimum = globals_.physical_minimum.as_signed();
     field.physical_maximum = maximum(globals_.physical_minimum, globals_.physical_maximum);
-    // Nothing, or a range that is none: the physical values are the logical ones (HID 1.11 section 6.2.2.7).
+    // Without a valid physical range the physical values are the logical ones (HID 1.11 section 6.2.2.7).
     if (field.physical_minimum >= field.physical_maximum) {
       field.physical_minimum = field.logical_minimum;
       field.physical_maximum = field.logical_maximum;
@@ -292,7 +292,7 @@ class Parser {
   int open_ = -1;  // the innermost collection
   std::vector<LocalUsage> usages_;
   std::optional<LocalUsage> usage_minimum_, usage_maximum_;
-  bool page_is_newer_ = false;  // the page was said after the last usage
+  bool page_is_newer_ = false;  // the page was set after the last usage
   bool has_unnumbered_ = false, in_delimiter_ = false;
   int alternatives_ = 0;
 };

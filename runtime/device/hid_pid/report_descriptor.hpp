@@ -12,12 +12,12 @@ namespace wale::hid {
 
 // A parser of HID report descriptors: USB "Device Class Definition for HID" 1.11, section 6.2.2.
 
-/// What a field or a collection is for: the usage page in the upper 16 bits, the usage in the lower.
+/// The meaning of a field or a collection: the usage page in the upper 16 bits, the usage in the lower ones.
 using Usage = std::uint32_t;
 
 constexpr Usage usage(std::uint16_t page, std::uint16_t id) { return static_cast<Usage>(page) << 16 | id; }
 
-/// Usages one after another, both ends included.
+/// Consecutive usages, both ends included.
 struct UsageRange {
   Usage first = 0, last = 0;
 
@@ -34,24 +34,24 @@ struct Collection {
   friend bool operator==(const Collection&, const Collection&) = default;
 };
 
-/// A row of `count` equal elements of one report that mean something; padding is no field.
+/// A row of `count` equal elements of one report. Padding is not a field.
 struct Field {
   std::uint32_t bit_offset = 0;  ///< of the first element, from the first bit of the report without its id byte
   std::uint32_t bits = 0;        ///< of one element, 1 .. 256
   std::uint32_t count = 0;       ///< elements, at least 1
   std::int64_t logical_minimum = 0, logical_maximum = 0;
-  /// What the logical range stands for, in units of 10^unit_exponent; the logical range itself where nothing is
-  /// declared.
+  /// The physical range of the logical one, in units of 10^unit_exponent; if none is declared, equal to the logical
+  /// one.
   std::int64_t physical_minimum = 0, physical_maximum = 0;
   int unit_exponent = 0;   ///< -8 .. 7
   std::uint32_t unit = 0;  ///< nibbles of powers, as in HID 1.11 section 6.2.2.7
   bool variable = false;   ///< each element is a value; otherwise each is the number of one of the usages (an array)
-  bool relative = false;   ///< elements tell changes
+  bool relative = false;   ///< elements are changes
   int collection = -1;     ///< index of the innermost collection; -1: none
   std::vector<UsageRange> usages;
 
-  /// The usage of element `index` if variable; what the value `logical_minimum + index` names if an array. The last one
-  /// given goes for all elements that follow. Nothing when there are none, or an array has no such.
+  /// The usage of element `index` of a variable field, or of the value `logical_minimum + index` of an array. The last
+  /// usage of a variable field also counts for all elements after it. Nothing if there is no such usage.
   std::optional<Usage> usage_at(std::uint32_t index) const;
   /// The first `index` at which `usage_at` is `wanted`, among the elements of a variable field or the values of an
   /// array.
@@ -76,7 +76,7 @@ struct ReportDescriptor {
   std::vector<Collection> collections;  ///< outer ones before inner ones
   std::vector<Report> reports;          ///< in the order of their first field
 
-  /// Whether `collection`, or one around it, is of that usage.
+  /// Whether `collection`, or a collection around it, has that usage.
   bool is_within(int collection, Usage wanted) const;
   const Report* find(ReportKind kind, std::uint8_t id) const;
 
@@ -89,11 +89,11 @@ constexpr std::size_t most_descriptor_bytes = 4096;
 constexpr std::uint32_t most_report_bits = 8 * 4096;
 constexpr std::size_t most_collection_depth = 64, most_pushed = 16;
 
-/// Reads a report descriptor. Any bytes are answered, in time proportional to their number, with memory bounded by the
-/// limits above. Of alternative usages between delimiters the first counts, which is the preferred one; designators and
-/// strings are skipped, and so are long items. A Usage Page that comes after the usages of an item is that of all of
-/// them (Linux reads it so); otherwise each short usage is of the page in force where it stands. An error has the
-/// offset of the item, from the first byte, as the number of its place.
+/// Reads a report descriptor. Takes any bytes, in time proportional to their number, with memory bounded by the limits
+/// above. Of alternative usages between delimiters the first one counts, which is the preferred one; designators,
+/// strings and long items are skipped. A Usage Page after the usages of an item applies to all of them, as in Linux;
+/// otherwise each short usage has the page that was set before it. The number of an error's place is the item's offset
+/// from the first byte.
 Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
 }  // namespace wale::hid

@@ -50,19 +50,19 @@ ReportTransport::~ReportTransport() {
     std::unique_lock lock(mutex_);
     session_.stop();
     pump();
-    // Each of its last transfers ends, if only by its timeout.
+    // Each of its last transfers ends, at the latest after its timeout.
     changed_.wait(lock, [&] { return session_.state() == hid::PidSession::State::over; });
     closes_ = true;
   }
   channel_->close();
 }
 
-/// Until the device runs and has told where it is, or is lost.
+/// Waits until the device runs and has sent a position, or is lost.
 Result<> ReportTransport::wait_until_running() {
   using State = hid::PidSession::State;
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return session_.state() == State::running || session_.state() == State::over; });
-  // One that only tells changes is asked after a while (`input_silence`).
+  // A device that reports only changes is asked after `input_silence`.
   changed_.wait_for(lock, std::chrono::seconds(1),
                     [&] { return session_.state() != State::running || session_.input().has_value(); });
   if (session_.state() != State::running) return Error{session_.why(), std::string(session_.reason())};
@@ -71,7 +71,7 @@ Result<> ReportTransport::wait_until_running() {
   return {};
 }
 
-/// Packs the session's input for the loop, and says when the device is lost. Under the lock.
+/// Shows the loop the session's input, and the loss of the device. Under the lock.
 void ReportTransport::publish() {
   if (const auto& input = session_.input()) show(input->x, input->y, input->button);
   if (session_.was_lost()) show_lost();
@@ -90,7 +90,7 @@ void ReportTransport::write_forces() {
   }
 }
 
-/// Submits what the session wants. Under the lock.
+/// Submits the transfers that the session asks for. Under the lock.
 void ReportTransport::pump() {
   using State = hid::PidSession::State;
   while (const auto transfer = session_.next(now_())) {

@@ -13,17 +13,17 @@
 
 namespace wale {
 
-/// A session with a joystick by reports of the PID class, over a channel that carries them. A thread of its own submits
-/// forces as soon as they are commanded; the channel's threads tell how they went.
+/// A session with a joystick by reports of the PID class, which a channel carries. One thread submits forces as soon as
+/// they are commanded; the channel's threads report the outcomes.
 class ReportTransport final : public PidTransport, private ReportChannel::Listener {
  public:
   using Channel = std::function<std::unique_ptr<ReportChannel>(ReportChannel::Listener&)>;
 
-  /// Sets the device up, from zero force: a few tens of milliseconds. An error says why the device cannot be used; it
-  /// was left as it was.
+  /// Sets the device up from zero force, in a few tens of milliseconds. The error says why the device cannot be used;
+  /// the device is then left as it was.
   static Result<std::unique_ptr<PidTransport>> open(PidTransportKind kind, const Channel& channel,
                                                     const PidTransportOptions& options);
-  /// Stops the device, waits for what is on its way, gives the channel back.
+  /// Stops the device, waits for transfers under way, and gives the channel back.
   ~ReportTransport() override;
 
   PidTransportKind kind() const noexcept override { return kind_; }

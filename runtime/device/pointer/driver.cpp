@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* pointer_name = "pointer";  // the driver's, its port's, and that of its declaration
 
-/// The mouse in this terminal: always there, though perhaps without a terminal.
+/// The mouse in this terminal. It is always listed; without a terminal it has an obstacle.
 std::vector<PluggedIn> find_pointer(const Connections&, const PluggedIn*) {
   PluggedIn mouse{.driver = &pointer_driver,
                   .port = pointer_name,

@@ -100,7 +100,7 @@ void PointerDevice::take(const pointer::TerminalReport& report) {
       cell_height = cell.y / cell.x;
       if (in_pixels_) cells /= cell;
     } else if (in_pixels_) {
-      return;  // without the size of the picture, pixels do not give a place
+      return;  // pixels give no place before the picture's size is known
     }
     const pointer::WorkspaceView view(profile_.workspace_diameter, size.columns, size.rows, cell_height);
     const glm::dvec2 counts = view.place(cells) / profile_.position_step();

@@ -21,16 +21,16 @@ struct PointerOptions {
 
 /// The terminal's mouse as a joystick: it moves the hand, and forces are drawn as an arrow, not felt. (Minsky's testbed
 /// had such a stand-in, the Dummy.) It needs no permission and no window system, and works over ssh. `command` returns
-/// the force that is drawn, at most the profile's peak force.
+/// the drawn force, at most the profile's peak force.
 ///
-/// The workspace fills the terminal from the first `command` on, so that messages before it can be read. Places are as
-/// fine as the terminal reports them: pixels where it knows them (mode 1016), otherwise letters of some millimetres.
-/// Two threads read the reports and draw the pictures. A terminal that is closed is a lost device.
+/// The workspace fills the terminal from the first `command` on, so that earlier messages can be read. Positions have
+/// the resolution of the terminal's reports: pixels if it supports mode 1016, otherwise letters of some millimetres.
+/// Two threads read the reports and draw the pictures. If the terminal is closed, the device is lost.
 class PointerDevice final : public PluggedDevice {
  public:
-  /// The profile's workspace and counts are positive. `unusable_device` where there is no terminal.
+  /// The profile's workspace and counts must be positive. Error: `unusable_device` without a terminal.
   static Result<std::unique_ptr<PointerDevice>> open(DeviceProfile profile, const PointerOptions& options = {});
-  /// Gives the terminal back as it was.
+  /// Restores the terminal.
   ~PointerDevice() override;
   PointerDevice(const PointerDevice&) = delete;
   PointerDevice& operator=(const PointerDevice&) = delete;

@@ -5,8 +5,7 @@
 
 namespace wale::pointer {
 
-/// How the workspace lies on a terminal: in the middle, as large as fits above the last line, which is left to
-/// messages.
+/// Maps the workspace to a terminal: in the middle, as large as fits above the last line, which is for messages.
 class WorkspaceView {
  public:
   /// `cell_height`: height of a cell over its width.
@@ -14,7 +13,8 @@ class WorkspaceView {
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }  ///< of the picture, without the last line
-  /// The place in m from the workspace's centre, x to the right, y up, of a place in cells from the upper left corner.
+  /// The position in m from the workspace's centre, x to the right, y up, of a position in cells from the upper left
+  /// corner.
   glm::dvec2 place(glm::dvec2 cells) const;
   glm::dvec2 cells(glm::dvec2 place) const;
 

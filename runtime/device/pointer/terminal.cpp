@@ -18,8 +18,8 @@
 namespace wale::pointer {
 namespace {
 
-// Take: another screen, no cursor, every movement of the mouse in SGR's form. Ask: is the form with pixels known, and
-// how many pixels are there?
+// Take: another screen, no cursor, every movement of the mouse in SGR form. Ask: whether the terminal knows the form
+// with pixels, and how many pixels it has.
 constexpr char take_it[] = "\033[?1049h\033[2J\033[?25l\033[?1003h\033[?1006h";
 constexpr char ask[] = "\033[?1016$p\033[14t";
 constexpr char pixels[] = "\033[?1016h";
@@ -36,7 +36,7 @@ constexpr int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFP
 std::array<bool, std::size(ends)> is_ours{};
 bool stop_is_ours = false;
 
-/// Writes what goes at once: a signal handler must not wait.
+/// Writes as much as possible without waiting, because a signal handler must not wait.
 void put(int descriptor, const char* text, std::size_t size) noexcept {
   [[maybe_unused]] const auto written = ::write(descriptor, text, size);
 }
@@ -52,7 +52,8 @@ void show_picture(int descriptor) noexcept {
 /// May be called in a signal handler.
 void show_text(int descriptor) noexcept {
   shows.store(false);
-  // A picture under way would come after the text. One of this same thread cannot end while the handler runs.
+  // Waits for a picture that another thread is writing, which would otherwise follow the text. A picture of this thread
+  // cannot end while the handler runs, so the wait has a limit.
   constexpr int most_waits = 50;
   for (int i = 0; i < most_waits && is_written.load(); ++i) {
     const timespec millisecond{0, 1'000'000};
@@ -156,7 +157,7 @@ Terminal::Terminal(Terminal&& other) noexcept : descriptor_(other.descriptor_) {
 Terminal::~Terminal() {
   if (descriptor_ < 0) return;
   int own = descriptor_;
-  if (!taken.compare_exchange_strong(own, -1)) {  // never taken, or given back already
+  if (!taken.compare_exchange_strong(own, -1)) {  // never taken, or already given back
     close(descriptor_);
     return;
   }
@@ -165,7 +166,7 @@ Terminal::~Terminal() {
     if (is_ours[i]) gives_signal_back(ends[i], when_ended);
   }
   if (stop_is_ours) gives_signal_back(SIGTSTP, when_stopped);
-  tcflush(descriptor_, TCIFLUSH);  // movements still on their way must not count as typed
+  tcflush(descriptor_, TCIFLUSH);  // the program must not read pending reports as typed text
   close(descriptor_);
 }
 

@@ -7,13 +7,13 @@
 
 namespace wale::pointer {
 
-/// A terminal that reports where the mouse is, and shows a picture instead of text. It is given back as it was when
-/// this object ends, and when the process exits, is interrupted, is stopped (it is taken again when the process
-/// continues) or crashes. Signals that the program itself handles stay its own. Only kill -9 leaves the terminal taken;
-/// `reset` mends it. One at a time in a process.
+/// A terminal that reports the mouse's position and shows a picture instead of text. The terminal is restored when this
+/// object is destroyed, and when the process exits, is interrupted, crashes, or is stopped (it is taken again when the
+/// process continues). Signals that the program itself handles are left to it. Only kill -9 leaves the terminal taken;
+/// the command `reset` restores it. One object at a time in a process.
 class Terminal {
  public:
-  /// `unusable_device` where `path` is no terminal that this process may use, or while another one is taken.
+  /// Error: `unusable_device` if `path` is not a terminal that this process may use, or while another one is taken.
   static Result<Terminal> open(const std::string& path = "/dev/tty");
   ~Terminal();
   Terminal(Terminal&& other) noexcept;
@@ -21,7 +21,7 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
   Terminal& operator=(Terminal&&) = delete;
 
-  /// Shows another screen, and asks for the mouse's places. Call it once.
+  /// Switches to another screen, and asks for the mouse's positions. Call it once.
   void take() const;
 
   int descriptor() const { return descriptor_; }
@@ -34,9 +34,9 @@ class Terminal {
 
   /// Writes all of `text`; false: the terminal is gone.
   bool write(std::string_view text) const;
-  /// Makes the terminal report the mouse's place in pixels from now on.
+  /// Makes the terminal report the mouse's position in pixels from now on.
   void tell_pixels() const;
-  /// True once after the process continued and took the terminal again: the screen and its size may have changed.
+  /// True once after the process has continued and has taken the terminal again: the screen and its size may differ.
   bool was_taken_again() const;
 
  private:

@@ -35,7 +35,7 @@ std::optional<TerminalReport> TerminalReader::take(std::uint8_t byte) noexcept {
     return is_meant ? report(byte) : std::nullopt;
   }
   if (byte < 0x20 || byte >= 0x7f) {
-    state_ = State::ground;  // a byte of no sequence
+    state_ = State::ground;  // not part of a sequence
   } else if (byte >= '0' && byte <= '9' && intermediate_ == 0 && count_ <= numbers_.size()) {
     if (count_ == 0) count_ = 1;
     int& number = numbers_[count_ - 1];
@@ -64,7 +64,7 @@ std::optional<TerminalReport> TerminalReader::report(std::uint8_t final) const n
     return mouse;
   }
   if (prefix_ == '?' && intermediate_ == '$' && final == 'y' && count_ == 2) {
-    // 0: unknown; 1, 2: set, reset; 3, 4: set, reset for good.
+    // 0: unknown; 1: set; 2: reset; 3: permanently set; 4: permanently reset.
     return ModeReport{numbers_[0], numbers_[1] >= 1 && numbers_[1] <= 3};
   }
   constexpr int text_area = 4;

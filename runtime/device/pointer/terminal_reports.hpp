@@ -7,11 +7,11 @@
 
 namespace wale::pointer {
 
-// Reports that a terminal sends: where the mouse is, how large the terminal is, which modes it knows. XTerm Control
+// Reports that a terminal sends: the mouse's position, the terminal's size, the modes that it knows. XTerm Control
 // Sequences (Thomas E. Dickey), "Mouse Tracking" with the extended coordinates of modes 1006 and 1016, "Window
 // manipulation" (CSI t) and "Request DEC private mode" (CSI ? Ps $ p). Everything else is skipped, keys too.
 
-/// The mouse's place in cells or, in mode 1016, in pixels, counted from 1.
+/// The mouse's position in cells or, in mode 1016, in pixels, counted from 1.
 struct MouseReport {
   int x = 1, y = 1;
   bool is_pressed = false;  ///< the left button is held

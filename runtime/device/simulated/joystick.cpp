@@ -9,16 +9,16 @@ namespace wale {
 namespace {
 
 constexpr int steps_per_tick = 40;
-constexpr double most_under_way = 1000;  ///< commands: no device is that slow
+constexpr double most_under_way = 1000;  ///< commands; no device lags by more
 constexpr double pi = 3.14159265358979323846;
 
-/// sin(2 pi turns). Not libm's, whose bits depend on the processor.
+/// sin(2 pi turns). It does not call libm, because the bits of libm's result depend on the processor.
 double sine_of_turns(double turns) noexcept {
   turns -= std::floor(turns + 0.5);  // -0.5 .. 0.5
   if (turns > 0.25) turns = 0.5 - turns;
   if (turns < -0.25) turns = -0.5 - turns;
   const double a = 2 * pi * turns, square = a * a;
-  double sum = 0;  // Taylor's series; the first term left out is below 5e-19
+  double sum = 0;  // Taylor series; the first omitted term is below 5e-19
   for (int n = 23; n > 1; n -= 2) sum = (sum + 1) * -square / (n * (n - 1));
   return a * (sum + 1);
 }
@@ -82,7 +82,7 @@ void SimulatedJoystick::Actuator::command(double wanted) noexcept {
 }
 
 double SimulatedJoystick::Actuator::step() noexcept {
-  // Commands come once a tick. The newest one that has arrived is so many ticks old.
+  // The age, in ticks, of the newest command that has arrived; commands come once a tick.
   const double before = std::max(0.0, std::ceil((delay - since) / steps_per_tick));
   const std::size_t back = std::min(static_cast<std::size_t>(before), under_way.size() - 1);
   since += 1;

@@ -10,7 +10,7 @@ namespace wale {
 
 Result<Trace> load_trace(const std::string& path) {
   const auto unreadable = [&](const std::string& why) {
-    return Error{Code::unreadable_file, "cannot be read: " + why, "", {.name = path}};
+    return Error{Code::unreadable_file, "the file cannot be read: " + why, "", {.name = path}};
   };
   if (std::filesystem::is_directory(path)) return unreadable("it is a folder");
   errno = 0;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int steps_per_period = 40;
 
-/// The command for an acceleration at a frequency, in whole steps where the device has steps.
+/// The command for an acceleration at a frequency, rounded to a step if the device has steps.
 double stepped_command(const Shaker& vibration, double acceleration, double frequency) noexcept {
   const double command = std::clamp(vibration.command(acceleration, frequency), 0.0, 1.0);
   if (!(vibration.command_steps > 0)) return command;
@@ -26,7 +26,7 @@ int touched(double position, const DeviceProfile& profile) noexcept {
 SimulatedPad::SimulatedPad(DeviceProfile profile, Motion motion)
     : profile_(std::move(profile)), motion_(std::move(motion)) {}
 
-/// The spin-up by implicit Euler, whose steps never pass the target, however long they are.
+/// The spin-up by implicit Euler: a step of any length does not pass the target.
 void SimulatedPad::elapse(long periods) noexcept {
   periods_ += periods;
   const double seconds = 1 / (profile_.rate * steps_per_period);

@@ -126,7 +126,8 @@ glm::dvec2 slope(const TracePoint& from, const TracePoint& to) {
   return (to.position - from.position) / (to.time - from.time);
 }
 
-/// Each point gets the slope of the parabola through it and its neighbours; the ends get that of the outermost stretch.
+/// Gives each point the slope of the parabola through it and its neighbours, and each end the slope of the straight
+/// line to its neighbour.
 void derive_velocities(std::vector<TracePoint>& points) {
   const std::size_t n = points.size();
   if (n < 2) return;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The paths in a folder whose names begin with a prefix, sorted; none where there is no such folder.
+/// The sorted paths in a folder whose names begin with a prefix; none if there is no such folder.
 std::vector<fs::path> entries(const fs::path& folder, std::string_view beginning) {
   std::vector<fs::path> found;
   std::error_code error;

@@ -6,7 +6,7 @@
 
 namespace wale {
 
-/// The error of a node such as /dev/hidraw3 that cannot be used, by the system's error number.
+/// The error for a node such as /dev/hidraw3 that cannot be used, by the system's error number (`errno`).
 Error why_not_opened(int error, const std::string& node);
 
 }  // namespace wale

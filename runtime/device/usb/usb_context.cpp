@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint8_t hid_descriptor = 0x21, report_descriptor = 0x22;
 
-/// The length of the report descriptor by the HID descriptor (HID 1.11 section 6.2.1), which stands among the bytes
-/// that libusb does not know. 0: there is none.
+/// The length of the report descriptor, from the HID descriptor (HID 1.11 section 6.2.1) in the `extra` bytes, which
+/// libusb does not interpret. 0: there is none.
 std::uint16_t report_descriptor_length(const unsigned char* extra, int length) {
   for (int i = 0; i + 1 < length && extra[i] >= 2; i += extra[i]) {
     const int bytes = extra[i];

@@ -42,8 +42,8 @@ struct UsbDeviceInfo {
 /// "1209:ffb0"
 std::string in_words(std::uint16_t vendor, std::uint16_t product);
 
-/// The error of a device that cannot be used, by libusb's error number. Without permission, the mend has the udev rule
-/// that gives it.
+/// The error for a device that cannot be used, by libusb's error number. If permission is missing, the mend has the
+/// udev rule that gives it.
 Error why_not_usable(int error, const UsbDeviceInfo& info);
 
 struct UsbEvent {

@@ -11,7 +11,7 @@ std::int64_t microseconds_now() noexcept;
 /// A driver's clock: `microseconds_now`, except for devices with a time of their own.
 using MicrosecondClock = std::int64_t (*)() noexcept;
 
-/// The outcome of a transfer, by libusb's status of it or by libusb's error when submitting it.
+/// The outcome of a transfer, from libusb's status, or from libusb's error when it was submitted.
 Outcome outcome_of(int libusb_status) noexcept;
 Outcome outcome_of_submitting(int libusb_error) noexcept;
 

@@ -10,16 +10,17 @@
 
 namespace wale {
 
-/// Independent instances of one program: each has its own hand and its own states, which it keeps from tick to tick,
-/// and all read the same grids, which are never written. For simulated experiments, grading and other predictions of
-/// many hands. Bit-identical to a `tick` with a `Memory` whose grids do not change.
+/// Independent instances of one program. Each has its own hand and its own states, which it keeps from tick to tick;
+/// all read the same grids, which nothing writes. For simulated experiments, grading and other predictions of many
+/// hands. Bit-identical to a `tick` with a `Memory` whose grids do not change.
 ///
 /// Instances run in blocks of lanes and are independent: their order and number change no bit. The bank need not
 /// outlive the batch. One thread at a time may use a batch.
 class Batch {
  public:
-  /// `instances` hands, none of which has entered. Grids have their values in `grids` now, if that is of the bank's
-  /// program, else their initial ones. Allocates; copies the registers and the grids once for all instances.
+  /// `instances` hands, none of which has entered. Grids have their present values in `grids` if that is a memory of
+  /// the bank's program, otherwise their initial ones. Allocates; copies the registers and the grids once for all
+  /// instances.
   Batch(const Bank& bank, std::size_t instances, const Memory* grids = nullptr);
   ~Batch();
   Batch(Batch&&) noexcept;
@@ -40,7 +41,7 @@ class Batch {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Moves some hands: `first` is the number of the first of them. `forces` (N) has the force on each in the tick before
+/// Moves some hands; `first` is the number of the first one. `forces` (N) has the force on each hand in the tick before
 /// `tick`, or 0 at tick 0. `hands` has one hand for each force, as the last call left it; at tick 0 all are zero.
 /// Called from several threads at once, never for the same hands.
 using MoveHands =
@@ -49,8 +50,8 @@ using MoveHands =
 /// Runs `instances` independent hands through `ticks` ticks in closed loop, on all cores: each block of hands goes
 /// through all of its ticks on one thread. Hands enter where the first call of `move` puts them. After the last tick
 /// `move` is called once more, with number `ticks`, to receive the forces; the hands are then ignored.
-/// Results do not depend on the number of cores or the order of threads. What `move` throws is thrown again. `grids` is
-/// as for a `Batch`. Allocates.
+/// Results do not depend on the number of cores or the order of threads. An exception from `move` is thrown again.
+/// `grids` is as for a `Batch`. Allocates.
 void run_batch(const Bank& bank, std::size_t instances, long ticks, const MoveHands& move,
                const Memory* grids = nullptr);
 

@@ -8,10 +8,10 @@
 
 namespace wale {
 
-/// Whether a device can be relied on now.
+/// Whether a device's position is valid now.
 enum class Contact {
   good,
-  stale,  ///< it is connected, and has sent no new position for too long
+  stale,  ///< it is connected, but has sent no new position for too long
   lost    ///< it was unplugged or does not answer properly; it may come back
 };
 
@@ -22,11 +22,11 @@ struct Reading {
   /// Not-a-number where the device does not measure it.
   Force interaction{std::numeric_limits<float>::quiet_NaN()};
   bool button = false;  ///< the device's button is pressed
-  /// Unless it is `good`, the position is an old one and no force is commanded.
+  /// Unless this is `good`, the position is an old one, and the loop commands no force.
   Contact contact = Contact::good;
 };
 
-/// A force-feedback joystick: position in, force out. Or a pad: vibration out, and position in if it has one. One
+/// A force-feedback joystick (position in, force out) or a pad (vibration out, and position in if it has one). One
 /// thread at a time uses it.
 ///
 /// The real-time loop calls `elapse`, `sample` and `command` once a tick, in this order; they allocate nothing, take no
@@ -43,8 +43,9 @@ class Device {
   virtual Reading sample() noexcept = 0;
 
   /// Pushes with `force` (N at the handle) until the next command. Returns the force that the actuator exerts from now
-  /// on, after calibration, clamping and quantisation, or the force sent where the device does not know it. A pad (a
-  /// profile that vibrates) takes an amplitude (m/s^2) and a frequency (Hz) and returns those of its vibration now.
+  /// on, after calibration, clamping and quantisation; if the device does not know it, the force that was sent. A pad
+  /// (a profile that vibrates) takes an amplitude (m/s^2) and a frequency (Hz) and returns those of its present
+  /// vibration.
   virtual Force command(Force force) noexcept = 0;
 };
 

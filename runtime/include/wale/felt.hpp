@@ -15,12 +15,12 @@ struct ForceSize {
   float p99 = 0, maximum = 0, rms = 0;
 };
 
-/// How a record is read.
+/// How a record is measured.
 struct MeasureOptions {
   double position_step = 0;       ///< m per encoder count
-  float predicted_amplitude = 0;  ///< N; crossings swing through half of it. 0: half the force's own P99
-  double settling = 0;            ///< s at the beginning that are left out: the slew-in and the hand's own start
-  double stuck_seconds = 0.05;    ///< the hand is stuck where, within this time, it moves at most
+  float predicted_amplitude = 0;  ///< N; crossings swing beyond half of it. 0: beyond half of the force's own P99
+  double settling = 0;            ///< s, left out at the beginning: forces slew in and the hand comes up to speed
+  double stuck_seconds = 0.05;    ///< the hand counts as stuck if within this time it moves by no more than
   double stuck_counts = 2;        ///< this many encoder counts on each axis
   bool vibrates = false;          ///< the record is of a pad
 };
@@ -38,12 +38,12 @@ struct Felt {
   long ticks_rubbing = 0;                        ///< of them, those within the patch with the hand not stuck
   ForceSize force;                               ///< the actuator's, over all measured ticks
   ForceSize force_rubbing;                       ///< the actuator's, while rubbing
-  std::optional<ForceSize> interaction;          ///< between hand and handle; nothing where the device cannot tell
+  std::optional<ForceSize> interaction;          ///< between hand and handle; nothing if the device does not measure it
   std::optional<ForceSize> interaction_rubbing;  ///< the same while rubbing
   /// All swings of the force from more than half the amplitude on one side to more than half on the other, along the
   /// axis with more force.
   long alternations = 0;
-  /// Those swings during which the hand keeps its direction: the flanks of a texture. A limit cycle on the spot, a
+  /// The alternations during which the hand keeps its direction: the flanks of a texture. A limit cycle at one place, a
   /// spring and oil have none.
   long crossings = 0;
   double stuck = 0;                        ///< fraction of the measured ticks within the patch; 0 when there are none
@@ -63,8 +63,8 @@ struct LevelBack {
 };
 
 /// Reads every percept back from the actuator's P99 while rubbing, through the map that the program carries; on a pad,
-/// from the P99 of its acceleration within the patch. A level is an error where there are fewer than `least_crossings`
-/// crossings, where a static lateral force does not carry the percept, and where its carrier is not the only force.
+/// from the P99 of its acceleration within the patch. A level is an error if there are fewer than `least_crossings`
+/// crossings, if a static lateral force does not carry the percept, or if its carrier is not the only force.
 std::vector<LevelBack> levels_back(const Bank& bank, const Felt& felt, long least_crossings = 50);
 
 /// The lateral force (N) or a pad's acceleration (m/s^2) that the program aims at, for `MeasureOptions`. It belongs to

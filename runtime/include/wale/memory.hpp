@@ -15,8 +15,8 @@ namespace wale {
 /// The memory of one placed program from tick to tick: its states and the cells of its grids. It outlives banks: a
 /// change of a parameter makes a new bank and leaves the memory as it is. One thread at a time may use it.
 ///
-/// Grids begin at their initial values when the memory is made and keep what is written; states begin anew whenever the
-/// hand enters. Before the first `enter` a state is the number of its range that is nearest to 0.
+/// Grids begin at their initial values when the memory is made, and then keep the values written to them. States begin
+/// anew whenever the hand enters. Before the first `enter` a state is the number of its range that is nearest to 0.
 class Memory {
  public:
   /// Allocates all states and cells.
@@ -26,9 +26,9 @@ class Memory {
   /// keep their values, and so do the grids if all have the same names, units and sizes. Allocates.
   Memory(const Program& program, std::shared_ptr<Memory> predecessor);
 
-  /// Takes over values from the predecessor, after that has done so from its own: the grids and, with `with_states`
-  /// (the hand stayed on the patch), the states. Call it after `enter`, so that new states begin as on entering. Only
-  /// the first call does anything. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
+  /// Takes over values from the predecessor, which first does so from its own predecessor: the grids and, if
+  /// `with_states` (the hand stayed on the patch), the states. Call it after `enter`, so that new states begin as on
+  /// entering. Calls after the first do nothing. Real-time: allocates nothing, takes no lock, makes no system call.
   void succeed(bool with_states) noexcept;
   /// Whether `other` is a direct or earlier predecessor that has not been succeeded. Real-time likewise.
   bool follows(const Memory* other) const noexcept;
@@ -48,7 +48,7 @@ class Memory {
   std::span<const float> grid(std::size_t index) const;
   /// The cells of all grids in their order, each row by row from the lower left.
   std::span<const float> cells() const { return cells_; }
-  /// How many times a state came out as not-a-number and got its initial value again.
+  /// How many times a state's value was not a number and the state got its initial value again.
   long restored() const { return restored_; }
 
  private:

@@ -15,9 +15,9 @@ namespace wale {
 /// The surface at many positions (m from the patch's centre) with the memory's states and grids: its height, in m or as
 /// a plain number (`Picture::relief_is_length`), and its colour: red, green and blue in 0 .. 1, 0 for not-a-number.
 ///
-/// Without a memory, or with one of another program, states are as after entering at the patch's centre at rest and
-/// grids have their initial values. `heights` is as long as `positions`; so is `colours`, or it is empty when colours
-/// are not wanted. A program without colours leaves `colours` unchanged.
+/// Without a memory, or with one of another program, states are those of a hand that has entered at rest at the patch's
+/// centre, and grids have their initial values. `heights` is as long as `positions`; `colours` is as long, or empty if
+/// colours are not wanted. A program without colours leaves `colours` unchanged.
 void surface_all(const Bank& bank, const Memory* memory, std::span<const glm::vec2> positions, std::span<float> heights,
                  std::span<glm::vec3> colours = {});
 
@@ -31,8 +31,8 @@ struct ShownMark {
   friend bool operator==(const ShownMark&, const ShownMark&) = default;
 };
 
-/// Runs the picture's frame section for a hand and returns its marks in drawing order. A memory of another program
-/// counts as a new one that the hand has just entered.
+/// Runs the picture's frame section for a hand and returns its marks in drawing order. With a memory of another
+/// program, states and grids are those of a new memory that the hand has just entered.
 std::vector<ShownMark> show(const Bank& bank, const Memory& memory, const Hand& hand);
 
 }  // namespace wale

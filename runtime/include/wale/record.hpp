@@ -14,10 +14,10 @@ struct TickRecord {
   double time = 0;            ///< s since the run began
   glm::vec2 position{0};      ///< m from the workspace's centre, by the encoder
   glm::vec2 velocity{0};      ///< m/s, filtered
-  Force force{0};             ///< N, exerted by the actuator from this tick on: clamped, quantised, held; on a pad
+  Force force{0};             ///< N, exerted by the actuator from this tick on (clamped, quantised, held); of a pad
                               ///< its vibration, m/s^2 and Hz
   Force interaction{0};       ///< N from hand to handle over the period before; not-a-number where unknown
-  float lateness = 0;         ///< s that the tick began after its deadline
+  float lateness = 0;         ///< s, how long after its deadline the tick began
   std::uint32_t skipped = 0;  ///< periods that were not served just before this tick
   bool inside = false;        ///< the hand was within the patch
 };

@@ -32,48 +32,48 @@ enum class GuardBit : std::uint32_t {
   heat = 1 << 10,
 };
 
-/// All of one tick: the inputs, the force that was made of them, and the outputs.
+/// One tick: the inputs, the program's force, and the outputs.
 struct RecordedTick {
   static constexpr std::uint32_t no_patch = 0xffffffff;
 
   std::int64_t period = 0;          ///< its number since the run began, from 0
   std::int64_t lateness = 0;        ///< ns after its deadline
-  std::uint32_t elapsed = 0;        ///< periods since the tick before; of the first since period 0
+  std::uint32_t elapsed = 0;        ///< periods since the previous tick; for the first tick since period 0
   std::uint32_t skipped = 0;        ///< periods just before that nobody served
   glm::ivec2 counts{0};             ///< encoder, from the workspace's centre
   Contact contact = Contact::good;  ///< of the device
   bool button = false;
   bool inside = false;             ///< the hand was within a patch
   std::uint32_t patch = no_patch;  ///< its number
-  std::uint32_t revision = 0;      ///< of the patches on the stage: how often they were handed over to the loop
+  std::uint32_t revision = 0;      ///< how often the patches on the stage had been handed over to the loop
   std::uint32_t guards = 0;        ///< `GuardBit`s
   glm::vec2 velocity{0};           ///< m/s, filtered
-  Force wanted{0};                 ///< N, the program's; on a pad m/s^2 and Hz, and so the next two
+  Force wanted{0};                 ///< N, the program's; on a pad m/s^2 and Hz, as for the next two
   Force commanded{0};              ///< after the guards
-  Force force{0};                  ///< what the actuator exerts
+  Force force{0};                  ///< exerted by the actuator
   Force interaction{0};            ///< N, from hand to handle over the period before; not-a-number where unknown
 };
 
-/// A change of the stage, and its place among the ticks.
+/// A change of the stage, and its position among the ticks.
 struct RecordedEvent {
   enum class Kind : std::uint8_t {
-    place,    ///< a program takes the place of all patches: `program`, `position`, `size`
-    add,      ///< one more: the same, and `layer`, `parameters`
-    replace,  ///< another program in a patch's place: `patch`, `program`
-    set,      ///< a parameter: `patch`, `parameter`, `value`
-    move,     ///< a patch to another place: `patch`, `position`
-    publish,  ///< all changes so far are handed over to the loop as `revision`
+    place,    ///< one patch replaces all patches: `program`, `position`, `size`
+    add,      ///< one more patch: the same, and `layer`, `parameters`
+    replace,  ///< another program for a patch: `patch`, `program`
+    set,      ///< a parameter's value: `patch`, `parameter`, `value`
+    move,     ///< another position for a patch: `patch`, `position`
+    publish,  ///< hands all changes so far over to the loop as `revision`
     end,      ///< the run is over: `ticks` in all
   };
   Kind kind = Kind::end;
-  std::uint64_t ticks = 0;  ///< done before it; its change takes effect at the first tick of its revision
+  std::uint64_t ticks = 0;  ///< ticks done before it; it takes effect at the first tick of its revision
   std::uint32_t patch = 0;  ///< its number
   std::size_t program = 0;  ///< among `Recording::programs`
   glm::vec2 position{0};    ///< m
   PatchSize size;           ///< m
   float layer = 0;
   std::vector<float> parameters;  ///< SI, as the program lists them
-  std::uint32_t parameter = 0;    ///< as the program lists them
+  std::uint32_t parameter = 0;    ///< its index in the program
   float value = 0;                ///< SI
   std::uint32_t revision = 0;
 };
@@ -84,12 +84,12 @@ struct RecordedProgram {
   std::span<const std::byte> bytes;  ///< a `.wpp` file's
 };
 
-/// How a run was recorded.
+/// The conditions of a recorded run.
 struct RecordingHeader {
   DeviceProfile device;    ///< with the rate and the filters' settings
   double most_newton = 0;  ///< the largest force that the user allowed; infinite without a limit
   bool virtual_time = false;
-  std::string hand;  ///< what moved the handle, "simulated, lateral"; empty where it is not known
+  std::string hand;  ///< what moved the handle, "simulated, lateral"; empty if that is not known
 };
 
 /// A file that `RunOptions::record_to` made, complete or up to the moment when its process was killed. Immutable; copies
@@ -101,7 +101,7 @@ class Recording {
   /// `damaged_file` for a file that is no recording, or that is damaged or cut short before that tick; the place is the
   /// file and the byte.
   static Result<Recording> open(const std::string& path, std::size_t most_ticks = SIZE_MAX);
-  /// The same for bytes in memory, whatever they hold. Errors call them `name`.
+  /// The same for any bytes in memory. Errors call them `name`.
   static Result<Recording> read(std::vector<std::byte> bytes, const std::string& name,
                                 std::size_t most_ticks = SIZE_MAX);
 
@@ -121,25 +121,25 @@ class Recording {
   std::shared_ptr<const Contents> contents_;
 };
 
-/// Where a replay differs from what was recorded.
+/// The first difference between a replay and its recording.
 struct ReplayDifference {
   std::size_t tick = 0;   ///< its number, from 0
   std::string_view what;  ///< "program's output": the first part of the tick that differs
-  /// Values of the component that differs more; either may be not-a-number.
+  /// The values of the component, x or y, that differs more; either may be not-a-number.
   double recorded = 0, replayed = 0;
 };
 
 struct Replay {
-  std::size_t ticks = 0;      ///< played again
-  std::size_t differing = 0;  ///< those of them that are not bit for bit as recorded
+  std::size_t ticks = 0;      ///< replayed
+  std::size_t differing = 0;  ///< ticks that are not bit for bit as recorded
   std::optional<ReplayDifference> first;
   double largest_force = 0;  ///< the largest difference of the commanded force, N or m/s^2
 };
 
 /// Runs the recorded programs on the recorded counts, changes the stage at the recorded ticks, and compares bit for
-/// bit: patch, filtered velocity, the program's force, the guards, the force commanded. The device's part is
-/// taken as recorded: its counts, its contact, and the force that the actuator made of the command. Errors: those of
-/// `Program::load` for the recorded programs, and those of the stage for what the recording does to it.
+/// bit: patch, filtered velocity, the program's force, the commanded force, the guards. The device gives its recorded
+/// answers: counts, contact, and the actuator's force for each command. Errors: those of `Program::load` for the
+/// recorded programs, and those of the stage for the recorded changes.
 Result<Replay> replay(const Recording& recording);
 
 /// The columns of `write_csv(Record)`, then those that only a recording has: raw counts, the program's force, the
@@ -147,9 +147,9 @@ Result<Replay> replay(const Recording& recording);
 void write_csv(std::ostream& out, const Recording& recording);
 
 /// The force as sound: WAV, 44.1 kHz, two channels of 32-bit floats, x on the left and y on the right, each tick's
-/// force held until the next; 1 is the device's peak force. Of a pad both channels are the vibration itself: a sine of
-/// its amplitude and frequency, 1 being its greatest acceleration. Error: `unwritable_file` where the sound is longer than
-/// a WAV file holds (4 GiB); nothing is written then. Whether `out` took the bytes is for the caller to ask.
+/// force held until the next; 1 is the device's peak force. For a pad both channels are the vibration itself: a sine of
+/// its amplitude and frequency, where 1 is its greatest acceleration. Error: `unwritable_file` if the sound is longer
+/// than a WAV file holds (4 GiB); then nothing is written. The caller checks whether `out` took the bytes.
 Result<> write_wav(std::ostream& out, const Recording& recording);
 
 }  // namespace wale

@@ -42,17 +42,17 @@ using Motion = std::variant<Rest, Lateral, Circular, Trace>;
 /// The position and velocity of a motion at `time` (s). The same bits on every machine.
 TracePoint at(const Motion& motion, double time) noexcept;
 
-/// A joystick with the profile's mass, damping, friction, encoders and actuators in the hand of a simulated person who
+/// A joystick with the profile's mass, damping, friction, encoders and actuators, in the hand of a simulated person who
 /// holds its handle rigidly. A command reaches the actuator after the profile's delay, and the actuator is a
-/// first-order low-pass of the profile's bandwidth; each axis has its own figures. Time is the number of periods
-/// elapsed, so every run gives the same bits.
+/// first-order low-pass of the profile's bandwidth; each axis has its own figures. Time is counted in elapsed periods,
+/// so every run gives the same bits.
 ///
 /// The person starts at rest where the motion starts. The axes are independent except at the edge of the round
 /// workspace, where the handle stops dead.
 class SimulatedJoystick final : public Device {
  public:
-  /// The profile's rate, workspace, counts and force are positive; `profile.mass + hand.mass` is positive. Allocates
-  /// room for the commands under way.
+  /// The profile's rate, workspace, counts and force must be positive, and so must `profile.mass + hand.mass`.
+  /// Allocates room for the commands under way.
   SimulatedJoystick(DeviceProfile profile, HandModel hand, Motion motion);
 
   const DeviceProfile& profile() const noexcept override { return profile_; }

@@ -13,7 +13,7 @@ namespace wale {
 /// spin-up; the frequency changes at once.
 class SimulatedPad final : public Device {
  public:
-  /// The profile vibrates. Its rate is positive, and so are its workspace and counts if it has a position.
+  /// The profile must vibrate. Its rate must be positive, and so must its workspace and counts if it has a position.
   SimulatedPad(DeviceProfile profile, Motion motion);
 
   const DeviceProfile& profile() const noexcept override { return profile_; }

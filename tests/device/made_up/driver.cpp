@@ -1,4 +1,4 @@
-// A driver that is added by this folder and one row of a table: for hardware that nobody sells.
+// An example driver, for hardware that does not exist. It is added by this folder and one row of a table.
 #include <string>
 #include <utility>
 #include <vector>

@@ -8,14 +8,15 @@
 
 namespace wale::made_up {
 
-/// The hardware: a handle on rails, which tests plug in and push. What both sides use is guarded.
+/// The hardware: a handle on rails, which tests plug in and move. Members that two threads use are atomic or guarded by
+/// `mutex`.
 struct Rails {
   std::atomic<bool> is_plugged_in{false};
   std::atomic<int> x{0}, y{0};  ///< counts
-  std::atomic<int> open{0};     ///< devices that are open on it
+  std::atomic<int> open{0};     ///< the number of open devices
   std::mutex mutex;
-  std::vector<Force> forces;     ///< that it was told, in order
-  std::vector<int> descriptors;  ///< that it was opened with
+  std::vector<Force> forces;     ///< all commands, in order
+  std::vector<int> descriptors;  ///< the descriptor of each opening
 };
 Rails& rails();
 
