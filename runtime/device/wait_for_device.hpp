@@ -8,9 +8,10 @@
 
 namespace wale {
 
-/// Chooses again whenever a device is plugged in on USB, until the requested device is there, usable or not. Errors:
-/// those of `choose_device`; the last of them once `seconds` (nothing: no limit) are over; `stopped` once `stop` is
-/// true. Blocks the calling thread. `connections.usb` must have a value.
+/// Chooses again whenever a device is plugged in on USB, and each half second because other devices do not announce
+/// themselves, until the requested device is there, usable or not. Errors: those of `choose_device`; the last of them
+/// once `seconds` (nothing: no limit) are over; `stopped` once `stop` is true. Blocks the calling thread. If
+/// `connections.usb` has no value, only devices that are not on USB are found.
 Result<ChosenDevice> wait_for_device(const Connections& connections, const DeviceRequest& request,
                                      std::span<const DeclaredDevice> known, std::optional<double> seconds,
                                      const std::atomic<bool>& stop, Drivers drivers = wale::drivers());

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "calibration/command/device_report.hpp"
 #include "runtime/device/open_device.hpp"
 #include "runtime/device/shipped_devices.hpp"
+#include "runtime/device/wait_for_device.hpp"
 #include "tests/device/made_up/made_up.hpp"
 #include "tests/runtime/programs.hpp"
 #include "wale/stage.hpp"
@@ -126,6 +129,21 @@ TEST_F(AddingADriver, IsReopenedWithoutTheGivenDescriptor) {
   EXPECT_EQ(made_up::rails().descriptors, (std::vector<int>{17, -1}));
   EXPECT_EQ(device.report().reason, "it came off its rails");
   EXPECT_EQ(device.report().returns, 1);
+}
+
+TEST_F(AddingADriver, IsWaitedForThoughNothingAnnouncesIt) {
+  made_up::rails().is_plugged_in = false;
+  const long looks_before = made_up::rails().looks;
+  const std::atomic<bool> stop{false};
+  auto waiting = std::async(std::launch::async, [&] {
+    return wait_for_device(nowhere, {.spelling = "made-up"}, known_, std::nullopt, stop, drivers_);
+  });
+  // The first look, and two of those that no news has caused.
+  while (made_up::rails().looks < looks_before + 3 && waiting.wait_for(1ms) == std::future_status::timeout) continue;
+  made_up::rails().is_plugged_in = true;
+  const auto choice = waiting.get();
+  ASSERT_TRUE(choice) << choice.error().sentence;
+  EXPECT_EQ(choice->plugged->port, "rails");
 }
 
 TEST_F(AddingADriver, TheTableOfDriversHasEachOnce) {

@@ -173,14 +173,21 @@ void check_game_second(UsbipPort& port, const PidFamily& family, PidTransportKin
   std::printf("   set up again %d times\n", losses);
 }
 
+constexpr std::uint8_t enable = 0x97, stop_all = 0x99, reset = 0x9a;  // usages of page 0F
+
 /// Writes a Device Control report as another program does.
-void reset_as_rival(const std::string& node, const PidFamily& family) {
-  const auto at = std::ranges::find(family.control_orders, 0x9a) - family.control_orders.begin();
+void control_as_rival(const std::string& node, const PidFamily& family, std::uint8_t usage, const std::string& what) {
+  const auto at = std::ranges::find(family.control_orders, usage) - family.control_orders.begin();
   const auto order = static_cast<std::uint8_t>(family.control_is_mask ? 1 << at : at + 1);
   const std::uint8_t report[] = {family.control, order};
   const int rival = open(node.c_str(), O_RDWR | O_CLOEXEC);
-  demand(rival >= 0 && write(rival, report, sizeof report) == sizeof report, "a rival resets the device");
+  demand(rival >= 0 && write(rival, report, sizeof report) == sizeof report, what);
   close(rival);
+}
+
+long blocks_of(UsbipPort& port) {
+  return port.with<PidModel>(
+      [](PidModel& model) { return std::ranges::count_if(model.effects, &PidModel::Effect::exists); });
 }
 
 void check_rival(UsbipPort& port, const PidFamily& family) {
@@ -190,7 +197,7 @@ void check_rival(UsbipPort& port, const PidFamily& family) {
     device->command({4, 0});
   });  // its effects have been started again, so that their state is known
   await_force(port, *device, {4, 0}, {0.4, 0}, "it pushes");
-  reset_as_rival(hidraw_of(found), family);
+  control_as_rival(hidraw_of(found), family, reset, "a rival resets the device");
   await([&] { return device->was_lost(); }, "which is noticed: " + device->reason());
   demand(force_of(port) == glm::dvec2(0), "no force is left");
   clear_log(port);
@@ -198,6 +205,33 @@ void check_rival(UsbipPort& port, const PidFamily& family) {
   device = opened(found, PidTransportKind::hidraw);
   demand(!was_pushed(port, family) && force_of(port) == glm::dvec2(0), "it is set up again from zero force");
   await_force(port, *device, {4, 0}, {0.4, 0}, "and felt again");
+  tick(300, [&](long) { device->command({4, 0}); });
+  const long blocks = blocks_of(port);
+  await(
+      [&] {
+        device->command({4, 0});
+        if (!device->was_lost()) control_as_rival(hidraw_of(found), family, stop_all, "a rival stops all effects");
+        return device->was_lost();
+      },
+      "which is noticed: " + device->reason());
+  device.reset();
+  await([&] { return blocks_of(port) == blocks - 2; }, "its blocks are given back");
+}
+
+/// What evdev_transport.hpp says of this.
+void check_unnoticed_rival(UsbipPort& port, const PidFamily& family) {
+  const Found found = find(family.vendor, family.product);
+  auto device = opened(found, PidTransportKind::evdev);
+  await_force(port, *device, {4, 0}, {0.4, 0}, "it pushes");
+  control_as_rival(hidraw_of(found), family, reset, "a rival resets the device");
+  constexpr long ticks = 900;
+  tick(ticks, [&](long i) { device->command({i % 2 == 0 ? 4.0f : 3.0f, 1}); });
+  demand(force_of(port) == glm::dvec2(0), "nothing pushes any more");
+  demand(!device->was_lost(), "and nothing on the event node tells why " + device->reason());
+  device.reset();
+  control_as_rival(hidraw_of(found), family, enable, "the rival enables the actuators");
+  device = opened(found, PidTransportKind::evdev);
+  await_force(port, *device, {4, 0}, {0.4, 0}, "opened again, it is felt again");
 }
 
 void check_handed_in(UsbipPort& port, const PidFamily& family, PidTransportKind transport) {
@@ -252,7 +286,10 @@ void check_life(const PidFamily& family, PidTransportKind transport) {
   check_game_first(*port, family, transport);
   if (transport != PidTransportKind::libusb) check_game_second(*port, family, transport);
   if (transport == PidTransportKind::hidraw) check_rival(*port, family);
-  if (transport == PidTransportKind::evdev) check_permissions(family);
+  if (transport == PidTransportKind::evdev) {
+    check_unnoticed_rival(*port, family);
+    check_permissions(family);
+  }
   check_killed(*port, family, transport);
   check_unplugged(port, family, transport);
 }

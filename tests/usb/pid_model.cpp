@@ -82,7 +82,9 @@ std::optional<UsbModel::Bytes> PidModel::control(const SetUp& setup, const Bytes
       last_created_ = 0;
       if (created_ < faults.room) {
         ++created_;
-        last_created_ = faults.block_zero ? 0 : static_cast<std::uint8_t>(faults.same_block ? 1 : created_);
+        std::uint8_t lowest_free = 1;
+        while (effects[lowest_free].exists) ++lowest_free;
+        last_created_ = faults.block_zero ? 0 : faults.same_block ? 1 : lowest_free;
         effects[last_created_].exists = true;
       }
     } else {
@@ -164,9 +166,12 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
     effect.started = now_;
     tell_state(report[1]);
   } else if (id == family.free && is_long(2)) {
-    if (!effect.exists) ++wrong_reports;
+    if (effect.exists) {
+      --created_;
+    } else {
+      ++wrong_reports;
+    }
     effect = {};
-    --created_;
   } else if (id == family.gain && is_long(2)) {
     gain = report[1] / 255.0;
   } else if (id == family.control && is_long(2)) {

@@ -414,6 +414,19 @@ TEST(PidFaults, AFewBadInputsAreForgiven) {
   EXPECT_TRUE(bus.session.was_lost());
 }
 
+/// PID State of OpenFFBoard: 12 says that actuators are enabled and powered, 10 only the latter.
+TEST(PidRivals, AnOldStateIsFromOurOwnSetUp) {
+  PidModel model(openffboard());
+  PidBus bus(model, {.is_shared = true});
+  bus.settle();
+  for (const char* old : {"02 12 00", "02 10 00", "02 12 00"}) {
+    bus.session.receive(from_hex(old), bus.now, true);
+    EXPECT_EQ(bus.session.state(), State::running) << old;
+  }
+  bus.session.receive(from_hex("02 10 00"), bus.now);
+  EXPECT_TRUE(bus.session.was_lost()) << "the last old state said that they were enabled";
+}
+
 TEST(PidFaults, HasAFalseDescriptor) {
   PidModel model(openffboard());
   EXPECT_EQ(ending_of(model, 10, static_cast<std::uint16_t>(model.descriptor.size() + 10)).reason,

@@ -170,6 +170,76 @@ TEST(HidrawTransport, NoticesThatARivalHasStoppedItsEffects) {
   });
 }
 
+/// Another program's Create New Effect.
+void create_as_rival(PidModel& model) { model.control({0x21, 9, 0x11, 3, 0, 0, 4, 0}, {0x11, 1, 0, 0}); }
+
+/// Opens it, plays, and has another program stop all effects until that is noticed.
+std::unique_ptr<HidPidDevice> stopped_by_rival(HidrawFake& fake) {
+  auto device = opened(fake);
+  until([&] {
+    device->command({3, 0});
+    return device->counts().refreshes >= 2;
+  });
+  long look = 0;
+  until([&] {
+    device->command({3, 0});
+    // One that falls into the moments after a start is taken for the end of what was started before.
+    constexpr long patience = 50;
+    if (!device->was_lost() && look++ % patience == 0) {
+      fake.with_model([](PidModel& model) { model.output({0x0c, 4}); });
+    }
+    return device->was_lost();
+  });
+  return device;
+}
+
+TEST(HidrawTransport, GivesItsBlocksBackAfterARivalsStop) {
+  PidModel model(openffboard(), {.room = 3});  // of three blocks, one life holds two
+  model.tells_state = true;
+  HidrawFake fake(std::move(model));
+  for (int life = 0; life < 4; ++life) {
+    auto device = stopped_by_rival(fake);
+    EXPECT_EQ(device->arrangement(), hid::Arrangement::by_direction) << "room for two";
+    device.reset();
+    until([&] {
+      return fake.with_model(
+          [](PidModel& left) { return std::ranges::none_of(left.effects, &PidModel::Effect::exists); });
+    });
+    EXPECT_EQ(fake.with_model([](PidModel& left) { return left.wrong_reports; }), 0);
+  }
+}
+
+TEST(HidrawTransport, LeavesBlocksThatMayBeAnotherProgramsAlone) {
+  {
+    HidrawFake fake(telling(openffboard()));
+    auto device = stopped_by_rival(fake);
+    fake.with_model(create_as_rival);
+    device.reset();
+    const auto exists = [&](std::size_t block) {
+      return fake.with_model([&](PidModel& model) { return model.effects[block].exists; });
+    };
+    EXPECT_TRUE(exists(1) && exists(2) && exists(3)) << "nothing tells whose block 1 and 2 are";
+  }
+  for (const bool is_played : {false, true}) {  // block 1 is given out again, or both are and 1 is played
+    HidrawFake fake(telling(openffboard()));
+    auto device = stopped_by_rival(fake);
+    fake.with_model([&](PidModel& model) {
+      for (const std::uint8_t block : {1, 2}) model.output({0x0b, block});
+      create_as_rival(model);
+      if (!is_played) return;
+      create_as_rival(model);
+      model.output({0x0a, 1, 1, 1});
+      model.log.clear();
+    });
+    device.reset();
+    fake.with_model([&](PidModel& model) {
+      EXPECT_TRUE(model.effects[1].exists);
+      EXPECT_EQ(model.effects[2].exists, is_played);
+      EXPECT_EQ(model.effects[1].plays, is_played);
+    });
+  }
+}
+
 TEST(HidrawTransport, NoticesAResetOfADeviceThatTellsNoState) {
   PidModel model(openffboard());
   std::string descriptor = hex(model.descriptor);
@@ -183,7 +253,7 @@ TEST(HidrawTransport, NoticesAResetOfADeviceThatTellsNoState) {
   });
   fake.with_model([](PidModel& rival) {
     rival.output({0x0c, 8});
-    rival.control({0x21, 9, 0x11, 3, 0, 0, 4, 0}, {0x11, 1, 0, 0});  // makes an effect, which gets block 1 again
+    create_as_rival(rival);  // gets block 1 again
   });
   until([&] {
     device->command({3, 0});
@@ -199,7 +269,7 @@ TEST(HidrawTransport, LeavesAnotherProgramsEffectAlone) {
   model.descriptor = from_hex(descriptor);
   HidrawFake fake(std::move(model));
   auto device = opened(fake);
-  fake.with_model([](PidModel& rival) { rival.control({0x21, 9, 0x11, 3, 0, 0, 4, 0}, {0x11, 1, 0, 0}); });
+  fake.with_model(create_as_rival);
   until([&] {
     device->command({3, 0});
     return device->counts().looks >= 3;
@@ -300,6 +370,29 @@ TEST(EvdevTransport, EventsThatTheKernelDroppedAreAskedFor) {
   const auto device = opened(fake);
   fake.move_unheard(10000, 20000);
   until([&] { return device->sample().counts == glm::ivec2(10000, -20000); });
+}
+
+TEST(EvdevTransport, AnErasedEffectIsNoticedAlsoWhileTheForceStaysTheSame) {
+  EvdevFake fake;
+  auto device = opened(fake);
+  until([&] {
+    device->command({4, 0});
+    return is_near(fake.force(), {0.4, 0});
+  });
+  fake.erase_through_the_same_file(1);
+  until([&] {
+    device->command({4, 0});
+    return device->was_lost();
+  });
+  EXPECT_EQ(device->reason(), "another program has erased its effects");
+  device.reset();
+  EXPECT_TRUE(fake.effects().empty());
+  device = opened(fake);
+  EXPECT_EQ(fake.force(), glm::dvec2(0)) << "set up again from zero";
+  until([&] {
+    device->command({4, 0});
+    return is_near(fake.force(), {0.4, 0});
+  });
 }
 
 TEST(EvdevTransport, UnpluggedItIsLost) {

@@ -381,10 +381,12 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
 }
 
 /// Opens the joystick at port 1 in a separate process, and pushes to the right with 3 N.
-[[noreturn]] void push_for_ever() {
+[[noreturn]] void push_for_ever(std::optional<PidTransportKind> transport) {
   const auto context = *UsbContext::open();
+  HidPidDevice::Options options;
+  options.transport = transport;
   for (const UsbDeviceInfo& info : context->devices()) {
-    auto result = HidPidDevice::open(context, info, joystick_profile());
+    auto result = HidPidDevice::open(context, info, joystick_profile(), options);
     const auto device = *std::move(result);
     while (true) {
       device->command({3, 0});
@@ -398,7 +400,9 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
 }  // namespace wale::test
 
 int main(int count, char** words) {
-  if (count == 2 && words[1] == std::string_view(wale::test::push_until_killed)) wale::test::push_for_ever();
+  if (count >= 2 && words[1] == std::string_view(wale::test::push_until_killed)) {
+    wale::test::push_for_ever(count == 3 ? wale::read_transport_kind(words[2]) : std::nullopt);
+  }
   testing::InitGoogleTest(&count, words);
   UMockdevTestbed* testbed = umockdev_testbed_new();
   const bool is_mocked = umockdev_in_mock_environment();

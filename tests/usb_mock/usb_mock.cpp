@@ -102,6 +102,11 @@ MockUsbDevice::~MockUsbDevice() {
   close(fifo_);
 }
 
+void MockUsbDevice::attach(Attachment* attachment) {
+  const std::lock_guard lock(mutex_);
+  attachment_ = attachment;
+}
+
 void MockUsbDevice::release(const Urb& urb) {
   g_object_unref(urb.urb);
   if (urb.buffer != nullptr) g_object_unref(urb.buffer);
@@ -192,12 +197,14 @@ void MockUsbDevice::frame() {
     controls_.pop_front();
     control(urb);
   }
+  if (attachment_ != nullptr) attachment_->frame(*model_);
   show_whether_ready();
 }
 
 void MockUsbDevice::unplug() {
   const std::lock_guard lock(mutex_);
   is_gone_ = true;
+  if (attachment_ != nullptr) attachment_->unplug();
   const auto end_all = [&](std::deque<Urb>& queue) {
     for (const Urb& urb : queue) end(urb, -ESHUTDOWN, 0);
     queue.clear();

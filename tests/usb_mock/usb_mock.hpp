@@ -28,6 +28,15 @@ class MockUsbDevice {
   MockUsbDevice(const MockUsbDevice&) = delete;
   MockUsbDevice& operator=(const MockUsbDevice&) = delete;
 
+  /// Nodes beside usbfs with the same model behind them. Both functions are called under the device's lock.
+  class Attachment {
+   public:
+    virtual ~Attachment() = default;
+    virtual void frame(UsbModel& model) = 0;
+    virtual void unplug() = 0;
+  };
+  void attach(Attachment* attachment);
+
   /// Passes one frame, with at most one packet per endpoint.
   void frame();
   /// Whether the driver has reaped all ended transfers and has found no more. It has then reacted to all of them.
@@ -81,6 +90,7 @@ class MockUsbDevice {
   std::deque<Urb> controls_, done_;
   UMockdevIoctlClient* unserved_ = nullptr;  // has an ended transfer, and has not yet found that there are no more
   long frame_ = 0;
+  Attachment* attachment_ = nullptr;
   int fifo_ = -1;
   bool is_shown_ready_ = true, is_gone_ = false;
 };
@@ -122,6 +132,8 @@ class UsbMock {
     return device;
   }
   void unplug(const std::shared_ptr<MockUsbDevice>& device);
+
+  UMockdevTestbed* testbed() const { return testbed_; }
 
   /// While it exists, frames pass only by `pass_frame`, from the thread that made it.
   class InStep {

@@ -150,7 +150,22 @@ Result<> EvdevTransport::upload(std::size_t effect) {
     return Error{Code::unusable_device, "it has no room for an effect: another program may hold them",
                  "close the programs that use it"};
   }
+  const bool was_ours = effects_[effect].id >= 0;
+  if (was_ours && (errno == EINVAL || errno == EACCES)) {
+    effects_[effect].id = -1;
+    return Error{Code::lost_device, "another program has erased its effects"};
+  }
   return why_not_opened(errno, "its event node");
+}
+
+/// Uploads an effect that the kernel has already; false: it is lost.
+bool EvdevTransport::update(std::size_t effect) {
+  const Result<> taken = upload(effect);
+  if (!taken) {
+    const bool is_telling = taken.error().code == Code::lost_device || taken.error().code == Code::absent_device;
+    lose(is_telling ? taken.error().sentence : "the kernel's driver takes no force any more");
+  }
+  return taken.has_value();
 }
 
 /// Plays an effect, or sets a property such as the gain.
@@ -237,10 +252,7 @@ bool EvdevTransport::write_next(std::int64_t now) {
     if (level == effects_[effect].u.constant.level) continue;
     effects_[effect].u.constant.level = level;
     turn_ = 1 - effect;
-    if (!upload(effect)) {
-      lose("the kernel's driver takes no force any more");
-      return false;
-    }
+    if (!update(effect)) return false;
     const std::lock_guard lock(mutex_);
     ++counts_.forces_sent[effect];
     return true;
@@ -249,12 +261,14 @@ bool EvdevTransport::write_next(std::int64_t now) {
   return false;
 }
 
-/// Plays an effect again before its time is over.
+/// Plays an effect again before its time is over. The kernel takes this for an effect that was erased too, so the
+/// effect is updated before, which sends nothing to the device.
 bool EvdevTransport::refresh(std::int64_t now) {
   if (refresh_period_ <= 0 || silent_) return false;
   for (std::size_t i = 0; i < effects(); ++i) {
     if (now < refresh_at_[i]) continue;
     refresh_at_[i] = now + refresh_period_;
+    if (!update(i)) return false;
     if (!tell(static_cast<std::uint16_t>(effects_[i].id), 1)) {
       lose("the kernel's driver takes no force any more");
       return false;
@@ -279,19 +293,16 @@ bool EvdevTransport::turn_and_push() {
   const bool is_turned = direction != effects_[0].direction;
   effects_[0].u.constant.level = level;
   effects_[0].direction = direction;
-  if (!upload(0)) {
-    lose("the kernel's driver takes no force any more");
-    return false;
-  }
+  if (!update(0)) return false;
   const std::lock_guard lock(mutex_);
   ++counts_.forces_sent[0];
   if (is_turned) ++counts_.directions_sent;
   return true;
 }
 
-void EvdevTransport::lose(const char* reason) {
+void EvdevTransport::lose(std::string reason) {
   const std::lock_guard lock(mutex_);
-  if (reason_.empty()) reason_ = reason;
+  if (reason_.empty()) reason_ = std::move(reason);
   show_lost();
 }
 

@@ -173,8 +173,21 @@ Outcome HidrawChannel::ask(const hid::Transfer& transfer, std::span<const std::u
   return Outcome::done;
 }
 
+/// Passes the reports on that the kernel has held while the device was set up.
+void HidrawChannel::read_old_inputs(std::vector<std::uint8_t>& report) {
+  constexpr int most_held = 64;  // HIDRAW_BUFFER_SIZE, linux/hidraw.h
+  for (int i = 0; i < most_held; ++i) {
+    pollfd wait{node_.descriptor(), POLLIN, 0};
+    if (poll(&wait, 1, 0) != 1 || (wait.revents & (POLLERR | POLLHUP)) != 0) return;
+    const ssize_t got = read(node_.descriptor(), report.data(), report.size());
+    if (got <= 0) return;
+    listener_.received({report.data(), static_cast<std::size_t>(got)}, true);
+  }
+}
+
 void HidrawChannel::read_inputs() {
   std::vector<std::uint8_t> report(most_report_bytes);
+  read_old_inputs(report);
   while (true) {
     pollfd waits[2] = {{node_.descriptor(), POLLIN, 0}, {ends_reading_.get(), POLLIN, 0}};
     if (poll(waits, 2, -1) < 0 && errno != EINTR)
@@ -183,7 +196,7 @@ void HidrawChannel::read_inputs() {
     if (waits[0].revents == 0) continue;
     const ssize_t got = read(node_.descriptor(), report.data(), report.size());
     if (got > 0) {
-      listener_.received({report.data(), static_cast<std::size_t>(got)});
+      listener_.received({report.data(), static_cast<std::size_t>(got)}, false);
     } else if (got == 0 || (errno != EINTR && errno != EAGAIN)) {
       // hidraw returns EIO for a device that is gone, and rarely for another reason.
       return listener_.silenced("it was unplugged", Outcome::gone);

@@ -55,6 +55,7 @@ class HidrawChannel final : public ReportChannel {
   Outcome make(const hid::Transfer& transfer, std::span<const std::uint8_t>& answer);
   Outcome send(const hid::Transfer& transfer);
   Outcome ask(const hid::Transfer& transfer, std::span<const std::uint8_t>& answer);
+  void read_old_inputs(std::vector<std::uint8_t>& report);
   void read_inputs();
 
   HidrawNode node_;

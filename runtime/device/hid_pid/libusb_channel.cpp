@@ -156,9 +156,9 @@ void LibusbChannel::input_ended(Slot& slot) {
   };
   bool goes_on = true;
   if (outcome == Outcome::done) {
-    listener_.received({slot.buffer.data(), static_cast<std::size_t>(std::max(0, usb.actual_length))});
+    listener_.received({slot.buffer.data(), static_cast<std::size_t>(std::max(0, usb.actual_length))}, false);
   } else if (usb.status == LIBUSB_TRANSFER_OVERFLOW) {
-    listener_.received({});
+    listener_.received({}, false);
   } else {
     goes_on = false;
     if (usb.status != LIBUSB_TRANSFER_CANCELLED) listener_.silenced(why(outcome), outcome);

@@ -35,6 +35,10 @@ std::optional<Transfer> PidSession::next(std::int64_t now) noexcept {
   // A step waits until all transfers before it have ended.
   const bool is_busy = step_under_way_ || in_flight_ > 0 || poll_under_way_ || look_under_way_;
   if (state_ == State::over || is_busy) return std::nullopt;
+  if (step_ == Step::leave_wait) {
+    if (now < look_at_) return std::nullopt;
+    step_ = Step::leave_look;
+  }
   auto transfer = step_transfer();
   while (!transfer && state_ != State::over && state_ != State::running) {  // steps that this device does not know
     advance(now);
@@ -82,7 +86,8 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
       if (!layout_->device_gain) return std::nullopt;
       return output(encode_full_gain(*layout_), purpose);
     case Step::create: return feature_out(encode_create_constant_force(*layout_), layout_->create_new_effect.id);
-    case Step::load: return get_report(feature_report, layout_->block_load, purpose);
+    case Step::load:
+    case Step::leave_look: return get_report(feature_report, layout_->block_load, purpose);
     case Step::set: return output(effect_packet(effect_), purpose);
     case Step::zero:
     case Step::leave_zero: return output(encode_constant_force(*layout_, blocks_[effect_], 0), purpose);
@@ -98,6 +103,7 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
       if (options_.is_shared) return std::nullopt;
       return control(layout_->device_control.disable_actuators);
     case Step::run:
+    case Step::leave_wait:
     case Step::none: break;
   }
   return std::nullopt;
@@ -139,6 +145,8 @@ void PidSession::advance(std::int64_t now) noexcept {
     case Step::leave_stop: each(Step::leave_stop, Step::leave_stop_all); break;
     case Step::leave_stop_all: step_ = created_ > 0 ? Step::leave_free : Step::leave_disable; break;
     case Step::leave_free: each(Step::leave_free, Step::leave_disable); break;
+    case Step::leave_look: step_ = Step::leave_zero; break;
+    case Step::leave_wait:
     case Step::leave_disable:
     case Step::run:
     case Step::none:
@@ -187,6 +195,7 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
 
 void PidSession::finish_step(Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now) {
   if (state_ == State::leaving) {
+    if (step_ == Step::leave_look && (outcome != Outcome::done || !still_owns(answer))) return dispossess();
     // Tries each step of leaving, but gives up on a device that has failed three times.
     if (outcome != Outcome::done && ++failures_leaving_ >= 3) step_ = Step::none;
     return advance(now);

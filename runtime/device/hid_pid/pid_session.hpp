@@ -33,9 +33,12 @@ struct PidSessionOptions {
   double input_silence = 0.1;
   /// s between questions about its axes to a device that has OpenFFBoard's report for them, one number each; 0: none.
   double telemetry_period = 0.1;
-  /// s between questions about effects, by which a reset by another program is noticed, to a device that has no PID
-  /// State report; 0: never.
+  /// s between questions about the effect that was created last, by which a shared session notices a reset by another
+  /// program; 0: never.
   double rival_check_period = 0.5;
+  /// s from noticing that another program has stopped our effects to asking whether they still exist. A program that
+  /// has reset the device creates its own effects within this time.
+  double rival_patience = 0.25;
   /// Whether other programs may use the device at the same time. Then it is not told to stop all effects nor to disable
   /// its actuators on leaving, and a change of our effects by another program ends the session.
   bool is_shared = false;
@@ -129,8 +132,10 @@ class PidSession {
   /// `answer` has the bytes that came in. Real-time as `next` is; allocates while setting up.
   void finish(const Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer, std::int64_t now);
 
-  /// An input report has come on the interrupt endpoint. Real-time.
-  void receive(std::span<const std::uint8_t> report, std::int64_t now) noexcept;
+  /// An input report has come on the interrupt endpoint. An old one was held back while the device was set up: the
+  /// states that it tells are those that the set-up passed through, such as disabled actuators after its reset.
+  /// Real-time.
+  void receive(std::span<const std::uint8_t> report, std::int64_t now, bool is_old = false) noexcept;
 
   /// The force to exert from now on, as shares -1 .. 1 of the device's full force along its own axes (y to the user).
   /// Not-a-number gives no force. Ignored unless running. Real-time.
@@ -156,6 +161,8 @@ class PidSession {
     zero,
     start,
     run,
+    leave_wait,
+    leave_look,
     leave_zero,
     leave_stop,
     leave_stop_all,
@@ -182,8 +189,11 @@ class PidSession {
   bool take_telemetry(std::span<const std::uint8_t> report) noexcept;
   std::optional<Transfer> look_transfer(std::int64_t now) noexcept;
   void take_state(const DeviceState& state, std::int64_t now) noexcept;
+  void take_old_state(const DeviceState& state) noexcept;
   void take_look(std::span<const std::uint8_t> answer) noexcept;
+  bool still_owns(std::span<const std::uint8_t> answer) const noexcept;
   void dispossess() noexcept;
+  void dispossess_for_now(std::int64_t now) noexcept;
   bool is_ours(std::uint8_t block) const noexcept;
   Packet turned_effect(std::size_t effect, double direction) const noexcept;
   Packet effect_packet(std::size_t effect) const noexcept;
@@ -221,7 +231,7 @@ class PidSession {
   bool silent_ = false;
   std::array<std::int64_t, 2> refresh_at_{};
   std::array<std::int64_t, 2> started_{};
-  std::int64_t look_at_ = 0;     // when to look for rivals
+  std::int64_t look_at_ = 0;     // when to look for rivals, or for what they have left of ours
   std::uint8_t last_load_ = 0;   // the block that was given out last, as far as is known
   bool actuators_seen_ = false;  // enabled, in a report of the device's state
   std::array<bool, 2> plays_seen_{};

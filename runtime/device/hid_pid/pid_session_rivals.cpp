@@ -8,7 +8,7 @@ namespace wale::hid {
 
 /// Asks for Block Load, which names the effect that was created last, by any program.
 std::optional<Transfer> PidSession::look_transfer(std::int64_t now) noexcept {
-  if (!options_.is_shared || layout_->state || options_.rival_check_period <= 0) return std::nullopt;
+  if (!options_.is_shared || options_.rival_check_period <= 0) return std::nullopt;
   if (look_under_way_ || now < look_at_) return std::nullopt;
   look_under_way_ = true;
   look_at_ = now + microseconds(options_.rival_check_period);
@@ -30,28 +30,41 @@ bool PidSession::is_ours(std::uint8_t block) const noexcept {
          blocks_.begin() + static_cast<std::ptrdiff_t>(created_);
 }
 
+/// The last of the old states is the device's state when the session began to listen.
+void PidSession::take_old_state(const DeviceState& state) noexcept {
+  if (state.actuators_enabled) actuators_seen_ = *state.actuators_enabled;
+  if (!state.effect_plays || !state.block_index || !is_ours(*state.block_index)) return;
+  plays_seen_[*state.block_index == blocks_[0] ? 0 : 1] = *state.effect_plays;
+}
+
 /// A bit counts as lost only if it was set before, because much firmware never sets these bits.
 void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept {
-  if (!options_.is_shared || state_ != State::running) return;
+  if (!options_.is_shared) return;
+  const bool is_about_ours = state.effect_plays && state.block_index && is_ours(*state.block_index);
+  // A report of what came before our last order may still be on its way.
+  constexpr std::int64_t grace = 20'000;  // microseconds
+  if (step_ == Step::leave_wait || step_ == Step::leave_look) {
+    // We start nothing any more: another program plays an effect that was given our block.
+    const std::int64_t since = now - look_at_ + microseconds(options_.rival_patience);
+    if (is_about_ours && *state.effect_plays && since >= grace) dispossess();
+    return;
+  }
+  if (state_ != State::running) return;
   if (state.actuators_enabled) {
     if (!*state.actuators_enabled && actuators_seen_) return dispossess();
     actuators_seen_ = *state.actuators_enabled;
   }
-  if (!state.effect_plays || !state.block_index) return;
-  for (std::size_t i = 0; i < created_; ++i) {
-    if (blocks_[i] != *state.block_index) continue;
-    if (*state.effect_plays) {
-      plays_seen_[i] = true;
-      continue;
-    }
-    if (!plays_seen_[i] || silent_) continue;
-    // A report of an end before our last start may still be under way.
-    constexpr std::int64_t grace = 20'000;  // microseconds
-    if (now - started_[i] < grace) continue;
-    const bool has_run_out = duration_ != endless && now - started_[i] > microseconds(0.9 * duration_);
-    if (!has_run_out) return dispossess();
-    refresh_at_[i] = now;
+  if (!is_about_ours) return;
+  const std::size_t i = *state.block_index == blocks_[0] ? 0 : 1;
+  if (*state.effect_plays) {
+    plays_seen_[i] = true;
+    return;
   }
+  if (!plays_seen_[i] || silent_) return;
+  if (now - started_[i] < grace) return;
+  const bool has_run_out = duration_ != endless && now - started_[i] > microseconds(0.9 * duration_);
+  if (!has_run_out) return dispossess_for_now(now);
+  refresh_at_[i] = now;
 }
 
 /// The session no longer knows the device's state, and its blocks may now belong to another program. So it sends
@@ -62,6 +75,24 @@ void PidSession::dispossess() noexcept {
   why_ = Code::lost_device;
   step_ = Step::none;
   state_ = State::over;
+}
+
+/// Our effects were stopped. After a reset they are gone, and another program may get their blocks; otherwise they
+/// still take up room in the device. The session sends nothing for a while, then asks.
+void PidSession::dispossess_for_now(std::int64_t now) noexcept {
+  dispossess();
+  if (!layout_->block_free) return;  // nothing could be given back
+  state_ = State::leaving;
+  step_ = Step::leave_wait;
+  look_at_ = now + microseconds(options_.rival_patience);
+}
+
+/// Whether the effect that was created last is the same as before our effects were stopped. Then no program has created
+/// one since, so that our blocks are ours, or nobody's. A program that has reset the device, has created as many
+/// effects as there were, and has started none of them yet, is not told apart.
+bool PidSession::still_owns(std::span<const std::uint8_t> answer) const noexcept {
+  const auto load = decode_block_load(*layout_, answer);
+  return load && load->status == BlockLoadAnswer::Status::loaded && load->block_index == last_load_;
 }
 
 }  // namespace wale::hid

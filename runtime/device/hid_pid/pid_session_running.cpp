@@ -24,7 +24,7 @@ void PidSession::command(glm::dvec2 force, std::int64_t now) noexcept {
   commanded_ = now;
 }
 
-void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now) noexcept {
+void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now, bool is_old) noexcept {
   if (state_ == State::over || !layout_) return;
   if (const auto input = decode_input(*layout_, report)) {
     input_ = *input;
@@ -40,7 +40,7 @@ void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now)
   if (const auto state = decode_state(*layout_, report)) {
     ++counts_.other_reports;
     ++counts_.states;
-    return take_state(*state, now);
+    return is_old ? take_old_state(*state) : take_state(*state, now);
   }
   const bool is_numbered = layout_->input.id != 0;
   if (is_numbered && !report.empty() && report[0] != layout_->input.id && input_bytes_[report[0]] != 0 &&

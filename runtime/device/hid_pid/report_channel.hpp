@@ -17,8 +17,9 @@ class ReportChannel {
    public:
     /// A transfer has ended; `answer` has the bytes that came in.
     virtual void ended(const hid::Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer) = 0;
-    /// An input report has come. It is empty if the report was too long for the channel's buffer.
-    virtual void received(std::span<const std::uint8_t> report) = 0;
+    /// An input report has come. It is empty if the report was too long for the channel's buffer. `is_old`: it came
+    /// before `listen`.
+    virtual void received(std::span<const std::uint8_t> report, bool is_old) = 0;
     /// No more input reports come. `reason` outlives the channel.
     virtual void silenced(std::string_view reason, Outcome outcome) = 0;
 

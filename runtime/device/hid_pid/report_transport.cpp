@@ -50,8 +50,12 @@ ReportTransport::~ReportTransport() {
     std::unique_lock lock(mutex_);
     session_.stop();
     pump();
-    // Each of its last transfers ends, at the latest after its timeout.
-    changed_.wait(lock, [&] { return session_.state() == hid::PidSession::State::over; });
+    // Each of its last transfers ends, at the latest after its timeout. The session waits at most `rival_patience`.
+    constexpr std::chrono::milliseconds between_looks(10);
+    while (session_.state() != hid::PidSession::State::over) {
+      changed_.wait_for(lock, between_looks);
+      pump();
+    }
     closes_ = true;
   }
   channel_->close();
@@ -116,10 +120,10 @@ void ReportTransport::ended(const hid::Transfer& transfer, Outcome outcome, std:
   }
 }
 
-void ReportTransport::received(std::span<const std::uint8_t> report) {
+void ReportTransport::received(std::span<const std::uint8_t> report, bool is_old) {
   const std::lock_guard lock(mutex_);
   if (closes_ || session_.state() == hid::PidSession::State::over) return;
-  session_.receive(report, now_());
+  session_.receive(report, now_(), is_old);
   pump();
 }
 

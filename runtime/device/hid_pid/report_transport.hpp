@@ -41,7 +41,7 @@ class ReportTransport final : public PidTransport, private ReportChannel::Listen
   void publish();
 
   void ended(const hid::Transfer& transfer, Outcome outcome, std::span<const std::uint8_t> answer) override;
-  void received(std::span<const std::uint8_t> report) override;
+  void received(std::span<const std::uint8_t> report, bool is_old) override;
   void silenced(std::string_view reason, Outcome outcome) override;
 
   const PidTransportKind kind_;

@@ -40,6 +40,7 @@ class RailsDevice final : public PluggedDevice {
 };
 
 std::vector<PluggedIn> find_made_up(const Connections&, const PluggedIn*) {
+  ++made_up::rails().looks;
   if (!made_up::rails().is_plugged_in) return {};
   return {{.driver = &made_up_driver,
            .port = "rails",

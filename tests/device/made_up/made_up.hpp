@@ -14,6 +14,7 @@ struct Rails {
   std::atomic<bool> is_plugged_in{false};
   std::atomic<int> x{0}, y{0};  ///< counts
   std::atomic<int> open{0};     ///< the number of open devices
+  std::atomic<long> looks{0};   ///< how often the driver was asked for its devices
   std::mutex mutex;
   std::vector<Force> forces;     ///< all commands, in order
   std::vector<int> descriptors;  ///< the descriptor of each opening
