@@ -10,6 +10,7 @@
 #include "compiler/compile.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/solve/level_scale.hpp"
+#include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
 
 namespace wale {
@@ -56,7 +57,7 @@ std::string mended(const std::string& file, std::string text, const std::vector<
 /// Whether the file was changed.
 bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
   auto read = read_file(result.file);
-  if (!read || !result.written) return false;  // the check reports that the file cannot be read
+  if (!read || !result.written || other_file(result.file, read->bytes)) return false;  // the check reports why
   std::vector<Mend> mends;
   const std::string text = mended(result.file, read->bytes, roots, mends);
   if (text == read->bytes) return false;
@@ -78,7 +79,12 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
       diagnostics.report({.code = Code::unreadable_file,
                           .span = {result.sources.add(file, ""), 0, 0},
                           .message = fmt::format("`{}` cannot be read: {}", file, read.error().sentence),
-                          .help = "name a Wale file"});
+                          .help = mend_of_path(file)});
+    } else if (const auto other = other_file(file, read->bytes)) {
+      diagnostics.report({.code = Code::malformed_value,
+                          .span = {result.sources.add(file, ""), 0, 0},
+                          .message = fmt::format("expected a Wale file, found {}: `{}`", other->what, file),
+                          .help = std::string(other->mend)});
     } else {
       const SourceId source = result.sources.add(file, std::move(read->bytes));
       diagnostics = check_text(result.sources, source, roots);

@@ -10,7 +10,9 @@
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/meant_material.hpp"
 #include "compiler/text/embedded_files.hpp"
+#include "compiler/text/other_file.hpp"
 #include "compiler/text/resolver.hpp"
+#include "schema/patch_program_format.hpp"
 
 namespace wale {
 namespace {
@@ -43,15 +45,7 @@ std::optional<NamedFile> shipped_file(const std::string& path) {
                    .bytes = std::string(found->text),
                    .embedded = embedded_source(static_cast<std::size_t>(found - files.begin())),
                    .material = {},
-                   .also = {}};
-}
-
-/// The error for a file of another kind, which is recognised by its first bytes.
-Error no_material(const std::string& path, const std::string& what, const std::string& mend) {
-  return {.code = Code::malformed_value,
-          .sentence = fmt::format("this is {}, not a Wale file or a patch program", what),
-          .mend = mend,
-          .place = {.name = path}};
+                   .taken = {}};
 }
 
 /// Reads a file. A file on disk takes precedence over a shipped one with the same path: in a checkout it is newer.
@@ -62,21 +56,35 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
       return *std::move(shipped);
     }
   auto read = read_file(path);
-  if (read && read->bytes.starts_with("\x89WRC")) return no_material(path, "a recording", "`wale replay` reads it");
-  if (read && read->bytes.starts_with("\x89PNG"))
-    return no_material(path, "a picture", "a Wale file uses it with `image(\"FILE.png\", …)`");
-  if (read)
-    return NamedFile{.name = path, .bytes = std::move(read->bytes), .embedded = {}, .material = material, .also = {}};
+  if (read) {
+    const auto other = is_patch_program(path, read->bytes) ? std::nullopt : other_file(path, read->bytes);
+    if (other)
+      return Error{.code = Code::malformed_value,
+                   .sentence = fmt::format("this is {}, not a Wale file or a patch program", other->what),
+                   .mend = std::string(other->mend),
+                   .place = {.name = path}};
+    return NamedFile{.name = path, .bytes = std::move(read->bytes), .embedded = {}, .material = material, .taken = {}};
+  }
   Error error = read.error();
   error.sentence = "cannot be read: " + error.sentence;
   error.place.name = path;
-  if (error.mend.empty() && !exists(path)) error.mend = "`wale find` lists the materials of the library";
+  if (error.mend.empty())
+    error.mend = exists(path) ? mend_of_path(path) : "`wale find` lists the materials of the library";
   return error;
 }
 
 /// The index of what a file in the current folder could import.
 std::shared_ptr<const LibraryIndex> index_here(const std::vector<std::string>& roots) {
   return library_index(*file_resolver(roots), "here");
+}
+
+/// The sentence that says which of two was taken, where a person's own material goes before a shipped one.
+std::string instead_of_shipped(const LibraryIndex& index, const std::string& name, const IndexedMaterial& meant) {
+  const auto all = index.meant_by(name);
+  const auto shipped = std::ranges::find(all, true, &IndexedMaterial::shipped);
+  if (meant.shipped || shipped == all.end()) return {};
+  return fmt::format("`{}` is your own `{}:{}`; the shipped one is `{}:{}`", name, meant.file, meant.name,
+                     (*shipped)->file, (*shipped)->name);
 }
 
 Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::string>& roots) {
@@ -86,7 +94,11 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
     if (in_module != index->materials().end()) return read_named(in_module->file, "");
   }
   const auto meant = meant_material(*index, name);
-  if (meant) return read_named((*meant)->file, (*meant)->name);
+  if (meant) {
+    auto found = read_named((*meant)->file, (*meant)->name);
+    if (found) found->taken = instead_of_shipped(*index, name, **meant);
+    return found;
+  }
   if (is_folder(name)) return read_named(name, "");
   Error error = meant.error();
   error.place = {.text = name};  // the sentence names it
@@ -106,6 +118,12 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
 }
 
 }  // namespace
+
+bool is_patch_program(std::string_view path, std::string_view bytes) {
+  const auto& magic = patch_program_format::magic;
+  return path.ends_with(".wpp") || std::ranges::equal(magic, bytes.substr(0, magic.size()), {}, {},
+                                                      [](char byte) { return static_cast<std::uint8_t>(byte); });
+}
 
 NamedMaterial named_material(const std::string& argument) {
   const auto colon = argument.rfind(':');
@@ -130,7 +148,8 @@ Result<NamedFile> find_named(const std::string& argument, const std::vector<std:
   if (found && is_file && !is_path(file)) {
     const std::shared_ptr<const LibraryIndex> index = index_here(roots);
     if (const auto meant = meant_material(*index, file))
-      found->also = fmt::format("{}:{}", (*meant)->file, (*meant)->name);
+      found->taken = fmt::format("`{}` is a file here; the material of that name is `{}:{}`", file, (*meant)->file,
+                                 (*meant)->name);
   }
   return found;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/text/source.hpp"
@@ -15,7 +16,7 @@ struct NamedFile {
   std::string bytes;
   std::optional<SourceId> embedded;  ///< for a shipped file: its source
   std::string material;              ///< empty if only the file was named
-  std::string also;  ///< FILE:MATERIAL of a material with the same name as this file; empty if there is none
+  std::string taken;  ///< if the argument may mean another material too, a sentence that names both; mostly empty
 };
 
 /// Finds the meaning of a FILE argument. The first of these that exists:
@@ -30,8 +31,11 @@ struct NamedFile {
 ///
 /// A text with a `/` or the extension of a file is never used as a name. Errors: W0501 for a file that cannot be read,
 /// W0201 for an unknown name, with the nearest three, W0217 for a name of several materials, W0801 for nothing after
-/// the colon.
+/// the colon, and for a file of another kind, such as a recording or a picture.
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots);
+
+/// Whether a file is a patch program, by its name or by its first bytes.
+bool is_patch_program(std::string_view path, std::string_view bytes);
 
 /// FILE:MATERIAL in two parts. The material is empty if there is no `:`, or if the whole text is the name of a file. If
 /// nothing follows the `:`, it remains part of the file's name, and `find_named` refuses it.

@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "compiler/solve/level_scale.hpp"
-#include "schema/patch_program_format.hpp"
 
 namespace wale {
 
@@ -13,12 +10,9 @@ Result<OpenedFile> open_file(const FileRequest& request) {
   auto named = find_named(request.file, request.roots);
   if (!named) return named.error();
   OpenedFile opened;
-  opened.name = named->name, opened.material = named->material, opened.also = named->also;
+  opened.name = named->name, opened.material = named->material, opened.taken = named->taken;
   std::string& bytes = named->bytes;
-  const bool patch_program =
-      std::ranges::equal(patch_program_format::magic, bytes.substr(0, patch_program_format::magic.size()),
-                         [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
-  if (patch_program || opened.name.ends_with(".wpp")) {
+  if (is_patch_program(opened.name, bytes)) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
     if (!loaded) {
       Error error = loaded.error();

@@ -27,7 +27,7 @@ struct OpenedFile {
   Diagnostics diagnostics;
   std::string name;                     ///< the path of the file
   std::string material;                 ///< the material that was named; empty if only the file was
-  std::string also;                     ///< FILE:MATERIAL of a material with the file's name; mostly empty
+  std::string taken;                    ///< as in `NamedFile`
   std::optional<Program> program;       ///< for a patch program
   std::optional<CheckedModule> module;  ///< for a Wale file, with or without errors
 };

@@ -90,6 +90,20 @@ CsvHeading heading_of(std::string_view cell) {
   return {trimmed(cell.substr(0, open)), trimmed(unit)};
 }
 
+Result<std::optional<std::size_t>> find_column(const CsvRow& headings, std::string_view name,
+                                               const std::function<bool(std::string_view heading)>& is_meant) {
+  std::optional<std::size_t> found;
+  for (std::size_t column = 0; column < headings.cells.size(); ++column) {
+    if (!is_meant(headings.cells[column])) continue;
+    if (found)
+      return unlike_csv(headings.line, "one column " + quoted(name),
+                        "two, columns " + std::to_string(*found + 1) + " and " + std::to_string(column + 1),
+                        "rename or remove one of them");
+    found = column;
+  }
+  return found;
+}
+
 Result<double> number_in(const CsvRow& row, std::size_t column, std::string_view name) {
   const std::string expected = "a finite number for " + quoted(name) + " in column " + std::to_string(column + 1);
   const std::string mend = "write numbers with a point, as in 0.25";

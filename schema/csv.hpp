@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,11 @@ struct CsvHeading {
   std::string_view name, unit;
 };
 CsvHeading heading_of(std::string_view cell);
+
+/// The column, counted from 0, whose heading `is_meant`; none if there is no such column. `name` is the column's name
+/// for errors. Error: W0504 if there are two.
+Result<std::optional<std::size_t>> find_column(const CsvRow& headings, std::string_view name,
+                                               const std::function<bool(std::string_view heading)>& is_meant);
 
 /// The finite number in a column, counted from 0; `name` is the column's name for errors. Errors: W0504 if the row has
 /// no such column, or if the cell is not a finite number.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "runtime/device/match_device.hpp"
@@ -53,27 +54,31 @@ nlohmann::ordered_json shaker_json(const DeclaredDevice& device) {
   return json;
 }
 
-/// The figures of a device's force or vibration, in two lines.
-std::string figures_text(const DeviceProfile& profile) {
+/// The width of the column of names, unless a name is longer.
+constexpr std::size_t usual_column = 12;
+
+/// The figures of a device's force or vibration, in two lines after a column that holds its name.
+std::string figures_text(const DeviceProfile& profile, std::size_t column) {
   if (!profile.shaker)
-    return fmt::format("  {:<12} 2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz\n",
-                       profile.name, profile.force_newton, profile.force_counts, 1e3 * profile.workspace_diameter,
-                       profile.position_counts, profile.rate) +
-           fmt::format("  {:<12} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", profile.mass,
-                       profile.damping, profile.friction);
+    return fmt::format("  {:<{}} 2 axes, {:.4g} N in {:.0f} steps, {:.4g} mm across in {:.0f} counts, {:.4g} Hz\n",
+                       profile.name, column, profile.force_newton, profile.force_counts,
+                       1e3 * profile.workspace_diameter, profile.position_counts, profile.rate) +
+           fmt::format("  {:<{}} moving mass {:.3g} kg, damping {:.3g} N s/m, friction {:.3g} N\n", "", column,
+                       profile.mass, profile.damping, profile.friction);
   const Shaker& shaker = *profile.shaker;
   std::string text = fmt::format(
-      "  {:<12} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
-      shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
+      "  {:<{}} vibrates: up to {:.4g} m/s^2 at {:.4g} .. {:.4g} Hz, spin-up {:.3g} ms, {:.4g} Hz\n", profile.name,
+      column, shaker.peak(), shaker.frequency_low, shaker.frequency_high, 1e3 * shaker.spin_up, profile.rate);
   if (shaker.position == PositionSource::none)
-    return text + fmt::format("  {:<12} no position: assumed to explore at {:.3g} m/s\n", "", shaker.exploring_speed);
-  return text + fmt::format("  {:<12} position by {}, {:.4g} mm across in {:.0f} counts\n", "",
+    return text +
+           fmt::format("  {:<{}} no position: assumed to explore at {:.3g} m/s\n", "", column, shaker.exploring_speed);
+  return text + fmt::format("  {:<{}} position by {}, {:.4g} mm across in {:.0f} counts\n", "", column,
                             position_word(shaker.position), 1e3 * profile.workspace_diameter, profile.position_counts);
 }
 
-std::string declared_text(const DeclaredDevice& device) {
-  std::string text = figures_text(device.profile);
-  const auto line = [&](const std::string& what) { text += fmt::format("  {:<12} {}\n", "", what); };
+std::string declared_text(const DeclaredDevice& device, std::size_t column) {
+  std::string text = figures_text(device.profile, column);
+  const auto line = [&](const std::string& what) { text += fmt::format("  {:<{}} {}\n", "", column, what); };
   if (!device.wiring.usb.empty()) {
     std::string numbers;
     for (const UsbNumbers& each : device.wiring.usb) numbers += " " + in_words(each);
@@ -94,9 +99,12 @@ std::string indented(std::string text) {
 
 std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice> known) {
   const MatchedDevice match = match_device(device, known);
-  std::string text = fmt::format("  {:<12} {}{}\n", device.port, device.name.empty() ? "without a name" : device.name,
-                                 device.numbers.empty() ? "" : ", " + device.numbers);
-  const auto line = [&](const std::string& what) { text += fmt::format("  {:<12} {}\n", "", indented(what)); };
+  std::string text =
+      fmt::format("  {:<{}} {}{}\n", device.port, usual_column, device.name.empty() ? "without a name" : device.name,
+                  device.numbers.empty() ? "" : ", " + device.numbers);
+  const auto line = [&](const std::string& what) {
+    text += fmt::format("  {:<{}} {}\n", "", usual_column, indented(what));
+  };
   if (!device.can.empty()) line(device.can);
   if (match.device != nullptr && !device.can.empty()) {
     const std::string& name = match.device->profile.name;
@@ -185,7 +193,9 @@ constexpr const char* nothing_plugged =
 std::string devices_text(std::span<const DeclaredDevice> known, const Connections& connections,
                          std::span<const PluggedIn> plugged) {
   std::string text = spellings;
-  for (const DeclaredDevice& device : known) text += declared_text(device);
+  std::size_t column = usual_column;
+  for (const DeclaredDevice& device : known) column = std::max(column, device.profile.name.size());
+  for (const DeclaredDevice& device : known) text += declared_text(device, column);
   text += "\nplugged in (wale feel --device PORT)\n";
   if (!connections.usb) text += fmt::format("  {}\n", in_words(connections.usb.error()));
   if (plugged.empty() && connections.usb) text += nothing_plugged;

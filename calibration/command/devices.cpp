@@ -141,13 +141,14 @@ Run declare_devices(CLI::App& verb) {
                                      "pushes a device gently, to find the directions of its axes and motors, and "
                                      "prints a declaration of it (default: the best one plugged in)")
                          ->expected(0, 1)
+                         ->default_str("auto")  // tells an option that stands alone from an empty name
                          ->type_name("[DEVICE]")
                          ->excludes("--json");
   offer_force(verb, "--max-force", options->max_force,
               "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of the device's)")
       ->needs(identifies);
   offer_name(verb, "--transport", options->transport, transport_names(),
-             "how --identify drives it, where its driver knows several ways: hidraw, libusb or evdev")
+             "how --identify drives it, where its driver knows several ways")
       ->needs(identifies);
   verb.footer("for example: wale devices --json; wale devices --identify > devices.wale");
   return [options, identifies] { return identifies->count() > 0 ? identify(*options) : list_devices(*options); };

@@ -308,17 +308,17 @@ void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
 
 Run declare_feel(CLI::App& verb) {
   const auto options = std::make_shared<FeelOptions>();
-  offer_material(verb, options->choice, "--built-for");
-  verb.get_option("--built-for")
-      ->description("the device to build for (default: the one that it is felt on; sandpaper for `simulated`)");
+  offer_material(
+      verb, options->choice,
+      {.device_option = "--built-for",
+       .about_device = "the device to build for (default: the one that it is felt on; sandpaper for `simulated`)"});
   offer_settings(verb, options->settings);
   verb.add_option("--device", options->device,
                   "auto (default): the best one plugged in, else simulated; simulated; simulated:NAME; NAME, as `wale "
                   "devices` lists them; usb; vendor and product, 1209:ffb0; a port, 1-2")
       ->type_name("NAME");
   offer_name(verb, "--transport", options->transport, transport_names(),
-             "how a real device is driven, where its driver knows several ways: hidraw, libusb or evdev; see `wale "
-             "devices`");
+             "how a real device is driven, where its driver knows several ways (see `wale devices`)");
   verb.add_option("--hand", options->hand,
                   "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
   offer_duration(verb, "--seconds", options->seconds, {.endless = true},

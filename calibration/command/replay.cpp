@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/options.hpp"
+#include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
+#include "compiler/text/resolver.hpp"
 #include "wale/recording.hpp"
 
 namespace wale::command {
@@ -102,6 +104,17 @@ Result<> exported(const std::string& path, const InputFiles& inputs, Write&& wri
   return out->finish();
 }
 
+/// Says what a file is that is no recording.
+Error with_kind(Error error, const std::string& path) {
+  const auto read = error.code == Code::damaged_file ? read_file(path) : Result<ResolvedFile>(error);
+  if (!read || read->bytes.starts_with("\x89WRC")) return error;
+  if (const auto other = other_file(path, read->bytes))
+    error.sentence = fmt::format("expected a recording, found {}", other->what);
+  else if (read->bytes.starts_with("wale"))
+    error.sentence = "expected a recording, found a Wale file";
+  return error;
+}
+
 struct ReplayOptions {
   std::string file, csv, wav;
   std::optional<std::uint64_t> ticks;  ///< at most this many, from the beginning
@@ -110,7 +123,7 @@ struct ReplayOptions {
 
 int replay(const ReplayOptions& options) {
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
-  if (!opened) return refuse(opened.error());
+  if (!opened) return refuse(with_kind(opened.error(), options.file));
   const auto& recording = *opened;
   const auto table = exported(options.csv, {options.file}, [&](std::ostream& out) {
     write_csv(out, recording);

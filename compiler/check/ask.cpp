@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "compiler/expression/check_name.hpp"
+
 namespace wale {
 
 namespace {
@@ -56,8 +58,11 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
   const PerceptName meant = declarations.percept_named(node.name.text);
   if (!meant.percept) {
     const auto known = declarations.percept_spellings();
+    const std::string message = fmt::format("nothing declares a percept `{}`", node.name.text);
+    if (auto imported = import_mend(surroundings, node.name.text, {"percept"}))
+      return report(Code::unknown_name, node.name.span, message, *std::move(imported));
     return report(
-        Code::unknown_name, node.name.span, fmt::format("nothing declares a percept `{}`", node.name.text),
+        Code::unknown_name, node.name.span, message,
         did_you_mean(node.name.span, node.name.text, known,
                      fmt::format("known: {}", known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")))));
   }
@@ -68,7 +73,14 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
                     Advice("keep one of them").see(other.name.span, "asked for here first"));
   }
   AskedPercept asked{.name = meant.percept->name, .span = node.span, .essential = node.essential};
-  if (node.by) asked.by = node.by->text;
+  if (node.by) {
+    asked.by = node.by->text;
+    bool is_known = false;
+    declarations.each_map([&](const Map& map) { is_known = is_known || map.name == asked.by; });
+    if (auto imported = is_known ? std::nullopt : import_mend(surroundings, asked.by, {"map"}))
+      return report(Code::unknown_name, node.by->span,
+                    fmt::format("no map for {} is called `{}`", asked.name, asked.by), *std::move(imported));
+  }
   if (node.level_name) {
     asked.span = node.level_name->span;
     const auto named = named_level(declarations, meant.percept->name, *node.level_name, surroundings.diagnostics);

@@ -9,6 +9,7 @@
 
 #include "compiler/check/ask.hpp"
 #include "compiler/check/override_statements.hpp"
+#include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/made_from.hpp"
 
 namespace wale {
@@ -18,6 +19,9 @@ namespace {
 /// The most statements of a material, including those from other materials; more do not fit into a patch program.
 constexpr std::size_t most_statements = 20'000;
 constexpr std::size_t deepest_derivation = 64;
+/// Of a component in a blend. No more is needed: 1 is the whole material, and whole materials push with some newtons on
+/// devices that give 2 to 20 N. A larger weight is most likely a number of percent.
+constexpr double largest_weight = 10;
 
 class Assembler {
  public:
@@ -233,9 +237,15 @@ class Assembler {
   }
 
   bool good_weight(double weight, Span span) {
-    if (weight > 0 && std::isfinite(weight)) return true;
-    report(Code::value_out_of_range, span, "the weight of a component must be greater than zero",
-           "leave out components that are not in the blend");
+    if (weight > 0 && weight <= largest_weight) return true;
+    if (weight > largest_weight)
+      report(Code::value_out_of_range, span,
+             fmt::format("expected a weight of at most {}, found {:.6g}", largest_weight, weight),
+             weight <= 100 ? fmt::format("1 is the material as it is; for a share write `{:.6g} %`", weight)
+                           : "1 is the material as it is");
+    else
+      report(Code::value_out_of_range, span, "the weight of a component must be greater than zero",
+             "leave out components that are not in the blend");
     return false;
   }
 
@@ -397,6 +407,8 @@ class Assembler {
       material = other ? assemble(*other) : nullptr;
     } else if (const auto* product = std::get_if<Binary>(&node);
                product && product->op == BinaryOperator::multiply) {  // 0.3 * denim(weave: 1 mm)
+      if (std::holds_alternative<NumberLiteral>(from.tree->expr(product->right)))
+        return weight_behind(from, *product, span);
       const auto factor = plain_constant(from, product->left, surroundings_);
       if (!factor) return false;
       weight = *factor;
@@ -423,6 +435,16 @@ class Assembler {
     if (const auto* call = std::get_if<Call>(&node)) word = call->callee;
     const auto* material = known(word, *from.home);  // by its own name, not by a title
     return std::string(material ? material->node->name.text : word.text);
+  }
+
+  /// `brick * 0.5`.
+  bool weight_behind(const Declared<MaterialDecl>& from, const Binary& product, Span span) {
+    const std::string_view left = surroundings_.sources.text(from.tree->span(product.left));
+    const std::string_view right = surroundings_.sources.text(from.tree->span(product.right));
+    const std::string mended = fmt::format("{} * {}", right, left);
+    report(Code::wrong_type, span, "the weight of a component stands before it",
+           Advice(fmt::format("write `{}`", mended)).fix(replace(span, mended)));
+    return false;
   }
 
   bool no_component(Span span) {

@@ -82,7 +82,8 @@ class BodyReader {
   }
   void unknown_unit(const Word& word) {
     if (surroundings_.diagnostics.is_full()) return;
-    report(word, Code::unknown_unit, fmt::format("nothing declares a unit `{}`", word.text), unit_mend(word, names_));
+    report(word, Code::unknown_unit, fmt::format("nothing declares a unit `{}`", word.text),
+           unit_mend(word, names_, surroundings_));
   }
   void unknown_function(const Word& word) {
     if (names_.private_names.contains(word.text) || surroundings_.diagnostics.is_full()) return;

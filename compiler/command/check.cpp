@@ -51,7 +51,7 @@ int check(const CheckOptions& options) {
 
 Run declare_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckOptions>();
-  verb.add_option("FILE", options->files, "Wale files")->required();
+  verb.add_option("FILE", options->files, "paths of Wale files; names of materials are not looked for")->required();
   offer_library(verb, options->folders);
   offer_json(verb, options->json, "the diagnostics as a JSON array");
   verb.add_flag("--fix", options->fix, "first applies the safe mends to these files");

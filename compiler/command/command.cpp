@@ -92,9 +92,8 @@ FileRequest Choice::request() const {
   return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY")), inputs.get()};
 }
 
-void say_also(const OpenedFile& opened) {
-  if (!opened.also.empty())
-    fmt::print(stderr, "wale: `{}` is a file here; the material with that name is `{}`\n", opened.name, opened.also);
+void say_taken(const OpenedFile& opened) {
+  if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);
 }
 
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice) {
@@ -129,7 +128,7 @@ std::optional<OpenedFile> open(const Choice& choice) {
   choice.inputs->push_back(opened->name);
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error()), std::nullopt;
-  say_also(*opened);
+  say_taken(*opened);
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return std::nullopt;

@@ -45,8 +45,8 @@ struct Choice {
   FileRequest request() const;
 };
 
-/// If a file hides a material of the same name, prints on standard error how to name the material.
-void say_also(const OpenedFile& opened);
+/// If a name may mean two materials, prints on standard error which of them was taken.
+void say_taken(const OpenedFile& opened);
 
 /// Checks that a patch program holds `material` and is built for the device of `choice`, if these are named. Wale files
 /// always pass. Errors: W0202 for another material, W0607 for another device.

@@ -27,13 +27,15 @@ struct DescribeOptions {
 Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& request, const std::string& material,
                              const std::vector<std::string>& settings, const Declarations& declarations,
                              std::set<std::string>& used) {
-  DeviceFates fates{.material = material, .device = request.device, .fates = {}, .refusal = {}};
   Diagnostics diagnostics;
   const auto program = compile_opened(opened, request, material, diagnostics);
   if (!program) {
-    for (const Diagnostic& each : diagnostics.all())
-      if (fates.refusal.empty() && severity_of(each.code) == Severity::error) fates.refusal = each.message;
-    return fates;
+    // Where there is no program there is an error.
+    const Diagnostic& first = *std::ranges::find(diagnostics.all(), Severity::error,
+                                                 [](const Diagnostic& each) { return severity_of(each.code); });
+    return DeviceFates{.material = material,
+                       .device = request.device,
+                       .fates = Error{.code = first.code, .sentence = first.message, .mend = first.help}};
   }
   std::vector<std::string> known;
   std::ranges::copy_if(settings, std::back_inserter(known), [&](const std::string& setting) {
@@ -42,8 +44,9 @@ Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& reques
   used.insert(known.begin(), known.end());
   const auto parameters = chosen_parameters(*program, known);
   if (!parameters) return parameters.error();
-  fates.fates = fates_at(Bank(*program, *parameters, program->default_size()), declarations);
-  return fates;
+  return DeviceFates{.material = material,
+                     .device = request.device,
+                     .fates = fates_at(Bank(*program, *parameters, program->default_size()), declarations)};
 }
 
 /// Prints the fates of a file's materials on all devices.
@@ -123,10 +126,9 @@ int describe(const DescribeOptions& options) {
 
 Run declare_describe(CLI::App& verb) {
   const auto options = std::make_shared<DescribeOptions>();
-  offer_material(verb, options->choice);
-  verb.get_option("--material")->description("which material of the file (default: all of them)");
-  verb.get_option("--device")
-      ->description("the device to build for, or `all` (default: sandpaper; see `wale devices`)");
+  offer_material(verb, options->choice,
+                 {.about_material = "which material of the file (default: all of them)",
+                  .about_device = "the device to build for, or `all` (default: sandpaper; see `wale devices`)"});
   offer_settings(verb, options->settings);
   verb.add_flag("--exports", options->exports,
                 "lists what the file exports (the default for a file without a material)")

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
 
 namespace wale::command {
@@ -20,7 +21,15 @@ struct FormatOptions {
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
   auto read = read_file(standard ? "/dev/stdin" : file);
-  if (!read) return refuse(read.error());
+  if (!read) {
+    if (read.error().mend.empty()) read.error().mend = mend_of_path(file);
+    return refuse(read.error());
+  }
+  if (const auto other = other_file(file, read->bytes))
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a Wale file, found {}", other->what),
+                        .mend = std::string(other->mend),
+                        .place = {.name = file}});
   SourceSet sources;
   Diagnostics diagnostics;
   const SourceId source = sources.add(file, std::move(read->bytes));
@@ -49,7 +58,7 @@ int format(const FormatOptions& options) {
 
 Run declare_format(CLI::App& verb) {
   const auto options = std::make_shared<FormatOptions>();
-  verb.add_option("FILE", options->files, "Wale files; - for standard input to standard output")->required();
+  verb.add_option("FILE", options->files, "paths of Wale files; - for standard input to standard output")->required();
   verb.add_flag("--check", options->check_only,
                 "changes nothing; lists the files that would change and fails if there are any");
   verb.footer("for example: wale format library/fabric/*.wale");

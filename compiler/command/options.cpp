@@ -29,8 +29,6 @@ CLI::Option* offer_value(CLI::App& verb, const char* option, const char* type, s
   return verb.add_option_function<std::string>(option, take, about)->type_name(type);
 }
 
-constexpr const char* device_about = "the device to build for (default: sandpaper; see `wale devices`)";
-
 /// Checks that each is a folder. Empty names pass, since `without_empty_words` refuses them. Error: W0501.
 Result<> are_folders(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
@@ -49,7 +47,6 @@ Result<> are_folders(const std::vector<std::string>& folders) {
 
 Result<> without_empty_words(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
-    if (option->get_expected_min() == 0) continue;  // a flag, or an option whose value is optional
     const auto& words = option->results();
     if (std::ranges::find(words, "") == words.end()) continue;
     const std::string name = option->get_name();
@@ -64,34 +61,32 @@ Result<> without_empty_words(const CLI::App& verb) {
   return {};
 }
 
-void offer_library(CLI::App& verb, std::vector<std::string>& folders) {
+void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char* about) {
   const auto take = [&folders](const std::vector<std::string>& given) {
     if (const auto found = are_folders(given); !found) throw CLI::ValidationError(error_text(found.error()), refused);
     folders = given;
   };
-  may_be_repeated(verb.add_option_function<std::vector<std::string>>(
-                          "--library", take, "a folder to search for imports, after the file's own; may be repeated")
-                      ->type_name("DIR"));
+  may_be_repeated(verb.add_option_function<std::vector<std::string>>("--library", take, about)->type_name("DIR"));
 }
 
 void offer_device(CLI::App& verb, std::string& device) {
-  verb.add_option("--device", device, device_about)->type_name("NAME");
+  verb.add_option("--device", device, help_text::device)->type_name("NAME");
 }
 
-void offer_device(CLI::App& verb, Choice& choice, const char* option) {
+void offer_device(CLI::App& verb, Choice& choice, const char* option, const char* about) {
   const auto take = [&choice, option](const std::string& name) {
     choice.device = name;
     choice.device_option = option;
   };
-  verb.add_option_function<std::string>(option, take, device_about)->type_name("NAME");
+  verb.add_option_function<std::string>(option, take, about)->type_name("NAME");
 }
 
-void offer_material(CLI::App& verb, Choice& choice, const char* device_option) {
+void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& options) {
   verb.add_option("FILE", choice.file,
                   "a Wale file, a patch program (.wpp), or a material of the library by name, as in corduroy")
       ->required();
-  verb.add_option("--material", choice.material, "which material of the file (default: its first)")->type_name("NAME");
-  offer_device(verb, choice, device_option);
+  verb.add_option("--material", choice.material, options.about_material)->type_name("NAME");
+  offer_device(verb, choice, options.device_option, options.about_device);
   offer_library(verb, choice.folders);
 }
 
@@ -119,7 +114,8 @@ CLI::Option* offer_name(CLI::App& verb, const char* option, std::string& into, c
                     .place = {.name = option, .text = text}}),
         misused);
   };
-  return verb.add_option_function<std::string>(option, take, about)->type_name("NAME");
+  return verb.add_option_function<std::string>(option, take, fmt::format("{}: {}", about, fmt::join(names, ", ")))
+      ->type_name("NAME");
 }
 
 CLI::Option* offer_count(CLI::App& verb, const char* option, std::optional<std::uint64_t>& into,

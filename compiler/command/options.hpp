@@ -23,16 +23,31 @@ namespace wale::command {
 /// option out. Called before a verb runs. Error: W0801.
 Result<> without_empty_words(const CLI::App& verb);
 
+/// The help texts of options that mean slightly different things in some verbs.
+namespace help_text {
+inline constexpr const char* library = "a folder to search for imports, after the file's own; may be repeated";
+inline constexpr const char* material = "which material of the file (default: its first)";
+inline constexpr const char* device = "the device to build for (default: sandpaper; see `wale devices`)";
+}  // namespace help_text
+
 /// --library DIR, which may be repeated. If DIR is not a folder, the command ends.
-void offer_library(CLI::App& verb, std::vector<std::string>& folders);
+void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char* about = help_text::library);
 
 /// --device NAME, for a verb without a material.
 void offer_device(CLI::App& verb, std::string& device);
 /// The same for a material; `option` may give it another name.
-void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device");
+void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device",
+                  const char* about = help_text::device);
+
+/// The name and the help texts of the options that name one material.
+struct MaterialOptions {
+  const char* device_option = "--device";
+  const char* about_material = help_text::material;
+  const char* about_device = help_text::device;
+};
 
 /// FILE, --material NAME, --device NAME and --library DIR, which together name one material.
-void offer_material(CLI::App& verb, Choice& choice, const char* device_option = "--device");
+void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& options = {});
 
 /// --set NAME=VALUE, which may be repeated.
 void offer_settings(CLI::App& verb, std::vector<std::string>& settings);
@@ -46,7 +61,8 @@ CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);
 // Values of options are read here and never by CLI11, which reads "" as 0. Malformed values end the command with
 // `misused` before the verb runs. `into` stays empty if the option is not given.
 
-/// One of a few names. Other names are refused; the message has the nearest name or all of them.
+/// One of a few names, which the help text lists after `about`. Other names are refused; the message has the nearest
+/// name or all of them.
 CLI::Option* offer_name(CLI::App& verb, const char* option, std::string& into, const std::vector<std::string>& names,
                         const char* about);
 

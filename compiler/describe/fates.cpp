@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "compiler/describe/describe.hpp"
@@ -22,8 +23,8 @@ struct Row {
 };
 
 std::string cell(const DeviceFates& device, const Row& row) {
-  if (!device.refusal.empty()) return "-";
-  for (const DescribedFate& described : device.fates) {
+  if (!device.fates) return "-";
+  for (const DescribedFate& described : *device.fates) {
     const FateRecord& each = described.record;
     if (Row{each.name, each.percept} != row) continue;
     return each.fate == Fate::saturated ? fmt::format("saturated {:.2f}", each.given) : fate_word(each.fate);
@@ -36,10 +37,13 @@ void write_material(std::string& text, const std::vector<const DeviceFates*>& de
   std::string head = fmt::format("{:<{}}", devices.front()->material, first_column);
   for (const DeviceFates* device : devices) head += fmt::format("{:<{}}", device->device, column);
   add_line(head);
+  std::vector<const DeviceFates*> buildable;
+  std::ranges::copy_if(devices, std::back_inserter(buildable),
+                       [](const DeviceFates* each) { return bool(each->fates); });
   std::vector<Row> rows;
   for (const bool percepts : {true, false})
-    for (const DeviceFates* device : devices)
-      for (const DescribedFate& each : device->fates)
+    for (const DeviceFates* device : buildable)
+      for (const DescribedFate& each : *device->fates)
         if (const Row row{each.record.name, each.record.percept};
             row.percept == percepts && std::ranges::find(rows, row) == rows.end())
           rows.push_back(row);
@@ -49,12 +53,12 @@ void write_material(std::string& text, const std::vector<const DeviceFates*>& de
     add_line(line);
   }
   text += '\n';
-  for (const DeviceFates* device : devices)
-    for (const DescribedFate& each : device->fates)
+  for (const DeviceFates* device : buildable)
+    for (const DescribedFate& each : *device->fates)
       if (!each.changes.empty())
         text += fmt::format("  {} on {}{}\n", each.record.name, device->device, ": " + changes_text(each));
   for (const DeviceFates* device : devices)
-    if (!device->refusal.empty()) text += fmt::format("  not for {}: {}\n", device->device, device->refusal);
+    if (!device->fates) text += fmt::format("  not for {}: {}\n", device->device, device->fates.error().sentence);
 }
 
 }  // namespace
@@ -92,10 +96,10 @@ std::string fates_json(const std::vector<DeviceFates>& all) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const DeviceFates& each : all) {
     auto& entry = json[each.material][each.device];
-    if (each.refusal.empty())
-      entry = to_json(each.fates);
+    if (each.fates)
+      entry = to_json(*each.fates);
     else
-      entry = {{"refused", each.refusal}};
+      entry = {{"refused", each.fates.error().sentence}};
   }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

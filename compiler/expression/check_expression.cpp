@@ -34,7 +34,7 @@ Value times_name(ExpressionReading& reading, const Value& value, const SuffixFac
     const bool is_full = reading.surroundings.diagnostics.is_full();
     return reading.calls.report(Code::unknown_unit, part.name.span,
                                 fmt::format("nothing declares a unit `{}`", part.name.text), "",
-                                is_full ? "" : unit_mend(part.name, *reading.names));
+                                is_full ? "" : unit_mend(part.name, *reading.names, reading.surroundings));
   }
   Value factor = value_of_name(reading, part.name, scope);
   if (part.exponent != 1) {

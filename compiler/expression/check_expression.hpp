@@ -84,7 +84,8 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 /// The fix that adds a missing unit after a bare number; none for other expressions.
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources);
 
-/// The advice for a word that is not a unit: the symbol of the unit that it spells out, or the nearest name.
-Advice unit_mend(const Word& word, const Declarations& declarations);
+/// The advice for a word that is not a unit: the import that brings it, the symbol of the unit that it spells out, or
+/// the nearest name.
+Advice unit_mend(const Word& word, const Declarations& declarations, const Surroundings& surroundings);
 
 }  // namespace wale

@@ -115,6 +115,16 @@ std::optional<Value> part_of_vector(ExpressionReading& reading, const Word& word
 
 bool names_hand_or_patch(std::string_view name) { return input_named(name) != nullptr; }
 
+std::optional<Advice> import_mend(const Surroundings& surroundings, std::string_view name,
+                                  std::initializer_list<std::string_view> kinds) {
+  if (!surroundings.find_exporter) return std::nullopt;
+  const auto exporter = (*surroundings.find_exporter)(name);
+  if (!exporter || std::ranges::find(kinds, exporter->what) == kinds.end()) return std::nullopt;
+  return Advice(fmt::format("`{}` is a {} of `{}`; write `import {}`", name, exporter->what, exporter->module,
+                            exporter->module))
+      .fact("import", exporter->module);
+}
+
 bool has_value(const ExpressionReading& reading, std::string_view name, const Scope& scope) {
   const std::string_view whole = name.substr(0, name.find('.'));
   return scope.find(whole) || reading.names->constants.contains(whole) || names_hand_or_patch(whole);
@@ -152,11 +162,9 @@ Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* 
     candidates.insert(candidates.end(), constants.begin(), constants.end());
   }
   const bool in_file = reading.names == &surroundings.declarations;
-  const auto exporter = in_file && surroundings.find_exporter ? (*surroundings.find_exporter)(word.text) : std::nullopt;
-  if (exporter)
-    return Advice(fmt::format("`{}` is a {} of `{}`; write `import {}`", word.text, exporter->what, exporter->module,
-                              exporter->module))
-        .fact("import", exporter->module);
+  if (auto imported =
+          in_file ? import_mend(surroundings, word.text, {"function", "constant", "unit", "dimension"}) : std::nullopt)
+    return *std::move(imported);
   return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 
@@ -19,6 +20,11 @@ bool has_value(const ExpressionReading& reading, std::string_view name, const Sc
 
 /// Reports a name that an imported file declares without `export`; nothing if there is none.
 std::optional<Value> private_name(ExpressionReading& reading, const Word& word);
+
+/// The import that brings a name which a module of the library exports as one of `kinds` ("unit", "map"); nothing where
+/// there is none.
+[[gnu::cold]] std::optional<Advice> import_mend(const Surroundings& surroundings, std::string_view name,
+                                                std::initializer_list<std::string_view> kinds);
 
 enum class Sought { value, function };
 /// The advice for an unknown name: "did you mean …", or the import that declares it, or else `otherwise`. `scope` may

@@ -5,7 +5,9 @@
 #include <cstdlib>
 
 #include "compiler/declarations/unit_names.hpp"
+#include "compiler/diagnostics/fix.hpp"
 #include "compiler/expression/check_expression.hpp"
+#include "compiler/expression/check_name.hpp"
 #include "compiler/text/characters.hpp"
 
 namespace wale {
@@ -95,6 +97,22 @@ Advice factor_mend(const ExpressionReading& reading, const std::vector<ProductNa
   return fmt::format("write {}, in {}", with_article(names.words(expected)), customary_unit(own, expected));
 }
 
+/// `1/8 inch` is 1 / (8 inch): one eighth of an inch was meant where that has the dimension `expected`.
+std::optional<Advice> fraction_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                    const Dimension& expected, const Dimension& found) {
+  const auto* quotient = std::get_if<Binary>(&tree.expr(expr));
+  if (!quotient || quotient->op != BinaryOperator::divide || Dimension{} / found != expected) return std::nullopt;
+  const auto* over = std::get_if<NumberLiteral>(&tree.expr(quotient->left));
+  const auto* under = std::get_if<NumberLiteral>(&tree.expr(quotient->right));
+  if (!over || !under || over->suffix.count > 0 || under->suffix.count == 0 || under->value == 0) return std::nullopt;
+  const auto suffix = tree.suffix(*under);
+  const Span unit = {tree.source, suffix.front().name.span.begin, tree.span(quotient->right).end};
+  const SourceSet& sources = reading.surroundings.sources;
+  const std::string meant = fmt::format("{:.6g} {}", over->value / under->value, sources.text(unit));
+  return Advice(fmt::format("the unit belongs to the `{:.6g}` alone: write `{}`", under->value, meant))
+      .fix(replace(tree.span(expr), meant, {}, false));
+}
+
 }  // namespace
 
 std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::string& unit, const SourceSet& sources) {
@@ -105,7 +123,10 @@ std::vector<Fix> append_unit(const SyntaxTree& tree, ExprId expr, const std::str
   return {insert_after(span, " " + unit, fmt::format("write `{} {}`", sources.text(span), unit), false)};
 }
 
-Advice unit_mend(const Word& word, const Declarations& declarations) {
+Advice unit_mend(const Word& word, const Declarations& declarations, const Surroundings& surroundings) {
+  const bool in_file = &declarations == &surroundings.declarations;
+  if (auto imported = in_file ? import_mend(surroundings, word.text, {"unit", "constant"}) : std::nullopt)
+    return *std::move(imported);
   if (const auto symbol = symbol_of_unit(word.text); symbol && declarations.units.contains(*symbol))
     return Advice(fmt::format("write `{}`", *symbol))
         .fix(replace(word.span, *symbol, {}, false))
@@ -130,6 +151,7 @@ Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, 
   if (expected.plain())
     return fmt::format("divide it by a quantity of its own dimension, such as `/ 1 {}`",
                        customary_unit(surroundings.declarations, found));
+  if (auto fraction = fraction_mend(reading, tree, expr, expected, found)) return *std::move(fraction);
   if (is_literal) return fmt::format("write {}, in {}", with_article(reading.dimension_names().words(expected)), unit);
   std::vector<ProductName> factors;
   collect_names(tree, expr, false, factors);

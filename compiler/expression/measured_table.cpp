@@ -86,17 +86,20 @@ struct Column {
   Unit unit;
 };
 
-Result<Column> find_column(const CsvRow& headings, const std::string& name, std::size_t otherwise,
-                           const Declarations& declarations) {
+Result<Column> column_called(const CsvRow& headings, const std::string& name, std::size_t otherwise,
+                             const Declarations& declarations) {
   Column column{.number = otherwise};
   if (!name.empty()) {
-    std::vector<std::string_view> known;
-    for (const std::string_view cell : headings.cells) known.push_back(heading_of(cell).name);
-    const auto found = std::ranges::find(known, name);
-    if (found == known.end())
+    const auto found =
+        find_column(headings, name, [&](std::string_view heading) { return heading_of(heading).name == name; });
+    if (!found) return found.error();
+    if (!*found) {
+      std::vector<std::string_view> known;
+      for (const std::string_view cell : headings.cells) known.push_back(heading_of(cell).name);
       return unlike_csv(headings.line, fmt::format("a column `{}`", name), fmt::format("{}", fmt::join(known, ", ")),
                         "name one of the columns that there are");
-    column.number = static_cast<std::size_t>(found - known.begin());
+    }
+    column.number = **found;
   }
   const CsvHeading heading = heading_of(headings.cells[column.number]);
   const auto unit = unit_of(heading.unit, declarations);
@@ -121,9 +124,9 @@ Result<Columns> find_columns(const CsvRow& headings, const std::string& from, co
   if (number_in(headings, 0, ""))
     return unlike_csv(headings.line, "the names of the columns", fmt::format("`{}`", headings.cells[0]),
                       "begin with a line such as `x (mm), force (N)`");
-  auto place = find_column(headings, from, 0, declarations);
+  auto place = column_called(headings, from, 0, declarations);
   if (!place) return place.error();
-  auto value = find_column(headings, to, 1, declarations);
+  auto value = column_called(headings, to, 1, declarations);
   if (!value) return value.error();
   return Columns{*place, *value, headings.cells.size()};
 }

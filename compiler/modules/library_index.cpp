@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
@@ -45,6 +46,14 @@ std::string module_of(std::string_view embedded) {
   return module;
 }
 
+/// The word that declares a record, for as long as the program runs; "declaration" for one that is misspelt.
+std::string_view record_word(const RecordDecl& record) {
+  static constexpr std::string_view words[] = {"percept", "map",    "threshold", "rule",
+                                               "class",   "device", "levels",    "hand"};
+  const auto found = std::ranges::find(words, record.keyword.text);
+  return found == std::end(words) ? "declaration" : *found;
+}
+
 LibraryIndex read_all(Resolver& resolver, const std::string& from) {
   LibraryIndex index;
   std::set<std::string> known;
@@ -66,12 +75,21 @@ void LibraryIndex::add(const std::string& module, const std::string& file, const
   const auto add_export = [&](const auto& node, std::string_view what) {
     if (node.exported) exports_.push_back({std::string(node.name.text), module, what});
   };
+  // A map's own name is a setting: behind `map` stands the percept.
+  const auto add_record = [&](const RecordDecl& node) {
+    const std::string_view what = record_word(node);
+    if (what != "map") return add_export(node, what);
+    for (const Setting& setting : node.settings)
+      if (node.exported && setting.key.text == "name")
+        for (std::string& name : texts_in(setting, tree)) exports_.push_back({std::move(name), module, what});
+  };
   for (const Declaration& declaration : tree.declarations) {
     std::visit(Overloaded{
                    [&](const DimensionDecl& node) { add_export(node, "dimension"); },
                    [&](const UnitDecl& node) { add_export(node, "unit"); },
                    [&](const Constant& node) { add_export(node, "constant"); },
                    [&](const FunctionDecl& node) { add_export(node, "function"); },
+                   [&](const RecordDecl& node) { add_record(node); },
                    [](const auto&) {},
                },
                declaration);

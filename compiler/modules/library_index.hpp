@@ -25,7 +25,7 @@ struct IndexedMaterial {
 struct ExportedName {
   std::string name;
   std::string module;     ///< the file that declares it, as an import names it
-  std::string_view what;  ///< "function", "constant", "unit" or "dimension"
+  std::string_view what;  ///< "function", "constant", "unit", "dimension", or the word that declares it: "map"
 };
 
 /// The materials of a library with all their names, file by file in the order of their modules.

@@ -224,7 +224,7 @@ class ModuleLoader {
     const std::string_view before_dot = word.text.substr(0, word.text.find('.'));
     if (const ExportedName* other = index.exported(word.text))
       return diagnostics_.report(
-          Advice(fmt::format("`{}` is a {} of `{}`; to use it in an expression, write `import {}`", word.text,
+          Advice(fmt::format("`{}` is a {} of `{}`, and no material; to use it, write `import {}`", word.text,
                              other->what, other->module, other->module))
               .about(Code::unknown_name, word.span, message));
     // Materials that the file declares or imports need no import.

@@ -167,7 +167,7 @@ bool Lexer::is_readable() {
 
 // Nearly all of a file: names, numbers, symbols of one character, and the space between them.
 
-[[gnu::always_inline]] inline void Lexer::name() {
+void Lexer::name() {
   const std::size_t begin = at_;
   do {
     const char* end = text_.data() + at_ + 1;
@@ -181,14 +181,14 @@ bool Lexer::is_readable() {
   add(kind_of_word({text_.data() + begin, at_ - begin}), begin);
 }
 
-[[gnu::always_inline]] inline void Lexer::add_symbol(TokenKind kind, std::size_t bytes) {
+void Lexer::add_symbol(TokenKind kind, std::size_t bytes) {
   const auto index = static_cast<std::uint32_t>(result_.tokens.size());
   at_ += bytes;
   add(kind, at_ - bytes);
   if (is_bracket(kind)) match_brackets(kind, index);
 }
 
-[[gnu::always_inline]] inline void Lexer::next() {
+void Lexer::next() {
   const char* at = text_.data() + at_;
   for (;; ++at) {
     while (*at == ' ') ++at;

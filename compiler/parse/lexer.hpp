@@ -47,18 +47,18 @@ class Lexer {
   void match_brackets(TokenKind kind, std::uint32_t index);
   void add_text(std::size_t begin, std::string_view value);
   std::uint32_t add_number(double value);
-  [[gnu::always_inline]] inline void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
+  void add(TokenKind kind, std::size_t begin, std::uint32_t value = 0) {
     result_.tokens.push_back({kind, starts_line_, statement_end(kind), static_cast<std::uint32_t>(begin),
                               static_cast<std::uint32_t>(at_), value});
     starts_line_ = false;
   }
   /// Whether a statement ends before a token of that kind here.
-  [[gnu::always_inline]] inline StatementEnd statement_end(TokenKind kind) const {
+  StatementEnd statement_end(TokenKind kind) const {
     if (kind == TokenKind::end || kind == TokenKind::semicolon || kind == TokenKind::right_brace)
       return StatementEnd::yes;
     return starts_line_ && is_statement_line(kind) ? StatementEnd::outside_parentheses : StatementEnd::no;
   }
-  [[gnu::noinline]] bool is_statement_line(TokenKind kind) const;
+  bool is_statement_line(TokenKind kind) const;
 
   // lex_mend.cpp: bytes that form no token, and the tokens that were evidently meant
   std::vector<Fix> leading_zero(std::size_t begin) const;

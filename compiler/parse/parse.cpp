@@ -182,24 +182,25 @@ void Parser::declaration() {
     const auto meant = followed_by(TokenKind::name) ? nearest_spelling(keyword, declaration_words) : std::nullopt;
     std::string help;
     if (meant) help = fmt::format("did you mean `{}`?", *meant);
-    bool lacks_let = !keyword.empty() && followed_by(TokenKind::equals);
-    if (lacks_let) help = fmt::format("write `let {} = …`", keyword);
+    bool defines = !keyword.empty() && followed_by(TokenKind::equals);
+    if (defines) help = fmt::format("write `material {0} = …`, or `let {0} = …` for a value", keyword);
     for (const std::string_view word : {"param", "height", "force", "state", "next", "show", "patch"}) {
       if (keyword != word) continue;
       help = fmt::format("`{}` belongs in the `physical {{ … }}` of a material", word);
-      lacks_let = false;
+      defines = false;
     }
     if (keyword == "wale") {
       help = "the version is stated once, in the first line";
-      lacks_let = false;
+      defines = false;
     }
     complain_at(Code::unexpected_token, span_of(here()), fmt::format("no declaration begins with {}", shown(here())),
                 "`material`, `import`, `let`, `function`, `unit`, `dimension`, `percept`, `map`, `threshold`, `rule`, "
                 "`class`, `device`, `levels` or `hand`",
                 shown(here()), std::move(help),
-                meant       ? respell_here(declaration_words)
-                : lacks_let ? std::vector{insert_before(span_of(here()), "let ", {}, false)}
-                            : std::vector<Fix>{},
+                meant     ? respell_here(declaration_words)
+                : defines ? std::vector{insert_before(span_of(here()), "material ", "write `material`", false),
+                                        insert_before(span_of(here()), "let ", "write `let`", false)}
+                          : std::vector<Fix>{},
                 {}, meant ? std::vector<Fact>{{"meant", *meant}} : std::vector<Fact>{});
     lost_ = lost_ || !meant;
     if (lost_ || keyword == "wale") throw Abandon{};
@@ -341,6 +342,7 @@ void Parser::material() {
   material.name = declared_name("material");
   if (at(TokenKind::equals)) {
     advance();
+    in_origin_ = true;
     material.derived_from = expression();
   }
   // The brace may be on the next line, since nothing else begins with one.

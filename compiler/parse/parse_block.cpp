@@ -164,6 +164,22 @@ void Parser::stray_statement(MaterialDecl& material, bool& misplaced) {
   end_statement();
 }
 
+/// `roughness 0.5, stickiness 0.3` and `roughness 0.5 stickiness 0.3`. The second is read as a number with a unit.
+void Parser::second_percept() {
+  const bool comma = at(TokenKind::comma);
+  const bool is_unit = at(TokenKind::number) && at_ > 0 && kind(at_ - 1) == TokenKind::name;
+  const std::size_t name = comma ? at_ + 1 : is_unit ? at_ - 1 : at_;
+  const bool has_level = kind(name + 1) == TokenKind::number || kind(name + 1) == TokenKind::name;
+  if (kind(name) != TokenKind::name || !has_level || ends_statement(name + 1)) return;
+  const Span between = {tree_.source, token(name - 1).end, token(name).begin};
+  const Span second = {tree_.source, token(name).begin, token(name + 1).end};
+  complain_at(
+      Code::unexpected_token, second, "a line asks for one percept", "the end of the line",
+      fmt::format("`{}`", sources_.text(second)), fmt::format("put `{}` into a line of its own", sources_.text(second)),
+      {replace(comma ? Span{tree_.source, here().begin, token(name).begin} : between, "; ", "part them with `;`")});
+  throw Abandon{};
+}
+
 PerceptStatement Parser::percept_statement() {
   const std::size_t begin = at_;
   PerceptStatement percept;
@@ -203,6 +219,7 @@ PerceptStatement Parser::percept_statement() {
     advance();
     percept.by = take_word();
   }
+  if (!ends_statement(at_)) second_percept();
   percept.span = since(begin);
   if (at(TokenKind::range)) {
     complain("a level must be one number, with or without a tolerance", "`±`, or the end of the line",

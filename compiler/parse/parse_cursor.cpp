@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/diagnostics/fix.hpp"
 #include "compiler/parse/parser.hpp"
 
 namespace wale {
@@ -79,7 +80,34 @@ Word Parser::declared_name(std::string_view declares) {
                 "a plain name", fmt::format("`{}`", name.text),
                 "dots are for names in other modules; write `_` instead");
   }
-  return name;
+  const bool hyphen = at(TokenKind::minus) && followed_by(TokenKind::name) && here().begin == name.span.end &&
+                      token(at_ + 1).begin == here().end;
+  std::size_t behind = at_;
+  while (kind(behind) == TokenKind::name && !token(behind).starts_line) ++behind;
+  const bool ends_heading =
+      kind(behind) == TokenKind::left_brace || (kind(behind) == TokenKind::equals && !token(behind).starts_line);
+  const bool may_name_dimension = declares == "state" || declares == "memory";  // `state p position`, without its `:`
+  const bool second_word = behind > at_ && ends_heading && !may_name_dimension;
+  return hyphen || second_word ? joined_name(declares, name) : name;
+}
+
+/// A name of several words, `my cord` or `my-cord`, is reported and read as one.
+Word Parser::joined_name(std::string_view declares, const Word& first) {
+  const bool hyphen = at(TokenKind::minus);
+  std::string text(first.text);
+  Span span = first.span;
+  while (at(TokenKind::name) || (at(TokenKind::minus) && followed_by(TokenKind::name))) {
+    if (at(TokenKind::minus)) advance();
+    const Word next = take_word();
+    text += "_" + std::string(next.text);
+    span.end = next.span.end;
+  }
+  const std::string written(text_.substr(span.begin, span.end - span.begin));
+  // Other places of the file may use the name as it was written.
+  complain_at(Code::unexpected_token, span,
+              fmt::format("the name of a {} is one word{}", declares, hyphen ? " without `-`" : ""), "one name",
+              fmt::format("`{}`", written), fmt::format("write `{}`", text), {replace(span, text, {}, false)});
+  return {input_.rewrite(std::move(text)), span};
 }
 
 void Parser::missing(std::string_view spelling, std::string help, std::vector<Fix> fixes) {
@@ -179,6 +207,8 @@ std::string Parser::mend_here() const {
   const Token& previous = token(at_ == 0 ? 0 : at_ - 1);
   const Token& after = token(at_ + 1);
   const bool touching = previous.end == next.begin;
+  if (const std::string argument = mend_argument(); !argument.empty()) return argument;
+  if (const std::string origin = mend_origin(); !origin.empty()) return origin;
   switch (next.kind) {
     case TokenKind::name:
     case TokenKind::number:
@@ -205,6 +235,7 @@ std::string Parser::mend_here() const {
     case TokenKind::right_parenthesis: return "it closes no `(`; remove it";
     case TokenKind::word_then:
     case TokenKind::word_else: return "write a conditional as `if … then … else …`";
+    case TokenKind::word_in: return is_inch_here() ? fmt::format("for inches write `{} inch`", spelling(previous)) : "";
     default: return {};
   }
 }

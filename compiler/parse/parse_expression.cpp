@@ -160,12 +160,19 @@ ExprId Parser::operand() {
 /// Reports the token here, where a value was expected.
 void Parser::no_operand(bool next_statement) {
   const std::string message = "expected a value" + after_previous();
+  std::string help;
+  std::vector<Fix> fixes;
+  if (at_ > 1 && kind(at_ - 1) == TokenKind::word_in && kind(at_ - 2) == TokenKind::number) {
+    help = fmt::format("a range follows `in`; for inches write `{} inch`", spelling(token(at_ - 2)));
+    fixes = {replace(span_of(token(at_ - 1)), "inch", {}, false)};
+  }
   if (next_statement) {
     const Span end = span_of(token(at_ - 1));
-    complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, "a value", "the end of the line", {});
+    complain_at(Code::unexpected_token, {end.source, end.end, end.end}, message, "a value", "the end of the line",
+                std::move(help), std::move(fixes));
     throw Abandon{};
   }
-  std::string help;
+  if (!help.empty()) fail(message, "a value", std::move(help), std::move(fixes));
   switch (here().kind) {
     case TokenKind::left_bracket: help = "write vectors as `vector(a, b)`"; break;
     case TokenKind::word_not: help = "put `not` and its condition in parentheses"; break;
@@ -200,6 +207,7 @@ bool Parser::is_suffix_name(std::size_t index) const {
   if (kind(index) != TokenKind::name) return false;
   if (token(index).starts_line && begins_statement(index)) return false;
   if (in_force_ && is_word(index, "limit")) return false;
+  if (is_like(index)) return false;
   const TokenKind next = kind(index + 1);
   if (!ends_statement(index + 1) && (next == TokenKind::left_parenthesis || next == TokenKind::colon)) return false;
   const auto is_this = [&](std::string_view word) { return is_word(index, word); };

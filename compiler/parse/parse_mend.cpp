@@ -39,9 +39,82 @@ std::string_view line_end(std::string_view text) {
 
 }  // namespace
 
+/// Whether the token is the first of an argument of a call that is open.
+bool Parser::begins_argument(std::size_t index) const {
+  if (open_parentheses_.empty() || index == 0) return false;
+  const std::size_t open = open_parentheses_.back();
+  const bool is_call = open > 0 && kind(open - 1) == TokenKind::name;
+  return is_call && (index - 1 == open || kind(index - 1) == TokenKind::comma);
+}
+
+/// `0.1 in`, where no range can follow.
+bool Parser::is_inch_here() const { return at(TokenKind::word_in) && at_ > 0 && kind(at_ - 1) == TokenKind::number; }
+
+/// `like brick`, where a material is expected.
+bool Parser::is_like(std::size_t index) const {
+  if (!in_origin_ || !is_word(index, "like") || ends_statement(index + 1)) return false;
+  return kind(index + 1) == TokenKind::name || kind(index + 1) == TokenKind::text;
+}
+
+/// The text of the value that begins at the token, or of its first part: a number with its unit.
+std::string_view Parser::value_at(std::size_t index) const {
+  const TokenKind next = kind(index + 1);
+  const bool has_unit = kind(index) == TokenKind::number && (next == TokenKind::name || next == TokenKind::percent) &&
+                        !ends_statement(index + 1);
+  return text_.substr(token(index).begin, token(index + (has_unit ? 1 : 0)).end - token(index).begin);
+}
+
+/// `wale = 1.2 mm` and `wale 1.2 mm` in the parentheses of a call.
+std::string Parser::mend_argument() const {
+  if (at_ == 0 || kind(at_ - 1) != TokenKind::name || !begins_argument(at_ - 1)) return {};
+  const std::string_view name = spelling(token(at_ - 1));
+  if (at(TokenKind::equals) && begins_value(kind(at_ + 1)))
+    return fmt::format("arguments are named with `:`, as in `{}: {}`", name, value_at(at_ + 1));
+  if (!at(TokenKind::number)) return {};
+  const std::string named = fmt::format("`{}: {}`", name, value_at(at_));
+  if (in_origin_) return "arguments are named with `:`, as in " + named;
+  return fmt::format("to multiply, write `{} * {}`; to name an argument, {}", name, value_at(at_), named);
+}
+
+/// A material with its weight behind it, with a title that nothing weighs, or with `like` before it.
+std::string Parser::mend_origin() const {
+  if (!in_origin_ || at_ == 0 || !open_parentheses_.empty()) return {};
+  const Token& previous = token(at_ - 1);
+  if (is_like(at_)) return fmt::format("leave out `like`: write `{} {}`", spelling(previous), spelling(token(at_ + 1)));
+  if (is_like(at_ - 1)) return fmt::format("leave out `like`: write `= {}`", spelling(here()));
+  const bool is_weight = previous.kind == TokenKind::number || previous.kind == TokenKind::percent;
+  if (at(TokenKind::text) && is_weight)
+    return fmt::format("a title is weighed with `*`, as in `{} * {}`",
+                       value_at(previous.kind == TokenKind::percent && at_ > 1 ? at_ - 2 : at_ - 1), spelling(here()));
+  if (at(TokenKind::number) && previous.kind == TokenKind::name)
+    return fmt::format("the weight stands first: write `{} {}`", spelling(here()), spelling(previous));
+  return {};
+}
+
+std::vector<Fix> Parser::fix_argument() const {
+  const Span behind_name = {tree_.source, token(at_ - 1).end, here().end};
+  if (at(TokenKind::equals)) return {replace(behind_name, ":")};
+  if (in_origin_) return {insert_after(span_of(token(at_ - 1)), ":")};
+  return {insert_after(span_of(token(at_ - 1)), " *", "multiply with `*`", false)};
+}
+
+std::vector<Fix> Parser::fix_origin() const {
+  const Token& previous = token(at_ - 1);
+  const auto leave_out = [&](std::size_t like) {
+    return replace(Span{tree_.source, token(like).begin, token(like + 1).begin}, "", "leave out `like`");
+  };
+  if (is_like(at_)) return {leave_out(at_)};
+  if (is_like(at_ - 1)) return {leave_out(at_ - 1)};
+  if (at(TokenKind::text)) return {insert_after(span_of(previous), " *", "multiply with `*`")};
+  return {replace(Span{tree_.source, previous.begin, here().end},
+                  fmt::format("{} {}", spelling(here()), spelling(previous)), {}, false)};
+}
+
 /// Fixes for the cases of `mend_here` that a program can mend.
 std::vector<Fix> Parser::fixes_here() const {
   if (at_ == 0) return {};
+  if (!mend_argument().empty()) return fix_argument();
+  if (!mend_origin().empty()) return fix_origin();
   const Token& previous = token(at_ - 1);
   const Token& next = here();
   const Token& after = token(at_ + 1);
@@ -58,6 +131,7 @@ std::vector<Fix> Parser::fixes_here() const {
       if (mend_here().empty()) return {};
       // Among arguments the comma may really be meant as a comma.
       return {replace(span_of(next), ".", "write a decimal point", open_parentheses_.empty())};
+    case TokenKind::word_in: return is_inch_here() ? std::vector{replace(span_of(next), "inch")} : std::vector<Fix>{};
     case TokenKind::right_parenthesis:
       if (!open_parentheses_.empty()) return {};
       return {replace(span_of(next), "", {}, false)};

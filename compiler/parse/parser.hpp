@@ -70,6 +70,7 @@ class Parser {
   bool has_sections_below() const;
   [[gnu::cold]] void stray_statement(MaterialDecl& material, bool& misplaced);
   PerceptStatement percept_statement();
+  [[gnu::cold]] void second_percept();
   PhysicalStatement physical_statement();
   PhysicalKeyword physical_keyword();
   std::pair<Word, ExprId> definition(PhysicalKeyword keyword);
@@ -119,6 +120,14 @@ class Parser {
   [[noreturn, gnu::cold]] void grown_too_high(Span span);
 
   // parse_mend.cpp: fixes
+  bool begins_argument(std::size_t index) const;
+  bool is_inch_here() const;
+  bool is_like(std::size_t index) const;
+  std::string_view value_at(std::size_t index) const;
+  std::string mend_argument() const;
+  std::string mend_origin() const;
+  std::vector<Fix> fix_argument() const;
+  std::vector<Fix> fix_origin() const;
   std::vector<Fix> fixes_here() const;
   std::vector<Fix> insert_equals() const;
   std::vector<Fix> insert_range() const;
@@ -151,6 +160,7 @@ class Parser {
     return {spelling(taken), span_of(taken)};
   }
   Word declared_name(std::string_view declares);
+  [[gnu::cold]] Word joined_name(std::string_view declares, const Word& first);
   /// Consumes the current token if it has that kind and belongs to this statement.
   bool take(TokenKind kind) {
     if (!at(kind)) return false;
@@ -218,6 +228,7 @@ class Parser {
   bool lost_ = false;        ///< outside all declarations, which has been reported
   bool in_setting_ = false;  ///< words of evidence end a unit: `0.3 kg assumed`
   bool in_force_ = false;    ///< `limit` ends a unit: `k * 5 mm limit 2 N`
+  bool in_origin_ = false;   ///< of a material: `= 0.5 corduroy(wale: 1 mm) + 0.5 denim`
 };
 
 template <class Node>
@@ -235,7 +246,7 @@ template <class Body>
 void Parser::statement(Body body) {
   const std::size_t begin = at_;
   statement_begin_ = begin;
-  reported_ = in_setting_ = in_force_ = false;
+  reported_ = in_setting_ = in_force_ = in_origin_ = false;
   last_expression_.reset();
   open_parentheses_.clear();
   open_arguments_.clear();

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <array>
-
 namespace wale {
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-/// Whether a byte may be part of a name. A table, since nearly every byte of a file is tested.
-inline constexpr auto in_names = [] {
-  std::array<bool, 256> table{};
-  for (int c = 0; c < 128; ++c) table[c] = begins_name(static_cast<char>(c)) || is_digit(static_cast<char>(c));
-  return table;
-}();
-constexpr bool continues_name(char c) { return in_names[static_cast<unsigned char>(c)]; }
+constexpr bool continues_name(char c) { return begins_name(c) || is_digit(c); }
 
 /// Whether it is the micro sign or the Greek letter mu.
 inline bool is_micro(char32_t code) { return code == 0xB5 || code == 0x3BC; }

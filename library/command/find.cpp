@@ -101,8 +101,7 @@ Run declare_find(CLI::App& verb) {
       "or its documentation; with several, all must be there (default: lists every material)");
   verb.add_option("--kind", options->kind, "only materials of this kind, as in fabric or fabric.woven")
       ->type_name("KIND");
-  offer_library(verb, options->folders);
-  verb.get_option("--library")->description("a folder whose materials are listed too; may be repeated");
+  offer_library(verb, options->folders, "a folder whose materials are listed too; may be repeated");
   offer_json(verb, options->json, "an array with all facts about each material");
   verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
   return [options] { return find(*options); };

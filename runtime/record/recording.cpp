@@ -54,6 +54,13 @@ class RecordingReader {
     return value;
   }
 
+  /// The file is no recording at all, so there is no byte to name.
+  static Error not_a_recording(std::string sentence) {
+    return {.code = Code::damaged_file,
+            .sentence = std::move(sentence),
+            .mend = "make one with `wale feel FILE --record NAME.wrec`"};
+  }
+
   static Error damaged_at(std::size_t byte, std::string sentence, std::string mend = {}) {
     return {.code = Code::damaged_file,
             .sentence = std::move(sentence),
@@ -65,7 +72,7 @@ class RecordingReader {
   void note(std::string sentence, std::size_t byte) { problem_ = damaged_at(byte, std::move(sentence)); }
 
   Result<> read_file_header() const {
-    if (bytes_.empty()) return damaged_at(0, "the file is empty: nothing was recorded in it");
+    if (bytes_.empty()) return not_a_recording("the file is empty: nothing was recorded in it");
     const auto begins = [&](std::size_t length) {
       return std::equal(magic.begin(), magic.begin() + static_cast<std::ptrdiff_t>(length), bytes_.begin(),
                         [](std::uint8_t a, std::byte b) { return a == std::to_integer<std::uint8_t>(b); });
@@ -73,8 +80,7 @@ class RecordingReader {
     if (!begins(std::min(magic.size(), bytes_.size()))) {
       if (bytes_.size() >= 4 && begins(4))
         return damaged_at(4, "a transfer as text has damaged the recording", "copy it as binary");
-      return damaged_at(0, "this is not a recording: its first bytes are not those of a .wrec file",
-                        "make one with `wale feel FILE --record NAME.wrec`");
+      return not_a_recording("this is not a recording: its first bytes are not those of a .wrec file");
     }
     if (bytes_.size() < first_chunk)
       return damaged_at(bytes_.size(), sentence("the file is cut short within its header, at byte ", bytes_.size()),
@@ -95,7 +101,8 @@ class RecordingReader {
     std::size_t offset = first_chunk;
     for (; offset + chunk_size <= bytes_.size() && !problem_; offset += chunk_size) {
       const auto header = at<ChunkHeader>(offset);
-      if (header.kind == ChunkKind::none && all_zero(bytes_.subspan(offset, chunk_size))) continue;  // it was never begun
+      if (header.kind == ChunkKind::none && all_zero(bytes_.subspan(offset, chunk_size)))
+        continue;  // it was never begun
       auto* const chunks = header.kind == ChunkKind::ticks    ? &contents_.tick_chunks
                            : header.kind == ChunkKind::events ? &event_chunks
                                                               : nullptr;

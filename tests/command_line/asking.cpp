@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 #include "tests/command_line/running.hpp"
 
@@ -89,8 +91,47 @@ TEST(Files, InvalidTextIsADiagnostic) {
   EXPECT_EQ(wale({"check", empty}).status, 1);
   EXPECT_TRUE(contains(wale({"check", empty}).out, "W0104")) << wale({"check", empty}).out;
   EXPECT_EQ(wale({"check", binary}).status, 1);
-  EXPECT_TRUE(contains(wale({"check", binary}).out, "W0107")) << wale({"check", binary}).out;
+  EXPECT_TRUE(contains(wale({"check", binary}).out, "W0801")) << wale({"check", binary}).out;
   EXPECT_EQ(wale({"describe", binary}).status, 1);
+}
+
+TEST(Files, OfAnotherKindAreToldAsWhatTheyAre) {
+  const TemporaryFolder folder;
+  using namespace std::string_literals;
+  fs::create_directory(folder / "modules");
+  folder.write("modules/one.wale", "wale 1\n");
+  const std::string program = folder / "corduroy.wpp", recording = folder / "corduroy.wrec";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  ASSERT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", recording}).status, 0);
+  const struct {
+    std::string file, what, mend;
+  } kinds[] = {{recording, "a recording", "wale replay"},
+               {folder.write("a.png", "\x89PNG\r\n\x1a\n"), "a picture", "image("},
+               {folder.write("a.csv", "t,x,y\n0,0,0\n"), "a table", "table("},
+               {folder.write("a.wale", "\x01\x02\0\x03"s), "a binary file", "begin with `wale 1`"},
+               {folder / "modules", "a folder", "modules/one.wale`"},
+               {folder.write("empty", ""), "the end of the file", "write `wale 1`"}};
+  for (const auto& [file, what, mend] : kinds)
+    for (const std::vector<std::string>& verb :
+         std::vector<std::vector<std::string>>{{"check"},
+                                               {"format"},
+                                               {"describe"},
+                                               {"compare", corduroy},
+                                               {"feel", "--virtual-time"},
+                                               {"preview", "-o", folder / "out.png"}}) {
+      std::vector<std::string> words = verb;
+      words.push_back(file);
+      const Outcome outcome = wale(words);
+      EXPECT_EQ(outcome.status, 1) << testing::PrintToString(words);
+      for (const std::string& part : {what, mend})
+        EXPECT_TRUE(contains(outcome.out + outcome.err, part)) << part << '\n' << outcome.out << outcome.err;
+      EXPECT_FALSE(contains(outcome.out + outcome.err, "W0107")) << outcome.out << outcome.err;
+    }
+  for (const char* verb : {"check", "format"}) {
+    const Outcome outcome = wale({verb, program});
+    EXPECT_TRUE(contains(outcome.out + outcome.err, "found a patch program")) << outcome.out << outcome.err;
+    EXPECT_TRUE(contains(outcome.out + outcome.err, "the Wale file that it was built from")) << outcome.err;
+  }
 }
 
 TEST(Files, OutputsThatCannotBeWrittenAreErrors) {
@@ -160,10 +201,19 @@ TEST(Devices, IncludeTheSimulatedOneAndThoseToBuildFor) {
   EXPECT_EQ(named("sandpaper").at("rate_hz"), 900.0);
 }
 
+TEST(Devices, StandInOneColumn) {
+  std::istringstream lines(wale({"devices"}).out);
+  std::set<std::size_t> columns;
+  for (std::string line; std::getline(lines, line);)
+    for (const char* figure : {"2 axes, ", "moving mass "})
+      if (const auto at = line.find(figure); at != std::string::npos) columns.insert(at);
+  EXPECT_EQ(columns.size(), 1u) << testing::PrintToString(columns);
+}
+
 TEST(Devices, HaveTheirStepsInWholeNumbers) {
   const std::string text = wale({"devices"}).out;
-  EXPECT_TRUE(contains(text, "openffboard  2 axes, 20 N in 32767 steps")) << text;
-  EXPECT_TRUE(contains(text, "arduino_ffb  2 axes, 20 N in 10000 steps")) << text;
+  EXPECT_TRUE(contains(text, "openffboard   2 axes, 20 N in 32767 steps")) << text;
+  EXPECT_TRUE(contains(text, "arduino_ffb   2 axes, 20 N in 10000 steps")) << text;
   EXPECT_FALSE(contains(text, "e+0")) << text;
 }
 

@@ -45,6 +45,9 @@ TEST(Names, InAGivenLibraryComeBeforeShippedOnes) {
   const Outcome outcome = wale({"describe", "denim", "--library", folder / ".", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NEAR(outcome.json().at("percepts").at("roughness").at("level").get<double>(), 0.3, 1e-6);
+  for (const char* part : {"`denim` is your own `", "cloth.wale:denim`", "`library/fabric/denim.wale:denim`"})
+    EXPECT_TRUE(contains(outcome.err, part)) << part << outcome.err;
+  EXPECT_EQ(wale({"describe", "denim"}).err, "") << "there is one alone";
 }
 
 TEST(Names, OfSeveralMaterialsAreListed) {

@@ -108,8 +108,12 @@ TEST(Replay, DamagedFilesAndOtherFilesAreRefused) {
   EXPECT_TRUE(contains(outcome.err, "tick 1000 (byte " + std::to_string(at) + ") is damaged")) << outcome.err;
   EXPECT_TRUE(contains(outcome.err, "--ticks 1000")) << outcome.err;
   EXPECT_EQ(wale({"replay", damaged, "--ticks", "1000"}).status, 0);
-  EXPECT_TRUE(contains(wale({"replay", folder.write("empty.wrec", "")}).err, "the file is empty"));
-  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, "this is not a recording"));
+  const std::string empty = folder.write("empty.wrec", "");
+  EXPECT_TRUE(contains(wale({"replay", empty}).err, empty + ": the file is empty")) << "no byte of it is at fault";
+  EXPECT_TRUE(contains(wale({"replay", corduroy}).err, corduroy + ": expected a recording, found a Wale file"));
+  const std::string program = folder / "corduroy.wpp";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  EXPECT_TRUE(contains(wale({"replay", program}).err, program + ": expected a recording, found a patch program"));
   const std::string missing = folder / "none.wrec";
   EXPECT_EQ(wale({"replay", missing}).err,
             "wale: error[W0501]: " + missing + ": the file cannot be read: No such file or directory\n");

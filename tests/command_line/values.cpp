@@ -88,6 +88,7 @@ TEST(Values, EmptyTextsAreRefusedByTheirOption) {
                   {{"preview", corduroy, "-o", ""}, 2, "--output: expected"},
                   {{"sample", corduroy, "--trace", ""}, 2, "--trace: expected"},
                   {{"find", "--kind", ""}, 2, "--kind: expected"},
+                  {{"devices", "--identify", ""}, 2, "--identify: expected"},
                   {{"explain", ""}, 2, "CODE: expected"},
                   {{"levels", ""}, 2, "PERCEPT: expected"}});
 }

@@ -205,8 +205,31 @@ TEST(MaterialNames, MayBeGivenWithTheirModules) {
 
 TEST(MaterialNames, OfOtherDeclarationsSayTheirSort) {
   EXPECT_EQ(Checked("material m = softened\n", two_springs).said(),
-            "W0201 no material is called `softened`; `softened` is a function of `cloth`; to use it in an expression, "
-            "write `import cloth`");
+            "W0201 no material is called `softened`; `softened` is a function of `cloth`, and no material; to use "
+            "it, write `import cloth`");
+}
+
+TEST(Exports, OfTheLibraryComeBackWithTheirImport) {
+  const std::map<std::string, std::string> files{
+      {"own.rough", "export map roughness from amplitude {\n  name own.steep\n}\n"},
+      {"own.units", "export unit thou = 25.4 um\nexport unit hidden = 1 m\n"},
+      {"own.percepts", "export percept fizz {\n}\n"}};
+  const struct {
+    const char *text, *said;
+  } cases[] = {
+      {"material m { perceptual { roughness 0.5, by own.steep } }\n",
+       "W0201 no map for roughness is called `own.steep`; `own.steep` is a map of `own.rough`; write `import "
+       "own.rough`"},
+      {"let width = 3 thou\n",
+       "W0203 nothing declares a unit `thou`; `thou` is a unit of `own.units`; write `import own.units`"},
+      {"function f(a: length) = a / 3 thou\n",
+       "W0203 nothing declares a unit `thou`; `thou` is a unit of `own.units`; write `import own.units`"},
+      {"material m { perceptual { fizz 0.5 } }\n",
+       "W0201 nothing declares a percept `fizz`; `fizz` is a percept of `own.percepts`; write `import own.percepts`"}};
+  for (const auto& each : cases) {
+    const std::string said = Checked(each.text, files).said();
+    EXPECT_TRUE(said.starts_with(each.said)) << said;
+  }
 }
 
 TEST(MaterialNames, OnACommandLineFollowTheSameRule) {

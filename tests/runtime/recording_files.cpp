@@ -177,7 +177,8 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
     const auto bytes = std::as_bytes(std::span(text));
     return refused(Recording::read({bytes.begin(), bytes.end()}, "x"));
   };
-  EXPECT_EQ(reason(""), "the file is empty: nothing was recorded in it");
+  EXPECT_EQ(reason(""),
+            "the file is empty: nothing was recorded in it; make one with `wale feel FILE --record NAME.wrec`");
   EXPECT_EQ(reason("t (s),x (m)\n0,0\n"),
             "this is not a recording: its first bytes are not those of a .wrec file; "
             "make one with `wale feel FILE --record NAME.wrec`");
@@ -237,7 +238,8 @@ TEST(RecordingFile, OnAFullDiskTheRunContinuesAndReportsTheRecordedTicks) {
         run(stage, {.seconds = seconds, .virtual_time = virtual_time, .record_to = RecordTo{file, {}}});
     setrlimit(RLIMIT_FSIZE, &usual);
     EXPECT_EQ(done.ticks_run + done.ticks_missed, static_cast<long>(7 * ticks_per_chunk + 500));
-    if (static_cast<std::size_t>(done.ticks_run) <= 7 * ticks_per_chunk) continue;  // the machine was too busy and missed ticks
+    if (static_cast<std::size_t>(done.ticks_run) <= 7 * ticks_per_chunk)
+      continue;  // the machine was too busy and missed ticks
     ASSERT_TRUE(done.record_problem);
     EXPECT_EQ(done.record_problem->place.name, file);
     EXPECT_EQ(in_words(*done.record_problem), "the recording ends after " + std::to_string(7 * ticks_per_chunk) +

@@ -52,6 +52,21 @@ TEST(Csv, TellsOtherSeparatorsFromCommas) {
   EXPECT_EQ(complaint("x,y\n"), "");
 }
 
+TEST(Csv, FindsTheOneColumnThatIsMeant) {
+  const CsvRow headings{.line = 3, .cells = {"t (s)", "x (mm)", "y", "x (m)"}};
+  const auto called = [&](std::string_view name) {
+    return find_column(headings, name, [&](std::string_view heading) { return heading_of(heading).name == name; });
+  };
+  EXPECT_EQ(*called("t"), 0u);
+  EXPECT_EQ(*called("y"), 2u);
+  EXPECT_EQ(*called("z"), std::nullopt);
+  const auto two = called("x");
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().code, Code::unreadable_table);
+  EXPECT_EQ(two.error().place.number, 3u);
+  EXPECT_EQ(two.error().sentence, "expected one column \"x\", found two, columns 2 and 4");
+}
+
 TEST(Csv, ReadsFiniteNumbersOnly) {
   const CsvRow row{.line = 7, .cells = {"+1.5e-3", "two", "nan", "inf", "1e999", "", "0.5 mm", "-2"}};
   EXPECT_EQ(*number_in(row, 0, "x"), 1.5e-3);

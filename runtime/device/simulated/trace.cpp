@@ -82,22 +82,21 @@ std::string joined(const std::vector<std::string_view>& cells) {
 
 Result<Columns> find_columns(const CsvRow& headings) {
   Columns columns;
-  for (std::size_t number = 0; number < headings.cells.size(); ++number) {
-    const auto heading = read_heading(headings.cells[number]);
-    if (!heading) continue;
-    const auto [quantity, unit] = *heading;
-    const std::string name = in_quotes(names[quantity]);
-    if (columns[quantity]) {
-      const std::string first = std::to_string(columns[quantity]->number + 1), second = std::to_string(number + 1);
-      return unlike_csv(headings.line, "one column " + name, "two, columns " + first + " and " + second);
-    }
+  for (const Quantity quantity : {time, x, y, vx, vy}) {
+    const auto number = find_column(headings, names[quantity], [&](std::string_view text) {
+      const auto heading = read_heading(text);
+      return heading && heading->quantity == quantity;
+    });
+    if (!number) return number.error();
+    if (!*number) continue;
+    const std::string_view unit = read_heading(headings.cells[**number])->unit;
     const std::optional<double> in_si = size_of(unit, quantity);
     if (!in_si) {
       std::string known;
       for (const Unit& one : units_of(quantity)) known += (known.empty() ? "" : ", ") + std::string(one.name);
-      return unlike_csv(headings.line, "column " + name + " in one of " + known, in_quotes(unit));
+      return unlike_csv(headings.line, "column " + in_quotes(names[quantity]) + " in one of " + known, in_quotes(unit));
     }
-    columns[quantity] = Column{number, *in_si};
+    columns[quantity] = Column{**number, *in_si};
   }
   for (const Quantity quantity : {time, x, y}) {
     if (!columns[quantity]) {

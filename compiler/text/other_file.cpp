@@ -1,0 +1,66 @@
+#include "compiler/text/other_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_view_literals;
+
+struct Beginning {
+  std::string_view bytes;
+  OtherFile file;
+};
+
+constexpr OtherFile picture{"a picture", "a Wale file shows it by `image(\"FILE.png\", …)`"};
+constexpr OtherFile archive{"an archive", "unpack it, and name a Wale file from it"};
+constexpr OtherFile table{"a table", "a Wale file reads it by `table(\"FILE.csv\", …)`"};
+constexpr OtherFile binary{"a binary file", "Wale files are plain text and begin with `wale 1`"};
+
+constexpr Beginning beginnings[] = {
+    {"\x89WPP"sv, {"a patch program", "name the Wale file that it was built from"}},
+    {"\x89WRC"sv, {"a recording", "`wale replay` reads it"}},
+    {"\x89PNG"sv, picture},
+    {"\xff\xd8\xff"sv, picture},
+    {"II*\0"sv, picture},
+    {"MM\0*"sv, picture},
+    {"GIF8"sv, picture},
+    {"PK\x03\x04"sv, archive},
+    {"\x1f\x8b"sv, archive},
+    {"%PDF"sv, {"a PDF document", binary.mend}},
+    {"\x7f\x45LF"sv, {"a program", binary.mend}},
+};
+
+/// A NUL byte shows so early that a file is no text.
+constexpr std::size_t looked_at = 4096;
+
+}  // namespace
+
+std::optional<OtherFile> other_file(std::string_view name, std::string_view bytes) {
+  for (const Beginning& each : beginnings)
+    if (bytes.starts_with(each.bytes)) return each.file;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::string_view text = bytes;
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (text.starts_with("wale")) return std::nullopt;
+  if (name.ends_with(".csv")) return table;
+  if (bytes.substr(0, looked_at).find('\0') != std::string_view::npos) return binary;
+  return std::nullopt;
+}
+
+std::string mend_of_path(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return "name the path of a Wale file";
+  std::string first;
+  for (fs::directory_iterator each(path, error), end; !error && each != end; each.increment(error)) {
+    const std::string file = (fs::path(path) / each->path().filename()).string();
+    if (file.ends_with(".wale") && (first.empty() || file < first)) first = file;
+  }
+  return first.empty() ? "name a Wale file" : fmt::format("name a Wale file in it, as in `{}`", first);
+}
+
+}  // namespace wale
