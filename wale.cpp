@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,6 +92,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const int refusal = app.exit(error);  // the codes of CLI11 itself are above 100
     return refusal == done || refusal == refused ? refusal : misused;
+  } catch (const std::exception& error) {  // thrown on the way here, it has let every device go
+    fmt::print(stderr, "wale: ended by an error that nothing handles: {}; please report what led to it\n", error.what());
+    return refused;
   }
   return status;
 }

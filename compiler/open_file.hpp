@@ -18,6 +18,7 @@ struct FileRequest {
   std::string device = default_device;
   std::vector<std::string> roots;                  ///< the last folders that are searched for imports
   std::vector<std::string>* looked_for = nullptr;  ///< receives the paths of all imports and images, found or not
+  Sandbox sandbox = Sandbox::required;             ///< of the decoder of its pictures
 };
 
 /// The content of such a file.

@@ -114,6 +114,8 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
                           : "used as " + name);
   }
   if (!device.transport.empty()) line("driven by " + device.transport);
+  if (!device.can.empty() && !device.driver->left_alone.empty())
+    line(fmt::format("if Wale and its keeper are killed together, it {}", device.driver->left_alone));
   if (!device.held_by.empty()) line(fmt::format("in use by {}", fmt::join(device.held_by, ", ")));
   if (!device.can.empty() && device.processes_hidden > 0)
     line(fmt::format("perhaps in use by others: this user may not see the files of {} processes",
@@ -135,6 +137,7 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Dec
           {"generic", match.is_generic},
           {"can", device.can},
           {"transport", device.transport},
+          {"left_alone", device.driver->left_alone},
           {"held_by", device.held_by},
           {"processes_hidden", device.processes_hidden},
           {"obstacle", device.obstacle ? in_words(*device.obstacle) : ""}};

@@ -151,7 +151,7 @@ Run declare_devices(CLI::App& verb) {
              "how --identify drives it, where its driver knows several ways")
       ->needs(identifies);
   verb.footer("for example: wale devices --json; wale devices --identify > devices.wale");
-  return [options, identifies] { return identifies->count() > 0 ? identify(*options) : list_devices(*options); };
+  return [options, identifies] { return identifies->count() > 0 ? status_after_signals(identify(*options)) : list_devices(*options); };
 }
 
 }  // namespace

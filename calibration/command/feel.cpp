@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -138,19 +139,33 @@ class Watching {
   Watching(const FeelOptions& options, const Choice& built, Stage& stage, const Program& felt, bool live)
       : watch_(built, stage, felt,
                [live](const std::string& said) { fmt::print(stderr, "{}{}", live ? "\r\033[K" : "", said); }) {
-    if (!options.watch) return;
-    thread_ = std::thread([this] {
-      while (!over_) watch_.attend(std::chrono::milliseconds(100));
-    });
+    if (options.watch) thread_ = std::thread([this] { attend(); });
   }
-  ~Watching() {
+  ~Watching() { end(); }
+
+  /// Ends it, and throws what ended it before, if anything did.
+  void finish() {
+    end();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void attend() {
+    try {
+      while (!over_) watch_.attend(std::chrono::milliseconds(100));
+    } catch (...) {  // whatever it is, the device is let go before anybody says so
+      failure_ = std::current_exception();
+      ask_to_stop();
+    }
+  }
+  void end() {
     over_ = true;
     if (thread_.joinable()) thread_.join();
   }
 
- private:
   MaterialWatch watch_;
   std::atomic<bool> over_ = false;
+  std::exception_ptr failure_;
   std::thread thread_;
 };
 
@@ -202,8 +217,10 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
       fmt::print(stderr, "\r{}", progress_line(now, vibrates));
     };
   const auto result = [&] {
-    const Watching watching(options, built, stage, material.program, live);
-    return stage.run(run);
+    Watching watching(options, built, stage, material.program, live);
+    auto ran = stage.run(run);
+    watching.finish();
+    return ran;
   }();
   if (live) fmt::print(stderr, "\r\033[K");
   if (!result) return refuse(result.error());
@@ -289,7 +306,7 @@ int feel(const FeelOptions& options) {
                         "give its length, as in `--seconds \"5 s\"`, or leave out --virtual-time",
                         {.name = "--seconds"}});
   const std::atomic<bool>& stop = stop_on_signals();
-  return options.blind ? feel_blind(options, stop) : feel_one(options, stop);
+  return status_after_signals(options.blind ? feel_blind(options, stop) : feel_one(options, stop));
 }
 
 void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {

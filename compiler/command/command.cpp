@@ -89,7 +89,10 @@ void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const 
 }
 
 FileRequest Choice::request() const {
-  return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY")), inputs.get()};
+  return {.file = file,
+          .device = device,
+          .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
+          .sandbox = sandbox};
 }
 
 void say_taken(const OpenedFile& opened) {

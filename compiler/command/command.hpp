@@ -41,6 +41,7 @@ struct Choice {
   std::vector<std::string> folders;  ///< folders to search for imports
   /// All files that were read for it, and for its copies.
   std::shared_ptr<InputFiles> inputs = std::make_shared<InputFiles>();
+  Sandbox sandbox = Sandbox::required;  ///< of the decoder of its pictures
 
   FileRequest request() const;
 };

@@ -11,6 +11,7 @@
 
 #include "runtime/device/plugged_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
+#include "runtime/keeper/keeper.hpp"
 #include "schema/device_profile.hpp"
 #include "schema/result.hpp"
 
@@ -56,6 +57,8 @@ struct DeviceOptions {
   /// An open file of the device that a portal or a broker handed over; -1: none. The caller owns it until opening
   /// succeeds, then the device does. It is used once: a device that was lost and comes back is opened by its driver.
   int descriptor = -1;
+  /// The program that lets the device go when this process cannot; every driver of a device that can hurt starts one.
+  KeeperOptions keeper = {};
 };
 
 /// One driver: how it finds its devices, and how it opens one. Choosing, listing, identifying and opening go through
@@ -74,6 +77,8 @@ struct Driver {
                        const DeviceOptions& options);
   /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty if there is only one.
   std::span<const std::string_view> transports = {};
+  /// What its devices do when this process and their keepers die together, for a person; empty where nothing pushes.
+  std::string_view left_alone = {};
 };
 
 using Drivers = std::span<const Driver* const>;

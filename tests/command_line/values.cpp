@@ -97,7 +97,7 @@ TEST(Values, UnknownNamesAreRefused) {
   expect_refused(
       {{{"describe", "brick:"}, 1, "after its colon"},
        {{"compare", "denim:", "velvet"}, 1, "after its colon"},
-       {{"describe", corduroy + ":corduroy", "--material", "other"}, 1, "names `corduroy`, and --material `other`"},
+       {{"describe", corduroy + ":corduroy", "--material", "other"}, 1, "names `corduroy`, but --material names `other`"},
        {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
        {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},
        {{"describe", "std"}, 1, "`wale find --kind std`"},
@@ -125,8 +125,8 @@ TEST(Values, APatchProgramKeepsItsDeviceAndMaterial) {
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
   expect_refused({{{"describe", program, "--device", "falcon"}, 1, "built for `sandpaper`"},
                   {{"feel", program, "--virtual-time", "--built-for", "falcon"}, 1, "built for `sandpaper`"},
-                  {{"describe", program, "--material", "x"}, 1, "holds `corduroy` alone"},
-                  {{"describe", program + ":x"}, 1, "holds `corduroy` alone"},
+                  {{"describe", program, "--material", "x"}, 1, "holds only `corduroy`"},
+                  {{"describe", program + ":x"}, 1, "holds only `corduroy`"},
                   {{"describe", program, "--exports"}, 1, "built for `sandpaper`"},
                   {{"build", program, "-o", folder / "d.wpp"}, 1, "built for `sandpaper`"}});
   EXPECT_EQ(wale({"describe", program, "--device", "sandpaper"}).status, 0);

@@ -64,7 +64,8 @@ void check_falcon() {
 
 }  // namespace wale::test
 
-/// check NAME... with the names openffboard, rhino, falcon, rates. Without a name, it runs all.
+/// check NAME...: openffboard, rhino, falcon, dying_hidraw, dying_libusb, dying_evdev, dying_falcon, rates; without one
+/// all of them.
 int main(int count, char** words) {
   using namespace wale::test;
   const std::vector<std::string> named(words + 1, words + count);
@@ -74,6 +75,7 @@ int main(int count, char** words) {
   if (named.size() == 4 && named[0] == "wale") {
     push_as_wale(*wale::read_transport_kind(named[1]), number(2), number(3));
   }
+  if (named.size() == 4 && named[0] == "push") push_until_dead(named[1], number(2), number(3));
   const auto is_meant = [&](const char* name) {
     return named.empty() || std::ranges::find(named, name) != named.end();
   };
@@ -83,6 +85,8 @@ int main(int count, char** words) {
   if (is_meant("openffboard")) check_joystick(openffboard());
   if (is_meant("rhino")) check_joystick(rhino());
   if (is_meant("falcon")) check_falcon();
+  for (const char* by : {"hidraw", "libusb", "evdev", "falcon"})
+    if (is_meant((std::string("dying_") + by).c_str())) check_dying(by);
   if (is_meant("rates")) measure_rates(openffboard());
   std::printf("all passed\n");
   return 0;

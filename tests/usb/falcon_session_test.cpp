@@ -134,9 +134,9 @@ TEST(FalconSession, WithoutCommandsTheTorqueEnds) {
   FalconBus bus(model, {});
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == State::running; }));
   bus.session.command({500, 500, 500}, bus.now);
-  for (int i = 0; i < 50; ++i) bus.frame();
+  for (int i = 0; i < 40; ++i) bus.frame();
   EXPECT_EQ(model.torques, glm::ivec3(500));
-  for (int i = 0; i < 60; ++i) bus.frame();
+  for (int i = 0; i < 20; ++i) bus.frame();
   EXPECT_EQ(model.torques, glm::ivec3(0));
   EXPECT_EQ(bus.session.counts().command_silences, 1);
   bus.session.command({7, 0, 0}, bus.now);

@@ -46,13 +46,13 @@ TEST(PidSession, SetsUpOpenFFBoardByteForByte) {
   PidBus bus(model);
   bus.settle();
   ASSERT_EQ(bus.session.state(), State::running) << bus.session.reason();
-  // tests/reference/usb_exchanges.md, OpenFFBoard, with finite durations: 250 ms, once.
+  // tests/reference/usb_exchanges.md, OpenFFBoard, with finite durations: 200 ms, once.
   EXPECT_EQ(
       model.log,
       (std::vector<std::string>{
           "GET 13", "OUT 0C 08", "OUT 0C 01", "OUT 0D FF", "SET 11 01 00 00", "GET 12", "SET 11 01 00 00", "GET 12",
-          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00", "OUT 05 01 00 00", "OUT 0A 01 01 01",
-          "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00", "OUT 05 02 00 00", "OUT 0A 02 01 01"}));
+          "OUT 01 01 01 C8 00 00 00 00 00 00 00 FF 00 04 28 23 00 00", "OUT 05 01 00 00", "OUT 0A 01 01 01",
+          "OUT 01 02 01 C8 00 00 00 00 00 00 00 FF 00 04 50 46 00 00", "OUT 05 02 00 00", "OUT 0A 02 01 01"}));
   EXPECT_EQ(bus.session.arrangement(), Arrangement::by_direction);
   EXPECT_EQ(model.wrong_reports, 0);
 }
@@ -77,9 +77,10 @@ TEST(PidSession, StopsByteForByte) {
   model.log.erase(model.log.begin(), model.log.end() - 1);
   bus.settle();
   const std::vector<std::string> leaving{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00", "OUT 0A 02 03 00",
-                                         "OUT 0C 04",       "OUT 0B 01",       "OUT 0B 02",       "OUT 0C 02"};
+                                         "OUT 0C 04",       "OUT 0B 01",       "OUT 0B 02",       "OUT 0C 08",
+                                         "OUT 0C 02"};
   ASSERT_GE(model.log.size(), leaving.size());
-  EXPECT_EQ(std::vector<std::string>(model.log.end() - 8, model.log.end()), leaving);
+  EXPECT_EQ(std::vector<std::string>(model.log.end() - 9, model.log.end()), leaving);
   EXPECT_EQ(bus.session.state(), State::over);
   EXPECT_FALSE(bus.session.was_lost());
   EXPECT_EQ(model.force(), glm::dvec2(0));
@@ -111,7 +112,7 @@ TEST(PidSession, TenThousandTicksOfEachFamily) {
     EXPECT_LE(model.outputs - before, frames);
     EXPECT_GE(model.outputs - before, 9900) << family.name;
     EXPECT_LE(std::abs(counts.forces_sent[0] - counts.forces_sent[1]), family.magnitude_maximum > 1000 ? 10 : 400);
-    EXPECT_EQ(counts.refreshes, 2 * (frames / 84)) << "each effect, each third of 250 ms, whole frames";
+    EXPECT_EQ(counts.refreshes, 2 * (frames / 67)) << "each effect, each third of 200 ms, whole frames";
     EXPECT_EQ(counts.inputs, model.inputs);
     EXPECT_EQ(counts.bad_inputs, 0);
     EXPECT_LE(bus.most_in_flight, 2u);
@@ -190,7 +191,7 @@ TEST(PidSession, TheForceEndsWhenTheLoopHangs) {
   PidBus bus(model);
   bus.settle();
   run_ticks(bus, 100, [](long) { return glm::dvec2(0.5, 0.5); });
-  for (int i = 0; i < 99; ++i) bus.frame();
+  for (int i = 0; i < 49; ++i) bus.frame();
   EXPECT_NEAR(model.force().x, 0.5, 1e-3);
   for (int i = 0; i < 6; ++i) bus.frame();
   EXPECT_EQ(model.force(), glm::dvec2(0));

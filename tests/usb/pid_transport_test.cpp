@@ -73,10 +73,10 @@ TEST(HidrawTransport, RunsFromStartToEndAndLeavesOtherEffectsAlone) {
                                           "GET 12",
                                           "SET 11 01 00 00",
                                           "GET 12",
-                                          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+                                          "OUT 01 01 01 C8 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
                                           "OUT 05 01 00 00",
                                           "OUT 0A 01 01 01",
-                                          "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+                                          "OUT 01 02 01 C8 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
                                           "OUT 05 02 00 00",
                                           "OUT 0A 02 01 01"};
   until([&] { return log_of(fake).size() >= expected.size(); });

@@ -25,6 +25,7 @@
 #include "runtime/device/shipped_devices.hpp"
 #include "runtime/stage/scheduling.hpp"
 #include "tests/temporary_folder.hpp"
+#include "tests/usb_mock/running_wale.hpp"
 #include "tests/usb_mock/usb_driver.hpp"
 #include "tests/usb_mock/usb_mock.hpp"
 #include "wale/library.hpp"
@@ -56,12 +57,12 @@ std::vector<int> pushes_in(const std::vector<std::string>& log, int block) {
 const std::vector<std::string> set_up_of_openffboard{
     "GET 13",          "OUT 0C 08",       "OUT 0C 01",
     "OUT 0D FF",       "SET 11 01 00 00", "GET 12",
-    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
-    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+    "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 C8 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+    "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 C8 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
     "OUT 05 02 00 00", "OUT 0A 02 01 01"};
 const std::vector<std::string> leave_of_openffboard{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00",
                                                     "OUT 0A 02 03 00", "OUT 0C 04",       "OUT 0B 01",
-                                                    "OUT 0B 02",       "OUT 0C 02"};
+                                                    "OUT 0B 02",       "OUT 0C 08",       "OUT 0C 02"};
 
 std::vector<std::string> first(const std::vector<std::string>& log, std::size_t count) {
   return {log.begin(), log.begin() + static_cast<long>(std::min(count, log.size()))};
@@ -89,7 +90,7 @@ class Feeling : public testing::Test {
     return *library_.material(corduroy, "", device.declared->profile.name);
   }
   std::unique_ptr<HotPluggedDevice> opened(const ChosenDevice& device) const {
-    auto result = open_device(connections_, device);
+    auto result = open_device(connections_, device, {.priority = loop_priority - 1, .keeper = {WALE_KEEPER}});
     if (!result) throw std::runtime_error(result.error().sentence);
     return *std::move(result);
   }
@@ -238,47 +239,6 @@ TEST_F(Feeling, AnUnknownStickUsesTheGenericProfileWithAWarning) {
 }
 
 // Tests of the `wale` program in its own process.
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return std::string{std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A process of `wale` with these arguments. The destructor kills it if it still runs.
-class Running {
- public:
-  explicit Running(const std::string& words) {
-    std::string shell = "/bin/sh", option = "-c";
-    std::string line = std::string("exec ") + WALE_BINARY + " " + words + " </dev/null >" + out_ + " 2>" + err_;
-    char* all[] = {shell.data(), option.data(), line.data(), nullptr};
-    if (posix_spawn(&child_, shell.c_str(), nullptr, nullptr, all, environ) != 0) throw std::runtime_error("no shell");
-  }
-  ~Running() {
-    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
-  }
-  Running(const Running&) = delete;
-  Running& operator=(const Running&) = delete;
-
-  /// Its standard error so far.
-  std::string said() const { return text_of(err_); }
-  void interrupt() const { kill(child_, SIGINT); }
-  /// Waits for the end of the process.
-  Outcome outcome() {
-    int status = 0;
-    waitpid(std::exchange(child_, 0), &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text_of(out_), text_of(err_)};
-  }
-
- private:
-  TemporaryFolder folder_;
-  std::string out_ = folder_ / "out", err_ = folder_ / "err";
-  pid_t child_ = 0;
-};
 
 Outcome run_wale(const std::string& words) { return Running(words).outcome(); }
 

@@ -115,13 +115,13 @@ TEST_F(UsbDriver, RunsFromStartToEnd) {
   ASSERT_NE(device, nullptr);
   EXPECT_EQ(device->arrangement(), hid::Arrangement::by_direction);
   EXPECT_EQ(joystick->claims, 1);
-  // tests/reference/usb_exchanges.md, OpenFFBoard, with durations of 250 ms.
+  // tests/reference/usb_exchanges.md, OpenFFBoard, with durations of 200 ms.
   const auto set_up = joystick->with_model([](PidModel& model) { return model.log; });
   const std::vector<std::string> expected{
       "GET 13",          "OUT 0C 08",       "OUT 0C 01",
       "OUT 0D FF",       "SET 11 01 00 00", "GET 12",
-      "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 FA 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
-      "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 FA 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
+      "SET 11 01 00 00", "GET 12",          "OUT 01 01 01 C8 00 00 00 00 00 00 00 FF 00 04 28 23 00 00",
+      "OUT 05 01 00 00", "OUT 0A 01 01 01", "OUT 01 02 01 C8 00 00 00 00 00 00 00 FF 00 04 50 46 00 00",
       "OUT 05 02 00 00", "OUT 0A 02 01 01"};
   ASSERT_GE(set_up.size(), expected.size());
   EXPECT_EQ(std::vector<std::string>(set_up.begin(), set_up.begin() + static_cast<long>(expected.size())), expected);
@@ -171,9 +171,9 @@ TEST_F(UsbDriver, RunsFromStartToEnd) {
 
   device.reset();
   joystick->with_model([](PidModel& model) {
-    EXPECT_EQ(std::vector<std::string>(model.log.end() - 8, model.log.end()),
+    EXPECT_EQ(std::vector<std::string>(model.log.end() - 9, model.log.end()),
               (std::vector<std::string>{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00", "OUT 0A 02 03 00",
-                                        "OUT 0C 04", "OUT 0B 01", "OUT 0B 02", "OUT 0C 02"}));
+                                        "OUT 0C 04", "OUT 0B 01", "OUT 0B 02", "OUT 0C 08", "OUT 0C 02"}));
     EXPECT_EQ(model.wrong_reports, 0);
     EXPECT_EQ(model.force(), glm::dvec2(0));
   });

@@ -293,6 +293,35 @@ int MockUsbDevice::discard(UMockdevIoctlData* argument) {
   return EINVAL;
 }
 
+/// The transfers that usbfs makes while the caller waits, as a keeper's are. They take no frame here.
+int MockUsbDevice::transfer_at_once(gulong request, UMockdevIoctlData* argument) {
+  const bool is_control = request == USBDEVFS_CONTROL;
+  UMockdevIoctlData* wanted = umockdev_ioctl_data_resolve(
+      argument, 0, is_control ? sizeof(usbdevfs_ctrltransfer) : sizeof(usbdevfs_bulktransfer), nullptr);
+  if (wanted == nullptr) return EFAULT;
+  const auto& control = *reinterpret_cast<const usbdevfs_ctrltransfer*>(wanted->data);
+  const auto& packet = *reinterpret_cast<const usbdevfs_bulktransfer*>(wanted->data);
+  const std::size_t size = is_control ? control.wLength : packet.len;
+  const std::size_t at = is_control ? offsetof(usbdevfs_ctrltransfer, data) : offsetof(usbdevfs_bulktransfer, data);
+  UMockdevIoctlData* data = size > 0 ? umockdev_ioctl_data_resolve(wanted, at, size, nullptr) : nullptr;
+  const UsbModel::Bytes out(data != nullptr ? data->data : nullptr, data != nullptr ? data->data + size : nullptr);
+  bool is_taken = false;
+  if (is_control) {
+    const auto low = [](unsigned word) { return static_cast<std::uint8_t>(word & 0xff); };
+    const auto high = [](unsigned word) { return static_cast<std::uint8_t>(word >> 8); };
+    is_taken = model_->control({control.bRequestType, control.bRequest, low(control.wValue), high(control.wValue),
+                                low(control.wIndex), high(control.wIndex), low(control.wLength), high(control.wLength)},
+                               out)
+                   .has_value();
+  } else {
+    is_taken = model_->listens(static_cast<std::uint8_t>(packet.ep)) &&
+               model_->take(static_cast<std::uint8_t>(packet.ep), out);
+  }
+  if (data != nullptr) g_object_unref(data);
+  g_object_unref(wanted);
+  return is_taken ? 0 : EPIPE;
+}
+
 int MockUsbDevice::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
   if (done_.empty()) {
     set_unserved(nullptr);
@@ -351,6 +380,8 @@ void MockUsbDevice::answer(UMockdevIoctlClient* client) {
   } else if (request == USBDEVFS_DISCARDURB) {
     error = discard(argument);
     show_whether_ready();
+  } else if (request == USBDEVFS_BULK || request == USBDEVFS_CONTROL) {
+    error = transfer_at_once(request, argument);
   } else if (request == USBDEVFS_GETDRIVER) {
     error = ENODATA;
   } else if (request != USBDEVFS_CLEAR_HALT && request != USBDEVFS_RESET && request != USBDEVFS_SETINTERFACE) {
@@ -370,7 +401,7 @@ UsbMock::UsbMock() : testbed_(umockdev_testbed_new()) {
       next = std::max(next + frame_time, std::chrono::steady_clock::now());  // late frames are not caught up
       std::this_thread::sleep_until(next);
       const std::lock_guard lock(mutex_);
-      if (in_step_ == 0 && is_served()) frame();
+      if (in_step_ == 0 && (!waits_for_drivers || is_served())) frame();
     }
   });
 }

@@ -75,6 +75,7 @@ class MockUsbDevice {
   void set_unserved(UMockdevIoctlClient* client);
   int submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   int discard(UMockdevIoctlData* argument);
+  int transfer_at_once(gulong request, UMockdevIoctlData* argument);
   int reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
   void end(const Urb& urb, int status, int length);
   static void release(const Urb& urb);
@@ -150,7 +151,10 @@ class UsbMock {
   /// does not reap the ended transfers.
   void pass_frame();
 
-  /// The number of frames since the start.
+  /// False: frames that pass by themselves wait for no driver, as those of a real device, also where it is stopped.
+  std::atomic<bool> waits_for_drivers{true};
+
+  /// Frames since the beginning.
   long frames() const { return frames_.load(); }
 
  private:

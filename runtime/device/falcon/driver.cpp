@@ -29,6 +29,7 @@ OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugge
                          const DeviceOptions& options) {
   if (!connections.usb) return connections.usb.error();
   FalconOptions wanted;
+  wanted.transport.keeper = options.keeper;
   wanted.ask = options.ask;
   wanted.stop = options.stop;
   auto opened = FalconDevice::open(*connections.usb, plugged.usb, profile, wanted);
@@ -39,6 +40,11 @@ OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugge
 }  // namespace
 
 constinit const Driver falcon_driver{
-    .name = "novint-falcon", .is_chosen_by_auto = true, .is_felt = true, .find = find_falcon, .open = open_falcon};
+    .name = "novint-falcon",
+    .is_chosen_by_auto = true,
+    .is_felt = true,
+    .find = find_falcon,
+    .open = open_falcon,
+    .left_alone = "keeps pushing until it is opened again or loses its power"};
 
 }  // namespace wale

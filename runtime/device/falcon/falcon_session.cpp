@@ -89,11 +89,7 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
     case Step::leave: command.keeps_homing = false; break;
     case Step::loop:
       if (state_ == State::running) {
-        if (!silent_ && now - commanded_ > in_microseconds(options_.command_silence)) {
-          silent_ = true;
-          torques_ = {};
-          ++counts_.command_silences;
-        }
+        if (now - commanded_ > in_microseconds(options_.command_silence)) hush();
         command.torques = torques_;
         pending_ = false;
       }
@@ -102,6 +98,7 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
     default: command.light = Light::red; break;
   }
   put(encode(command));
+  holds_force_ = command.torques != Torques{};
   ++counts_.commands_sent;
   return transfer;
 }
@@ -292,6 +289,21 @@ void FalconSession::stop() noexcept {
   const bool may_push = step_ == Step::probe || step_ == Step::probe_again || step_ == Step::loop;
   go_to(may_push && !wants_firmware_ ? Step::leave : Step::none);
   state_ = may_push && !wants_firmware_ ? State::leaving : State::over;
+}
+
+void FalconSession::give_up(std::string_view reason) noexcept {
+  if (state_ == State::over) return;
+  lost_ = true;
+  reason_ = reason;
+  go_to(Step::none);
+  state_ = State::over;
+}
+
+void FalconSession::hush() noexcept {
+  if (silent_) return;
+  silent_ = true;
+  torques_ = {};
+  ++counts_.command_silences;
 }
 
 void FalconSession::command(const Torques& torques, std::int64_t now) noexcept {

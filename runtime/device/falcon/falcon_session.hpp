@@ -17,6 +17,8 @@ constexpr std::uint16_t vendor = 0x0403, product = 0xcb48;
 constexpr std::uint8_t out_endpoint = 0x02, in_endpoint = 0x81;
 /// The size of the chip's packets; a read must not ask for more.
 constexpr std::size_t most_usb_bytes = 64;
+/// The chip's only interface.
+constexpr std::uint8_t first_interface = 0;
 
 /// A transfer that the session asks its caller to make.
 struct Transfer {
@@ -38,9 +40,10 @@ struct Transfer {
 struct FalconSessionOptions {
   /// The bytes of the user's own firmware, loaded if the device runs none. Empty: there is none.
   std::vector<std::uint8_t> firmware;
-  double command_silence = 0.1;  ///< s without a command, after which the torques become 0
-  double answer_silence = 0.03;  ///< s without an answer, after which the device is asked again
-  int most_silences = 10;        ///< in a row, after which the device is lost
+  /// s without a command after which the motors are let go: before a keeper does it for the same reason, after 0.1 s.
+  double command_silence = 0.05;
+  double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
+  int most_silences = 10;        ///< in a row; then the device is lost
 };
 
 /// What a session has done since it was made.
@@ -59,8 +62,8 @@ struct FalconSessionCounts {
 /// whole workspace. Then torques and encoder counts alternate strictly. There is no torque before all three encoders
 /// are homed, without commands, and in the last packets.
 ///
-/// The protocol has no durations, so a Falcon whose process is killed may keep pushing until it is opened again or
-/// loses its power. The first packet of a session therefore has no torque.
+/// The protocol knows no durations, so a Falcon whose process and keeper are killed together may keep pushing until it
+/// is opened again or loses its power. The first packet that it gets here is therefore without torque.
 ///
 /// One thread at a time. Times are microseconds of any steady clock.
 class FalconSession {
@@ -98,8 +101,21 @@ class FalconSession {
   /// The torques from now on. Ignored unless running. Real-time.
   void command(const Torques& torques, std::int64_t now) noexcept;
 
-  /// Sends zero torque, then ends the session. Real-time.
+  /// No command comes any more for now: no torque. Ends with the next command. Real-time.
+  void hush() noexcept;
+
+  /// Sends no torque, and ends the session then. Real-time.
   void stop() noexcept;
+
+  /// Sends nothing more: another owns the device now. `reason` outlives the session. Real-time.
+  void give_up(std::string_view reason) noexcept;
+  /// The device cannot be used any more: it is let go, and the session ends. `reason` outlives the session. Real-time.
+  void lose(std::string_view reason, Outcome outcome) noexcept;
+
+  /// Whether the newest packet to the device, on its way or taken, has torques; and whether it has taken one without,
+  /// after which none is on its way. Real-time.
+  bool holds_force() const noexcept { return holds_force_; }
+  bool is_slack() const noexcept { return !holds_force_ && !pending_ && !write_under_way_; }
 
  private:
   enum class Step : std::uint8_t {
@@ -125,7 +141,6 @@ class FalconSession {
   void answered(std::int64_t now) noexcept;
   void unanswered() noexcept;
   void go_to(Step step) noexcept;
-  void lose(std::string_view reason, Outcome outcome) noexcept;
 
   FalconSessionOptions options_;
   State state_ = State::setting_up;
@@ -138,7 +153,7 @@ class FalconSession {
   std::string_view reason_;
 
   Torques torques_{};
-  bool pending_ = false, silent_ = true;
+  bool pending_ = false, silent_ = true, holds_force_ = false;
   std::int64_t commanded_ = 0, asked_ = 0, heard_ = 0;
   AnswerReader reader_;
   std::optional<Answer> answer_;

@@ -6,12 +6,13 @@
 #include <chrono>
 #include <utility>
 
+#include "runtime/device/usb/kernel_nodes.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::uint8_t vendor_out = 0x40, first_interface = 0;
+constexpr std::uint8_t vendor_out = 0x40;
 constexpr int lane_bits = 16;
 
 std::uint64_t lane(std::int16_t number, int index) noexcept {
@@ -36,14 +37,17 @@ Result<std::unique_ptr<FalconTransport>> FalconTransport::open(std::shared_ptr<U
   int error = libusb_open(device, &handle);
   libusb_unref_device(device);
   if (error != 0) return refused(error);
-  libusb_set_auto_detach_kernel_driver(handle, 1);  // the kernel's driver for serial lines
-  error = libusb_claim_interface(handle, first_interface);
+  libusb_set_auto_detach_kernel_driver(handle, 1);  // the one for serial lines
+  error = libusb_claim_interface(handle, falcon::first_interface);
   if (error != 0) {
     libusb_close(handle);
     return refused(error);
   }
+  const std::optional<KeeperOptions> keeper = options.keeper;
   std::unique_ptr<FalconTransport> transport(new FalconTransport(std::move(context), handle, std::move(options)));
   transport->wait_until_set_up();
+  if (transport->was_lost()) return transport;
+  if (Result<> kept = transport->get_keeper(keeper); !kept) return std::move(kept).error();
   return transport;
 }
 
@@ -75,9 +79,51 @@ FalconTransport::~FalconTransport() {
     }
     changed_.wait(lock, [&] { return is_idle(); });
   }
-  libusb_release_interface(handle_, first_interface);
+  keeper_.reset();  // now that nothing is sent any more
+  libusb_release_interface(handle_, falcon::first_interface);
   libusb_close(handle_);
   for (const Slot& slot : slots_) libusb_free_transfer(slot.usb);
+}
+
+/// While the device pushes nothing yet. The keeper sends two packets without torque, in case that the first one meets
+/// half of another.
+Result<> FalconTransport::get_keeper(const std::optional<KeeperOptions>& options) {
+  if (!options) return {};
+  LetGoPlan plan;
+  plan.node = LetGoPlan::Node::usbfs;
+  plan.interface = falcon::first_interface;
+  libusb_device* const device = libusb_get_device(handle_);
+  plan.set_path(usbfs_node(libusb_get_bus_number(device), libusb_get_device_address(device)));
+  const falcon::Packet none = falcon::encode({.keeps_homing = false});
+  for (int i = 0; i < 2; ++i) {
+    plan.add({.way = LetGoStep::Way::packet, .endpoint = falcon::out_endpoint}, none);
+  }
+  auto keeper = Keeper::start(plan, -1, *options);
+  if (!keeper) return std::move(keeper).error();
+  const std::lock_guard lock(mutex_);
+  keeper_ = *std::move(keeper);
+  return {};
+}
+
+/// Before packets are made. Under the lock.
+void FalconTransport::heed_keeper() {
+  if (!keeper_) return;
+  const Keeper::Verdict verdict = keeper_->look();
+  switch (verdict) {
+    case Keeper::Verdict::good: break;
+    case Keeper::Verdict::late: session_.hush(); break;
+    case Keeper::Verdict::slept:
+    case Keeper::Verdict::gone: session_.lose(keeper_->why(verdict), Outcome::failed); break;
+    case Keeper::Verdict::latched: session_.give_up(keeper_->why(verdict)); break;
+  }
+}
+
+/// The last look before a packet goes.
+bool FalconTransport::may_go(bool pushes) const noexcept {
+  if (!keeper_) return true;
+  if (pushes) keeper_->note_push();
+  const Keeper::Verdict verdict = keeper_->look();
+  return verdict == Keeper::Verdict::good || (verdict != Keeper::Verdict::latched && !pushes);
 }
 
 void FalconTransport::wait_until_set_up() {
@@ -94,6 +140,7 @@ bool FalconTransport::wait_until_homed(double seconds) {
 }
 
 void FalconTransport::command(const falcon::Torques& torques) noexcept {
+  if (keeper_) keeper_->beat();  // first: a torque that is sent is then watched over
   // Only one thread commands, so nobody else changes the number.
   const auto number =
       static_cast<std::uint16_t>(static_cast<std::uint16_t>(number_in(wanted_.load(std::memory_order_relaxed), 3)) + 1);
@@ -131,7 +178,15 @@ void FalconTransport::pump() {
     taken_ = number;
     session_.command({number_in(wanted, 0), number_in(wanted, 1), number_in(wanted, 2)}, now_());
   }
-  while (const auto transfer = session_.next(now_())) submit(*transfer);
+  heed_keeper();
+  while (const auto transfer = session_.next(now_())) {
+    if (may_go(transfer->kind == falcon::Transfer::Kind::write && session_.holds_force())) {
+      submit(*transfer);
+    } else {
+      session_.finish(*transfer, Outcome::failed, {}, now_());
+    }
+  }
+  if (keeper_ && session_.is_slack()) keeper_->note_slack();
   publish();
 }
 

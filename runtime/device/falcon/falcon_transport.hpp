@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "runtime/device/falcon/falcon_session.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
+#include "runtime/keeper/keeper.hpp"
 #include "schema/result.hpp"
 
 struct libusb_device_handle;
@@ -27,6 +29,8 @@ class FalconTransport {
     unsigned timeout = 50;                    ///< ms, of each packet
     unsigned set_up_timeout = 1000;           ///< ms, of each control request
     MicrosecondClock now = microseconds_now;  ///< measures silences and the handle's speed
+    /// The keeper that watches; none: nobody does, as for models of devices. A device that can hurt has one.
+    std::optional<KeeperOptions> keeper = {};
   };
 
   /// Claims the device and sets it up as far as homing; takes some seconds if it has no firmware yet. The error says
@@ -42,7 +46,8 @@ class FalconTransport {
   /// whether they have.
   bool wait_until_homed(double seconds);
 
-  /// Sets the torques; newer ones replace them. Ignored before it is homed. Real-time: one atomic store.
+  /// Sets the torques; newer ones replace them. Ignored before it is homed. Tells the keeper that the loop ticks.
+  /// Real-time: reads the clock, two atomic stores.
   void command(const falcon::Torques& torques) noexcept;
 
   struct Seen {
@@ -74,6 +79,9 @@ class FalconTransport {
 
   FalconTransport(std::shared_ptr<UsbContext> context, libusb_device_handle* handle, Options options);
   void wait_until_set_up();
+  Result<> get_keeper(const std::optional<KeeperOptions>& options);
+  void heed_keeper();
+  bool may_go(bool pushes) const noexcept;
   void pump();
   void submit(const falcon::Transfer& transfer);
   void ended(Slot& slot);
@@ -84,6 +92,8 @@ class FalconTransport {
   libusb_device_handle* handle_;
   unsigned timeout_, set_up_timeout_;
   MicrosecondClock now_;
+
+  std::unique_ptr<Keeper> keeper_;  // set before anything is commanded; null: nobody watches
 
   mutable std::mutex mutex_;  // guards all below that is not atomic; the real-time thread never takes it
   std::condition_variable changed_;

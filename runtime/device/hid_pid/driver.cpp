@@ -104,6 +104,7 @@ OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugg
   if (!connections.usb) return connections.usb.error();
   HidPidDevice::Options wanted;
   wanted.priority = options.priority;
+  wanted.keeper = options.keeper;
   if (!options.transport.empty()) {
     wanted.transport = read_transport_kind(options.transport);
     if (!wanted.transport) {
@@ -127,6 +128,7 @@ constinit const Driver hid_pid_driver{.name = "hid-pid",
                                       .is_felt = true,
                                       .find = find_hid_pid,
                                       .open = open_hid_pid,
-                                      .transports = pid_transport_names};
+                                      .transports = pid_transport_names,
+                                      .left_alone = "lets go within 0.2 s, if it honours durations"};
 
 }  // namespace wale

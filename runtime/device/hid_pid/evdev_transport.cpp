@@ -83,6 +83,7 @@ Result<std::unique_ptr<PidTransport>> EvdevTransport::open(EvdevNode node, const
                                                            const PidTransportOptions& options) {
   std::unique_ptr<EvdevTransport> transport(new EvdevTransport(std::move(node), limits, options));
   if (Result<> ready = transport->set_up(); !ready) return std::move(ready).error();
+  if (Result<> kept = transport->get_keeper(options.keeper); !kept) return std::move(kept).error();
   transport->start_threads(options.priority);
   return transport;
 }
@@ -145,6 +146,7 @@ Result<> EvdevTransport::set_up_positions() {
 }
 
 Result<> EvdevTransport::upload(std::size_t effect) {
+  if (!may_go(effects_[effect].u.constant.level != 0)) return Error{Code::lost_device, "its keeper has it"};
   if (node_.call(EVIOCSFF, &effects_[effect]) >= 0) return {};
   if (errno == ENOSPC) {
     return Error{Code::unusable_device, "it has no room for an effect: another program may hold them",
@@ -177,6 +179,31 @@ bool EvdevTransport::tell(std::uint16_t code, std::int32_t value) {
   return write(node_.descriptor(), &event, sizeof event) == static_cast<ssize_t>(sizeof event);
 }
 
+/// While the effects play without force.
+Result<> EvdevTransport::get_keeper(const std::optional<KeeperOptions>& options) {
+  if (!options) return {};
+  LetGoPlan plan;
+  plan.node = LetGoPlan::Node::evdev;
+  for (const auto way : {LetGoStep::Way::stop, LetGoStep::Way::erase}) {
+    for (std::size_t i = 0; i < effects(); ++i) plan.add({.way = way, .effect = effects_[i].id});
+  }
+  auto keeper = Keeper::start(plan, node_.descriptor(), *options);
+  if (!keeper) return std::move(keeper).error();
+  set_keeper(*std::move(keeper));
+  return {};
+}
+
+/// The last look before the kernel's driver is told something. False: nothing may go, or the node is lost.
+bool EvdevTransport::may_go(bool pushes) {
+  if (!keeper()) return true;
+  if (pushes) keeper()->note_push();
+  const Keeper::Verdict verdict = keeper()->look();
+  const bool is_late = verdict == Keeper::Verdict::late;
+  if (verdict == Keeper::Verdict::good || (is_late && !pushes)) return true;
+  if (!is_late) lose(keeper()->why(verdict).data());
+  return false;
+}
+
 void EvdevTransport::start_threads(int priority) {
   reader_ = std::thread([this] { read_positions(); });
   writer_ = std::thread([this] { write_forces(); });
@@ -191,7 +218,8 @@ EvdevTransport::~EvdevTransport() {
   if (writer_.joinable()) writer_.join();
   const std::uint64_t one = 1;
   if (write(ends_reading_.get(), &one, sizeof one) > 0 && reader_.joinable()) reader_.join();
-  for (std::size_t i = 0; i < effects_.size(); ++i) {
+  const bool is_taken = keeper() && keeper()->look() == Keeper::Verdict::latched;
+  for (std::size_t i = 0; i < effects_.size() && !is_taken; ++i) {
     if (effects_[i].id < 0) continue;
     effects_[i].u.constant.level = 0;
     node_.call(EVIOCSFF, &effects_[i]);
@@ -231,8 +259,12 @@ void EvdevTransport::write_forces() {
       const std::lock_guard lock(mutex_);
       ++counts_.silences;
     }
-    if (was_lost()) return;
-    if (write_next(now)) sleep_microseconds(pace_);
+    if (was_lost() || !may_go(false)) return;
+    if (write_next(now)) {
+      sleep_microseconds(pace_);
+    } else if (keeper() && !pending_ && is_level()) {
+      keeper()->note_slack();
+    }
   }
 }
 
@@ -259,6 +291,11 @@ bool EvdevTransport::write_next(std::int64_t now) {
   }
   pending_ = false;
   return false;
+}
+
+/// Whether the kernel's driver has been told that no effect pushes.
+bool EvdevTransport::is_level() const noexcept {
+  return effects_[0].u.constant.level == 0 && effects_[1].u.constant.level == 0;
 }
 
 /// Plays an effect again before its time is over. The kernel takes this for an effect that was erased too, so the

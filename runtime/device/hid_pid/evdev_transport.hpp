@@ -47,7 +47,8 @@ class EvdevNode {
 ///
 /// An update returns before its report has been sent, and the driver queues up to 256 reports, old forces before new
 /// ones. It does not report when one has been sent, so updates are paced below the rate at which the device takes
-/// reports. When the node is closed, also by a kill, the kernel erases the effects.
+/// reports. When the last descriptor of the open file is closed, also by a kill, the kernel erases the effects; the
+/// keeper has one too, and erases them itself.
 ///
 /// The kernel tells little about other programs:
 /// - It refuses the next update of an effect that was erased through another descriptor of the same open file. Each
@@ -87,10 +88,13 @@ class EvdevTransport final : public PidTransport {
   bool update(std::size_t effect);
   bool tell(std::uint16_t code, std::int32_t value);
   void start_threads(int priority);
+  Result<> get_keeper(const std::optional<KeeperOptions>& options);
 
+  bool may_go(bool pushes);
   void write_forces();
   bool write_next(std::int64_t now);
   bool refresh(std::int64_t now);
+  bool is_level() const noexcept;
   bool turn_and_push();
   std::int64_t level_of(double magnitude) const noexcept;
   void read_positions();

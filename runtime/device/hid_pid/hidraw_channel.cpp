@@ -86,6 +86,19 @@ hid::HidInterface HidrawChannel::interface() const noexcept {
   return {0, static_cast<std::uint16_t>(node_.report_descriptor().size()), true};
 }
 
+LetGoPlan HidrawChannel::let_go_plan(const hid::PidSession::Leaving& leaving) const {
+  LetGoPlan plan;
+  plan.node = LetGoPlan::Node::hidraw;
+  for (std::size_t i = 0; i < leaving.size; ++i) {
+    std::vector<std::uint8_t> report;
+    if (!node_.has_ids()) report.push_back(0);
+    const auto data = leaving.packets[i].view();
+    report.insert(report.end(), data.begin(), data.end());
+    plan.add({.way = LetGoStep::Way::report, .is_farewell = i >= leaving.farewell}, report);
+  }
+  return plan;
+}
+
 Outcome HidrawChannel::submit(const hid::Transfer& transfer, bool) noexcept {
   const std::lock_guard lock(mutex_);
   if (closes_ || count_ == waiting_.size()) return Outcome::failed;
@@ -125,7 +138,7 @@ void HidrawChannel::make_transfers() {
       --count_;
     }
     std::span<const std::uint8_t> answer;
-    const Outcome outcome = make(transfer, answer);
+    const Outcome outcome = listener_.may_go(transfer) ? make(transfer, answer) : Outcome::failed;
     listener_.ended(transfer, outcome, answer);
   }
 }

@@ -49,6 +49,8 @@ class HidrawChannel final : public ReportChannel {
   void close() override;
   int most_under_way() const noexcept override { return 1; }
   hid::HidInterface interface() const noexcept override;
+  LetGoPlan let_go_plan(const hid::PidSession::Leaving& leaving) const override;
+  int descriptor() const noexcept override { return node_.descriptor(); }
 
  private:
   void make_transfers();

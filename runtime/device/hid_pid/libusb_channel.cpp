@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/device/usb/kernel_nodes.hpp"
+
 namespace wale {
 namespace {
 
@@ -94,6 +96,28 @@ void LibusbChannel::add_slot(bool is_input, std::size_t bytes) {
 hid::HidInterface LibusbChannel::interface() const noexcept {
   const UsbHidInterface& described = interface_.description();
   return {described.number, described.report_descriptor_bytes, described.out_endpoint != 0};
+}
+
+LetGoPlan LibusbChannel::let_go_plan(const hid::PidSession::Leaving& leaving) const {
+  const UsbHidInterface& described = interface_.description();
+  LetGoPlan plan;
+  plan.node = LetGoPlan::Node::usbfs;
+  plan.interface = described.number;
+  libusb_device* const device = libusb_get_device(interface_.handle());
+  plan.set_path(usbfs_node(libusb_get_bus_number(device), libusb_get_device_address(device)));
+  for (std::size_t i = 0; i < leaving.size; ++i) {
+    const auto data = leaving.packets[i].view();
+    // SET_REPORT of an output report (HID 1.11, section 7.2.2), where the endpoint takes none.
+    plan.add({.way = LetGoStep::Way::packet,
+              .endpoint = described.out_endpoint,
+              .request_type = 0x21,
+              .request = 9,
+              .value = static_cast<std::uint16_t>(0x0200 | (leaving.have_ids ? data.front() : 0)),
+              .index = described.number,
+              .is_farewell = i >= leaving.farewell},
+             data);
+  }
+  return plan;
 }
 
 Outcome LibusbChannel::submit(const hid::Transfer& transfer, bool is_setting_up) noexcept {

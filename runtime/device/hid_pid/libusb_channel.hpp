@@ -32,6 +32,8 @@ class LibusbInterface {
 
   libusb_device_handle* handle() const noexcept { return handle_; }
   const UsbHidInterface& description() const noexcept { return interface_; }
+  /// Of its usbfs node; -1 where libusb opened that and keeps it to itself.
+  int descriptor() const noexcept { return descriptor_.get(); }
 
  private:
   LibusbInterface(std::shared_ptr<UsbContext> context, OwnedDescriptor descriptor, libusb_device_handle* handle,
@@ -56,6 +58,8 @@ class LibusbChannel final : public ReportChannel {
   void close() override;
   int most_under_way() const noexcept override { return most_outputs_; }
   hid::HidInterface interface() const noexcept override;
+  LetGoPlan let_go_plan(const hid::PidSession::Leaving& leaving) const override;
+  int descriptor() const noexcept override { return interface_.descriptor(); }
 
  private:
   /// A libusb transfer of our own with its buffer; there is a fixed number of them.

@@ -80,7 +80,8 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
       return get_report(feature_report, layout_->pool, purpose);
     case Step::reset:
       if (!options_.resets) return std::nullopt;
-      return control(layout_->device_control.reset);
+      // One that knows no reset may still play what a process has left that was killed.
+      return control(layout_->device_control.reset ? layout_->device_control.reset : layout_->device_control.stop_all);
     case Step::enable: return control(layout_->device_control.enable_actuators);
     case Step::gain:
       if (!layout_->device_gain) return std::nullopt;
@@ -99,7 +100,11 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
     case Step::leave_free:
       if (!layout_->block_free) return std::nullopt;
       return output(encode_block_free(*layout_, blocks_[effect_]), purpose);
-    case Step::leave_disable:
+    case Step::leave_reset:
+      if (options_.is_shared) return std::nullopt;
+      return control(layout_->device_control.reset);
+    case Step::leave_disable:  // last, because a reset enables the actuators (PID 1.0, section 5.7), and some devices
+                               // then centre themselves
       if (options_.is_shared) return std::nullopt;
       return control(layout_->device_control.disable_actuators);
     case Step::run:
@@ -143,8 +148,9 @@ void PidSession::advance(std::int64_t now) noexcept {
       break;
     case Step::leave_zero: each(Step::leave_zero, Step::leave_stop); break;
     case Step::leave_stop: each(Step::leave_stop, Step::leave_stop_all); break;
-    case Step::leave_stop_all: step_ = created_ > 0 ? Step::leave_free : Step::leave_disable; break;
-    case Step::leave_free: each(Step::leave_free, Step::leave_disable); break;
+    case Step::leave_stop_all: step_ = created_ > 0 ? Step::leave_free : Step::leave_reset; break;
+    case Step::leave_free: each(Step::leave_free, Step::leave_reset); break;
+    case Step::leave_reset: step_ = Step::leave_disable; break;
     case Step::leave_look: step_ = Step::leave_zero; break;
     case Step::leave_wait:
     case Step::leave_disable:
@@ -321,6 +327,33 @@ void PidSession::stop() noexcept {
   state_ = State::leaving;
   step_is_void_ = step_under_way_;
   step_ = created_ > 0 ? Step::leave_zero : Step::leave_stop_all;
+}
+
+void PidSession::give_up(std::string_view reason) noexcept {
+  if (state_ == State::over) return;
+  lost_ = true;
+  reason_ = reason;
+  why_ = Code::lost_device;
+  step_ = Step::none;
+  state_ = State::over;
+  sent_ = {};  // what the device plays now is not this session's
+  pending_ = false;
+}
+
+PidSession::Leaving PidSession::leaving() const noexcept {
+  Leaving leaving;
+  const auto add = [&](const Packet& packet) { leaving.packets[leaving.size++] = packet; };
+  const auto order = [&](const Order& which) {
+    if (which && !options_.is_shared) add(encode_device_control(*layout_, which));
+  };
+  for (std::size_t i = 0; i < created_; ++i) add(encode_constant_force(*layout_, blocks_[i], 0));
+  for (std::size_t i = 0; i < created_; ++i) add(encode_stop(*layout_, blocks_[i]));
+  order(layout_->device_control.stop_all);
+  order(layout_->device_control.disable_actuators);
+  leaving.farewell = leaving.size;
+  leaving.have_ids = layout_->set_effect.id != 0;
+  for (std::size_t i = 0; i < created_ && layout_->block_free; ++i) add(encode_block_free(*layout_, blocks_[i]));
+  return leaving;
 }
 
 Packet PidSession::turned_effect(std::size_t effect, double direction) const noexcept {

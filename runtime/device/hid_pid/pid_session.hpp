@@ -24,12 +24,15 @@ struct HidInterface {
 };
 
 struct PidSessionOptions {
-  /// s, after which a device stops by itself if no more reports reach it, as after a kill; `endless`: never. Playing
-  /// effects are started again after each third of this time.
-  double effect_duration = 0.25;
-  /// s without a command, after which the force becomes 0 and effects end by themselves.
-  double command_silence = 0.1;
-  /// s without an input report, after which the device is asked for one.
+  /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never.
+  /// Playing effects are started again each third of it.
+  /// 0.2 s is below the 0.25 s within which every device is to be free of force; the starts are 30 packets a second for
+  /// two effects, 3 % of what a full-speed endpoint takes, and a start may come 130 ms late before the force stutters.
+  double effect_duration = 0.2;
+  /// s without a command after which the force is none and effects are left to end: before a keeper takes the device for
+  /// the same reason, after 0.1 s.
+  double command_silence = 0.05;
+  /// s without an input report after which the device is asked for one.
   double input_silence = 0.1;
   /// s between questions about its axes to a device that has OpenFFBoard's report for them, one number each; 0: none.
   double telemetry_period = 0.1;
@@ -58,6 +61,7 @@ struct Transfer {
   /// Of a control transfer (USB 2.0, section 9.3); `length` bytes come in, or those of `data` go out.
   std::uint8_t request_type = 0, request = 0;
   std::uint16_t value = 0, index = 0, length = 0;
+  bool pushes = false;  ///< set by the transport: the device may push once it has this
   Packet data;
 };
 
@@ -141,10 +145,33 @@ class PidSession {
   /// Not-a-number gives no force. Ignored unless running. Real-time.
   void command(glm::dvec2 force, std::int64_t now) noexcept;
 
-  /// Sends zero force, stops and frees all effects, disables the actuators, then ends the session. Real-time.
+  /// No command comes any more for now: the force is none, and effects are left to end. Ends with the next command.
+  /// Real-time.
+  void hush() noexcept;
+
+  /// No force, all effects stopped and freed, the device reset and its actuators disabled: then the session is over.
+  /// With other users only what is its own is stopped. Real-time.
   void stop() noexcept;
 
-  /// The transport has failed: as after a transfer with that outcome. `reason` must outlive the session. Real-time.
+  /// Sends nothing more, not even to stop: another owns the device now, or its state is not known any more. Effects that
+  /// still play end with their duration. `reason` outlives the session. Real-time.
+  void give_up(std::string_view reason) noexcept;
+
+  /// Whether the newest packets to the device, on their way or taken, let it push. Real-time.
+  bool holds_force() const noexcept { return sent_[0] != 0 || sent_[1] != 0; }
+  /// Whether it has taken all that it is to take, and pushes nothing. Real-time.
+  bool is_slack() const noexcept { return !holds_force() && !pending_ && in_flight_ == 0; }
+
+  /// The packets by which another process lets the device go, in their order: those before `farewell` may be repeated,
+  /// those from there on are for when this process is dead. Call it while the session runs.
+  struct Leaving {
+    std::array<Packet, 8> packets;
+    std::size_t size = 0, farewell = 0;
+    bool have_ids = true;  ///< the first byte of each is its report's number
+  };
+  Leaving leaving() const noexcept;
+
+  /// The transport has failed: as after a transfer with that outcome. `reason` outlives the session. Real-time.
   void lose(std::string_view reason, Outcome outcome) noexcept;
   void lose(std::string_view reason, Outcome outcome, Code why) noexcept;
 
@@ -167,6 +194,7 @@ class PidSession {
     leave_stop,
     leave_stop_all,
     leave_free,
+    leave_reset,
     leave_disable,
     none
   };
@@ -192,7 +220,7 @@ class PidSession {
   void take_old_state(const DeviceState& state) noexcept;
   void take_look(std::span<const std::uint8_t> answer) noexcept;
   bool still_owns(std::span<const std::uint8_t> answer) const noexcept;
-  void dispossess() noexcept;
+  void dispossess() noexcept { give_up("another program has reset it or stopped its effects"); }
   void dispossess_for_now(std::int64_t now) noexcept;
   bool is_ours(std::uint8_t block) const noexcept;
   Packet turned_effect(std::size_t effect, double direction) const noexcept;

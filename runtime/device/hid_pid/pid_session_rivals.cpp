@@ -67,16 +67,6 @@ void PidSession::take_state(const DeviceState& state, std::int64_t now) noexcept
   refresh_at_[i] = now;
 }
 
-/// The session no longer knows the device's state, and its blocks may now belong to another program. So it sends
-/// nothing more; its own effects that still play end with their duration.
-void PidSession::dispossess() noexcept {
-  lost_ = true;
-  reason_ = "another program has reset it or stopped its effects";
-  why_ = Code::lost_device;
-  step_ = Step::none;
-  state_ = State::over;
-}
-
 /// Our effects were stopped. After a reset they are gone, and another program may get their blocks; otherwise they
 /// still take up room in the device. The session sends nothing for a while, then asks.
 void PidSession::dispossess_for_now(std::int64_t now) noexcept {

@@ -24,6 +24,14 @@ void PidSession::command(glm::dvec2 force, std::int64_t now) noexcept {
   commanded_ = now;
 }
 
+void PidSession::hush() noexcept {
+  if (state_ != State::running || silent_) return;
+  silent_ = true;
+  ++counts_.silences;
+  wanted_ = glm::dvec2(0);
+  pending_ = true;
+}
+
 void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now, bool is_old) noexcept {
   if (state_ == State::over || !layout_) return;
   if (const auto input = decode_input(*layout_, report)) {
@@ -55,12 +63,7 @@ void PidSession::receive(std::span<const std::uint8_t> report, std::int64_t now,
 }
 
 std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept {
-  if (now - commanded_ > microseconds(options_.command_silence) && !silent_) {
-    silent_ = true;
-    ++counts_.silences;
-    wanted_ = glm::dvec2(0);
-    pending_ = true;
-  }
+  if (now - commanded_ > microseconds(options_.command_silence)) hush();
   if (in_flight_ < options_.most_in_flight) {
     // An effect that is about to end comes first: this is rare, and an effect that has ended exerts no force.
     for (std::size_t i = 0; i < effects() && duration_ != endless && !silent_; ++i) {

@@ -31,9 +31,17 @@ int system_ioctl(int descriptor, unsigned long request, void* argument) {
 
 PidTransport::PidTransport() { sem_init(&commanded_, 0, 0); }
 
-PidTransport::~PidTransport() { sem_destroy(&commanded_); }
+PidTransport::~PidTransport() {
+  end_keeper();
+  sem_destroy(&commanded_);
+}
+
+void PidTransport::set_keeper(std::unique_ptr<Keeper> keeper) noexcept {
+  keeper_.store(keeper.release(), std::memory_order_release);
+}
 
 void PidTransport::command(glm::vec2 force) noexcept {
+  if (Keeper* const keeper = this->keeper()) keeper->beat();  // first: a force that is sent is then watched over
   const std::uint64_t x = std::bit_cast<std::uint32_t>(force.x), y = std::bit_cast<std::uint32_t>(force.y);
   wanted_.store(x << 32 | y, std::memory_order_release);
   sem_post(&commanded_);

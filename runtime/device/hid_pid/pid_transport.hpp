@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "runtime/device/hid_pid/pid_session.hpp"
 #include "runtime/device/usb/usb_transfers.hpp"
+#include "runtime/keeper/keeper.hpp"
 
 namespace wale {
 
@@ -42,6 +44,8 @@ struct PidTransportOptions {
   int priority = 0;
   MicrosecondClock now = microseconds_now;  ///< the clock that times refreshes and silence
   IoctlCall ioctl = system_ioctl;           ///< of hidraw and evdev
+  /// The keeper that watches; none: nobody does, as for models of devices. A device that can hurt has one.
+  std::optional<KeeperOptions> keeper = {};
 };
 
 /// The loop's view of a device that is set up and running: one thread of the transport sends the newest command,
@@ -53,8 +57,9 @@ class PidTransport {
   PidTransport(const PidTransport&) = delete;
   PidTransport& operator=(const PidTransport&) = delete;
 
-  /// The force to exert from now on, as shares -1 .. 1 of the device's full force along its own axes (y to the user). A
-  /// newer command replaces it. Real-time: allocates nothing, takes no lock, does not throw; posts a semaphore.
+  /// The force to exert from now on, of the device's full force along its own axes, each in -1 .. 1 (y to the user). A
+  /// newer command replaces it. Tells the keeper that the loop ticks. Real-time: allocates nothing, takes no lock, does
+  /// not throw; reads the clock and posts a semaphore.
   void command(glm::vec2 force) noexcept;
 
   struct Seen {
@@ -99,10 +104,17 @@ class PidTransport {
   void show(std::int64_t x, std::int64_t y, bool button) noexcept;
   void show_lost() noexcept { lost_.store(true, std::memory_order_release); }
 
+  /// Set once, before the loop commands anything; null: nobody watches. Any thread.
+  Keeper* keeper() const noexcept { return keeper_.load(std::memory_order_acquire); }
+  void set_keeper(std::unique_ptr<Keeper> keeper) noexcept;
+  /// For the end of a derived class, when nothing is sent any more.
+  void end_keeper() noexcept { delete keeper_.exchange(nullptr); }
+
  private:
   std::atomic<std::uint64_t> wanted_{0};  // two floats
   std::atomic<std::uint64_t> seen_{0};    // two numbers of 28 bits and the button
   std::atomic<bool> lost_{false}, ends_{false};
+  std::atomic<Keeper*> keeper_{nullptr};
   sem_t commanded_;
 };
 

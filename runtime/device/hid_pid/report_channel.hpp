@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "runtime/device/hid_pid/pid_session.hpp"
+#include "runtime/keeper/let_go_plan.hpp"
 
 namespace wale {
 
@@ -22,6 +23,8 @@ class ReportChannel {
     virtual void received(std::span<const std::uint8_t> report, bool is_old) = 0;
     /// No more input reports come. `reason` outlives the channel.
     virtual void silenced(std::string_view reason, Outcome outcome) = 0;
+    /// Whether a transfer that has waited may still be made. Real-time.
+    virtual bool may_go(const hid::Transfer& transfer) const noexcept = 0;
 
    protected:
     ~Listener() = default;
@@ -39,6 +42,9 @@ class ReportChannel {
   /// The greatest number of transfers under way, besides one poll.
   virtual int most_under_way() const noexcept = 0;
   virtual hid::HidInterface interface() const noexcept = 0;
+  /// How a keeper sends these packets by the same way, and the descriptor that it gets for that; -1: its plan has a path.
+  virtual LetGoPlan let_go_plan(const hid::PidSession::Leaving& leaving) const = 0;
+  virtual int descriptor() const noexcept = 0;
 };
 
 }  // namespace wale

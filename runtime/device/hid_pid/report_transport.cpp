@@ -25,6 +25,7 @@ Result<std::unique_ptr<PidTransport>> ReportTransport::open(PidTransportKind kin
                                                             const PidTransportOptions& options) {
   std::unique_ptr<ReportTransport> transport(new ReportTransport(kind, channel, options));
   if (Result<> running = transport->wait_until_running(); !running) return std::move(running).error();
+  if (Result<> kept = transport->get_keeper(options.keeper); !kept) return std::move(kept).error();
   return transport;
 }
 
@@ -59,6 +60,7 @@ ReportTransport::~ReportTransport() {
     closes_ = true;
   }
   channel_->close();
+  end_keeper();  // now that nothing is sent any more
 }
 
 /// Waits until the device runs and has sent a position, or is lost.
@@ -75,7 +77,42 @@ Result<> ReportTransport::wait_until_running() {
   return {};
 }
 
-/// Shows the loop the session's input, and the loss of the device. Under the lock.
+/// While the device pushes nothing yet.
+Result<> ReportTransport::get_keeper(const std::optional<KeeperOptions>& options) {
+  if (!options) return {};
+  LetGoPlan plan;
+  {
+    const std::lock_guard lock(mutex_);
+    plan = channel_->let_go_plan(session_.leaving());
+  }
+  auto keeper = Keeper::start(plan, channel_->descriptor(), *options);
+  if (!keeper) return std::move(keeper).error();
+  set_keeper(*std::move(keeper));
+  return {};
+}
+
+/// Before packets are made. Under the lock.
+void ReportTransport::heed_keeper() {
+  if (!keeper()) return;
+  const Keeper::Verdict verdict = keeper()->look();
+  switch (verdict) {
+    case Keeper::Verdict::good: break;
+    case Keeper::Verdict::late: session_.hush(); break;
+    case Keeper::Verdict::slept:
+    case Keeper::Verdict::gone: session_.lose(keeper()->why(verdict), Outcome::failed, Code::lost_device); break;
+    case Keeper::Verdict::latched: session_.give_up(keeper()->why(verdict)); break;
+  }
+}
+
+/// The last look before a packet goes; whoever asks is about to make the system call.
+bool ReportTransport::may_go(const hid::Transfer& transfer) const noexcept {
+  if (!keeper()) return true;
+  if (transfer.pushes) keeper()->note_push();
+  const Keeper::Verdict verdict = keeper()->look();
+  return verdict == Keeper::Verdict::good || (verdict != Keeper::Verdict::latched && !transfer.pushes);
+}
+
+/// Packs the session's input for the loop, and says when the device is lost. Under the lock.
 void ReportTransport::publish() {
   if (const auto& input = session_.input()) show(input->x, input->y, input->button);
   if (session_.was_lost()) show_lost();
@@ -97,10 +134,15 @@ void ReportTransport::write_forces() {
 /// Submits the transfers that the session asks for. Under the lock.
 void ReportTransport::pump() {
   using State = hid::PidSession::State;
-  while (const auto transfer = session_.next(now_())) {
-    const Outcome outcome = channel_->submit(*transfer, session_.state() == State::setting_up);
+  heed_keeper();
+  while (auto transfer = session_.next(now_())) {
+    transfer->pushes = session_.state() == State::running && session_.holds_force();
+    const bool may_go = this->may_go(*transfer);
+    const Outcome outcome =
+        may_go ? channel_->submit(*transfer, session_.state() == State::setting_up) : Outcome::failed;
     if (outcome != Outcome::done) session_.finish(*transfer, outcome, {}, now_());
   }
+  if (keeper() && session_.is_slack()) keeper()->note_slack();
   if (!listens_ && session_.state() == State::running) {
     listens_ = true;
     if (const Outcome outcome = channel_->listen(); outcome != Outcome::done) {

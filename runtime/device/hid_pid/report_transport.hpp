@@ -36,6 +36,9 @@ class ReportTransport final : public PidTransport, private ReportChannel::Listen
  private:
   ReportTransport(PidTransportKind kind, const Channel& channel, const PidTransportOptions& options);
   Result<> wait_until_running();
+  Result<> get_keeper(const std::optional<KeeperOptions>& options);
+  void heed_keeper();
+  bool may_go(const hid::Transfer& transfer) const noexcept override;
   void write_forces();
   void pump();
   void publish();

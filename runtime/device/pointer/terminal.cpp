@@ -2,13 +2,11 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <time.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -26,17 +24,14 @@ constexpr char pixels[] = "\033[?1016h";
 constexpr char give_back[] = "\033[?1016l\033[?1006l\033[?1003l\033[?25h\033[?1049l";
 
 // State that signal handlers read.
-std::atomic<int> taken{-1};  // the terminal's descriptor
+std::atomic<int> taken{-1};       // the terminal's descriptor
+std::atomic<int> given_back{-1};  // that of one that is to be taken again
 std::atomic<bool> in_pixels{false}, taken_again{false};
 std::atomic<bool> shows{false};       // pictures may be written
 std::atomic<bool> is_written{false};  // a picture is being written
 termios before{}, meanwhile{};
 
-constexpr int ends[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE};
-std::array<bool, std::size(ends)> is_ours{};
-bool stop_is_ours = false;
-
-/// Writes as much as possible without waiting, because a signal handler must not wait.
+/// Writes what goes at once: a signal handler must not wait.
 void put(int descriptor, const char* text, std::size_t size) noexcept {
   [[maybe_unused]] const auto written = ::write(descriptor, text, size);
 }
@@ -63,41 +58,7 @@ void show_text(int descriptor) noexcept {
   tcsetattr(descriptor, TCSANOW, &before);
 }
 
-void when_ended(int signal) {
-  if (const int descriptor = taken.exchange(-1); descriptor >= 0) show_text(descriptor);
-  raise(signal);  // with its default effect: SA_RESETHAND has removed this handler
-}
-
-void when_stopped(int) {
-  const int error = errno;
-  const int descriptor = taken.load();
-  if (descriptor >= 0) show_text(descriptor);
-  raise(SIGSTOP);
-  // some time later the process continues:
-  if (descriptor >= 0) show_picture(descriptor);
-  taken_again.store(true);
-  errno = error;
-}
-
-void when_exited() {
-  if (const int descriptor = taken.exchange(-1); descriptor >= 0) show_text(descriptor);
-}
-
-bool takes_signal(int signal, void (*handler)(int), int flags) {
-  struct sigaction old {};
-  if (sigaction(signal, nullptr, &old) != 0 || (old.sa_flags & SA_SIGINFO) != 0 || old.sa_handler != SIG_DFL) {
-    return false;
-  }
-  struct sigaction ours {};
-  ours.sa_handler = handler;
-  ours.sa_flags = flags;
-  return sigaction(signal, &ours, nullptr) == 0;
-}
-
-void gives_signal_back(int signal, void (*handler)(int)) {
-  struct sigaction now {};
-  if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == handler) ::signal(signal, SIG_DFL);
-}
+void when_exited() { give_terminal_back(); }
 
 Error no_terminal(std::string sentence) {
   return {Code::unusable_device, std::move(sentence), "run it in a terminal of its own, in the foreground"};
@@ -118,6 +79,21 @@ Result<int> opened_terminal(const std::string& path, termios& settings) {
 }
 
 }  // namespace
+
+void give_terminal_back() noexcept {
+  const int descriptor = taken.exchange(-1);
+  if (descriptor < 0) return;
+  given_back.store(descriptor);
+  show_text(descriptor);
+}
+
+void take_terminal_again() noexcept {
+  const int descriptor = given_back.exchange(-1);
+  if (descriptor < 0) return;
+  taken.store(descriptor);
+  show_picture(descriptor);
+  taken_again.store(true);
+}
 
 Result<> find_terminal(const std::string& path) {
   termios settings{};
@@ -143,10 +119,6 @@ void Terminal::take() const {
   taken_again.store(false);
   static const bool at_exit = std::atexit(when_exited) == 0;
   static_cast<void>(at_exit);
-  for (std::size_t i = 0; i < std::size(ends); ++i) {
-    is_ours[i] = takes_signal(ends[i], when_ended, static_cast<int>(SA_RESETHAND));
-  }
-  stop_is_ours = takes_signal(SIGTSTP, when_stopped, SA_RESTART);
   taken.store(descriptor_);
   show_picture(descriptor_);
   write(ask);
@@ -156,17 +128,15 @@ Terminal::Terminal(Terminal&& other) noexcept : descriptor_(other.descriptor_) {
 
 Terminal::~Terminal() {
   if (descriptor_ < 0) return;
+  int stopped = descriptor_;
+  given_back.compare_exchange_strong(stopped, -1);
   int own = descriptor_;
   if (!taken.compare_exchange_strong(own, -1)) {  // never taken, or already given back
     close(descriptor_);
     return;
   }
   show_text(descriptor_);
-  for (std::size_t i = 0; i < std::size(ends); ++i) {
-    if (is_ours[i]) gives_signal_back(ends[i], when_ended);
-  }
-  if (stop_is_ours) gives_signal_back(SIGTSTP, when_stopped);
-  tcflush(descriptor_, TCIFLUSH);  // the program must not read pending reports as typed text
+  tcflush(descriptor_, TCIFLUSH);  // movements still on their way must not count as typed
   close(descriptor_);
 }
 

@@ -7,10 +7,10 @@
 
 namespace wale::pointer {
 
-/// A terminal that reports the mouse's position and shows a picture instead of text. The terminal is restored when this
-/// object is destroyed, and when the process exits, is interrupted, crashes, or is stopped (it is taken again when the
-/// process continues). Signals that the program itself handles are left to it. Only kill -9 leaves the terminal taken;
-/// the command `reset` restores it. One object at a time in a process.
+/// A terminal that reports where the mouse is, and shows a picture instead of text. It is given back as it was when
+/// this object ends and when the process exits. It handles no signals: a program that is interrupted, is stopped or
+/// crashes gives it back by `give_terminal_back` in handlers of its own. Only kill -9 leaves the terminal taken then;
+/// `reset` mends it. One at a time in a process.
 class Terminal {
  public:
   /// Error: `unusable_device` if `path` is not a terminal that this process may use, or while another one is taken.
@@ -36,7 +36,7 @@ class Terminal {
   bool write(std::string_view text) const;
   /// Makes the terminal report the mouse's position in pixels from now on.
   void tell_pixels() const;
-  /// True once after the process has continued and has taken the terminal again: the screen and its size may differ.
+  /// True once after `take_terminal_again`: the screen and its size may have changed.
   bool was_taken_again() const;
 
  private:
@@ -44,6 +44,11 @@ class Terminal {
 
   int descriptor_;
 };
+
+/// Gives the terminal back at once, if one is taken, so that the process may end; and takes that one again, for a
+/// process that was only stopped. Both for handlers of signals: async-signal-safe.
+void give_terminal_back() noexcept;
+void take_terminal_again() noexcept;
 
 /// Whether there is a terminal at `path` that this process may use; the error says why not.
 Result<> find_terminal(const std::string& path = "/dev/tty");

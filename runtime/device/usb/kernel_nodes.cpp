@@ -85,11 +85,15 @@ HidNodes hid_nodes(std::uint8_t number, const fs::path& interface) {
 
 }  // namespace
 
+std::string usbfs_node(int bus, int address) {
+  char path[40];
+  std::snprintf(path, sizeof path, "/dev/bus/usb/%03d/%03d", bus, address);
+  return path;
+}
+
 KernelNodes kernel_nodes(const UsbDeviceInfo& info) {
   KernelNodes nodes;
-  char usbfs[40];
-  std::snprintf(usbfs, sizeof usbfs, "/dev/bus/usb/%03d/%03d", info.bus, info.address);
-  nodes.usbfs = usbfs;
+  nodes.usbfs = usbfs_node(info.bus, info.address);
   const fs::path folder = fs::path("/sys/bus/usb/devices") / info.port;
   nodes.product = line_of(folder / "product");
   for (const UsbHidInterface& interface : info.hid) {

@@ -29,6 +29,8 @@ struct KernelNodes {
   std::vector<std::string> all() const;
 };
 KernelNodes kernel_nodes(const UsbDeviceInfo& info);
+/// "/dev/bus/usb/001/004"
+std::string usbfs_node(int bus, int address);
 
 /// A program that has a node open.
 struct NodeHolder {

@@ -1,0 +1,188 @@
+// Every way to die that no handler catches, through a real kernel, while 3 N are commanded: how long the model's motors
+// push on. schema/SECURITY.md has the table.
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "runtime/device/falcon/falcon_device.hpp"
+#include "runtime/stage/scheduling.hpp"
+#include "tests/qemu/kernel_check.hpp"
+#include "tests/usb/falcon_model.hpp"
+#include "tests/usb/profiles.hpp"
+
+namespace wale::test {
+namespace {
+
+constexpr int times = 20;
+constexpr double most_milliseconds = 250;
+int late_deaths = 0;  // ways in which it took longer
+
+// What a process that pushes is told by SIGUSR1 and SIGUSR2.
+volatile sig_atomic_t is_to_crash = 0, is_to_run_away = 0;
+
+void make_real_time(int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+}
+
+std::unique_ptr<PluggedDevice> open_to_push(const Found& found, const std::string& way) {
+  if (way == "falcon") {
+    FalconOptions options;
+    options.firmware = "/tmp/firmware.bin";
+    options.transport.keeper.emplace();
+    options.transport.timeout = options.transport.set_up_timeout = patience;
+    return taken(FalconDevice::open(found.context, found.info, falcon_profile(), options));
+  }
+  HidPidDevice::Options options;
+  options.timeout = options.set_up_timeout = patience;
+  options.priority = loop_priority - 1;
+  options.transport = read_transport_kind(way);
+  options.keeper.emplace();
+  return taken(HidPidDevice::open(found.context, found.info, joystick_profile(), options));
+}
+
+pid_t keeper_now() {
+  for (const auto& each : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(each.path() / "comm");
+    std::string name;
+    if (std::getline(file, name) && name == "wale-keeper") return std::atoi(each.path().filename().c_str());
+  }
+  return 0;
+}
+
+struct Way {
+  const char* name;
+  std::function<void(pid_t owner)> die;
+};
+
+const std::vector<Way>& ways() {
+  static const std::vector<Way> all{
+      {"SIGKILL", [](pid_t owner) { ::kill(owner, SIGKILL); }},
+      {"SIGSTOP, then SIGCONT", [](pid_t owner) { ::kill(owner, SIGSTOP); }},
+      {"a crash with a core dump", [](pid_t owner) { ::kill(owner, SIGUSR1); }},
+      {"a loop that runs away", [](pid_t owner) { ::kill(owner, SIGUSR2); }},
+      {"its keeper killed", [](pid_t) { ::kill(keeper_now(), SIGKILL); }},
+      {"both killed",
+       [](pid_t owner) {
+         ::kill(keeper_now(), SIGKILL);
+         ::kill(owner, SIGKILL);
+       }}};
+  return all;
+}
+
+double milliseconds_until(const std::function<bool()>& holds, double most) {
+  const std::int64_t began = microseconds_now();
+  while (true) {
+    const double passed = static_cast<double>(microseconds_now() - began) / 1000;
+    if (holds() || passed > most) return passed;
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+}
+
+/// One death at a random moment; how many ms the force lasts, at most 2000.
+double die_once(const Way& way, const std::string& by, const UsbDeviceInfo& info, const std::function<double()>& force,
+                std::minstd_rand& random) {
+  OtherProcess owner({"push", by, std::to_string(info.vendor), std::to_string(info.product)});
+  const bool is_pushed = milliseconds_until([&] { return force() > 0; }, 60'000) < 60'000;
+  if (!is_pushed) demand(false, "it pushes before it dies");
+  std::this_thread::sleep_for(std::chrono::microseconds(random() % 40'000));
+  constexpr double long_time = 2000;
+  way.die(owner.process());
+  const double lasted = milliseconds_until([&] { return force() == 0; }, long_time);
+  if (std::string_view(way.name).starts_with("SIGSTOP")) ::kill(owner.process(), SIGCONT);
+  double most = 0;  // afterwards
+  milliseconds_until([&] { return (most = std::max(most, force())) > 0; }, 100);
+  if (lasted < long_time && most > 0) demand(false, std::string("and pushes no more after ") + way.name);
+  owner.kill();
+  milliseconds_until([&] { return keeper_now() == 0; }, 60'000);
+  std::error_code ignored;
+  for (const auto& each : std::filesystem::directory_iterator("/tmp", ignored))
+    if (each.path().filename().string().starts_with("core")) std::filesystem::remove(each.path(), ignored);
+  return lasted;
+}
+
+void die_of_all(const std::string& by, const UsbDeviceInfo& info, const std::function<double()>& force,
+                const std::function<void()>& between) {
+  std::minstd_rand random(1995);
+  for (const Way& way : ways()) {
+    std::vector<double> lasted;
+    for (int i = 0; i < times; ++i) {
+      between();
+      lasted.push_back(die_once(way, by, info, force, random));
+    }
+    std::ranges::sort(lasted);
+    const bool is_left_alone = std::string_view(way.name) == "both killed";
+    std::printf("   %-26s %-7s median %4.0f ms, most %4.0f ms of %d\n", way.name, by.c_str(), lasted[lasted.size() / 2],
+                lasted.back(), times);
+    std::fflush(stdout);
+    if (by == "falcon" && is_left_alone) continue;  // nothing in it knows that nobody speaks to it any more
+    if (lasted.back() > most_milliseconds) ++late_deaths;
+  }
+}
+
+}  // namespace
+
+void push_until_dead(const std::string& by, std::uint16_t vendor, std::uint16_t product) {
+  signal(SIGUSR1, [](int) { is_to_crash = 1; });
+  signal(SIGUSR2, [](int) { is_to_run_away = 1; });
+  const rlimit unlimited{RLIM_INFINITY, RLIM_INFINITY};
+  setrlimit(RLIMIT_CORE, &unlimited);
+  if (chdir("/tmp") != 0) std::_Exit(1);
+  std::vector<char> memory(96 << 20, 'x');  // whose dump takes its time
+  const Found found = find(vendor, product);
+  const auto device = open_to_push(found, by);
+  make_real_time(loop_priority);
+  while (device->sample().contact != Contact::lost) {
+    device->command({3, 0});
+    if (is_to_crash != 0) *static_cast<volatile char*>(nullptr) = memory[4711];
+    while (is_to_run_away != 0) {
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(1111));
+  }
+  std::printf("   %s\n", device->reason().c_str());
+  while (true) pause();
+}
+
+void check_dying(const std::string& by) {
+  std::printf("-- dying, %s\n", by.c_str());
+  make_real_time(95);  // the model's threads too: what stands for the device waits for no processor
+  late_deaths = 0;
+  if (by == "falcon") {
+    std::ofstream("/tmp/firmware.bin", std::ios::binary) << std::string(3000, 'w');
+    auto model = std::make_unique<FalconModel>();
+    model->moves = model->logs = false;
+    model->runs_firmware = true;
+    UsbipPort port(std::move(model), 1);
+    const Found found = find(falcon::vendor, falcon::product);
+    const auto force = [&] {
+      return port.with<FalconModel>([](FalconModel& each) { return std::hypot(each.force().x, each.force().y); });
+    };
+    die_of_all(by, found.info, force, [&] { port.with<FalconModel>([](FalconModel& each) { each.torques = {}; }); });
+  } else {
+    auto port = plugged(openffboard());
+    await([] { return !pushing_input().empty(); }, "the kernel's own driver binds it");
+    port->with<PidModel>([](PidModel& each) { each.logs = false; });
+    const Found found = find(openffboard().vendor, openffboard().product);
+    const auto force = [&] { return std::hypot(force_of(*port).x, force_of(*port).y); };
+    die_of_all(by, found.info, force, [] {
+      milliseconds_until([] { return !pushing_input().empty(); }, 60'000);
+    });
+  }
+  demand(late_deaths == 0, "however it dies, the force ends within 250 ms");
+}
+
+}  // namespace wale::test
