@@ -11,7 +11,7 @@
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/other_file.hpp"
-#include "compiler/text/replace_file.hpp"
+#include "compiler/text/output_file.hpp"
 
 namespace wale {
 namespace {

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -120,7 +119,7 @@ std::optional<FeltDevice> open_prepared(const FeelOptions& options, const Prepar
   FeltOptions how{.virtual_time = options.virtual_time,
                   .transport = options.transport,
                   .most_newton = options.max_force.value_or(HUGE_VAL)};
-  if (options.hand) how.hand = *options.hand;
+  if (options.hand) how.hand = *options.hand, options.choice.inputs->push_back(*options.hand);
   auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
   if (!device) return refuse(device.error()), std::nullopt;
   return *std::move(device);
@@ -191,9 +190,10 @@ RunOptions run_options(const FeelOptions& options, const RunManner& manner, cons
 /// Writes the table and the report of a finished run. Returns the exit status.
 int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt) {
   if (!options.record.empty() && !options.record.ends_with(".wrec")) {
-    std::ostringstream csv;
-    write_csv(csv, result.record);
-    if (const auto written = write_file(options.record, csv.str()); !written) return refuse(written.error());
+    auto table = OutputFile::open(options.record, *options.choice.inputs);
+    if (!table) return refuse(table.error());
+    write_csv(table->stream(), result.record);
+    if (const auto written = table->finish(); !written) return refuse(written.error());
   }
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));

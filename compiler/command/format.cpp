@@ -10,7 +10,7 @@
 
 #include "compiler/command/options.hpp"
 #include "compiler/text/other_file.hpp"
-#include "compiler/text/replace_file.hpp"
+#include "compiler/text/output_file.hpp"
 
 namespace wale::command {
 namespace {
@@ -63,7 +63,7 @@ int format_file(const std::string& file, bool check_only) {
     return changes ? refused : done;
   }
   if (standard) {
-    if (const auto written = write_file("-", *formatted); !written) return refuse(written.error());
+    if (const auto written = write_file("-", *formatted, {}); !written) return refuse(written.error());
   } else if (changes) {
     if (const auto written = replace_file(file, *formatted); !written) return refuse(written.error());
   }
