@@ -72,6 +72,7 @@ Result<ChosenDevice> device_to_identify(const std::string& asked, const Connecti
   const std::vector<DeclaredDevice> known = devices_here();
   auto chosen = choose_device({.spelling = asked.empty() ? "auto" : asked}, known, plugged_in(connections, asked));
   if (!chosen) {
+    if (chosen.error().place.name == "--device") chosen.error().place.name = "--identify";
     if (chosen.error().code == Code::absent_device) chosen.error().mend = "`wale devices` lists what is plugged in";
     return chosen;
   }
