@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 namespace wale {
 
@@ -18,25 +15,14 @@ Error unwritable(const std::string& path, std::string sentence) {
   return {.code = Code::unwritable_file, .sentence = std::move(sentence), .place = {.name = path}};
 }
 
-/// Writes a program file. If it cannot be written completely, it is removed.
-Result<> write_program(const std::string& path, const std::vector<std::byte>& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  if (!file) return unwritable(path, fmt::format("cannot write this file: {}", std::strerror(errno)));
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())).flush();
-  if (file) return {};
-  Error error = unwritable(path, fmt::format("cannot write this file: {}", std::strerror(errno)));
-  std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) fs::remove(path, ignored);
-  return error;
-}
-
 }  // namespace
 
 std::size_t BuiltCollection::built() const {
   return static_cast<std::size_t>(std::ranges::count_if(materials, [](const auto& one) { return !one.path.empty(); }));
 }
 
-Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder) {
+Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder,
+                                  const InputFiles& inputs) {
   BuiltCollection collection;
   const auto names = materials_of(opened);
   if (names.empty())
@@ -53,7 +39,7 @@ Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& r
     if (const auto program = compile_opened(opened, request, name, built.diagnostics)) {
       const auto bytes = write_patch_program(program->description());
       const std::string path = (fs::path(folder) / (name + ".wpp")).string();
-      built.written = write_program(path, bytes);
+      built.written = write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, inputs);
       if (built.written) built.path = path, built.bytes = bytes.size();
     }
     collection.materials.push_back(std::move(built));

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "compiler/open_file.hpp"
+#include "compiler/text/output_file.hpp"
 
 namespace wale {
 
 /// The result for one material of a collection.
 struct BuiltMaterial {
   std::string material;
-  std::string path;         ///< path of the program; empty if none was written
-  std::size_t bytes = 0;    ///< size of the program
-  Result<> written;         ///< the error (W0505) if the program could not be written; no error if it did not compile
+  std::string path;       ///< path of the program; empty if none was written
+  std::size_t bytes = 0;  ///< size of the program
+  Result<> written;  ///< the error (W0505, W0508) if the program could not be written; no error if it did not compile
   Diagnostics diagnostics;  ///< of this material alone
 };
 
@@ -24,8 +25,9 @@ struct BuiltCollection {
 };
 
 /// Builds every material of an opened Wale file without errors to FOLDER/NAME.wpp. If one fails, the others are still
-/// built. Makes the folder if it does not exist, and replaces existing files. Errors, before anything is built: W0602
-/// for a file without materials, W0505 for a folder that cannot be made.
-Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder);
+/// built. Makes the folder if it does not exist, and replaces existing files other than `inputs`. Errors, before
+/// anything is built: W0602 for a file without materials, W0505 for a folder that cannot be made.
+Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& request, const std::string& folder,
+                                  const InputFiles& inputs);
 
 }  // namespace wale

@@ -65,7 +65,7 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
   if (!checked) return Text();
   const SourceLines lines(opened.sources, module.modules);
   if (stage == BuildStage::checked) return Text(print_checked(*checked, module.declarations().names(), lines));
-  const auto resolver = file_resolver(request.roots);
+  const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
   const SolvedMaterial solved = solve(*checked, module, request.device, opened.sources, *resolver, diagnostics);
   if (diagnostics.has_errors()) return Text();
   return Text(print_graph(lower(solved), solved, lines));

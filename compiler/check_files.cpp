@@ -11,7 +11,7 @@
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/solve/level_scale.hpp"
 #include "compiler/text/other_file.hpp"
-#include "compiler/text/replace_file.hpp"
+#include "compiler/text/output_file.hpp"
 
 namespace wale {
 namespace {
@@ -23,9 +23,9 @@ constexpr int most_rounds = 20;
 constexpr int most_passes = 3;
 
 /// All errors and warnings of one text.
-Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<std::string>& roots) {
+Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<std::string>& roots, Sandbox sandbox) {
   Diagnostics diagnostics;
-  const auto resolver = file_resolver(roots);
+  const auto resolver = file_resolver(roots, nullptr, sandbox);
   const CheckedModule module = check_source(sources, source, *resolver, diagnostics);
   if (diagnostics.has_errors()) return diagnostics;
   check_levels(module.declarations(), source, default_device, diagnostics);
@@ -38,13 +38,13 @@ Diagnostics check_text(SourceSet& sources, SourceId source, const std::vector<st
 }
 
 /// Applies fixes to a text until none are left; adds them to `mends`.
-std::string mended(const std::string& file, std::string text, const std::vector<std::string>& roots,
+std::string mended(const std::string& file, std::string text, const std::vector<std::string>& roots, Sandbox sandbox,
                    std::vector<Mend>& mends) {
   std::set<std::string> seen = {text};
   for (int round = 0; round < most_rounds; ++round) {
     SourceSet sources;
     const SourceId source = sources.add(file, text);
-    const Diagnostics diagnostics = check_text(sources, source, roots);
+    const Diagnostics diagnostics = check_text(sources, source, roots, sandbox);
     FixedText fixed = apply_fixes(text, source, safe_fixes(diagnostics.all()));
     // Stop if the fixes lead back to an earlier text.
     if (fixed.applied.empty() || !seen.insert(fixed.text).second) break;
@@ -55,11 +55,11 @@ std::string mended(const std::string& file, std::string text, const std::vector<
 }
 
 /// Whether the file was changed.
-bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
+bool mend_file(MendedFile& result, const std::vector<std::string>& roots, Sandbox sandbox) {
   auto read = read_file(result.file);
   if (!read || !result.written || other_file(result.file, read->bytes)) return false;  // the check reports why
   std::vector<Mend> mends;
-  const std::string text = mended(result.file, read->bytes, roots, mends);
+  const std::string text = mended(result.file, read->bytes, roots, sandbox, mends);
   if (text == read->bytes) return false;
   result.written = replace_file(result.file, text);
   if (!result.written) return false;
@@ -69,7 +69,8 @@ bool mend_file(MendedFile& result, const std::vector<std::string>& roots) {
 
 }  // namespace
 
-CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots,
+                         Sandbox sandbox) {
   CheckedFiles result;
   std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, Code, std::string>> said;
   for (const auto& file : files) {
@@ -87,7 +88,7 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
                           .help = std::string(other->mend)});
     } else {
       const SourceId source = result.sources.add(file, std::move(read->bytes));
-      diagnostics = check_text(result.sources, source, roots);
+      diagnostics = check_text(result.sources, source, roots, sandbox);
     }
     for (const auto& each : diagnostics.all()) {
       const auto name = std::filesystem::path(result.sources[each.span.source].name).lexically_normal().string();
@@ -98,12 +99,13 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
   return result;
 }
 
-std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots,
+                                   Sandbox sandbox) {
   std::vector<MendedFile> results;
   for (const auto& file : files) results.push_back({.file = file});
   for (int pass = 0; pass < most_passes; ++pass) {
     bool changed = false;
-    for (MendedFile& each : results) changed = mend_file(each, roots) || changed;
+    for (MendedFile& each : results) changed = mend_file(each, roots, sandbox) || changed;
     if (!changed) break;
   }
   return results;

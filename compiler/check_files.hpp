@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.hpp"
+#include "compiler/text/resolver.hpp"
 #include "schema/result.hpp"
 
 namespace wale {
@@ -17,7 +18,8 @@ struct CheckedFiles {
 /// Reads and checks files; a file that cannot be read gives a diagnostic (W0501), and so does a file of another kind,
 /// such as a picture or a patch program (W0801). Errors in a file that several of them import are reported once.
 /// `roots` are the last folders that are searched for imports.
-CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {});
+CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {},
+                         Sandbox sandbox = Sandbox::required);
 
 /// A change that was made to a file.
 struct Mend {
@@ -33,6 +35,7 @@ struct MendedFile {
 
 /// Applies the safe fixes of the files and checks again, until nothing more can be mended. Writes only the named files
 /// and never those that they import, each atomically, and only if it changed.
-std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {});
+std::vector<MendedFile> mend_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {},
+                                   Sandbox sandbox = Sandbox::required);
 
 }  // namespace wale

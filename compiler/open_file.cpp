@@ -25,7 +25,7 @@ Result<OpenedFile> open_file(const FileRequest& request) {
     opened.program = *std::move(loaded);
     return opened;
   }
-  const auto resolver = file_resolver(request.roots, request.looked_for);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
   opened.source = named->embedded ? *named->embedded : opened.sources.add(opened.name, std::move(bytes));
   opened.module = check_source(opened.sources, opened.source, *resolver, opened.diagnostics);
   if (!opened.diagnostics.has_errors())
@@ -35,7 +35,7 @@ Result<OpenedFile> open_file(const FileRequest& request) {
 
 std::optional<Program> compile_opened(const OpenedFile& opened, const FileRequest& request, const std::string& material,
                                       Diagnostics& diagnostics) {
-  const auto resolver = file_resolver(request.roots, request.looked_for);
+  const auto resolver = file_resolver(request.roots, request.looked_for, request.sandbox, request.devices);
   return compile_material(*opened.module, material.empty() ? opened.material : material, request.device, opened.sources,
                           opened.source, *resolver, diagnostics);
 }

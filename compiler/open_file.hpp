@@ -17,7 +17,9 @@ struct FileRequest {
   std::string file;  ///< an argument of `find_named`
   std::string device = default_device;
   std::vector<std::string> roots;                  ///< the last folders that are searched for imports
+  std::vector<ResolvedFile> devices = {};          ///< see `Resolver::devices`
   std::vector<std::string>* looked_for = nullptr;  ///< receives the paths of all imports and images, found or not
+  Sandbox sandbox = Sandbox::required;             ///< of the decoder of its pictures
 };
 
 /// The content of such a file.

@@ -97,8 +97,21 @@ std::string indented(std::string text) {
   return text;
 }
 
-std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice> known) {
-  const MatchedDevice match = match_device(device, known);
+/// Which declaration a plugged device is used by.
+std::string match_text(const PluggedIn& device, const MatchedDevice& match) {
+  const std::string& name = match.device->profile().name;
+  if (match.is_generic)
+    return fmt::format(
+        "no declaration names it: used as {}, whose figures are all assumed;\n"
+        "`wale devices --identify {}` prints a declaration to begin with",
+        name, device.port);
+  const std::string& file = match.device->file();
+  return file.empty() ? "used as " + name : fmt::format("used as {}, which {} declares", name, file);
+}
+
+std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice> known,
+                         std::span<const TrustedDevice> trusted) {
+  const MatchedDevice match = match_device(device, trusted);
   std::string text =
       fmt::format("  {:<{}} {}{}\n", device.port, usual_column, device.name.empty() ? "without a name" : device.name,
                   device.numbers.empty() ? "" : ", " + device.numbers);
@@ -106,13 +119,12 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
     text += fmt::format("  {:<{}} {}\n", "", usual_column, indented(what));
   };
   if (!device.can.empty()) line(device.can);
-  if (match.device != nullptr && !device.can.empty()) {
-    const std::string& name = match.device->profile.name;
-    line(match.is_generic ? fmt::format("no declaration names it: used as {}, whose figures are all assumed;\n"
-                                        "`wale devices --identify {}` prints a declaration to begin with",
-                                        name, device.port)
-                          : "used as " + name);
-  }
+  if (match.device != nullptr && !device.can.empty()) line(match_text(device, match));
+  if (const DeclaredDevice* unused = untrusted_match(device, known, trusted); unused != nullptr && !device.can.empty())
+    line(
+        fmt::format("not used as {}: that declaration is none that you trust; save it as your own\n"
+                    "(`wale devices --identify {}`), or name its file with --devices FILE",
+                    unused->profile.name, device.port));
   if (!device.transport.empty()) line("driven by " + device.transport);
   if (!device.can.empty() && !device.driver->left_alone.empty())
     line(fmt::format("if Wale and its keeper are killed together, it {}", device.driver->left_alone));
@@ -124,8 +136,8 @@ std::string plugged_text(const PluggedIn& device, std::span<const DeclaredDevice
   return text;
 }
 
-nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const DeclaredDevice> known) {
-  const MatchedDevice match = match_device(device, known);
+nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const TrustedDevice> trusted) {
+  const MatchedDevice match = match_device(device, trusted);
   return {{"name", device.name},
           {"plugged_in", true},
           {"feel", !device.obstacle && !device.can.empty() && match.device != nullptr},
@@ -133,7 +145,8 @@ nlohmann::ordered_json plugged_json(const PluggedIn& device, std::span<const Dec
           {"kind", device.driver->name},
           {"usb", device.numbers},
           {"port", device.port},
-          {"profile", match.device != nullptr ? match.device->profile.name : ""},
+          {"profile", match.device != nullptr ? match.device->profile().name : ""},
+          {"declared_in", match.device != nullptr ? match.device->file() : ""},
           {"generic", match.is_generic},
           {"can", device.can},
           {"transport", device.transport},
@@ -193,8 +206,8 @@ constexpr const char* nothing_plugged =
 
 }  // namespace
 
-std::string devices_text(std::span<const DeclaredDevice> known, const Connections& connections,
-                         std::span<const PluggedIn> plugged) {
+std::string devices_text(std::span<const DeclaredDevice> known, std::span<const TrustedDevice> trusted,
+                         const Connections& connections, std::span<const PluggedIn> plugged) {
   std::string text = spellings;
   std::size_t column = usual_column;
   for (const DeclaredDevice& device : known) column = std::max(column, device.profile.name.size());
@@ -202,16 +215,17 @@ std::string devices_text(std::span<const DeclaredDevice> known, const Connection
   text += "\nplugged in (wale feel --device PORT)\n";
   if (!connections.usb) text += fmt::format("  {}\n", in_words(connections.usb.error()));
   if (plugged.empty() && connections.usb) text += nothing_plugged;
-  for (const PluggedIn& device : plugged) text += plugged_text(device, known);
+  for (const PluggedIn& device : plugged) text += plugged_text(device, known, trusted);
   return text;
 }
 
-std::string devices_json(std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged) {
+std::string devices_json(std::span<const DeclaredDevice> known, std::span<const TrustedDevice> trusted,
+                         std::span<const PluggedIn> plugged) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   json.push_back({{"name", "simulated"}, {"feel", true}, {"build", false}});
   for (const DeclaredDevice& device : known)
     json.push_back(device.profile.shaker ? shaker_json(device) : joystick_json(device));
-  for (const PluggedIn& device : plugged) json.push_back(plugged_json(device, known));
+  for (const PluggedIn& device : plugged) json.push_back(plugged_json(device, trusted));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -6,7 +6,10 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -20,6 +23,7 @@
 #include "calibration/command/device_report.hpp"
 #include "calibration/command/devices_here.hpp"
 #include "calibration/command/interrupt.hpp"
+#include "calibration/command/trusted_here.hpp"
 #include "compiler/command/options.hpp"
 #include "runtime/device/identify_device.hpp"
 #include "runtime/device/match_device.hpp"
@@ -29,10 +33,11 @@ namespace wale::command {
 namespace {
 
 struct DevicesOptions {
-  bool json = false, identify = false;
-  std::string device;               ///< to identify; empty: the best one
-  std::string transport;            ///< to identify it by; empty: its driver chooses
-  std::optional<double> max_force;  ///< N
+  bool json = false, save = false;
+  std::vector<std::string> trusted;  ///< files whose declarations may scale a real device
+  std::string device;                ///< to identify; empty: the best one
+  std::string transport;             ///< to identify it by; empty: its driver chooses
+  std::optional<double> max_force;   ///< N
 };
 
 /// The name of a person's own declaration: the shipped one's with `my_` before it, unless it already has that.
@@ -60,17 +65,23 @@ Error with_reason(Error error, const HotPluggedDevice& joystick) {
 
 int list_devices(const DevicesOptions& options) {
   declared_everywhere();
-  const std::vector<DeclaredDevice> known = devices_here();
+  const auto trusted = trusted_here(options.trusted);
+  if (!trusted) return refuse(trusted.error());
+  const std::vector<DeclaredDevice> known = devices_here({}, trusted->files);
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
-  fmt::print("{}", options.json ? devices_json(known, plugged) : devices_text(known, connections, plugged));
+  fmt::print("{}", options.json ? devices_json(known, trusted->devices, plugged)
+                                : devices_text(known, trusted->devices, connections, plugged));
   return done;
 }
 
 /// A real device with axes to identify.
-Result<ChosenDevice> device_to_identify(const std::string& asked, const Connections& connections) {
-  const std::vector<DeclaredDevice> known = devices_here();
-  auto chosen = choose_device({.spelling = asked.empty() ? "auto" : asked}, known, plugged_in(connections, asked));
+Result<ChosenDevice> device_to_identify(const DevicesOptions& options, const Connections& connections) {
+  const std::string& asked = options.device;
+  const auto trusted = trusted_here(options.trusted);
+  if (!trusted) return trusted.error();
+  auto chosen =
+      choose_device({.spelling = asked.empty() ? "auto" : asked}, {}, trusted->devices, plugged_in(connections, asked));
   if (!chosen) {
     if (chosen.error().code == Code::absent_device) chosen.error().mend = "`wale devices` lists what is plugged in";
     return chosen;
@@ -96,17 +107,84 @@ std::vector<std::string> comments_on(const ChosenDevice& chosen, const DeviceWir
   return comments;
 }
 
+/// The declaration of a person's own device, by that of its kind and what was found.
+DeclaredDevice own_declaration(DeclaredDevice declared, const Identified& found, const PluggedIn& plugged) {
+  declared.wiring = rewired(std::move(declared.wiring), found);
+  declared.wiring.is_generic = false;
+  if (const auto numbers = read_usb_numbers(plugged.numbers)) declared.wiring.usb = {*numbers};
+  const bool is_gain_known = declared.wiring.gain != std::array<double, 2>{1, 1};
+  if (!is_gain_known && std::ranges::find(declared.unknown, "gain") == declared.unknown.end())
+    declared.unknown.emplace_back("gain");
+  declared.profile.name = own_name(declared.profile.name);
+  return declared;
+}
+
+/// Whether the person at this terminal wants a file to be written; nobody is asked where there is none.
+bool agrees_to_write(const std::string& file) {
+  if (isatty(fileno(stdin)) == 0) return false;
+  fmt::print(stderr, "write it to {}? [y/N] ", file);
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer == "y" || answer == "yes";
+}
+
+/// Adds a declaration to the owner's file, which is made where it is not there yet. Errors: W0202 where the file
+/// declares a device of that name, W0505.
+Result<> add_to_owners_file(const DeclaredDevice& declared, const std::string& declaration) {
+  namespace fs = std::filesystem;
+  const std::string file = owners_file();
+  if (file.empty())
+    return Error{Code::unwritable_file, "there is no folder for it", "set HOME, or XDG_CONFIG_HOME to a whole path"};
+  std::error_code problem;
+  std::string text = declaration;
+  if (fs::exists(file, problem)) {
+    const auto known = trusted_declarations({}, file);
+    if (!known) return known.error();
+    for (const TrustedDevice& each : known->devices)
+      if (each.file() == file && each.profile().name == declared.profile.name)
+        return Error{Code::declared_twice,
+                     fmt::format("it declares `{}` already", declared.profile.name),
+                     "remove that declaration, or add the printed one under another name",
+                     {.name = file}};
+    constexpr std::string_view header = "wale 1\n";  // the file has one
+    text = known->files.front().bytes + text.substr(header.size());
+  } else {
+    fs::create_directories(fs::path(file).parent_path(), problem);
+  }
+  if (auto written = write_file(file, text); !written) return written;
+  fmt::print(stderr, "written to {}: your device is driven by it from now on\n", file);
+  return {};
+}
+
+/// Prints a declaration, and writes it to the owner's file where the person wants that.
+int offer_declaration(const DevicesOptions& options, const DeclaredDevice& declared, const std::string& declaration) {
+  fmt::print("{}", declaration);
+  std::fflush(stdout);
+  const std::string file = owners_file();
+  if (options.save || (!file.empty() && agrees_to_write(file))) {
+    const auto added = add_to_owners_file(declared, declaration);
+    return added ? done : refuse(added.error());
+  }
+  if (!file.empty())
+    fmt::print(stderr, "saved in {} (`--save` does that), your device is driven by it, whatever is felt\n", file);
+  return done;
+}
+
 int identify(const DevicesOptions& options) {
   const std::atomic<bool>& stop = stop_on_signals();
   const Connections connections = Connections::open();
-  auto choice = device_to_identify(options.device, connections);
+  auto choice = device_to_identify(options, connections);
   if (!choice) return refuse(choice.error());
   DeclaredDevice declared = *choice->declared;
   ChosenDevice chosen = *std::move(choice);
-  chosen.declared->wiring = DeviceWiring{};  // its own axes and motors, as they are
+  chosen.trusted = chosen.trusted->as_built();
   const auto say = [](std::string_view what) { fmt::print(stderr, "{}\n", what); };
-  const auto opened = open_device(
-      connections, chosen, {.priority = loop_priority - 1, .ask = say, .stop = &stop, .transport = options.transport});
+  const auto opened = open_device(connections, chosen,
+                                  {.priority = loop_priority - 1,
+                                   .ask = say,
+                                   .stop = &stop,
+                                   .transport = options.transport,
+                                   .most_newton = options.max_force.value_or(HUGE_VAL)});
   if (!opened) return refuse(opened.error());
   fmt::print(stderr, "identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged),
              declared.profile.name);
@@ -117,21 +195,8 @@ int identify(const DevicesOptions& options) {
   if (!found) return refuse(with_reason(found.error(), joystick));
   fmt::print(stderr, "{}", identified_text(*found));
   if (!found->motors_settled) return refused;
-
-  const std::vector<std::string> comments = comments_on(chosen, declared.wiring);
-  declared.wiring = rewired(std::move(declared.wiring), *found);
-  declared.wiring.is_generic = false;
-  if (const auto numbers = read_usb_numbers(chosen.plugged->numbers)) declared.wiring.usb = {*numbers};
-  const bool is_gain_known = declared.wiring.gain != std::array<double, 2>{1, 1};
-  if (!is_gain_known && std::ranges::find(declared.unknown, "gain") == declared.unknown.end())
-    declared.unknown.emplace_back("gain");
-  declared.profile.name = own_name(declared.profile.name);
-  fmt::print("{}", device_declaration(declared, comments));
-  fmt::print(
-      stderr,
-      "saved as devices.wale in this folder, in the folder of your wale.project or in one of WALE_LIBRARY, it is "
-      "known to every material there\n");
-  return done;
+  const DeclaredDevice own = own_declaration(std::move(declared), *found, *chosen.plugged);
+  return offer_declaration(options, own, device_declaration(own, comments_on(chosen, own.wiring)));
 }
 
 Run declare_devices(CLI::App& verb) {
@@ -147,10 +212,14 @@ Run declare_devices(CLI::App& verb) {
   offer_force(verb, "--max-force", options->max_force,
               "the largest force of --identify, as in \"1 N\" (default, and at most: a fifth of the device's)")
       ->needs(identifies);
+  verb.add_flag("--save", options->save,
+                "adds what --identify prints to ~/.config/wale/devices.wale, by which your device is then driven")
+      ->needs(identifies);
+  offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
              "how --identify drives it, where its driver knows several ways")
       ->needs(identifies);
-  verb.footer("for example: wale devices --json; wale devices --identify > devices.wale");
+  verb.footer("for example: wale devices --json; wale devices --identify --save");
   return [options, identifies] { return identifies->count() > 0 ? status_after_signals(identify(*options)) : list_devices(*options); };
 }
 

@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -18,6 +17,7 @@
 
 #include "calibration/command/devices_here.hpp"
 #include "calibration/command/interrupt.hpp"
+#include "calibration/command/trusted_here.hpp"
 #include "calibration/feel/asking_person.hpp"
 #include "calibration/feel/felt_device.hpp"
 #include "calibration/feel/material_watch.hpp"
@@ -25,6 +25,7 @@
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
+#include "runtime/device/built_for.hpp"
 #include "schema/spelling.hpp"
 
 namespace wale::command {
@@ -37,10 +38,11 @@ constexpr double measured_seconds = 600;
 struct FeelOptions {
   Choice choice;
   std::vector<std::string> settings;
-  std::string device;               ///< empty: `auto`
-  std::string built_for;            ///< empty: the device that is felt on
-  std::optional<std::string> hand;  ///< how a simulated person moves
-  std::string transport;            ///< of a real device; empty: its driver chooses
+  std::vector<std::string> trusted;  ///< files whose declarations may scale a real device
+  std::string device;                ///< empty: `auto`
+  std::string built_for;             ///< empty: the device that is felt on
+  std::optional<std::string> hand;   ///< how a simulated person moves
+  std::string transport;             ///< of a real device; empty: its driver chooses
   std::string record;
   std::optional<double> seconds, max_force;
   bool virtual_time = false, json = false, watch = false;
@@ -81,12 +83,15 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
 /// After an error, which it prints, it gives nothing and sets the exit `status`.
 std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop, int& status) {
   status = refused;
+  auto trusted = trusted_here(options.trusted);
+  if (!trusted) return status = refuse(trusted.error()), std::nullopt;
   Choice built = options.choice;
   built.device.clear();  // it is not known yet
+  built.devices = trusted->files;
   auto opened = open(built);
   if (!opened) return std::nullopt;
   const std::vector<DeclaredDevice> known =
-      opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders);
+      opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known)
     return refuse(is_known.error()), std::nullopt;
   const bool asks = !options.device.empty();
@@ -94,7 +99,7 @@ std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomi
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
                       .only_simulated = options.virtual_time || options.hand},
-                     known, options.seconds, say, stop);
+                     known, trusted->devices, options.seconds, say, stop);
   if (!device) return status = refuse(device.error()), std::nullopt;
   const ChosenDevice& chosen = device->chosen;
   if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
@@ -111,8 +116,10 @@ std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomi
 std::optional<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run,
                                         const std::atomic<bool>& stop) {
   const HandDeclaration* person = declared_everywhere()->declarations.hands.find("normal");
-  FeltOptions how{.virtual_time = options.virtual_time, .transport = options.transport};
-  if (options.hand) how.hand = *options.hand;
+  FeltOptions how{.virtual_time = options.virtual_time,
+                  .transport = options.transport,
+                  .most_newton = options.max_force.value_or(HUGE_VAL)};
+  if (options.hand) how.hand = *options.hand, options.choice.inputs->push_back(*options.hand);
   auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
   if (!device) return refuse(device.error()), std::nullopt;
   return *std::move(device);
@@ -183,9 +190,10 @@ RunOptions run_options(const FeelOptions& options, const RunManner& manner, cons
 /// Writes the table and the report of a finished run. Returns the exit status.
 int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt) {
   if (!options.record.empty() && !options.record.ends_with(".wrec")) {
-    std::ostringstream csv;
-    write_csv(csv, result.record);
-    if (const auto written = write_file(options.record, csv.str()); !written) return refuse(written.error());
+    auto table = OutputFile::open(options.record, *options.choice.inputs);
+    if (!table) return refuse(table.error());
+    write_csv(table->stream(), result.record);
+    if (const auto written = table->finish(); !written) return refuse(written.error());
   }
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));
@@ -227,13 +235,14 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 
-/// Checks that two materials can be compared blindly on this device. Error: W0607.
+/// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608.
 Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
   const DeviceProfile& device = run.material.program.description().device;
   const std::string& other = b.program.description().device.name;
   if (other != device.name)
     return Error{Code::other_device, fmt::format("A is built for `{}` and B for `{}`", device.name, other),
                  "build both for one device"};
+  if (auto built = is_built_for(b.program.description(), device); !built) return built;
   if (device.shaker)
     return Error{Code::other_device,
                  fmt::format("`{}` only vibrates, but a blind comparison needs forces", device.name),
@@ -334,6 +343,7 @@ Run declare_feel(CLI::App& verb) {
                   "auto (default): the best one plugged in, else simulated; simulated; simulated:NAME; NAME, as `wale "
                   "devices` lists them; usb; vendor and product, 1209:ffb0; a port, 1-2")
       ->type_name("NAME");
+  offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
              "how a real device is driven, where its driver knows several ways (see `wale devices`)");
   verb.add_option("--hand", options->hand,
@@ -343,7 +353,8 @@ Run declare_feel(CLI::App& verb) {
                  "device that is not plugged in (default: until Ctrl-C)");
   auto* virtual_time =
       verb.add_flag("--virtual-time", options->virtual_time, "as fast as possible, with the same bits each time");
-  offer_force(verb, "--max-force", options->max_force, "the largest force allowed, as in \"3 N\"");
+  offer_force(verb, "--max-force", options->max_force,
+              "the largest force at the handle, as in \"3 N\"; every packet to a real device keeps within it");
   auto* record = verb.add_option("--record", options->record,
                                  "records every tick: NAME.wrec during the run, for `wale replay`; NAME.csv after it")
                      ->type_name("FILE");

@@ -2,15 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/options.hpp"
 #include "compiler/text/other_file.hpp"
+#include "compiler/text/output_file.hpp"
 #include "compiler/text/resolver.hpp"
 #include "wale/recording.hpp"
 
@@ -96,23 +94,14 @@ std::string replay_json(const std::string& file, const Recording& recording, con
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Writes a file by `write`, and removes it if `write` fails.
+/// Writes a file by `write`, unless `path` is empty.
 template <class Write>
-Result<> exported(const std::string& path, Write&& write) {
-  std::ofstream out(path, std::ios::binary);
-  if (out) {
-    if (Result<> written = write(out); !written) {
-      out.close();
-      std::remove(path.c_str());
-      return written;
-    }
-    out.flush();
-  }
-  if (!out)
-    return Error{.code = Code::unwritable_file,
-                 .sentence = fmt::format("the file cannot be written: {}", std::strerror(errno)),
-                 .place = {.name = path}};
-  return {};
+Result<> exported(const std::string& path, const InputFiles& inputs, Write&& write) {
+  if (path.empty()) return {};
+  auto out = OutputFile::open(path, inputs);
+  if (!out) return out.error();
+  if (Result<> written = write(out->stream()); !written) return written;
+  return out->finish();
 }
 
 /// Says what a file is that is no recording.
@@ -136,18 +125,14 @@ int replay(const ReplayOptions& options) {
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
   if (!opened) return refuse(with_kind(opened.error(), options.file));
   const auto& recording = *opened;
-  if (!options.csv.empty())
-    if (const auto written = exported(options.csv,
-                                      [&](std::ostream& out) {
-                                        write_csv(out, recording);
-                                        return Result<>();
-                                      });
-        !written)
-      return refuse(written.error());
-  if (!options.wav.empty())
-    if (const auto written = exported(options.wav, [&](std::ostream& out) { return write_wav(out, recording); });
-        !written)
-      return refuse(written.error());
+  const auto table = exported(options.csv, {options.file}, [&](std::ostream& out) {
+    write_csv(out, recording);
+    return Result<>();
+  });
+  if (!table) return refuse(table.error());
+  const auto sound =
+      exported(options.wav, {options.file, options.csv}, [&](std::ostream& out) { return write_wav(out, recording); });
+  if (!sound) return refuse(sound.error());
   const auto replayed = wale::replay(recording);
   if (!replayed) return refuse(replayed.error());
   const auto& result = *replayed;

@@ -29,6 +29,7 @@ Result<std::vector<SampledHand>> hands_of(const SampleOptions& options) {
     hands.push_back({0, *options.at});
     return hands;
   }
+  options.choice.inputs->push_back(options.trace);
   const auto trace = load_trace(options.trace);
   if (!trace) return trace.error();
   for (const TracePoint& point : trace->points)
@@ -47,7 +48,8 @@ int sample(const SampleOptions& options) {
   const auto samples = wale::sample(Bank(program, *parameters, program.default_size()), *hands);
   const bool vibrates = program.description().vibrates();
   const std::string text = options.json ? samples_json(samples, vibrates) : samples_csv(samples, vibrates);
-  if (const auto written = write_file(options.out, text); !written) return refuse(written.error());
+  if (const auto written = write_file(options.out, text, *options.choice.inputs); !written)
+    return refuse(written.error());
   return done;
 }
 

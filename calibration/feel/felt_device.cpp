@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/device/built_for.hpp"
 #include "runtime/device/simulated/load_trace.hpp"
 #include "runtime/device/wait_for_device.hpp"
 #include "schema/spelling.hpp"
@@ -50,27 +51,6 @@ Result<std::unique_ptr<Device>> simulated(const PatchProgram& program, const Han
   return device;
 }
 
-/// Whether a program's forces and positions are the same on `a` and `b`.
-bool has_same_scale(const DeviceProfile& a, const DeviceProfile& b) {
-  return a.rate == b.rate && a.workspace_diameter == b.workspace_diameter && a.position_counts == b.position_counts &&
-         a.force_newton == b.force_newton && a.force_counts == b.force_counts && a.shaker == b.shaker;
-}
-
-/// Checks that a program is built for the declaration of the chosen device. Error: W0607.
-Result<> suits(const PatchProgram& program, const DeviceProfile& declared, bool is_real) {
-  const std::string& built_for = program.device.name;
-  if (built_for != declared.name)
-    return Error{Code::other_device,
-                 fmt::format("`{}` is built for `{}`, not for `{}`", program.material, built_for, declared.name),
-                 fmt::format("feel it on `{}`, or build it for `{}`", built_for, declared.name)};
-  if (is_real && !has_same_scale(program.device, declared))
-    return Error{Code::other_device,
-                 fmt::format("`{}` is built for a `{}` with other figures than in its declaration", program.material,
-                             declared.name),
-                 "build it again, so that its forces suit the device"};
-  return {};
-}
-
 }  // namespace
 
 RunManner FeltDevice::manner() const {
@@ -80,14 +60,15 @@ RunManner FeltDevice::manner() const {
 }
 
 Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<const DeclaredDevice> known,
-                                    std::optional<double> seconds, const Say& say, const std::atomic<bool>& stop) {
+                                    std::span<const TrustedDevice> trusted, std::optional<double> seconds,
+                                    const Say& say, const std::atomic<bool>& stop) {
   DeviceToFeel device;
   std::vector<PluggedIn> plugged;
   if (!request.only_simulated && !request.spelling.starts_with("simulated")) {
     device.connections = Connections::open();
     plugged = plugged_in(*device.connections, request.spelling);
   }
-  auto choice = choose_device(request, known, plugged);
+  auto choice = choose_device(request, known, trusted, plugged);
   if (!choice && choice.error().code == Code::absent_device) {
     const Error& absent = choice.error();
     if (!device.connections->usb) {
@@ -97,7 +78,7 @@ Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<cons
     }
     say(fmt::format("{}: waiting for it; Ctrl-C ends that\n  = help: {}; `wale devices` lists what is plugged in",
                     absent.sentence, absent.mend));
-    choice = wait_for_device(*device.connections, request, known, seconds, stop);
+    choice = wait_for_device(*device.connections, request, known, trusted, seconds, stop);
   }
   if (!choice) return std::move(choice.error());
   device.chosen = *std::move(choice);
@@ -107,16 +88,21 @@ Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<cons
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop) {
   const ChosenDevice& chosen = device.chosen;
-  if (chosen.declared)
-    if (auto suited = suits(program, chosen.declared->profile, chosen.plugged.has_value()); !suited)
-      return std::move(suited.error());
+  // A simulated device is that of the program; a real one is that of its trusted declaration.
+  DeviceProfile declared = chosen.trusted ? chosen.trusted->profile() : program.device;
+  if (!chosen.trusted && chosen.declared) declared.name = chosen.declared->profile.name;
+  if (auto built = is_built_for(program, declared); !built) return std::move(built.error());
   if (!chosen.plugged) {
     auto opened = simulated(program, person, options.hand);
     if (!opened) return std::move(opened.error());
     return FeltDevice{*std::move(opened), nullptr, "simulated", options.hand, options.virtual_time};
   }
   auto opened = open_device(*device.connections, chosen,
-                            {.priority = loop_priority - 1, .ask = say, .stop = &stop, .transport = options.transport});
+                            {.priority = loop_priority - 1,
+                             .ask = say,
+                             .stop = &stop,
+                             .transport = options.transport,
+                             .most_newton = options.most_newton});
   if (!opened) return std::move(opened.error());
   const HotPluggedDevice* plugged = opened->get();
   return FeltDevice{*std::move(opened), plugged, in_words(*chosen.plugged), "yours", false};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compiler/diagnostics/render.hpp"
+#include "runtime/device/built_for.hpp"
 
 namespace wale {
 
@@ -16,8 +17,7 @@ MaterialWatch::MaterialWatch(command::Choice choice, Stage& stage, const Program
       stage_(stage),
       say_(std::move(say)),
       felt_(write_patch_program(felt.description())),
-      vibrates_(felt.description().vibrates()),
-      device_(felt.description().device.name) {}
+      device_(felt.description().device) {}
 
 MaterialWatch::Outcome MaterialWatch::attend(std::chrono::milliseconds wait) {
   if (std::exchange(begun_, true) && !files_.changed(wait)) return Outcome::nothing;
@@ -45,9 +45,11 @@ MaterialWatch::Outcome MaterialWatch::look() {
     said += render_text(diagnostic, opened->sources, isatty(fileno(stderr)) != 0) + "\n";
   if (!program || opened->diagnostics.has_errors()) return refuse(said);
   const PatchProgram& now = program->description();
-  if (now.vibrates() != vibrates_ || now.device.name != device_)
+  if (now.device.name != device_.name)
     return refuse(fmt::format("wale: `{}` is now built for `{}`, but the device is a `{}`\n", now.material,
-                              now.device.name, device_));
+                              now.device.name, device_.name));
+  if (const auto built = is_built_for(now, device_); !built)
+    return refuse(fmt::format("wale: {}\n", command::error_text(built.error())));
   auto bytes = write_patch_program(now);
   const bool was_refused = !std::exchange(refused_, {}).empty();
   if (bytes == felt_) {

@@ -37,9 +37,8 @@ class MaterialWatch {
   FileWatch files_;
   bool begun_ = false;
   std::vector<std::byte> felt_;  // the program's bytes
-  bool vibrates_;
-  std::string device_;
-  std::string refused_;  // the last message about it; empty while it is active
+  DeviceProfile device_;         // that the program is built for
+  std::string refused_;          // the last message about it; empty while it is active
 };
 
 }  // namespace wale

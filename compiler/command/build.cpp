@@ -31,7 +31,8 @@ int build_one(const BuildOptions& options) {
   const auto programs = programs_of(*opened, options.choice, false);
   if (programs.empty()) return refused;
   const auto bytes = write_patch_program(programs.front().description());
-  if (const auto written = write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (const auto written =
+          write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *options.choice.inputs);
       !written)
     return refuse(written.error());
   return done;
@@ -55,7 +56,8 @@ int show_stage(const BuildOptions& options) {
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   if (!text) return refuse(text.error());
   if (!*text) return refused;
-  if (const auto written = write_file(options.out.empty() ? "-" : options.out, **text); !written)
+  if (const auto written = write_file(options.out.empty() ? "-" : options.out, **text, *options.choice.inputs);
+      !written)
     return refuse(written.error());
   return done;
 }
@@ -69,7 +71,7 @@ int build_collection(const BuildOptions& options) {
                         .sentence = "this is a patch program, but --all builds the materials of a Wale file",
                         .place = {.name = opened->name}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  const auto collection = build_all(*opened, options.choice.request(), options.out);
+  const auto collection = build_all(*opened, options.choice.request(), options.out, *options.choice.inputs);
   if (!collection) return refuse(collection.error());
   for (const auto& built : collection->materials) {
     print_diagnostics(stderr, built.diagnostics, opened->sources);

@@ -16,12 +16,13 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> files, folders;
   bool json = false, fix = false;
+  Sandbox sandbox = Sandbox::required;
 };
 
 /// Mends files before they are checked. Reports the mends on standard error, since standard output is for diagnostics.
-bool mend(const std::vector<std::string>& files, const std::vector<std::string>& roots) {
+bool mend(const std::vector<std::string>& files, const std::vector<std::string>& roots, Sandbox sandbox) {
   bool written = true;
-  for (const auto& file : mend_files(files, roots)) {
+  for (const auto& file : mend_files(files, roots, sandbox)) {
     for (const auto& mend : file.mends)
       fmt::print(stderr, "mended {}:{}:{}: {}\n", file.file, mend.place.line, mend.place.column, mend.title);
     if (!file.written) refuse(file.written.error());
@@ -34,8 +35,8 @@ std::string counted(std::size_t n, const char* what) { return fmt::format("{} {}
 
 int check(const CheckOptions& options) {
   const auto roots = library_folders(options.folders, std::getenv("WALE_LIBRARY"));
-  const bool mended = !options.fix || mend(options.files, roots);
-  const auto [sources, diagnostics] = check_files(options.files, roots);
+  const bool mended = !options.fix || mend(options.files, roots, options.sandbox);
+  const auto [sources, diagnostics] = check_files(options.files, roots, options.sandbox);
   if (options.json) {
     fmt::print("{}\n", render_json(diagnostics, sources));
   } else {
@@ -53,6 +54,7 @@ Run declare_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckOptions>();
   verb.add_option("FILE", options->files, "paths of Wale files; names of materials are not looked for")->required();
   offer_library(verb, options->folders);
+  offer_sandbox(verb, options->sandbox);
   offer_json(verb, options->json, "the diagnostics as a JSON array");
   verb.add_flag("--fix", options->fix, "first applies the safe mends to these files");
   verb.footer("for example: wale check --fix my.wale");

@@ -5,14 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iostream>
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/modules/owners_devices_file.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
@@ -92,21 +89,19 @@ void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const 
     fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
 }
 
-Result<> write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-") {
-    std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-    if (std::cout) return {};
-    return Error{.code = Code::unwritable_file, .sentence = "cannot write to standard output"};
-  }
-  std::ofstream file(path, std::ios::binary);
-  if (file) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (file) return {};
-  return Error{.code = Code::unwritable_file,
-               .sentence = fmt::format("cannot write this file: {}", std::strerror(errno)),
-               .place = {.name = path}};
+FileRequest Choice::request() const {
+  FileRequest request{.file = file,
+                      .device = device,
+                      .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
+                      .devices = devices,
+                      .looked_for = inputs.get(),
+                      .sandbox = sandbox};
+  const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
+  if (is_shipped || !devices.empty()) return request;
+  if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
+    request.devices.push_back(*std::move(owners));
+  return request;
 }
-
-FileRequest Choice::request() const { return {file, device, library_folders(folders, std::getenv("WALE_LIBRARY"))}; }
 
 void say_taken(const OpenedFile& opened) {
   if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);
@@ -141,6 +136,8 @@ std::optional<OpenedFile> open(const Choice& choice) {
   }
   auto opened = open_file(choice.request());
   if (!opened) return refuse(opened.error()), std::nullopt;
+  choice.inputs->push_back(opened->name);
+  for (const ResolvedFile& trusted : choice.devices) choice.inputs->push_back(trusted.name);
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error()), std::nullopt;
   say_taken(*opened);

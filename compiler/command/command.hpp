@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compiler/open_file.hpp"
+#include "compiler/text/output_file.hpp"
 #include "schema/result.hpp"
 
 /// The verbs of the command line: they read files, print, and return an exit status. Only `wale.cpp` calls them.
@@ -32,15 +34,17 @@ std::string error_text(const Error& error);
 /// Prints diagnostics with their source lines, in colour on a terminal.
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources);
 
-/// Writes a whole file; "-" is standard output. Error: W0505.
-Result<> write_file(const std::string& path, std::string_view bytes);
-
 /// The choice of a material on the command line: a Wale file, a patch program, or a material by name.
 struct Choice {
   std::string file, material, device = default_device;
-  std::string device_option;         ///< "--device" if that option named the device; empty for the default device
-  std::vector<std::string> folders;  ///< folders to search for imports
+  std::string device_option;          ///< "--device" if that option named the device; empty for the default device
+  std::vector<std::string> folders;   ///< folders to search for imports
+  std::vector<ResolvedFile> devices;  ///< files with trusted devices, which every file knows
+  /// All files that were read for it, and for its copies.
+  std::shared_ptr<InputFiles> inputs = std::make_shared<InputFiles>();
+  Sandbox sandbox = Sandbox::required;  ///< of the decoder of its pictures
 
+  /// Includes the owner's devices.wale if the device is not a shipped one.
   FileRequest request() const;
 };
 

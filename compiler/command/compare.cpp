@@ -59,6 +59,7 @@ Run declare_compare(CLI::App& verb) {
       ->required();
   offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);
+  offer_sandbox(verb, options->choice.sandbox);
   verb.add_flag("--matrix", options->with_table, "prints all distances, even if the table does not fit a screen");
   offer_json(verb, options->json,
              "an object with every material's cues, all distances, and the nearest pairs cue by cue");

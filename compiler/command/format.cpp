@@ -1,13 +1,16 @@
 #include "compiler/format/format.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <memory>
 
 #include "compiler/command/options.hpp"
 #include "compiler/text/other_file.hpp"
-#include "compiler/text/replace_file.hpp"
+#include "compiler/text/output_file.hpp"
 
 namespace wale::command {
 namespace {
@@ -17,12 +20,30 @@ struct FormatOptions {
   bool check_only = false;  ///< writes nothing but the names of the files that formatting would change
 };
 
+/// All of standard input, which may be a pipe. Errors: W0501 if it cannot be read, or is larger than a file may be.
+Result<ResolvedFile> standard_input() {
+  const auto unreadable = [](std::string sentence) {
+    return Error{.code = Code::unreadable_file, .sentence = std::move(sentence), .place = {.name = "standard input"}};
+  };
+  ResolvedFile text{"-", {}};
+  std::vector<char> block(1 << 16);
+  while (true) {
+    const ssize_t count = read(STDIN_FILENO, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return unreadable(std::strerror(errno));
+    if (count == 0) return text;
+    text.bytes.append(block.data(), static_cast<std::size_t>(count));
+    if (text.bytes.size() > largest_file)
+      return unreadable(fmt::format("it has more than {} MB, the most that Wale reads", largest_file >> 20));
+  }
+}
+
 /// Formats one file; "-" means from standard input to standard output.
 int format_file(const std::string& file, bool check_only) {
   const bool standard = file == "-";
-  auto read = read_file(standard ? "/dev/stdin" : file);
+  auto read = standard ? standard_input() : read_file(file);
   if (!read) {
-    if (read.error().mend.empty()) read.error().mend = mend_of_path(file);
+    if (!standard && read.error().mend.empty()) read.error().mend = mend_of_path(file);
     return refuse(read.error());
   }
   if (const auto other = other_file(file, read->bytes))
@@ -42,7 +63,7 @@ int format_file(const std::string& file, bool check_only) {
     return changes ? refused : done;
   }
   if (standard) {
-    if (const auto written = write_file("-", *formatted); !written) return refuse(written.error());
+    if (const auto written = write_file("-", *formatted, {}); !written) return refuse(written.error());
   } else if (changes) {
     if (const auto written = replace_file(file, *formatted); !written) return refuse(written.error());
   }

@@ -69,6 +69,13 @@ void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char
   may_be_repeated(verb.add_option_function<std::vector<std::string>>("--library", take, about)->type_name("DIR"));
 }
 
+void offer_sandbox(CLI::App& verb, Sandbox& sandbox) {
+  const auto take = [&sandbox](std::int64_t) { sandbox = Sandbox::if_possible; };
+  verb.add_flag_function(
+      "--unsandboxed-pictures", take,
+      "decodes pictures also where the system has no sandbox for it; only for pictures that you trust");
+}
+
 void offer_device(CLI::App& verb, std::string& device) {
   verb.add_option("--device", device, help_text::device)->type_name("NAME");
 }
@@ -88,6 +95,7 @@ void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& optio
   verb.add_option("--material", choice.material, options.about_material)->type_name("NAME");
   offer_device(verb, choice, options.device_option, options.about_device);
   offer_library(verb, choice.folders);
+  offer_sandbox(verb, choice.sandbox);
 }
 
 void offer_settings(CLI::App& verb, std::vector<std::string>& settings) {

@@ -33,6 +33,9 @@ inline constexpr const char* device = "the device to build for (default: sandpap
 /// --library DIR, which may be repeated. If DIR is not a folder, the command ends.
 void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char* about = help_text::library);
 
+/// --unsandboxed-pictures, for a verb that compiles materials.
+void offer_sandbox(CLI::App& verb, Sandbox& sandbox);
+
 /// --device NAME, for a verb without a material.
 void offer_device(CLI::App& verb, std::string& device);
 /// The same for a material; `option` may give it another name.
@@ -46,7 +49,8 @@ struct MaterialOptions {
   const char* about_device = help_text::device;
 };
 
-/// FILE, --material NAME, --device NAME and --library DIR, which together name one material.
+/// FILE, --material NAME, --device NAME and --library DIR, which together name one material, and
+/// --unsandboxed-pictures.
 void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& options = {});
 
 /// --set NAME=VALUE, which may be repeated.

@@ -28,7 +28,11 @@ int preview(const PreviewOptions& options) {
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
-  if (const auto saved = save_drawing(*drawing, options.out); !saved) return refuse(saved.error());
+  const auto bytes = encode_drawing(*drawing, options.out);
+  if (!bytes) return refuse(bytes.error());
+  const auto written =
+      write_file(options.out, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *options.choice.inputs);
+  if (!written) return refuse(written.error());
   return done;
 }
 

@@ -41,7 +41,9 @@ std::vector<ComparedFile> read_cues(const std::vector<std::string>& names, const
                                     const Declarations& declarations) {
   std::vector<ComparedFile> files(names.size());
   const auto request_for = [&](const ComparedFile& file) {
-    return FileRequest{file.name.file, request.device, request.roots};
+    FileRequest one = request;
+    one.file = file.name.file;
+    return one;
   };
   for_each_in_parallel(names.size(), [&](std::size_t i) {
     ComparedFile& file = files[i];

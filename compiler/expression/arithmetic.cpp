@@ -34,7 +34,7 @@ bool is_measurable(const Value& value) {
   return value.type == Value::Type::number || value.type == Value::Type::vector;
 }
 
-void report_mismatch(Reading& reading, const OperatorUse& use) {
+void report_mismatch(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   const SourceSet& sources = reading.surroundings.sources;
   const DimensionNames& names = reading.dimension_names();
@@ -62,7 +62,7 @@ void report_mismatch(Reading& reading, const OperatorUse& use) {
   reading.calls.say(std::move(diagnostic));
 }
 
-Value compared(Reading& reading, const OperatorUse& use) {
+Value compared(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.type == Value::Type::vector)
     return reading.calls.report(Code::wrong_type, span, "vectors cannot be compared", "", "compare their `length(…)`");
@@ -78,7 +78,7 @@ Value compared(Reading& reading, const OperatorUse& use) {
   return result;
 }
 
-Value added_or_compared(Reading& reading, const OperatorUse& use) {
+Value added_or_compared(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.type != right.type)
     return reading.calls.report(
@@ -98,7 +98,7 @@ Value added_or_compared(Reading& reading, const OperatorUse& use) {
 }
 
 /// `and` or `or` of two conditions, whose values are 1 or 0.
-Value combined(Reading& reading, const OperatorUse& use) {
+Value combined(ExpressionReading& reading, const OperatorUse& use) {
   for (const auto* side : {&use.left, &use.right})
     if (side->type != Value::Type::boolean)
       return reading.calls.report(Code::wrong_type, side->span,
@@ -166,7 +166,7 @@ std::string make_calculable(Value::Type type) {
   return "use numbers and vectors";
 }
 
-Value negated(Reading& reading, Value value) {
+Value negated(ExpressionReading& reading, Value value) {
   if (value.failed()) return value;
   if (!is_measurable(value))
     return reading.calls.report(Code::wrong_type, value.span,
@@ -177,7 +177,7 @@ Value negated(Reading& reading, Value value) {
   return value;
 }
 
-Value complement(Reading& reading, Value condition) {
+Value complement(ExpressionReading& reading, Value condition) {
   if (condition.failed()) return condition;
   if (condition.type != Value::Type::boolean)
     return reading.calls.report(Code::wrong_type, condition.span,
@@ -188,7 +188,7 @@ Value complement(Reading& reading, Value condition) {
   return condition;
 }
 
-Value product(Reading& reading, const Value& left, const Value& right, Span span) {
+Value product(ExpressionReading& reading, const Value& left, const Value& right, Span span) {
   if (left.failed() || right.failed()) return failed_value(span);
   if (left.type == Value::Type::vector && right.type == Value::Type::vector)
     return reading.calls.report(Code::wrong_type, span, "two vectors cannot be multiplied", "",
@@ -207,7 +207,7 @@ Value product(Reading& reading, const Value& left, const Value& right, Span span
   return result;
 }
 
-Value quotient(Reading& reading, const Value& left, const Value& right, Span span) {
+Value quotient(ExpressionReading& reading, const Value& left, const Value& right, Span span) {
   if (left.failed() || right.failed()) return failed_value(span);
   if (right.type == Value::Type::vector)
     return reading.calls.report(Code::wrong_type, span, "cannot divide by a vector", "", "divide by its `length(…)`");
@@ -217,7 +217,7 @@ Value quotient(Reading& reading, const Value& left, const Value& right, Span spa
   return result;
 }
 
-Value raised(Reading& reading, const Value& base, const Value& exponent, Span span) {
+Value raised(ExpressionReading& reading, const Value& base, const Value& exponent, Span span) {
   if (base.failed() || exponent.failed()) return failed_value(span);
   const DimensionNames& names = reading.dimension_names();
   if (base.type != Value::Type::number || exponent.type != Value::Type::number)
@@ -243,7 +243,7 @@ Value raised(Reading& reading, const Value& base, const Value& exponent, Span sp
   return {.type = Value::Type::number, .x = power_by_logarithm(reading.terms, base.x, exponent.x, span), .span = span};
 }
 
-Value applied(Reading& reading, const OperatorUse& use) {
+Value applied(ExpressionReading& reading, const OperatorUse& use) {
   const auto& [tree, node, left, right, scope, span] = use;
   if (left.failed() || right.failed()) return failed_value(span);
   if (node.op == BinaryOperator::conjunction || node.op == BinaryOperator::disjunction) return combined(reading, use);
@@ -260,7 +260,7 @@ Value applied(Reading& reading, const OperatorUse& use) {
   }
 }
 
-Value chosen(Reading& reading, const Value& condition, const Value& yes, const Value& no, Span span) {
+Value chosen(ExpressionReading& reading, const Value& condition, const Value& yes, const Value& no, Span span) {
   if (condition.failed() || yes.failed() || no.failed()) return failed_value(span);
   Terms& terms = reading.terms;
   if (condition.type != Value::Type::boolean)

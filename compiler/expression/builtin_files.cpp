@@ -21,9 +21,15 @@ const EmbeddedFile* embedded_asset(std::string_view module, std::string_view wri
   return nullptr;
 }
 
+/// A file, and how it is decoded if it is a picture: those of the binary are trusted.
+struct FileArgument {
+  ResolvedFile file;
+  Sandbox sandbox = Sandbox::required;
+};
+
 /// The file that the first argument names, relative to the folder of the Wale file. Nothing if it cannot be read, which
 /// is reported.
-std::optional<ResolvedFile> file_argument(const BuiltinCall& call) {
+std::optional<FileArgument> file_argument(const BuiltinCall& call) {
   const Surroundings& surroundings = call.reading.surroundings;
   if (!surroundings.resolver) {
     call.reading.calls.report(Code::not_constant, call.span, "no file can be read here", "",
@@ -33,9 +39,9 @@ std::optional<ResolvedFile> file_argument(const BuiltinCall& call) {
   const std::string& from = surroundings.sources[call.span.source].name;
   if (call.span.source >= first_embedded_source)
     if (const auto* asset = embedded_asset(from, call.value(0).text))
-      return ResolvedFile{std::string(asset->name), std::string(asset->text)};
+      return FileArgument{{std::string(asset->name), std::string(asset->text)}, Sandbox::if_possible};
   auto resolved = surroundings.resolver->file(std::string(call.value(0).text), from);
-  if (resolved) return *std::move(resolved);
+  if (resolved) return FileArgument{*std::move(resolved), surroundings.resolver->sandbox()};
   call.reading.calls.report(Code::unreadable_file, call.actuals[0].span,
                             fmt::format("`{}` cannot be read: {}", call.value(0).text, resolved.error().sentence), "",
                             "give the path relative to the folder of this file");
@@ -68,9 +74,10 @@ Value relief(const BuiltinCall& call) {
   if (!(*smooth >= 0))
     return call.reading.calls.report(Code::value_out_of_range, call.actuals[3].span, "smoothing cannot be negative", "",
                                      "write something like `0.2 mm`");
-  const auto file = file_argument(call);
-  if (!file) return call.failed();
-  auto read = read_height_image(std::as_bytes(std::span(file->bytes)), file->name, *smooth / *scale);
+  const auto argument = file_argument(call);
+  if (!argument) return call.failed();
+  const auto& [file, sandbox] = *argument;
+  auto read = read_height_image(std::as_bytes(std::span(file.bytes)), file.name, *smooth / *scale, sandbox);
   if (!read)
     return call.reading.calls.report(read.error().code, call.actuals[0].span,
                                      fmt::format("`{}`: {}", call.value(0).text, read.error().sentence), "",
@@ -95,9 +102,9 @@ Value table(const BuiltinCall& call) {
   for (const std::size_t column : {1, 2})
     if (call.actuals[column].given && !call.text(column, "table(\"detent.csv\", place: \"x\", value: \"force\")"))
       return call.failed();
-  const auto file = file_argument(call);
-  if (!file) return call.failed();
-  const auto measured = read_measured_table(file->bytes, std::string(call.value(1).text),
+  const auto argument = file_argument(call);
+  if (!argument) return call.failed();
+  const auto measured = read_measured_table(argument->file.bytes, std::string(call.value(1).text),
                                             std::string(call.value(2).text), *call.reading.names);
   if (!measured) {
     const Error& error = measured.error();

@@ -11,7 +11,7 @@ namespace wale {
 
 /// A call of a builtin function. Its arguments have been checked, and none that is required is missing.
 struct BuiltinCall {
-  Reading& reading;
+  ExpressionReading& reading;
   const std::vector<Actual>& actuals;
   Span span;
 

@@ -30,7 +30,7 @@ std::string takes(const FormalNames& formals) {
 }
 
 /// The index of the formal for an argument; the number of formals if there is none, which is reported.
-std::size_t formal_of(Reading& reading, const Argument& argument, Span span, std::string_view callee,
+std::size_t formal_of(ExpressionReading& reading, const Argument& argument, Span span, std::string_view callee,
                       const FormalNames& formals, std::size_t position) {
   if (argument.name) {
     const Word& name = *argument.name;
@@ -55,8 +55,8 @@ struct BoundArguments {
   std::vector<Actual> actuals;
   bool good = true;
 };
-BoundArguments bind_arguments(Reading& reading, const SyntaxTree& tree, const Call& call, const FormalNames& formals,
-                              Scope& scope) {
+BoundArguments bind_arguments(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
+                              const FormalNames& formals, Scope& scope) {
   BoundArguments bound{.actuals = std::vector<Actual>(formals.size())};
   std::size_t position = 0;
   for (const Argument& argument : tree.arguments(call)) {
@@ -81,15 +81,15 @@ BoundArguments bind_arguments(Reading& reading, const SyntaxTree& tree, const Ca
   return bound;
 }
 
-Value missing_argument(Reading& reading, const Call& call, Span span, std::string_view formal,
+Value missing_argument(ExpressionReading& reading, const Call& call, Span span, std::string_view formal,
                        const FormalNames& formals) {
   return reading.calls.report(Code::missing_argument, span,
                               fmt::format("`{}` needs its argument `{}`", call.callee.text, formal), "",
                               fmt::format("it takes: {}", fmt::join(formals, ", ")));
 }
 
-Value call_builtin(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, const Builtin& builtin,
-                   Scope& scope) {
+Value call_builtin(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
+                   const Builtin& builtin, Scope& scope) {
   const Span span = tree.span(expr);
   const auto [actuals, good] = bind_arguments(reading, tree, call, builtin.formals, scope);
   if (!good) return failed_value(span);
@@ -110,7 +110,7 @@ Value call_builtin(Reading& reading, const SyntaxTree& tree, ExprId expr, const 
 
 /// Whether a function may be expanded here: it does not call itself, and the terms stay within bounds. Otherwise it is
 /// reported.
-bool may_expand(Reading& reading, const Word& callee, Span span) {
+bool may_expand(ExpressionReading& reading, const Word& callee, Span span) {
   CallStack& calls = reading.calls;
   if (calls.contains(callee.text, false)) {
     calls.report(Code::recursive_definition, callee.span, fmt::format("`{}` would call itself", callee.text), "",
@@ -137,7 +137,7 @@ std::optional<Dimension> dimension_of(const FormalParameter& formal, const Decla
   return known ? std::optional(*known) : std::nullopt;
 }
 
-Value call_function(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
+Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
                     const Declared<FunctionDecl>& function, Scope& scope) {
   const Span span = tree.span(expr);
   if (!may_expand(reading, call.callee, span)) return failed_value(span);
@@ -162,7 +162,7 @@ Value call_function(Reading& reading, const SyntaxTree& tree, ExprId expr, const
   return good ? expanded(reading, function, std::move(actuals), scope, span) : failed_value(span);
 }
 
-Value unknown_function(Reading& reading, const Call& call, Scope& scope) {
+Value unknown_function(ExpressionReading& reading, const Call& call, Scope& scope) {
   const std::string_view name = call.callee.text;
   if (scope.find(name) || reading.names->constants.contains(name) || names_hand_or_patch(name))
     return reading.calls.report(Code::wrong_type, call.callee.span, fmt::format("`{}` is not a function", name), "",
@@ -174,7 +174,7 @@ Value unknown_function(Reading& reading, const Call& call, Scope& scope) {
 }
 
 /// Whether that argument of that function carries a percept: "lateral amplitude".
-bool carries_a_percept(const Reading& reading, std::string_view function, std::string_view argument) {
+bool carries_a_percept(const ExpressionReading& reading, std::string_view function, std::string_view argument) {
   bool carries = false;
   reading.surroundings.declarations.percepts.each([&](const std::string&, const Percept& percept) {
     const std::string_view carrier = percept.carrier;
@@ -185,7 +185,7 @@ bool carries_a_percept(const Reading& reading, std::string_view function, std::s
 }
 
 /// Records the carrier of a function whose argument may be left open: that argument is the size of a percept's carrier.
-void record_carrier(Reading& reading, const FunctionDecl& function, const std::vector<Actual>& actuals,
+void record_carrier(ExpressionReading& reading, const FunctionDecl& function, const std::vector<Actual>& actuals,
                     const FormalParameter& formal, const Value& result, Span span) {
   const auto actual = [&](std::string_view name) -> const Value* {
     // Backwards: if two formals have the same name, which is an error, the last one counts.
@@ -225,7 +225,7 @@ void record_carrier(Reading& reading, const FunctionDecl& function, const std::v
 }
 
 /// The open quantity for an argument with the default `open`; `solve` finds its value.
-Value open_quantity(Reading& reading, const FormalParameter& formal, const Declarations& home, Span span) {
+Value open_quantity(ExpressionReading& reading, const FormalParameter& formal, const Declarations& home, Span span) {
   auto& open_spans = reading.record.open_spans;
   const auto index = static_cast<std::uint32_t>(open_spans.size());
   open_spans.push_back(reading.calls.blame(span));
@@ -236,8 +236,8 @@ Value open_quantity(Reading& reading, const FormalParameter& formal, const Decla
 }
 
 /// Gives missing arguments their defaults; false if any argument has failed.
-bool fill_in(Reading& reading, const Declared<FunctionDecl>& function, std::vector<Actual>& actuals, bool hand,
-             Span span) {
+bool fill_in(ExpressionReading& reading, const Declared<FunctionDecl>& function, std::vector<Actual>& actuals,
+             bool hand, Span span) {
   bool good = true;
   for (std::size_t i = 0; i < actuals.size(); ++i) {
     const auto& formal = function.node->parameters[i];
@@ -257,7 +257,8 @@ bool fill_in(Reading& reading, const Declared<FunctionDecl>& function, std::vect
   return good;
 }
 
-Value body(Reading& reading, const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals, bool hand) {
+Value body(ExpressionReading& reading, const Declared<FunctionDecl>& function, const std::vector<Actual>& actuals,
+           bool hand) {
   const FunctionDecl& declaration = *function.node;
   Scope names;
   names.hand = hand;
@@ -269,7 +270,7 @@ Value body(Reading& reading, const Declared<FunctionDecl>& function, const std::
 
 }  // namespace
 
-Value expanded(Reading& reading, const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
+Value expanded(ExpressionReading& reading, const Declared<FunctionDecl>& function, std::vector<Actual> actuals,
                const Scope& scope, Span span) {
   const FunctionDecl& declaration = *function.node;
   const auto* outside_names = std::exchange(reading.names, function.home);
@@ -288,7 +289,7 @@ Value expanded(Reading& reading, const Declared<FunctionDecl>& function, std::ve
   return result;
 }
 
-Value value_of_call(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
+Value value_of_call(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
   const std::string_view callee = call.callee.text;
   auto* binding = scope.find(callee);

@@ -17,7 +17,7 @@ namespace {
 constexpr double largest_literal = 3.4e38;  // the largest float32, about
 
 /// Reports a name that is also a unit, once for each name.
-Value ambiguous_unit(Reading& reading, const Word& word, Span declared) {
+Value ambiguous_unit(ExpressionReading& reading, const Word& word, Span declared) {
   auto& reported = reading.known.ambiguous;
   if (std::ranges::find(reported, declared) != reported.end()) return failed_value(word.span);
   reported.push_back(declared);
@@ -28,7 +28,7 @@ Value ambiguous_unit(Reading& reading, const Word& word, Span declared) {
 }
 
 /// Names after the units of a number multiply or divide it: `0.3 denim`, `5 N / mass`.
-Value times_name(Reading& reading, const Value& value, const SuffixFactor& part, Scope& scope) {
+Value times_name(ExpressionReading& reading, const Value& value, const SuffixFactor& part, Scope& scope) {
   if (!has_value(reading, part.name.text, scope)) {
     if (const auto hidden = private_name(reading, part.name)) return *hidden;
     const bool is_full = reading.surroundings.diagnostics.is_full();
@@ -45,7 +45,8 @@ Value times_name(Reading& reading, const Value& value, const SuffixFactor& part,
   return part.divides ? quotient(reading, value, factor, value.span) : product(reading, value, factor, value.span);
 }
 
-Value number(Reading& reading, const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal, Scope& scope) {
+Value number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const NumberLiteral& literal,
+             Scope& scope) {
   const Span span = tree.span(expr);
   double factor = 1;
   Dimension dimension;
@@ -80,7 +81,7 @@ Value number(Reading& reading, const SyntaxTree& tree, ExprId expr, const Number
   return value;
 }
 
-Value part_of(Reading& reading, const SyntaxTree& tree, const Part& node, Scope& scope) {
+Value part_of(ExpressionReading& reading, const SyntaxTree& tree, const Part& node, Scope& scope) {
   Value value = check_expression(reading, tree, node.whole, scope);
   if (value.failed()) return value;
   if (value.type != Value::Type::vector)
@@ -89,7 +90,7 @@ Value part_of(Reading& reading, const SyntaxTree& tree, const Part& node, Scope&
   return value.part(node.part);
 }
 
-Value unary(Reading& reading, const SyntaxTree& tree, const Unary& node, Scope& scope) {
+Value unary(ExpressionReading& reading, const SyntaxTree& tree, const Unary& node, Scope& scope) {
   const Value value = check_expression(reading, tree, node.operand, scope);
   switch (node.op) {
     case UnaryOperator::plus: return value;
@@ -99,13 +100,14 @@ Value unary(Reading& reading, const SyntaxTree& tree, const Unary& node, Scope& 
   return complement(reading, value);
 }
 
-Value binary(Reading& reading, const SyntaxTree& tree, ExprId expr, const Binary& node, Scope& scope) {
+Value binary(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Binary& node, Scope& scope) {
   const Value left = check_expression(reading, tree, node.left, scope);
   const Value right = check_expression(reading, tree, node.right, scope);
   return applied(reading, {tree, node, left, right, scope, tree.span(expr)});
 }
 
-Value conditional(Reading& reading, const SyntaxTree& tree, ExprId expr, const Conditional& node, Scope& scope) {
+Value conditional(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Conditional& node,
+                  Scope& scope) {
   const Value condition = check_expression(reading, tree, node.condition, scope);
   const Value yes = check_expression(reading, tree, node.yes, scope);
   const Value no = check_expression(reading, tree, node.no, scope);
@@ -120,7 +122,7 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
   return declarations.names().unit(dimension);
 }
 
-Value check_expression(Reading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope) {
+Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope) {
   const Span span = tree.span(expr);
   Value value =
       std::visit(Overloaded{

@@ -17,7 +17,7 @@ struct Actual {
 };
 
 /// Finds the types and dimensions of expressions, and turns them into terms with all functions inlined. One checker
-/// serves one material. Its parts are functions that take a `Reading`: `check_name.hpp`, `arithmetic.hpp`,
+/// serves one material. Its parts are functions that take an `ExpressionReading`: `check_name.hpp`, `arithmetic.hpp`,
 /// `check_call.hpp`, `fields.hpp`, `builtin_functions.hpp`, `dimension_mend.hpp`.
 class ExpressionChecker {
  public:
@@ -52,11 +52,11 @@ class ExpressionChecker {
   CallRecord& record() { return reading_.record; }
 
  private:
-  Reading reading_;
+  ExpressionReading reading_;
 };
 
 /// The value of an expression: as `ExpressionChecker::check`, for the parts of the checker.
-Value check_expression(Reading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope);
+Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope);
 
 /// In words, a quantity with which a value changes: "place", "velocity".
 std::string what_changes(const Dependence& dependence);

@@ -44,7 +44,7 @@ const InputName* input_named(std::string_view name) {
 }
 
 /// The value of `hand`, `x`, `velocity` and the like, if the scope has a hand.
-std::optional<Value> input(Reading& reading, const Word& word, const Scope& scope) {
+std::optional<Value> input(ExpressionReading& reading, const Word& word, const Scope& scope) {
   const InputName* found = scope.hand ? input_named(word.text) : nullptr;
   if (!found) return std::nullopt;
   if (word.text.starts_with("raw_") && reading.calls.empty())
@@ -68,7 +68,7 @@ std::optional<Value> input(Reading& reading, const Word& word, const Scope& scop
 }
 
 /// The value of a `let` outside the materials. It is evaluated once.
-std::optional<Value> constant_named(Reading& reading, const Word& word) {
+std::optional<Value> constant_named(ExpressionReading& reading, const Word& word) {
   const auto* found = reading.names->constants.find(word.text);
   if (!found) return std::nullopt;
   CallStack& calls = reading.calls;
@@ -95,7 +95,7 @@ std::optional<Value> constant_named(Reading& reading, const Word& word) {
 }
 
 /// The value of `hand.x` or `p.y`: one part of a vector.
-std::optional<Value> part_of_vector(Reading& reading, const Word& word, Scope& scope) {
+std::optional<Value> part_of_vector(ExpressionReading& reading, const Word& word, Scope& scope) {
   const auto dot = word.text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
   const std::string_view whole = word.text.substr(0, dot), part = word.text.substr(dot + 1);
@@ -125,12 +125,12 @@ std::optional<Advice> import_mend(const Surroundings& surroundings, std::string_
       .fact("import", exporter->module);
 }
 
-bool has_value(const Reading& reading, std::string_view name, const Scope& scope) {
+bool has_value(const ExpressionReading& reading, std::string_view name, const Scope& scope) {
   const std::string_view whole = name.substr(0, name.find('.'));
   return scope.find(whole) || reading.names->constants.contains(whole) || names_hand_or_patch(whole);
 }
 
-std::optional<Value> private_name(Reading& reading, const Word& word) {
+std::optional<Value> private_name(ExpressionReading& reading, const Word& word) {
   const auto found = reading.names->private_names.find(word.text);
   if (found == reading.names->private_names.end()) return std::nullopt;
   const SourceSet& sources = reading.surroundings.sources;
@@ -142,7 +142,8 @@ std::optional<Value> private_name(Reading& reading, const Word& word) {
           .see(found->second, "declared here, without `export`"));
 }
 
-Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sought sought, Advice otherwise) {
+Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
+                     Advice otherwise) {
   // A function's body is read at each of its calls, but a misspelt word in it is looked up only once.
   const Span place = reading.calls.blame(word.span);
   if (!reading.known.misspelt.emplace(place.source, place.begin).second) return otherwise;
@@ -167,7 +168,7 @@ Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sou
   return did_you_mean(word.span, word.text, candidates, std::move(otherwise));
 }
 
-Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& scope) {
+Value bound_value(ExpressionReading& reading, Scope::Binding& binding, Span span, Scope& scope) {
   binding.used = true;
   Value value = binding.value;
   // The name of a memory alone means its value under the hand.
@@ -177,12 +178,12 @@ Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& s
   return value;
 }
 
-Value value_of_name(Reading& reading, const Word& word, Scope& scope) {
+Value value_of_name(ExpressionReading& reading, const Word& word, Scope& scope) {
   auto* binding = scope.find(word.text);
   return binding ? bound_value(reading, *binding, word.span, scope) : free_value(reading, word, scope);
 }
 
-Value free_value(Reading& reading, const Word& word, Scope& scope) {
+Value free_value(ExpressionReading& reading, const Word& word, Scope& scope) {
   if (const auto filled_in = input(reading, word, scope)) return *filled_in;
   if (word.text == "open") return {.type = Value::Type::open, .span = word.span};
   if (const auto constant = constant_named(reading, word)) return *constant;

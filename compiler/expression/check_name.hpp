@@ -9,17 +9,17 @@
 namespace wale {
 
 /// The value of a name in the scope, of the hand or the patch, or of a constant. Unknown names are reported.
-Value value_of_name(Reading& reading, const Word& word, Scope& scope);
+Value value_of_name(ExpressionReading& reading, const Word& word, Scope& scope);
 /// The value of a name that the scope binds.
-Value bound_value(Reading& reading, Scope::Binding& binding, Span span, Scope& scope);
+Value bound_value(ExpressionReading& reading, Scope::Binding& binding, Span span, Scope& scope);
 /// The value of a name that the scope does not bind.
-Value free_value(Reading& reading, const Word& word, Scope& scope);
+Value free_value(ExpressionReading& reading, const Word& word, Scope& scope);
 
 /// Whether a name has a value here. For `hand.x`, the part before the dot decides.
-bool has_value(const Reading& reading, std::string_view name, const Scope& scope);
+bool has_value(const ExpressionReading& reading, std::string_view name, const Scope& scope);
 
 /// Reports a name that an imported file declares without `export`; nothing if there is none.
-std::optional<Value> private_name(Reading& reading, const Word& word);
+std::optional<Value> private_name(ExpressionReading& reading, const Word& word);
 
 /// The import that brings a name which a module of the library exports as one of `kinds` ("unit", "map"); nothing where
 /// there is none.
@@ -29,7 +29,7 @@ std::optional<Value> private_name(Reading& reading, const Word& word);
 enum class Sought { value, function };
 /// The advice for an unknown name: "did you mean …", or the import that declares it, or else `otherwise`. `scope` may
 /// be null.
-[[gnu::cold]] Advice spelling_mend(Reading& reading, const Word& word, const Scope* scope, Sought sought,
+[[gnu::cold]] Advice spelling_mend(ExpressionReading& reading, const Word& word, const Scope* scope, Sought sought,
                                    Advice otherwise);
 
 }  // namespace wale

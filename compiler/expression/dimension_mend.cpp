@@ -62,7 +62,7 @@ std::string surplus(const DimensionNames& names, const Dimension& ratio) {
 }
 
 /// Advice on the factor that makes the dimension wrong by `ratio`, or on one to multiply or divide by.
-Advice factor_mend(const Reading& reading, const std::vector<ProductName>& factors, const Scope& scope,
+Advice factor_mend(const ExpressionReading& reading, const std::vector<ProductName>& factors, const Scope& scope,
                    const Dimension& expected, const Dimension& ratio) {
   const DimensionNames& names = reading.dimension_names();
   const SourceSet& sources = reading.surroundings.sources;
@@ -98,7 +98,7 @@ Advice factor_mend(const Reading& reading, const std::vector<ProductName>& facto
 }
 
 /// `1/8 inch` is 1 / (8 inch): one eighth of an inch was meant where that has the dimension `expected`.
-std::optional<Advice> fraction_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr,
+std::optional<Advice> fraction_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
                                     const Dimension& expected, const Dimension& found) {
   const auto* quotient = std::get_if<Binary>(&tree.expr(expr));
   if (!quotient || quotient->op != BinaryOperator::divide || Dimension{} / found != expected) return std::nullopt;
@@ -136,7 +136,7 @@ Advice unit_mend(const Word& word, const Declarations& declarations, const Surro
                       "declare it, as in `unit thou = 25.4 um`, or use one of schema/units.wale", false);
 }
 
-Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
+Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                       const Dimension& expected, const Dimension& found) {
   const Surroundings& surroundings = reading.surroundings;
   const std::string unit = customary_unit(surroundings.declarations, expected);
@@ -158,8 +158,8 @@ Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId exp
   return factor_mend(reading, factors, scope, expected, found / expected);
 }
 
-void report_dimension(Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope, const Dimension& found,
-                      const Dimension& expected) {
+void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
+                      const Dimension& found, const Dimension& expected) {
   const DimensionNames& names = reading.dimension_names();
   const auto sides = names.side_by_side(expected, found);
   const std::string of_expected = names.words(expected), of_found = names.words(found);

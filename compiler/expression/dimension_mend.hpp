@@ -5,11 +5,11 @@
 namespace wale {
 
 /// Reports an expression of the wrong dimension, with what to write instead.
-[[gnu::cold]] void report_dimension(Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
+[[gnu::cold]] void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
                                     const Dimension& found, const Dimension& expected);
 
 /// Advice on how to turn an expression of dimension `found` into one of dimension `expected`.
-[[gnu::cold]] Advice dimension_mend(const Reading& reading, const SyntaxTree& tree, ExprId expr, const Scope& scope,
-                                    const Dimension& expected, const Dimension& found);
+[[gnu::cold]] Advice dimension_mend(const ExpressionReading& reading, const SyntaxTree& tree, ExprId expr,
+                                    const Scope& scope, const Dimension& expected, const Dimension& found);
 
 }  // namespace wale

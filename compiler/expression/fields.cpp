@@ -82,7 +82,7 @@ std::array<TermId, 2> memory_place(Terms& terms, std::uint32_t memory, const Val
   return {along(place.x, Input::patch_half_width, 0), along(place.y, Input::patch_half_height, 1)};
 }
 
-Value call_field(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, const Field& field,
+Value call_field(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, const Field& field,
                  Scope& scope) {
   const Span span = tree.span(expr);
   std::vector<Value> arguments;
@@ -113,7 +113,7 @@ Value call_field(Reading& reading, const SyntaxTree& tree, ExprId expr, const Ca
 namespace {
 
 /// The values of the arguments of `curve`; nothing after an error, which is reported.
-std::optional<std::vector<Value>> curve_values(Reading& reading, const SyntaxTree& tree, const Call& call,
+std::optional<std::vector<Value>> curve_values(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
                                                Scope& scope) {
   std::vector<Value> values;
   bool good = true;
@@ -131,7 +131,7 @@ std::optional<std::vector<Value>> curve_values(Reading& reading, const SyntaxTre
 
 }  // namespace
 
-Value curve(Reading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
+Value curve(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call, Scope& scope) {
   const Span span = tree.span(expr);
   const auto read = curve_values(reading, tree, call, scope);
   if (!read) return failed_value(span);

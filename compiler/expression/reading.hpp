@@ -53,8 +53,8 @@ struct KnownNames {
 };
 
 /// The state that the parts of the expression checker share while they read the expressions of one material.
-struct Reading {
-  Reading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
+struct ExpressionReading {
+  ExpressionReading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
       : surroundings(around),
         names(&surroundings.declarations),
         terms(terms),

@@ -26,8 +26,4 @@ struct Drawing {
 /// has `name`.
 Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std::string& name);
 
-/// Encodes by the extension of `path` and writes the file. A regular file that cannot be written whole is removed.
-/// Errors: as `encode_drawing`.
-Result<> save_drawing(const Drawing& drawing, const std::string& path);
-
 }  // namespace wale

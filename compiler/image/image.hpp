@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "compiler/text/resolver.hpp"
 #include "schema/patch_program.hpp"
 #include "schema/result.hpp"
 
@@ -20,8 +21,9 @@ struct HeightImage {
 /// The smallest and largest side of a height table, in samples. A spline needs four; larger pictures are resized down.
 inline constexpr int smallest_image_side = 4;
 inline constexpr int largest_image_side = 4096;
-/// Pictures that declare more pixels than this are refused before any is read.
-inline constexpr long long most_image_pixels = 1LL << 28;
+/// The most pixels of a picture: what the largest height table holds. A picture that declares more is refused before
+/// any is read.
+inline constexpr long long most_image_pixels = 1LL * largest_image_side * largest_image_side;
 /// The widest smoothing, in pixels of the table.
 inline constexpr double widest_smoothing = 64;
 
@@ -35,9 +37,14 @@ inline constexpr double widest_smoothing = 64;
 ///
 /// The extension of `name` is a hint at the format; no file of that name is opened. `smooth_pixels` is the standard
 /// deviation of a Gaussian in pixels of the file, 0 for none; beyond the edge the picture continues with its edge's
-/// value. The same bytes give the same heights on every machine. Prints nothing and may be called from any thread.
+/// value. The same bytes give the same heights on every machine.
 ///
-/// Errors: `Code::image_size`, `unreadable_image` and `missing_library`; the place has `name`.
-Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels);
+/// Pictures are untrusted, and so they are decoded by `decode_picture` in a process without rights. The last few are
+/// remembered, so that a process decodes each of its pictures once. May be called from any thread.
+///
+/// Errors: `Code::image_size`, `unreadable_image`, `missing_library`, `short_of_resources`, and `no_sandbox` where the
+/// system offers none and `sandbox` requires one; the place has `name`.
+Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels,
+                                      Sandbox sandbox = Sandbox::required);
 
 }  // namespace wale

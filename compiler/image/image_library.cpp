@@ -3,14 +3,19 @@
 #include <dlfcn.h>
 
 #include <string>
+#include <vector>
+
+#include "compiler/image/companion.hpp"
 
 namespace wale {
 namespace {
 
 Result<const ImageLibrary*> opened_image_library() {
-  // The path of the build; for a program that was moved, the system's search path.
-  for (const char* path : {WALE_IMAGE_LIBRARY, "libwale_images.so"}) {
-    if (void* library = dlopen(path, RTLD_NOW | RTLD_LOCAL)) {
+  // A name without a folder is found where the system looks for libraries.
+  std::vector<std::string> paths = companion_paths("libwale_images.so", WALE_IMAGE_LIBRARY);
+  paths.push_back("libwale_images.so");
+  for (const std::string& path : paths) {
+    if (void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
       if (const void* functions = dlsym(library, "wale_image_library"))
         return static_cast<const ImageLibrary*>(functions);
     }
@@ -18,7 +23,7 @@ Result<const ImageLibrary*> opened_image_library() {
   const char* reason = dlerror();
   return Error{Code::missing_library,
                std::string("the image library cannot be opened: ") + (reason ? reason : "not found"),
-               "put libwale_images.so in a folder that LD_LIBRARY_PATH names",
+               "put libwale_images.so beside the program that uses it",
                {"libwale_images.so"}};
 }
 

@@ -6,18 +6,14 @@
 #include <vector>
 
 #include "compiler/image/drawing.hpp"
-#include "compiler/image/image.hpp"
 #include "schema/result.hpp"
 
 namespace wale {
 
-/// The functions that need OpenImageIO. It brings 250 shared libraries, and a program linked with it starts a quarter
-/// of a second later. So these functions are in a library of their own, `wale_images`, which is opened when the first
-/// picture is read or drawn: most runs of `wale` need none.
+/// The functions that draw previews by OpenImageIO. It brings 250 shared libraries, and a program linked with it starts
+/// a quarter of a second later. So these functions are in a library of their own, `wale_images`, which is opened when
+/// the first picture is drawn: most runs of `wale` need none. They get no foreign bytes; those go to `decode_picture`.
 struct ImageLibrary {
-  /// As the function of that name in image.hpp.
-  Result<HeightImage> (*read_height_image)(std::span<const std::byte> bytes, const std::string& name,
-                                           double smooth_pixels);
   /// As the function of that name in drawing.hpp.
   Result<std::vector<std::byte>> (*encode_drawing)(const Drawing& drawing, const std::string& name);
   /// Reduces a picture of `width` by `height` pixels to `columns` by `rows` by means over boxes. `rgb` is in 0 .. 1;

@@ -70,6 +70,7 @@ class ModuleLoader {
   /// that use it. The file also knows the devices of its project.
   void load(SyntaxTree tree) {
     add_project_devices_of(sources_[tree.source].name);
+    add_owners_devices();
     const std::shared_ptr<const Module> file = add(std::move(tree));
     modules_.modules.pop_back();
     // `added_` grows while files that it adds need more files.
@@ -90,7 +91,8 @@ class ModuleLoader {
           import_names(imported->declarations, *import, module->declarations, sources_, diagnostics_);
         }
     declare(module->tree, sources_, module->declarations, diagnostics_);
-    if (devices_ && path_.size() == 1) add_project_devices(module->declarations);
+    if (path_.size() == 1)
+      for (const auto& devices : devices_) add_devices(*devices, module->declarations);
     path_.pop_back();
     loaded_[name] = module;
     modules_.modules.push_back(module);
@@ -103,13 +105,23 @@ class ModuleLoader {
     // An empty file is ignored: an editor may be writing it at this moment.
     if (resolved && resolved->name != name && !resolved->bytes.empty()) {
       const SourceId source = sources_.add(resolved->name, std::move(resolved->bytes));
-      devices_ = add(parse(sources_, source, diagnostics_));
+      devices_.push_back(add(parse(sources_, source, diagnostics_)));
     }
   }
 
+  void add_owners_devices() {
+    std::vector<std::shared_ptr<const Module>> owners;
+    for (ResolvedFile& file : resolver_.devices()) {
+      if (const auto known = loaded_.find(file.name); known != loaded_.end()) continue;
+      const SourceId source = sources_.add(file.name, std::move(file.bytes));
+      owners.push_back(add(parse(sources_, source, diagnostics_)));
+    }
+    devices_.insert(devices_.end(), owners.begin(), owners.end());
+  }
+
   /// Declarations and imports of the file itself take precedence over devices of the same names.
-  void add_project_devices(Declarations& declarations) const {
-    for (const auto& [name, entry] : devices_->declarations.devices.own()) {
+  static void add_devices(const Module& devices, Declarations& declarations) {
+    for (const auto& [name, entry] : devices.declarations.devices.own()) {
       if (!entry.exported || entry.imported || declarations.devices.own().contains(name)) continue;
       auto imported = entry;
       imported.imported = true;
@@ -274,8 +286,8 @@ class ModuleLoader {
   std::shared_ptr<SharedNames> names_ = std::make_shared<SharedNames>(modules_.common->declarations.names());
   std::vector<std::string> path_;  ///< files whose imports are being followed
   std::map<std::string, std::shared_ptr<const Module>> loaded_;
-  std::vector<std::shared_ptr<Module>> added_;  ///< all files loaded so far
-  std::shared_ptr<const Module> devices_;       ///< the project's own; may be null
+  std::vector<std::shared_ptr<Module>> added_;          ///< all files loaded so far
+  std::vector<std::shared_ptr<const Module>> devices_;  ///< the project's own, then those of the owner's files
 };
 
 }  // namespace

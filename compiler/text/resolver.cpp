@@ -3,24 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "compiler/text/source.hpp"
+#include "schema/regular_file.hpp"
 
 namespace wale {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::uintmax_t largest_file = std::uintmax_t{512} << 20;
 
 /// A folder with more files than this is not a library; listing stops there.
 constexpr std::size_t most_listed = 100'000;
@@ -34,24 +29,28 @@ Error unreadable(const std::string& path, std::string sentence) {
 
 class FileResolver final : public Resolver {
  public:
-  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for)
-      : roots_(std::move(roots)), looked_for_(looked_for) {}
+  FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for, Sandbox sandbox,
+               std::vector<ResolvedFile> devices)
+      : roots_(std::move(roots)), looked_for_(looked_for), sandbox_(sandbox), devices_(std::move(devices)) {}
+
+  std::vector<ResolvedFile> devices() override { return devices_; }
 
   Result<ResolvedFile> module(const std::string& path, const std::string& from) override {
     std::string relative = path;
     std::ranges::replace(relative, '.', '/');
-    auto found = look_for(relative + ".wale", from);
+    auto found = look_for(relative + ".wale", from, largest_source);
     if (!found) return found;
-    if (found->bytes.size() > largest_source)
-      return unreadable(found->name, fmt::format("`{}` has {:.1f} MB; Wale reads up to {} MB", found->name,
-                                                 found->bytes.size() / 1048576.0, largest_source >> 20));
     modules_.insert(found->name);
     if (modules_.size() > most_modules)
       return unreadable(found->name, fmt::format("more than {} files would be imported", most_modules));
     return found;
   }
 
-  Result<ResolvedFile> file(const std::string& name, const std::string& from) override { return look_for(name, from); }
+  Result<ResolvedFile> file(const std::string& name, const std::string& from) override {
+    return look_for(name, from, largest_asset);
+  }
+
+  Sandbox sandbox() const override { return sandbox_; }
 
   std::string library(const std::string& from) override {
     std::error_code ignored;
@@ -100,14 +99,14 @@ class FileResolver final : public Resolver {
       if (std::ranges::find(all, module) == all.end()) all.push_back(std::move(module));
   }
 
-  Result<ResolvedFile> look_for(const std::string& name, const std::string& from) {
+  Result<ResolvedFile> look_for(const std::string& name, const std::string& from, std::size_t largest) {
     std::vector<fs::path> candidates{fs::path(from).parent_path() / name};
     if (const auto project = project_of(from)) candidates.push_back(*project / name);
     for (const auto& root : roots_) candidates.push_back(fs::path(root) / name);
     for (const auto& candidate : candidates) {
       std::error_code ignored;
       if (looked_for_ != nullptr) looked_for_->push_back(candidate.lexically_normal().string());
-      if (fs::exists(candidate, ignored)) return read_file(candidate.lexically_normal().string());
+      if (fs::exists(candidate, ignored)) return read_file(candidate.lexically_normal().string(), largest);
     }
     std::string searched;
     std::set<std::string> said;  // a folder may occur twice, if the file is in the root of its project
@@ -139,38 +138,23 @@ class FileResolver final : public Resolver {
 
   std::vector<std::string> roots_;
   std::vector<std::string>* looked_for_;
+  Sandbox sandbox_;
+  std::vector<ResolvedFile> devices_;
   std::map<std::string, std::optional<fs::path>> projects_;
   std::set<std::string> modules_;  ///< all modules requested so far
 };
 
 }  // namespace
 
-std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for) {
-  return std::make_unique<FileResolver>(std::move(roots), looked_for);
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for,
+                                        Sandbox sandbox, std::vector<ResolvedFile> devices) {
+  return std::make_unique<FileResolver>(std::move(roots), looked_for, sandbox, std::move(devices));
 }
 
-Result<ResolvedFile> read_file(const std::string& path) {
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  if (!fs::exists(status)) return unreadable(path, "no such file");
-  if (fs::is_directory(status)) return unreadable(path, "this is a folder");
-  // A pipe has no size and may never end, so only the size of regular files is checked before reading.
-  if (fs::is_regular_file(status)) {
-    const auto size = fs::file_size(path, error);
-    if (!error && size > largest_file)
-      return unreadable(path, fmt::format("it has {} bytes; Wale reads up to {}", size, largest_file));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return unreadable(path, std::strerror(errno));
-  ResolvedFile file{path, {}};
-  char block[1 << 16];
-  while (stream.read(block, sizeof block), stream.gcount() > 0) {
-    file.bytes.append(block, static_cast<std::size_t>(stream.gcount()));
-    if (file.bytes.size() > largest_file)
-      return unreadable(path, fmt::format("it has more than {} bytes", largest_file));
-  }
-  if (stream.bad()) return unreadable(path, std::strerror(errno));
-  return file;
+Result<ResolvedFile> read_file(const std::string& path, std::size_t largest) {
+  auto bytes = read_regular_file(path, largest);
+  if (!bytes) return bytes.error();
+  return ResolvedFile{path, *std::move(bytes)};
 }
 
 }  // namespace wale

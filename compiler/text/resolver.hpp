@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,15 @@ struct ResolvedFile {
   std::string bytes;
 };
 
+/// The largest file of a picture or a table in bytes: 4096 x 4096 pixels, the most that a patch can use, in four
+/// channels of 32 bits, and 1 MiB of other data.
+inline constexpr std::size_t largest_asset = (std::size_t{16} * 4096 * 4096) + (1 << 20);
+/// The largest file of any kind that is read whole, in bytes: patch programs are the largest.
+inline constexpr std::size_t largest_file = std::size_t{512} << 20;
+
+/// Whether an untrusted picture may be decoded where the system offers no sandbox for the decoder.
+enum class Sandbox { required, if_possible };
+
 /// Supplies the bytes of imports and images. The compiler opens no files itself: its caller decides where they come
 /// from. `from` is the name of the importing file. Errors: W0501, with a sentence that fits after "cannot be read:".
 class Resolver {
@@ -23,6 +33,12 @@ class Resolver {
   virtual Result<ResolvedFile> module(const std::string& path, const std::string& from) = 0;
   /// Any other file, by its name as written: "slate.tif".
   virtual Result<ResolvedFile> file(const std::string& name, const std::string& from) = 0;
+
+  /// How the pictures that `file` supplies may be decoded.
+  virtual Sandbox sandbox() const { return Sandbox::required; }
+
+  /// Files whose exported devices every file knows, unless it declares or imports others of the same names.
+  virtual std::vector<ResolvedFile> devices() { return {}; }
 
   /// A key for the library that `modules` lists: equal keys mean equal lists. If it is empty, the list must not be
   /// cached.
@@ -36,11 +52,14 @@ class Resolver {
 inline constexpr const char* project_marker = "wale.project";
 
 /// Looks beside the importing file, then in its project (the nearest folder above it with a `wale.project`), then in
-/// each of the roots. Refuses files over 512 MiB, modules over 4 MiB and more than 1000 modules. `looked_for`, if
-/// given, receives the paths of all files that it looks for, found or not; it must outlive the resolver.
-std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr);
+/// each of the roots. Refuses files over `largest_asset`, modules over 4 MiB and more than a thousand modules, and all
+/// that are not regular files. `looked_for` receives the paths of all files that it looks for, found or not; it must
+/// outlive the resolver. `devices` is the result of `Resolver::devices`.
+std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for = nullptr,
+                                        Sandbox sandbox = Sandbox::required, std::vector<ResolvedFile> devices = {});
 
-/// Reads a whole file. Errors: W0501 if it is missing, a folder, unreadable or larger than 512 MiB; `place` names it.
-Result<ResolvedFile> read_file(const std::string& path);
+/// Reads a whole file of at most `largest` bytes. Errors: W0501 if it is missing, unreadable, larger, or no regular
+/// file, such as a folder, a pipe or a device; `place` names it.
+Result<ResolvedFile> read_file(const std::string& path, std::size_t largest = largest_file);
 
 }  // namespace wale

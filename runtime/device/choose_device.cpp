@@ -32,10 +32,10 @@ struct Candidate {
 
 class Chooser {
  public:
-  Chooser(const DeviceRequest& request, std::span<const DeclaredDevice> known, std::span<const PluggedIn> plugged,
-          Drivers drivers)
-      : request_(request), known_(known), drivers_(drivers) {
-    for (const PluggedIn& each : plugged) all_.push_back({&each, match_device(each, known)});
+  Chooser(const DeviceRequest& request, std::span<const DeclaredDevice> known, std::span<const TrustedDevice> trusted,
+          std::span<const PluggedIn> plugged, Drivers drivers)
+      : request_(request), known_(known), trusted_(trusted), drivers_(drivers) {
+    for (const PluggedIn& each : plugged) all_.push_back({&each, match_device(each, trusted)});
     std::stable_sort(all_.begin(), all_.end(), [](const Candidate& a, const Candidate& b) {
       return a.match.is_generic < b.match.is_generic;  // declared figures are better than assumed ones
     });
@@ -55,14 +55,23 @@ class Chooser {
   }
 
  private:
+  /// To simulate. What the program knows goes before what only the owner declares.
   const DeclaredDevice* declared(const std::string& name) const {
     const auto found =
         std::ranges::find_if(known_, [&](const DeclaredDevice& each) { return each.profile.name == name; });
-    return found != known_.end() ? &*found : nullptr;
+    if (found != known_.end()) return &*found;
+    const TrustedDevice* own = trusted(name);
+    return own != nullptr ? &own->declared() : nullptr;
+  }
+
+  const TrustedDevice* trusted(const std::string& name) const {
+    const auto found =
+        std::ranges::find_if(trusted_, [&](const TrustedDevice& each) { return each.profile().name == name; });
+    return found != trusted_.end() ? &*found : nullptr;
   }
 
   bool fits(const Candidate& each) const {
-    return request_.built_for.empty() || each.match.device->profile.name == request_.built_for;
+    return request_.built_for.empty() || each.match.device->profile().name == request_.built_for;
   }
 
   Error error(Code code, std::string sentence, std::string mend) const {
@@ -105,7 +114,8 @@ class Chooser {
     if (is_port(asked))
       return real([&](const Candidate& each) { return each.plugged->port == asked; },
                   "no device is plugged in at port " + asked);
-    if (const DeclaredDevice* device = declared(asked)) return declared_and_real(*device);
+    if (const TrustedDevice* device = trusted(asked)) return declared_and_real(device->declared());
+    if (const DeclaredDevice* device = declared(asked)) return only_known(*device);
     if (find_driver(drivers_, asked) != nullptr)
       return real(
           [&](const Candidate& each) {
@@ -118,7 +128,7 @@ class Chooser {
   Result<ChosenDevice> declared_and_real(const DeclaredDevice& device) const {
     const std::string& name = device.profile.name;
     const auto is_it = [&](const Candidate& each) {
-      return each.match.device != nullptr && each.match.device->profile.name == name &&
+      return each.match.device != nullptr && each.match.device->profile().name == name &&
              is_force_device(*each.plugged, each.match);
     };
     if (std::ranges::none_of(all_, is_it)) {
@@ -128,9 +138,24 @@ class Chooser {
     return real(is_it, "no " + name + " is plugged in", std::string(simulated_as) + name);
   }
 
+  /// A device that is declared, but by nothing that is trusted: it can only be simulated.
+  Result<ChosenDevice> only_known(const DeclaredDevice& device) const {
+    if (device.wiring.usb.empty() && !device.wiring.is_generic) return simulate(device);
+    const std::string& name = device.profile.name;
+    return error(
+        Code::untrusted_device,
+        "`" + name +
+            "` is declared by a material, its imports or its project, and only a declaration that you "
+            "trust says what a newton is on a real device",
+        "`wale devices --identify` writes one of your own; `--devices FILE` trusts the declarations of a file; "
+        "`--device " +
+            std::string(simulated_as) + name + "` simulates it");
+  }
+
   Error unknown(const std::string& name, std::string_view prefix) const {
     std::vector<std::string> names;
     for (const DeclaredDevice& each : known_) names.push_back(std::string(prefix) + each.profile.name);
+    for (const TrustedDevice& each : trusted_) names.push_back(std::string(prefix) + each.profile().name);
     if (prefix.empty()) {
       for (const char* word : {"auto", "simulated", "usb"}) names.emplace_back(word);
       for (const Driver* driver : drivers_) names.emplace_back(driver->name);
@@ -149,14 +174,22 @@ class Chooser {
   }
 
   Result<ChosenDevice> taken(const Candidate& candidate) const {
-    ChosenDevice chosen{.declared = *candidate.match.device,
+    const TrustedDevice& trusted = *candidate.match.device;
+    ChosenDevice chosen{.declared = trusted.declared(),
                         .plugged = *candidate.plugged,
+                        .trusted = trusted,
                         .is_generic = candidate.match.is_generic,
-                        .said = "using " + in_words(*candidate.plugged) + " as " + candidate.match.device->profile.name,
+                        .said = "using " + in_words(*candidate.plugged) + " as " + trusted.profile().name +
+                                (trusted.file().empty() ? "" : ", as " + trusted.file() + " declares it"),
                         .is_worth_saying = true};
     if (chosen.is_generic)
       chosen.said += "\n  no declaration is about it, so its figures are assumed; `wale devices --identify " +
                      candidate.plugged->port + "` prints one to begin with";
+    if (const DeclaredDevice* unused = untrusted_match(*candidate.plugged, known_, trusted_))
+      chosen.said += "\n  `" + unused->profile.name +
+                     "`, which the material or its project declares, is not used for it: only a declaration that you "
+                     "trust\n  says what a newton is on a real device; `wale devices --identify " +
+                     candidate.plugged->port + "` writes one, and --devices FILE trusts those of a file";
     for (const Candidate& other : all_)
       if (other.plugged != candidate.plugged && is_usable(*other.plugged) && other.match.device != nullptr)
         chosen.said += "\n  also plugged in: " + in_words(*other.plugged) + "; --device " + other.plugged->port;
@@ -183,7 +216,7 @@ class Chooser {
         why = error(Code::unknown_device, "no declaration is about " + name,
                     "declare it, as `wale devices --identify` prints it");
       } else if (!fits(each)) {
-        const std::string& profile = each.match.device->profile.name;
+        const std::string& profile = each.match.device->profile().name;
         why = error(
             Code::other_device,
             "the program is built for `" + request_.built_for + "`, and " + name + " is used as `" + profile + "`",
@@ -206,7 +239,7 @@ class Chooser {
       if (!is_usable(*each.plugged))
         chosen.said += in_words(unusable(*each.plugged)) + "\n";
       else if (each.match.device != nullptr)
-        chosen.said += in_words(*each.plugged) + " is used as " + each.match.device->profile.name +
+        chosen.said += in_words(*each.plugged) + " is used as " + each.match.device->profile().name +
                        ", and the program is built for " + request_.built_for + "\n";
     }
     chosen.said += chosen.is_worth_saying ? "using a simulated device instead"
@@ -216,6 +249,7 @@ class Chooser {
 
   const DeviceRequest& request_;
   std::span<const DeclaredDevice> known_;
+  std::span<const TrustedDevice> trusted_;
   Drivers drivers_;
   std::vector<Candidate> all_;
 };
@@ -223,8 +257,9 @@ class Chooser {
 }  // namespace
 
 Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,
-                                   std::span<const PluggedIn> plugged, Drivers drivers) {
-  return Chooser(request, known, plugged, drivers).choose();
+                                   std::span<const TrustedDevice> trusted, std::span<const PluggedIn> plugged,
+                                   Drivers drivers) {
+  return Chooser(request, known, trusted, plugged, drivers).choose();
 }
 
 }  // namespace wale

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "runtime/device/driver.hpp"
+#include "runtime/device/trusted_device.hpp"
 #include "schema/declared_device.hpp"
 #include "schema/result.hpp"
 
@@ -20,20 +21,24 @@ struct DeviceRequest {
 
 /// The device that was chosen.
 struct ChosenDevice {
-  std::optional<DeclaredDevice> declared;  ///< to build for and to drive it by; none: simulate the program's own device
+  std::optional<DeclaredDevice> declared;  ///< to build for; none: simulate the program's own device
   std::optional<PluggedIn> plugged;        ///< none: it is simulated
+  std::optional<TrustedDevice> trusted;    ///< to drive a plugged device by, with the same content as `declared`
   bool is_generic = false;                 ///< no declaration names the plugged device
   std::string said;                        ///< which one and why, for the person; may have several lines
   bool is_worth_saying = false;            ///< tell it also a person who did not ask for a device
 };
 
-/// Chooses among plugged and declared devices; of two declarations of one device the first of `known` counts. A name
-/// means the real device, unless its declaration is about one that cannot be plugged in. `auto` takes the best real
-/// device, or else the simulated one. Errors, each with what to do: `absent_device`: the requested real device is not
-/// plugged in; `unusable_device`: it is plugged in but cannot be used; `other_device`: the program is built for another
-/// device; `unknown_device`: no device has that name, or none is declared for the one that has it;
+/// Chooses among plugged devices, which use the `trusted` declarations, and simulated ones, which may also be only
+/// `known`; of two declarations of one device the first counts. A name means the real device, unless its declaration is
+/// about one that cannot be plugged in. `auto` takes the best real device, or else the simulated one. If an untrusted
+/// declaration is about the chosen device, `said` names it and says what to do. Errors, each with what to do:
+/// `absent_device`: the requested real device is not plugged in; `unusable_device`: it is plugged in but cannot be used;
+/// `other_device`: the program is built for another device; `unknown_device`: no device has that name, or none is
+/// declared for the one that has it; `untrusted_device`: the name of a real device is only in an untrusted declaration;
 /// `malformed_value`: a real device was requested together with virtual time or a simulated hand.
 Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,
-                                   std::span<const PluggedIn> plugged, Drivers drivers = wale::drivers());
+                                   std::span<const TrustedDevice> trusted, std::span<const PluggedIn> plugged,
+                                   Drivers drivers = wale::drivers());
 
 }  // namespace wale

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,9 +11,9 @@
 #include <vector>
 
 #include "runtime/device/plugged_device.hpp"
+#include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "runtime/keeper/keeper.hpp"
-#include "schema/device_profile.hpp"
 #include "schema/result.hpp"
 
 namespace wale {
@@ -57,6 +58,8 @@ struct DeviceOptions {
   /// An open file of the device that a portal or a broker handed over; -1: none. The caller owns it until opening
   /// succeeds, then the device does. It is used once: a device that was lost and comes back is opened by its driver.
   int descriptor = -1;
+  /// N at the handle, the largest force that the user allows: every packet keeps within it, whatever is commanded.
+  double most_newton = HUGE_VAL;
   /// The program that lets the device go when this process cannot; every driver of a device that can hurt starts one.
   KeeperOptions keeper = {};
 };
@@ -72,8 +75,8 @@ struct Driver {
   /// Takes a few milliseconds for each, and only reads descriptors from a device.
   std::vector<PluggedIn> (*find)(const Connections& connections, const PluggedIn* like);
   /// Opens a device that `find` found, and sets it up without force: may take a second. An error leaves the device as
-  /// it was.
-  OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+  /// it was. Only the trusted declaration and the options scale and bound its force.
+  OpenedDevice (*open)(const Connections& connections, const PluggedIn& plugged, const TrustedDevice& trusted,
                        const DeviceOptions& options);
   /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty if there is only one.
   std::span<const std::string_view> transports = {};

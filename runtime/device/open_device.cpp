@@ -27,25 +27,25 @@ std::vector<PluggedIn> alike(const Connections& connections, const PluggedIn& pl
 Result<std::unique_ptr<HotPluggedDevice>> open_device(const Connections& connections, const ChosenDevice& chosen,
                                                       DeviceOptions options) {
   const PluggedIn& plugged = *chosen.plugged;
-  const DeviceProfile& profile = chosen.declared->profile;
+  const TrustedDevice& trusted = *chosen.trusted;
   if (connections.usb)
     (*connections.usb)->set_priority(options.priority);  // without permission it runs at ordinary priority
   std::set<std::string> others;                          // ports of other devices like it
   for (const PluggedIn& each : alike(connections, plugged))
     if (each.port != plugged.port) others.insert(each.port);
-  OpenedDevice opened = plugged.driver->open(connections, plugged, profile, options);
+  OpenedDevice opened = plugged.driver->open(connections, plugged, trusted, options);
   if (!opened) return std::move(opened.error());
 
   options.descriptor = -1;  // a handed-over descriptor is used only once
-  const auto reopen = [connections, plugged, profile, options, others]() -> OpenedDevice {
+  const auto reopen = [connections, plugged, trusted, options, others]() -> OpenedDevice {
     const std::vector<PluggedIn> found = alike(connections, plugged);
     const PluggedIn* again = nullptr;
     for (const PluggedIn& each : found)
       if (each.port == plugged.port || (again == nullptr && !others.contains(each.port))) again = &each;
     if (again == nullptr) return Error{Code::absent_device, "it is not plugged in"};
-    return plugged.driver->open(connections, *again, profile, options);
+    return plugged.driver->open(connections, *again, trusted, options);
   };
-  return std::make_unique<HotPluggedDevice>(*std::move(opened), chosen.declared->wiring, reopen);
+  return std::make_unique<HotPluggedDevice>(*std::move(opened), trusted.wiring(), reopen);
 }
 
 }  // namespace wale

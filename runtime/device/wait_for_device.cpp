@@ -10,8 +10,8 @@
 namespace wale {
 
 Result<ChosenDevice> wait_for_device(const Connections& connections, const DeviceRequest& request,
-                                     std::span<const DeclaredDevice> known, std::optional<double> seconds,
-                                     const std::atomic<bool>& stop, Drivers drivers) {
+                                     std::span<const DeclaredDevice> known, std::span<const TrustedDevice> trusted,
+                                     std::optional<double> seconds, const std::atomic<bool>& stop, Drivers drivers) {
   using Clock = std::chrono::steady_clock;
   constexpr auto between_looks = std::chrono::milliseconds(100);
   constexpr int most_looks = 20;  // at a device that was just plugged in: udev gives permission a moment later
@@ -33,7 +33,7 @@ Result<ChosenDevice> wait_for_device(const Connections& connections, const Devic
     }
     if (looks == 0 && round % rest != 0) continue;
     const bool was_absent = newest.code == Code::absent_device;
-    auto choice = choose_device(request, known, plugged_in(connections, request.spelling, drivers), drivers);
+    auto choice = choose_device(request, known, trusted, plugged_in(connections, request.spelling, drivers), drivers);
     if (choice) return choice;
     newest = std::move(choice.error());
     if (looks > 0) {

@@ -13,7 +13,8 @@ namespace wale {
 /// once `seconds` (nothing: no limit) are over; `stopped` once `stop` is true. Blocks the calling thread. If
 /// `connections.usb` has no value, only devices that are not on USB are found.
 Result<ChosenDevice> wait_for_device(const Connections& connections, const DeviceRequest& request,
-                                     std::span<const DeclaredDevice> known, std::optional<double> seconds,
-                                     const std::atomic<bool>& stop, Drivers drivers = wale::drivers());
+                                     std::span<const DeclaredDevice> known, std::span<const TrustedDevice> trusted,
+                                     std::optional<double> seconds, const std::atomic<bool>& stop,
+                                     Drivers drivers = wale::drivers());
 
 }  // namespace wale

@@ -1,6 +1,5 @@
 #include "runtime/record/file_bytes.hpp"
 
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,21 +7,20 @@
 #include <cerrno>
 #include <system_error>
 
+#include "schema/regular_file.hpp"
+
 namespace wale {
 
 Result<FileBytes> FileBytes::map(const std::string& path) {
-  const auto unreadable = [&](int error) {
-    return Error{.code = Code::unreadable_file,
-                 .sentence = "the file cannot be read: " + std::generic_category().message(error),
-                 .place = {.name = path}};
-  };
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return unreadable(errno);
+  const auto opened = open_regular_file(path);
+  if (!opened) {
+    Error error = opened.error();
+    error.sentence = "the file cannot be read: " + error.sentence;
+    return error;
+  }
+  const int file = *opened;
   struct stat status {};
-  int error = fstat(file, &status) != 0  ? errno
-              : S_ISDIR(status.st_mode)  ? EISDIR
-              : !S_ISREG(status.st_mode) ? EINVAL
-                                         : 0;
+  int error = fstat(file, &status) != 0 ? errno : 0;
   FileBytes bytes;
   if (error == 0 && status.st_size > 0) {
     const auto size = static_cast<std::size_t>(status.st_size);
@@ -33,8 +31,10 @@ Result<FileBytes> FileBytes::map(const std::string& path) {
       bytes.mapped_ = {static_cast<const std::byte*>(mapped), size};
   }
   close(file);
-  if (error != 0) return unreadable(error);
-  return bytes;
+  if (error == 0) return bytes;
+  return Error{.code = Code::unreadable_file,
+               .sentence = "the file cannot be read: " + std::generic_category().message(error),
+               .place = {.name = path}};
 }
 
 FileBytes::~FileBytes() {

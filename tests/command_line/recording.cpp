@@ -116,7 +116,7 @@ TEST(Replay, DamagedFilesAndOtherFilesAreRefused) {
   EXPECT_TRUE(contains(wale({"replay", program}).err, program + ": expected a recording, found a patch program"));
   const std::string missing = folder / "none.wrec";
   EXPECT_EQ(wale({"replay", missing}).err,
-            "wale: error[W0501]: " + missing + ": the file cannot be read: No such file or directory\n");
+            "wale: error[W0501]: " + missing + ": the file cannot be read: no such file\n");
   EXPECT_EQ(wale({"replay"}).status, 2);
 }
 

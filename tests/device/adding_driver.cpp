@@ -31,15 +31,13 @@ std::vector<const Driver*> table() {
   return all;
 }
 
-/// The shipped devices with one more.
-std::vector<DeclaredDevice> known() {
-  std::vector<DeclaredDevice> all = *shipped_devices();
+/// The shipped devices and one of the owner's.
+std::vector<TrustedDevice> trusted() {
   DeclaredDevice device;
   device.profile = sandpaper();
   device.profile.name = "handle_on_rails";
   device.wiring.motors = {{{0, -1}, {1, 1}}};  // its x motor pushes to the left
-  all.push_back(device);
-  return all;
+  return *trusted_devices({TrustedDevice::by_owner(device, "rails.wale")});
 }
 
 const Connections nowhere{Error{Code::unusable_device, "no USB here"}};
@@ -56,20 +54,20 @@ class AddingADriver : public testing::Test {
   ~AddingADriver() override { made_up::rails().is_plugged_in = false; }
 
   Result<ChosenDevice> chosen(const std::string& spelling) const {
-    return choose_device({.spelling = spelling}, known_, plugged_in(nowhere, {}, drivers_), drivers_);
+    return choose_device({.spelling = spelling}, {}, trusted_, plugged_in(nowhere, {}, drivers_), drivers_);
   }
 
   const std::vector<const Driver*> drivers_ = table();
-  const std::vector<DeclaredDevice> known_ = known();
+  const std::vector<TrustedDevice> trusted_ = trusted();
 };
 
 TEST_F(AddingADriver, IsFoundAndListed) {
   const auto plugged = plugged_in(nowhere, {}, drivers_);
   ASSERT_EQ(plugged.size(), 1u);
   EXPECT_EQ(in_words(plugged[0]), "Handle on rails (rails)");
-  const std::string listed = command::devices_text(known_, nowhere, plugged);
+  const std::string listed = command::devices_text({}, trusted_, nowhere, plugged);
   EXPECT_NE(listed.find("Handle on rails"), std::string::npos);
-  EXPECT_NE(listed.find("used as handle_on_rails"), std::string::npos) << listed;
+  EXPECT_NE(listed.find("used as handle_on_rails, which rails.wale declares"), std::string::npos) << listed;
   made_up::rails().is_plugged_in = false;
   EXPECT_TRUE(plugged_in(nowhere, {}, drivers_).empty());
 }
@@ -136,7 +134,7 @@ TEST_F(AddingADriver, IsWaitedForThoughNothingAnnouncesIt) {
   const long looks_before = made_up::rails().looks;
   const std::atomic<bool> stop{false};
   auto waiting = std::async(std::launch::async, [&] {
-    return wait_for_device(nowhere, {.spelling = "made-up"}, known_, std::nullopt, stop, drivers_);
+    return wait_for_device(nowhere, {.spelling = "made-up"}, {}, trusted_, std::nullopt, stop, drivers_);
   });
   // The first look, and two of those that no news has caused.
   while (made_up::rails().looks < looks_before + 3 && waiting.wait_for(1ms) == std::future_status::timeout) continue;

@@ -14,6 +14,7 @@
 #include "runtime/device/choose_device.hpp"
 #include "runtime/device/identify_device.hpp"
 #include "runtime/device/shipped_devices.hpp"
+#include "runtime/device/trusted_device.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace wale::choosing_test {
@@ -50,7 +51,7 @@ struct Choice {
 };
 
 Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {
-  const auto chosen = choose_device(request, *shipped_devices(), plugged);
+  const auto chosen = choose_device(request, *shipped_devices(), *trusted_devices(), plugged);
   if (!chosen) {
     const bool is_absent = chosen.error().code == Code::absent_device;
     return {is_absent ? "absent" : "refused", chosen.error().mend, in_words(chosen.error())};
@@ -60,7 +61,7 @@ Choice choice(const DeviceRequest& request, const std::vector<PluggedIn>& plugge
 }
 /// The code of the error of a choice.
 Code code_of(const DeviceRequest& request, const std::vector<PluggedIn>& plugged) {
-  return choose_device(request, *shipped_devices(), plugged).error().code;
+  return choose_device(request, *shipped_devices(), *trusted_devices(), plugged).error().code;
 }
 Choice choice(const std::string& spelling, const std::vector<PluggedIn>& plugged) {
   return choice(DeviceRequest{.spelling = spelling}, plugged);
@@ -188,17 +189,72 @@ device at_home {
 )");
   ASSERT_EQ(own.complaints(), "");
   const auto known = declared_devices(own.module.declarations());
-  const auto chosen = choose_device({.spelling = "auto"}, known, std::vector{openffboard});
+  const auto trusted = *trusted_devices({TrustedDevice::by_owner(known.front(), "devices.wale")});
+  const auto chosen = choose_device({.spelling = "auto"}, known, trusted, std::vector{openffboard});
   ASSERT_TRUE(chosen);
   EXPECT_FALSE(chosen->is_generic);
   const DeclaredDevice& device = *chosen->declared;
-  EXPECT_EQ(device.profile, known.front().profile) << "the profile is unchanged";
+  EXPECT_EQ(device.profile, known.front().profile);
+  EXPECT_EQ(chosen->trusted->profile(), known.front().profile) << "the profile is unchanged";
+  EXPECT_TRUE(contains(chosen->said, "as at_home, as devices.wale declares it")) << chosen->said;
   EXPECT_EQ(device.profile.name, "at_home");
   EXPECT_EQ(device.wiring.axes, (std::array<SignedAxis, 2>{{{1, 1}, {0, -1}}}));
   EXPECT_EQ(device.wiring.motors, (std::array<SignedAxis, 2>{{{1, -1}, {0, 1}}}));
   EXPECT_EQ(device.wiring.gain, (std::array<double, 2>{0.5, 2}));
   EXPECT_EQ(known.front().unknown, (std::vector<std::string>{"mass", "damping", "friction", "delay", "bandwidth"}));
   EXPECT_FALSE(known.front().profile.friction_known);
+}
+
+/// What a file of somebody else declares: a hair's breadth of a newton at full force.
+constexpr const char* feeble = R"(wale 1
+device feeble {
+  usb       "1209:ffb0"
+  gain      0.1
+  workspace disc(100 mm)
+  position  1024 counts
+  force     1 mN, 512 counts
+  rate      500 Hz
+  speed     1 m/s
+  slew      100 N/s
+  velocity_filter 15, 1 counts
+  patch     60 mm, 60 mm, 5 mm
+}
+)";
+
+TEST(Choosing, ADeclarationThatIsOnlyKnownNeverScalesARealDevice) {
+  const Declared file(feeble);
+  ASSERT_EQ(file.complaints(), "");
+  const auto known = declared_devices(file.module.declarations());
+  const auto choose = [&](const std::string& spelling, std::vector<PluggedIn> plugged) {
+    return choose_device({.spelling = spelling}, known, *trusted_devices(), plugged);
+  };
+  const auto chosen = choose("auto", {openffboard});
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->trusted->profile().name, "openffboard");
+  EXPECT_EQ(chosen->declared->profile.force_newton, 20);
+  EXPECT_TRUE(contains(chosen->said, "`feeble`")) << chosen->said;
+  EXPECT_TRUE(contains(chosen->said, "--devices FILE")) << chosen->said;
+  EXPECT_TRUE(contains(chosen->said, "`wale devices --identify 1-1`")) << chosen->said;
+  for (const auto& plugged : {std::vector{openffboard}, std::vector<PluggedIn>{}}) {
+    const auto named = choose("feeble", plugged);
+    ASSERT_FALSE(named);
+    EXPECT_EQ(named.error().code, Code::untrusted_device);
+    EXPECT_TRUE(contains(named.error().mend, "--devices FILE"));
+  }
+  const auto simulated = choose("simulated:feeble", {openffboard});
+  ASSERT_TRUE(simulated);
+  EXPECT_FALSE(simulated->plugged);
+  EXPECT_EQ(simulated->declared->profile.name, "feeble");
+}
+
+TEST(Choosing, AFileThatSaysWhatTheTrustedOneSaysIsNotComplainedAbout) {
+  const Declared file(feeble);
+  const auto known = declared_devices(file.module.declarations());
+  const auto trusted = *trusted_devices({TrustedDevice::by_owner(known.front(), "mine.wale")});
+  const auto chosen = choose_device({.spelling = "auto"}, known, trusted, std::vector{openffboard});
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(chosen->trusted->profile().name, "feeble");
+  EXPECT_FALSE(contains(chosen->said, "not used")) << chosen->said;
 }
 
 /// The declaration of a device with that name and force.

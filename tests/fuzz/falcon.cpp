@@ -22,7 +22,9 @@ void demand(bool holds) {
 
 void read_answers(std::span<const std::uint8_t> bytes) {
   AnswerReader reader;
-  FalconPlane plane(8);
+  const ForceLimits limits{.peak = glm::dvec2(8), .most_newton = 3};
+  FalconPlane plane(limits);
+  const TorqueGate gate(limits, 3);
   long answers = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const auto answer = reader.take(bytes[i]);
@@ -33,6 +35,8 @@ void read_answers(std::span<const std::uint8_t> bytes) {
     if (!plane.see(answer->encoders, static_cast<std::int64_t>(i) * 1000)) continue;
     const auto push = plane.push({3, -2}, static_cast<std::int64_t>(i) * 1000);
     for (const std::int16_t torque : push.torques) demand(std::abs(torque) <= most_torque);
+    const Torques allowed = gate.within({4096, -4096, 123}, answer->encoders);
+    demand(gate.within(allowed, answer->encoders) == allowed);
     demand(std::isfinite(push.force.x) && std::isfinite(push.force.y) && std::isfinite(push.hold));
   }
   demand(reader.skipped() + answers * static_cast<long>(packet_bytes) <= static_cast<long>(bytes.size()));
@@ -42,6 +46,7 @@ void read_answers(std::span<const std::uint8_t> bytes) {
 void run_session(std::span<const std::uint8_t> bytes) {
   FalconSessionOptions options;
   options.firmware.assign(70, 0x5a);
+  options.gate = TorqueGate({.gain = glm::dvec2(1e-6)}, 1);  // so weak that nothing reaches its peak
   FalconSession session(options);
   std::vector<Transfer> under_way;
   std::int64_t now = 0;

@@ -28,12 +28,19 @@ void check(const Packet& packet, const PacketShape& shape) {
 }
 
 void write_packets(const PidLayout& layout) {
+  const wale::ForceLimits limits{.most_newton = 0.5};  // of 1 N
+  const std::int64_t full = layout.set_constant_force.full();
   const double strange[] = {0, 1, -1, 0.3, 1e300, -1e300, std::strtod("nan", nullptr), std::strtod("inf", nullptr)};
   for (const double value : strange) {
-    check(encode_constant_force(layout, 255, value), layout.set_constant_force);
+    for (ForceGate gate : {ForceGate::of_two(limits, full, {unit(told_direction(layout, toward_x)), {0, 1}}),
+                           ForceGate::of_one(limits, full, 1.4, 250)}) {
+      const auto change = gate.next({value, -value});
+      if (!change) continue;
+      check(encode_constant_force(layout, 255, change->magnitude), layout.set_constant_force);
+      demand(std::abs(change->magnitude.counts()) <= full / 2);
+    }
     check(encode_set_effect(layout, {7, value, 30 * value, false, true, false}), layout.set_effect);
     check(encode_set_effect(layout, {7, value, 30 * value, true}), layout.set_effect);
-    demand(std::abs(magnitude_counts(layout, value)) <= layout.set_constant_force.full());
   }
   check(encode_start(layout, 1, true), layout.effect_operation);
   check(encode_stop(layout, 1), layout.effect_operation);

@@ -1,4 +1,4 @@
-// Which folder may include which. README.md and schema/CONTRIBUTING.md describe the same rule in prose.
+// Which folder may include which. schema/CONTRIBUTING.md describes the same rule in prose.
 
 #include <gtest/gtest.h>
 

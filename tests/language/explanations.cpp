@@ -1,5 +1,5 @@
-// Every code has an explanation. Its wrong example yields exactly that code, and its mended example compiles without a
-// diagnostic.
+// Every code has an explanation. If the code is about the text of a file, the wrong example yields exactly that code,
+// and the mended example compiles without a diagnostic.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,8 @@ const std::map<std::string, std::string> not_as_one_file = {
 /// examples.
 bool is_of_wale_text(Code code) {
   return code < Code::absent_device && code != Code::unwritable_file && code != Code::damaged_file &&
-         code != Code::newer_file && code != Code::refused_program && code != Code::other_device;
+         code != Code::newer_file && code != Code::refused_program && code != Code::other_device &&
+         code != Code::other_figures;
 }
 
 struct Example {

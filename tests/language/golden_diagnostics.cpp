@@ -239,6 +239,7 @@ TEST(DiagnosticCodes, EachHasACase) {
       {"W0507", "of no Wale text: programs and recordings, tests/schema and tests/runtime"},
       {"W0606", "of no Wale text: the verifier, tests/machine"},
       {"W0607", "of no Wale text: stages and devices, tests/runtime and tests/usb_mock"},
+      {"W0608", "of no Wale text: programs on plugged devices, tests/device and tests/usb_mock"},
   };
   std::set<std::string> codes;
 #define CODE(number, name, severity, title) codes.insert(code_name(Code::name));

@@ -155,6 +155,14 @@ TEST(Reference, NamesEveryDeclarationOfTheSchema) {
   expect_all(found_in(units, R"(\nunit (\S+))"), 25);
   expect_all(found_in(units, R"(\ndimension (\w+))"), 15);
   expect_all(found_in(functions, R"(\nfunction ((?:[^=]|= )+?\)) =)"), 9);  // with their arguments
+  expect_all(found_in(content("schema/percepts.wale"), R"(\npercept (\w+))"), 11);
+  const auto names_in_code = [&](const std::string& name) {  // as in `min(a, b)`
+    return page.find("`" + name + "(") != std::string::npos || page.find("`" + name + "`") != std::string::npos;
+  };
+  const auto built_in =
+      found_in(content("compiler/expression/builtin_functions.cpp"), R"row(\n      \{"(\w+)", \{")row");
+  EXPECT_GE(built_in.size(), 26u);
+  for (const auto& name : built_in) EXPECT_TRUE(names_in_code(name)) << name;
   for (const auto& level : found_in(content("library/levels.wale"), R"(\n  (\w+) +[0-9.]+)"))
     EXPECT_NE(page.find(" " + level + " "), std::string::npos) << level;
 }

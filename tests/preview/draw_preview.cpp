@@ -190,10 +190,13 @@ TEST(Axis, QuantitiesReadWell) {
   EXPECT_DOUBLE_EQ(round_number(0.03), 0.02);
 }
 
-TEST(SaveDrawing, PngComesBackPixelForPixel) {
+TEST(EncodeDrawing, PngComesBackPixelForPixel) {
   Drawing drawing{3, 2, {1, 2, 3, 40, 50, 60, 7, 8, 9, 0, 0, 0, 255, 255, 255, 9, 8, 7}};
+  const auto bytes = encode_drawing(drawing, "wall.png");
+  ASSERT_TRUE(bytes);
   const auto path = std::filesystem::path(testing::TempDir()) / "wale_preview_test.png";
-  ASSERT_TRUE(save_drawing(drawing, path.string()));
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
   auto input = OIIO::ImageInput::open(path.string());
   ASSERT_TRUE(input);
   std::vector<std::uint8_t> back(drawing.rgb.size());
@@ -205,31 +208,17 @@ TEST(SaveDrawing, PngComesBackPixelForPixel) {
   std::filesystem::remove(path);
 }
 
-TEST(SaveDrawing, ProblemsAreWords) {
+TEST(EncodeDrawing, ProblemsAreWords) {
   const Drawing drawing{1, 1, {1, 2, 3}};
   const auto reason = [&](const std::string& path) {
-    const auto saved = save_drawing(drawing, path);
-    return saved ? "was written" : saved.error().sentence;
+    const auto encoded = encode_drawing(drawing, path);
+    return encoded ? "was encoded" : encoded.error().sentence;
   };
   EXPECT_EQ(reason("wall"), "the name of a picture needs an extension");
   EXPECT_EQ(reason("wall.wale"), "pictures cannot be written as .wale");
   EXPECT_EQ(reason("wall.null"), "pictures cannot be written as .null");
-  EXPECT_EQ(save_drawing(drawing, "wall").error().mend, "use the extension .png");
-  EXPECT_EQ(reason("/no/such/folder/wall.png"), "cannot write the picture: No such file or directory");
+  EXPECT_EQ(encode_drawing(drawing, "wall").error().mend, "use the extension .png");
   EXPECT_FALSE(OIIO::has_error());
-}
-
-TEST(SaveDrawing, FullDeviceIsReportedAndLeftAlone) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
-  const auto link = std::filesystem::path(testing::TempDir()) / "wale_preview_full.png";
-  std::filesystem::remove(link);
-  std::filesystem::create_symlink("/dev/full", link);
-  const auto saved = save_drawing({1, 1, {1, 2, 3}}, link.string());
-  ASSERT_FALSE(saved);
-  EXPECT_EQ(saved.error().code, Code::unwritable_file);
-  EXPECT_NE(saved.error().sentence.find("No space left"), std::string::npos) << saved.error().sentence;
-  EXPECT_TRUE(std::filesystem::exists("/dev/full"));
-  std::filesystem::remove(link);
 }
 
 }  // namespace

@@ -21,13 +21,13 @@ void check_falcon() {
   options.firmware = "/tmp/firmware.bin";
   options.transport.timeout = options.transport.set_up_timeout = patience;
   options.transport.session.answer_silence = options.transport.session.command_silence = patience / 1000.0;
-  options.stale_after = patience / 1000.0;
+  options.transport.session.stale_after = patience / 1000.0;
   std::ofstream(options.firmware, std::ios::binary) << std::string(3000, 'w');
   auto model = std::make_unique<FalconModel>();
   model->moves = false;
   auto port = std::make_unique<UsbipPort>(std::move(model), 1);
   const auto open = [&](const Found& found) {
-    return taken(FalconDevice::open(found.context, found.info, falcon_profile(), options));
+    return taken(FalconDevice::open(found.context, found.info, trusted(falcon_profile()), options));
   };
   const auto is_pushed = [&](FalconDevice& device) {
     return [&] {

@@ -49,14 +49,14 @@ std::unique_ptr<PluggedDevice> open_to_push(const Found& found, const std::strin
     options.firmware = "/tmp/firmware.bin";
     options.transport.keeper.emplace();
     options.transport.timeout = options.transport.set_up_timeout = patience;
-    return taken(FalconDevice::open(found.context, found.info, falcon_profile(), options));
+    return taken(FalconDevice::open(found.context, found.info, trusted(falcon_profile()), options));
   }
   HidPidDevice::Options options;
   options.timeout = options.set_up_timeout = patience;
   options.priority = loop_priority - 1;
   options.transport = read_transport_kind(way);
   options.keeper.emplace();
-  return taken(HidPidDevice::open(found.context, found.info, joystick_profile(), options));
+  return taken(HidPidDevice::open(found.context, found.info, trusted(joystick_profile()), options));
 }
 
 pid_t keeper_now() {

@@ -45,7 +45,7 @@ void clear_log(UsbipPort& port) {
 }
 
 std::unique_ptr<HidPidDevice> opened(const Found& found, PidTransportKind transport) {
-  return taken(HidPidDevice::open(found.context, found.info, joystick_profile(), patient(transport)));
+  return taken(HidPidDevice::open(found.context, found.info, trusted(joystick_profile()), patient(transport)));
 }
 
 void await_force(UsbipPort& port, HidPidDevice& device, Force newton, glm::dvec2 fraction, const std::string& what) {
@@ -108,7 +108,7 @@ void check_refused_set_up(UsbipPort& port, const PidFamily& family) {
   const Found found = find(family.vendor, family.product);
   port.with<PidModel>([](PidModel& model) { model.faults.short_load = true; });
   const auto refused =
-      HidPidDevice::open(found.context, found.info, joystick_profile(), patient(PidTransportKind::libusb));
+      HidPidDevice::open(found.context, found.info, trusted(joystick_profile()), patient(PidTransportKind::libusb));
   demand(!refused, "a set-up that fails is an error: " + (refused ? "" : refused.error().sentence));
   port.with<PidModel>([](PidModel& model) { model.faults.short_load = false; });
   await(kernel_pushes, "and the kernel's driver is back all the same");
@@ -241,7 +241,7 @@ void check_handed_in(UsbipPort& port, const PidFamily& family, PidTransportKind 
                            : transport == PidTransportKind::libusb ? nodes.usbfs
                                                                    : nodes.hid.at(0).pushing.at(0);
   const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
-  auto device = taken(HidPidDevice::open(found.context, descriptor, joystick_profile(), patient(transport)));
+  auto device = taken(HidPidDevice::open(found.context, descriptor, trusted(joystick_profile()), patient(transport)));
   demand(device->transport() == transport, "a descriptor of " + path + " is recognised");
   await_force(port, *device, {2, -1}, {0.2, 0.1}, "and used");
   device.reset();

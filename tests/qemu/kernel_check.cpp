@@ -103,7 +103,7 @@ void push_as_nobody(std::uint16_t vendor, std::uint16_t product) {
   demand(listed.size() == 1 && !listed[0].obstacle, "the list says that it is driven by " + listed.at(0).transport);
   HidPidDevice::Options options = patient(PidTransportKind::evdev);
   options.transport.reset();
-  const auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), options));
+  const auto device = taken(HidPidDevice::open(found.context, found.info, trusted(joystick_profile()), options));
   demand(device->transport() == PidTransportKind::evdev, "the driver runs it: " + device->manner());
   std::_Exit(0);
 }
@@ -129,7 +129,7 @@ void push_as_wale(PidTransportKind transport, std::uint16_t vendor, std::uint16_
   const auto context = taken(UsbContext::open());
   for (const UsbDeviceInfo& info : context->devices()) {
     if (info.vendor != vendor || info.product != product) continue;
-    const auto device = taken(HidPidDevice::open(context, info, joystick_profile(), patient(transport)));
+    const auto device = taken(HidPidDevice::open(context, info, trusted(joystick_profile()), patient(transport)));
     while (true) {
       device->command({3, 0});
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

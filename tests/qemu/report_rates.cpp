@@ -55,7 +55,7 @@ void measure(UsbipPort& port, const PidFamily& family, PidTransportKind transpor
   const Threads others = threads_now();
   const Found found = find(family.vendor, family.product);
   HidPidDevice::Options options = patient(transport);
-  auto device = taken(HidPidDevice::open(found.context, found.info, joystick_profile(), options));
+  auto device = taken(HidPidDevice::open(found.context, found.info, trusted(joystick_profile()), options));
   port.with<PidModel>([&](PidModel& model) {
     model.logs = false;
     model.when_taken = [&ages, &family](const std::vector<std::uint8_t>& report) {

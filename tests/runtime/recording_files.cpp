@@ -194,7 +194,7 @@ TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {
   EXPECT_EQ(refused(Recording::read(newer, "x")), "its format is 2, but this Wale reads only up to 1; update Wale");
   const TemporaryFolder folder;
   const auto missing = Recording::open(folder / "none.wrec");
-  EXPECT_EQ(refused(missing), "the file cannot be read: No such file or directory");
+  EXPECT_EQ(refused(missing), "the file cannot be read: no such file");
   EXPECT_EQ(missing.error().place.name, folder / "none.wrec");
 }
 

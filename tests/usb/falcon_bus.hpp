@@ -17,7 +17,14 @@ class FalconBus {
  public:
   static constexpr std::int64_t frame_time = 1000, timeout = 50'000;  // microseconds
 
-  FalconBus(FalconModel& model, falcon::FalconSessionOptions options) : session(std::move(options)), model_(&model) {}
+  /// Unless the options have limits, torques pass as they are commanded.
+  FalconBus(FalconModel& model, falcon::FalconSessionOptions options)
+      : session(options.gate.has_limits() ? std::move(options) : unlimited(std::move(options))), model_(&model) {}
+
+  static falcon::FalconSessionOptions unlimited(falcon::FalconSessionOptions options) {
+    options.gate = falcon::TorqueGate({.gain = glm::dvec2(1e-6)}, 1);  // so weak that nothing reaches its peak
+    return options;
+  }
 
   /// Moves time to the next frame.
   void frame() {

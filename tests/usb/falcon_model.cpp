@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "tests/usb/falcon_reference.hpp"
 #include "tests/usb/pid_descriptor.hpp"
@@ -196,6 +197,7 @@ void FalconModel::step() {
   if (!moves && torques == torques_of_force_) return;
   torques_of_force_ = torques;
   force_ = torques == glm::ivec3(0) ? glm::dvec3(0) : force_of(place, -glm::dvec3(torques) / steps_per_newton_metre_);
+  most_force = std::max(most_force, glm::length(force_));
   if (!moves) return;
   constexpr int parts = 10;
   for (int i = 0; i < parts; ++i) {

@@ -62,6 +62,7 @@ class FalconModel final : public UsbModel {
   int lights = 0;
   long commands = 0, answers = 0, wrong_packets = 0, torques_before_home = 0;
   bool is_homed = false;
+  double most_force = 0;  ///< N, the largest size of `force`
 
  private:
   enum class Loader { off, listening, fast, loading };

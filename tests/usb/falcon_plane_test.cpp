@@ -13,6 +13,7 @@ namespace {
 using namespace falcon;
 
 constexpr double full = FalconModel::full_newton;
+const ForceLimits limits{.peak = glm::dvec2(full)};
 constexpr HoldInPlane none{.stiffness = 0};
 
 Encoders at(const glm::dvec3& place) { return encoders_of(*inverse(place)); }
@@ -22,7 +23,7 @@ int largest(const Torques& torques) {
 }
 
 TEST(FalconPlane, FullForceIsAMotorsWholeTorqueInTheWorstDirection) {
-  FalconPlane plane(full, none);
+  FalconPlane plane(limits, none);
   ASSERT_TRUE(plane.see(at(workspace_centre), 0));
   int most = 0;
   for (int degrees = 0; degrees < 360; ++degrees) {
@@ -35,7 +36,7 @@ TEST(FalconPlane, FullForceIsAMotorsWholeTorqueInTheWorstDirection) {
 }
 
 TEST(FalconPlane, KeepsTheDirectionOfAForceThatIsTooLarge) {
-  FalconPlane plane(full, none);
+  FalconPlane plane(limits, none);
   for (const glm::dvec2 place : {glm::dvec2(0), glm::dvec2(0.05, 0), glm::dvec2(-0.03, 0.035)}) {
     ASSERT_TRUE(plane.see(at(workspace_centre + glm::dvec3(place, 0)), 0));
     const auto push = plane.push({30, 40}, 0);
@@ -47,7 +48,7 @@ TEST(FalconPlane, KeepsTheDirectionOfAForceThatIsTooLarge) {
 }
 
 TEST(FalconPlane, HandlesImpossibleForcesAndPlaces) {
-  FalconPlane plane(full, none);
+  FalconPlane plane(limits, none);
   EXPECT_EQ(plane.push({1, 1}, 0).torques, Torques{}) << "before the first position";
   ASSERT_TRUE(plane.see(at(workspace_centre), 0));
   EXPECT_EQ(plane.push({std::nan(""), 1}, 0).torques, Torques{});
@@ -57,7 +58,7 @@ TEST(FalconPlane, HandlesImpossibleForcesAndPlaces) {
 }
 
 TEST(FalconPlane, TheReportedForceIsTheForceOfTheArms) {
-  FalconPlane plane(full);
+  FalconPlane plane(limits);
   for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(0.04, -0.02, 0.01), glm::dvec3(-0.01, 0.045, -0.02)}) {
     ASSERT_TRUE(plane.see(at(workspace_centre + place), 0));
     plane.push({1, 2}, 0);
@@ -75,7 +76,7 @@ TEST(FalconPlane, TheReportedForceIsTheForceOfTheArms) {
 }
 
 TEST(FalconPlane, TheHoldComesInGraduallyAndIsBounded) {
-  FalconPlane plane(full);
+  FalconPlane plane(limits);
   const Encoders outside = at(workspace_centre + glm::dvec3(0, 0, 0.02));
   double before = 0;
   for (std::int64_t now = 0; now < 1'000'000; now += 1000) {
@@ -93,7 +94,7 @@ TEST(FalconPlane, TheHoldComesInGraduallyAndIsBounded) {
 }
 
 TEST(FalconPlane, TheForceInThePlaneComesFirst) {
-  FalconPlane held(full), freely(full, none);
+  FalconPlane held(limits), freely(limits, none);
   const Encoders outside = at(workspace_centre + glm::dvec3(0.02, 0.01, 0.02));
   for (std::int64_t now = 0; now < 1'000'000; now += 1000) {
     held.see(outside, now);
@@ -109,7 +110,7 @@ TEST(FalconPlane, HoldsTheHandleInThePlaneWithoutShaking) {
   FalconModel model({}, true);
   model.logs = false;
   FalconBus bus(model, {});
-  FalconPlane plane(full);
+  FalconPlane plane(limits);
   ASSERT_TRUE(bus.run_until([&] { return bus.session.state() == FalconSession::State::running; }));
   model.hand = workspace_centre + glm::dvec3(0.01, 0.02, 0.01);
   double furthest_late = 0, fastest_late = 0;

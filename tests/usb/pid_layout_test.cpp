@@ -158,6 +158,13 @@ TEST(PidLayout, ContradictionsAreRefused) {
             "its Set Effect report has 108 bytes, more than a packet");
 }
 
+/// A share of the device's full force.
+Magnitude magnitude(const PidLayout& layout, double share) {
+  ForceGate gate = ForceGate::of_two({}, layout.set_constant_force.full(), {{{1, 0}, {0, 1}}});
+  const auto change = gate.next({share, 0});
+  return change ? change->magnitude : Magnitude();
+}
+
 TEST(PidPackets, OpenFFBoardsBytes) {  // tests/reference/usb_exchanges.md, OpenFFBoard
   const PidLayout layout = layout_of(test::openffboard());
   EXPECT_EQ(bytes_of(encode_device_control(layout, layout.device_control.reset)), "0C 08");
@@ -175,10 +182,11 @@ TEST(PidPackets, OpenFFBoardsBytes) {  // tests/reference/usb_exchanges.md, Open
   EXPECT_EQ(bytes_of(encode_start(layout, 3, true)), "0A 03 01 FF");
   EXPECT_EQ(bytes_of(encode_start(layout, 3, false)), "0A 03 01 01");
   EXPECT_EQ(bytes_of(encode_stop(layout, 3)), "0A 03 03 00");
-  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, 0.5)), "05 03 00 40") << "16383.5 is rounded away from zero";
-  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, -1)), "05 03 01 80");
-  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, 7)), "05 03 FF 7F");
-  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, std::nan(""))), "05 03 00 00");
+  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, magnitude(layout, 0.5))), "05 03 FF 3F")
+      << "16383.5 is rounded toward zero";
+  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, magnitude(layout, -1))), "05 03 01 80");
+  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, magnitude(layout, 7))), "05 03 FF 7F");
+  EXPECT_EQ(bytes_of(encode_constant_force(layout, 3, magnitude(layout, std::nan("")))), "05 03 00 00");
   EXPECT_EQ(bytes_of(encode_block_free(layout, 3)), "0B 03");
 }
 
@@ -189,16 +197,17 @@ TEST(PidPackets, OtherFamiliesBytes) {
   effect.duration = 0.25;
   // 101 idx type dur16 repeat16 sample16 gain16 = 4096 trig axes dir8 dir8 delay16; 90 degrees are 63.75 of 255
   EXPECT_EQ(bytes_of(encode_set_effect(stick, effect)), "65 02 01 FA 00 00 00 00 00 00 10 00 04 40 00 00 00");
-  EXPECT_EQ(bytes_of(encode_constant_force(stick, 2, -1)), "69 02 00 F0");
+  EXPECT_EQ(bytes_of(encode_constant_force(stick, 2, magnitude(stick, -1))), "69 02 00 F0");
   EXPECT_EQ(bytes_of(encode_device_control(stick, stick.device_control.reset)), "70 04");
   EXPECT_EQ(bytes_of(encode_device_control(stick, stick.device_control.enable_actuators)), "70 02");
 
   const PidLayout old = layout_of(test::adapt_ffb_joy());
   EXPECT_EQ(bytes_of(encode_set_effect(old, effect)), "01 02 01 FA 00 00 00 00 00 FF 00 04 40 00 00 00 00 00");
-  EXPECT_EQ(bytes_of(encode_constant_force(old, 2, 1)), "05 02 FF 00");
-  EXPECT_EQ(bytes_of(encode_constant_force(old, 2, -0.5)), "05 02 80 FF") << "-127.5 counts";
+  EXPECT_EQ(bytes_of(encode_constant_force(old, 2, magnitude(old, 1))), "05 02 FF 00");
+  EXPECT_EQ(bytes_of(encode_constant_force(old, 2, magnitude(old, -0.5))), "05 02 81 FF") << "-127.5 counts";
   EXPECT_EQ(bytes_of(encode_create_constant_force(old)), "01 01 00 00");
-  EXPECT_EQ(bytes_of(encode_constant_force(layout_of(test::arduino()), 2, 1)), "05 02 10 27");
+  EXPECT_EQ(bytes_of(encode_constant_force(layout_of(test::arduino()), 2, magnitude(layout_of(test::arduino()), 1))),
+            "05 02 10 27");
 
   effect.by_direction = false;
   effect.on_y = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "tests/usb/profiles.hpp"
@@ -144,6 +145,7 @@ void PidModel::take(const std::vector<std::uint8_t>& report) {
     return;
   }
   const std::uint8_t id = report[0];
+  most_force = std::max(most_force, glm::length(force()));  // what the packet before this one left
   if (when_taken) when_taken(report);
   if (family.has_vendor_report && id == 0xa1) return answer_vendor(report);
   Effect& effect = effects[report[1]];
@@ -319,6 +321,7 @@ glm::dvec2 PidModel::force() const {
 
 void PidModel::step() {
   ++now_;
+  most_force = std::max(most_force, glm::length(force()));
   if (!moves) return;
   const glm::dvec2 now = force() * stick_.profile().force_newton;
   stick_.command({static_cast<float>(now.x), static_cast<float>(-now.y)});

@@ -93,6 +93,7 @@ class PidModel final : public UsbModel {
   /// Called with each report that the model takes, from either endpoint.
   std::function<void(const std::vector<std::uint8_t>&)> when_taken;
   double gain = 1;
+  double most_force = 0;  ///< the largest size of `force` that any packet or frame left
   long outputs = 0, inputs = 0, wrong_reports = 0, polls = 0, vendor_questions = 0;
 
  private:

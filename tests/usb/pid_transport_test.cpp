@@ -31,7 +31,7 @@ void until(const std::function<bool()>& holds, int line = __builtin_LINE()) {
 }
 
 Result<std::unique_ptr<HidPidDevice>> open(NodeFake& fake) {
-  return HidPidDevice::open(nullptr, fake.descriptor(), joystick_profile(), NodeFake::options());
+  return HidPidDevice::open(nullptr, fake.descriptor(), trusted(joystick_profile()), NodeFake::options());
 }
 
 std::unique_ptr<HidPidDevice> opened(NodeFake& fake) {

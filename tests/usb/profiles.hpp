@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+
+#include "runtime/device/trusted_device.hpp"
 #include "schema/device_profile.hpp"
 #include "tests/usb/falcon_model.hpp"
 
@@ -23,6 +26,14 @@ inline DeviceProfile falcon_profile() {
           .force_newton = FalconModel::full_newton,
           .force_counts = 4096,
           .rate = 1000};
+}
+
+/// A declaration that the owner of a device vouches for.
+inline TrustedDevice trusted(const DeviceProfile& profile, std::array<double, 2> gain = {1, 1}) {
+  DeclaredDevice declared;
+  declared.profile = profile;
+  declared.wiring.gain = gain;
+  return TrustedDevice::by_owner(declared, "devices.wale");
 }
 
 }  // namespace wale::test

@@ -60,7 +60,7 @@ class FalconDriver : public MockedUsb {
  protected:
   Result<std::unique_ptr<FalconDevice>> open(int port, FalconOptions options) {
     if (options.firmware == falcon_firmware_path()) options.firmware = firmware_;
-    return FalconDevice::open(context(), found(port), falcon_profile(), options);
+    return FalconDevice::open(context(), found(port), trusted(falcon_profile()), options);
   }
 
   std::unique_ptr<FalconDevice> opened(int port, const FalconOptions& options = falcon_in_mock_time()) {
@@ -227,7 +227,7 @@ TEST_F(FalconDriver, IsUnpluggedWhileRunningAndPluggedInAgain) {
 TEST_F(FalconDriver, GivesTheForcesOfAStage) {
   const auto mock = mock_.plug(FalconModel({}, true), 1);
   DeviceProfile profile = sandpaper();
-  auto result = FalconDevice::open(context(), found(1), profile, falcon_in_mock_time());
+  auto result = FalconDevice::open(context(), found(1), trusted(profile), falcon_in_mock_time());
   ASSERT_TRUE(result) << in_words(result.error());
   const auto device = *std::move(result);
   mock->with_model([](FalconModel& model) { model.hand = {0.02, 0, 0.12}; });

@@ -82,7 +82,7 @@ class Feeling : public testing::Test {
     return all;
   }
   ChosenDevice chosen(const std::string& spelling, std::size_t plugged) const {
-    auto choice = choose_device({.spelling = spelling}, *shipped_devices(), found(plugged));
+    auto choice = choose_device({.spelling = spelling}, *shipped_devices(), *trusted_devices(), found(plugged));
     if (!choice) throw std::runtime_error(choice.error().sentence);
     return *std::move(choice);
   }
@@ -240,10 +240,6 @@ TEST_F(Feeling, AnUnknownStickUsesTheGenericProfileWithAWarning) {
 
 // Tests of the `wale` program in its own process.
 
-Outcome run_wale(const std::string& words) { return Running(words).outcome(); }
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 TEST_F(Feeling, APersonPlugsItInAndFeelsCorduroy) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   found(1);
@@ -388,13 +384,28 @@ TEST_F(Feeling, IdentifyFindsTheAxesAndLeavesNoForce) {
   // At most a fifth of its force: 6554 of 32767.
   for (const int block : {1, 2})
     for (const int counts : pushes_in(log_of(stick), block)) EXPECT_LE(std::abs(counts), 6554);
-  // A printed declaration in the folder of a material is the device of that material.
+  // What was printed, in the folder of a material, is somebody's: it is named, and not used.
   const TemporaryFolder folder;
   folder.write("devices.wale", identified.out);
   std::filesystem::copy_file(corduroy, folder / "corduroy.wale");
-  const Outcome felt = run_wale("feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json");
-  EXPECT_TRUE(contains(felt.err, "at port 1-1) as my_openffboard")) << felt.err;
-  EXPECT_EQ(nlohmann::json::parse(felt.out).at("profile"), "my_openffboard");
+  const std::string feel = "feel " + (folder / "corduroy.wale") + " --seconds 0.2 --json";
+  const Outcome others = run_wale(feel);
+  EXPECT_EQ(nlohmann::json::parse(others.out).at("profile"), "openffboard");
+  EXPECT_TRUE(contains(others.err, "`my_openffboard`, which the material or its project declares, is not used"))
+      << others.err;
+  // Where a person names the file, or keeps it as their own, the device is driven by it.
+  const Outcome named = run_wale(feel + " --devices " + (folder / "devices.wale"));
+  EXPECT_TRUE(contains(named.err, "at port 1-1) as my_openffboard")) << named.err;
+  EXPECT_EQ(nlohmann::json::parse(named.out).at("profile"), "my_openffboard");
+  const TemporaryFolder home;
+  const Outcome saved = run_wale("devices --identify 1-1 --save", home / "");
+  EXPECT_EQ(saved.status, 0) << saved.err;
+  const Outcome own = run_wale("feel " + corduroy + " --seconds 0.2 --json", home / "");
+  EXPECT_EQ(nlohmann::json::parse(own.out).at("profile"), "my_openffboard") << own.err;
+  EXPECT_TRUE(contains(run_wale("devices", home / "").out, "used as my_openffboard, which ")) << "and says so";
+  const Outcome twice = run_wale("devices --identify 1-1 --save", home / "");
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_TRUE(contains(twice.err, "it declares `my_openffboard` already")) << twice.err;
 
   const Outcome weak = run_wale("devices --identify --max-force '1 mN'");
   EXPECT_EQ(weak.status, 1);

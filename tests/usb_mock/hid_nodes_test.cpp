@@ -44,7 +44,7 @@ class HidNodes : public MockedUsb {
   Result<std::unique_ptr<HidPidDevice>> open(std::optional<PidTransportKind> transport) const {
     HidPidDevice::Options options = in_mock_time();
     options.transport = transport;
-    return HidPidDevice::open(context(), found(1), joystick_profile(), options);
+    return HidPidDevice::open(context(), found(1), trusted(joystick_profile()), options);
   }
   std::unique_ptr<HidPidDevice> opened(std::optional<PidTransportKind> transport) const {
     auto result = open(transport);

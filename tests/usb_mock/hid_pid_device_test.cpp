@@ -33,7 +33,7 @@ constexpr char push_until_killed[] = "--push-until-killed";
 class UsbDriver : public MockedUsb {
  protected:
   std::unique_ptr<HidPidDevice> opened(int port, const HidPidDevice::Options& options = in_mock_time()) const {
-    auto result = HidPidDevice::open(context(), found(port), joystick_profile(), options);
+    auto result = HidPidDevice::open(context(), found(port), trusted(joystick_profile()), options);
     if (!result) {
       ADD_FAILURE() << result.error().sentence;
       return nullptr;
@@ -44,7 +44,7 @@ class UsbDriver : public MockedUsb {
   std::string refusal(int port, unsigned timeout = unhurried) const {
     HidPidDevice::Options options = in_mock_time();
     options.timeout = options.set_up_timeout = timeout;
-    auto result = HidPidDevice::open(context(), found(port), joystick_profile(), options);
+    auto result = HidPidDevice::open(context(), found(port), trusted(joystick_profile()), options);
     return result ? "opened" : in_words(result.error());
   }
 };
@@ -184,7 +184,7 @@ TEST_F(UsbDriver, RunsFromStartToEnd) {
 
 TEST_F(UsbDriver, GivesTheForcesOfAStageAndOfASwap) {
   const auto joystick = mock_.plug(PidModel(openffboard()), 1);
-  auto result = HidPidDevice::open(context(), found(1), sandpaper(), in_mock_time());
+  auto result = HidPidDevice::open(context(), found(1), trusted(sandpaper()), in_mock_time());
   const auto device = *std::move(result);
   long calls = 0;
   const auto ran = [&] {
@@ -308,7 +308,7 @@ TEST_F(UsbDriver, OwnersMayEndInAnyOrder) {
   std::unique_ptr<HidPidDevice> device;
   {
     auto own = UsbContext::open();
-    auto result = HidPidDevice::open(*own, found(1), joystick_profile(), in_mock_time());
+    auto result = HidPidDevice::open(*own, found(1), trusted(joystick_profile()), in_mock_time());
     device = *std::move(result);
   }
   device->command({1, 1});  // outlives its context's last other owner
@@ -386,7 +386,7 @@ TEST_F(UsbDriver, FaultsWhileRunningEndInNoForce) {
   HidPidDevice::Options options;
   options.transport = transport;
   for (const UsbDeviceInfo& info : context->devices()) {
-    auto result = HidPidDevice::open(context, info, joystick_profile(), options);
+    auto result = HidPidDevice::open(context, info, trusted(joystick_profile()), options);
     const auto device = *std::move(result);
     while (true) {
       device->command({3, 0});

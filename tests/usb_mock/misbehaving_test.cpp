@@ -19,7 +19,7 @@ class MisbehavingUsb : public MockedUsb {
   Result<std::unique_ptr<HidPidDevice>> open(int port, unsigned timeout = unhurried) {
     HidPidDevice::Options options = in_mock_time();
     options.timeout = timeout;
-    return HidPidDevice::open(context(), found(port), joystick_profile(), options);
+    return HidPidDevice::open(context(), found(port), trusted(joystick_profile()), options);
   }
   std::unique_ptr<HidPidDevice> opened(int port, unsigned timeout = unhurried) {
     auto result = open(port, timeout);

@@ -30,9 +30,11 @@ inline std::string text_of(const std::string& path) {
 /// `wale` with these words, all signals at their defaults, killed in the end if it has not ended.
 class Running {
  public:
-  explicit Running(const std::string& words) {
+  /// `config_home` is the folder of the person's own settings.
+  explicit Running(const std::string& words, const std::string& config_home = "/nonexistent") {
     std::string shell = "/bin/sh", option = "-c";
-    std::string line = std::string("ulimit -c 0; exec ") + WALE_BINARY + " " + words + " </dev/null >" + out_ + " 2>" + err_;
+    std::string line = "ulimit -c 0; XDG_CONFIG_HOME='" + config_home + "' exec " + WALE_BINARY + " " + words +
+                       " </dev/null >" + out_ + " 2>" + err_;
     char* all[] = {shell.data(), option.data(), line.data(), nullptr};
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -68,5 +70,11 @@ class Running {
   std::string out_ = folder_ / "out", err_ = folder_ / "err";
   pid_t child_ = 0;
 };
+
+inline Outcome run_wale(const std::string& words, const std::string& config_home = "/nonexistent") {
+  return Running(words, config_home).outcome();
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace wale::test

@@ -5,7 +5,6 @@
 /// The functions of `ImageLibrary`, written with OpenImageIO.
 namespace wale::openimageio {
 
-Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels);
 Result<std::vector<std::byte>> encode_drawing(const Drawing& drawing, const std::string& name);
 std::vector<std::uint8_t> shrunk(std::span<const float> rgb, int width, int height, int columns, int rows);
 std::vector<float> surroundings(std::span<const float> values, int side, double reach);

@@ -3,5 +3,5 @@
 /// The one name that is looked for in the library.
 extern "C" const wale::ImageLibrary wale_image_library;
 
-const wale::ImageLibrary wale_image_library{wale::openimageio::read_height_image, wale::openimageio::encode_drawing,
-                                            wale::openimageio::shrunk, wale::openimageio::surroundings};
+const wale::ImageLibrary wale_image_library{wale::openimageio::encode_drawing, wale::openimageio::shrunk,
+                                            wale::openimageio::surroundings};

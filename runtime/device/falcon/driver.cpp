@@ -25,14 +25,15 @@ std::vector<PluggedIn> find_falcon(const Connections& connections, const Plugged
   return list_usb_devices(connections, falcon_driver, is_falcon, describe_falcon);
 }
 
-OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugged, const TrustedDevice& trusted,
                          const DeviceOptions& options) {
   if (!connections.usb) return connections.usb.error();
   FalconOptions wanted;
   wanted.transport.keeper = options.keeper;
   wanted.ask = options.ask;
+  wanted.most_newton = options.most_newton;
   wanted.stop = options.stop;
-  auto opened = FalconDevice::open(*connections.usb, plugged.usb, profile, wanted);
+  auto opened = FalconDevice::open(*connections.usb, plugged.usb, trusted, wanted);
   if (!opened) return std::move(opened.error());
   return *std::move(opened);
 }

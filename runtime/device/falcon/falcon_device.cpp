@@ -23,14 +23,19 @@ void wait_for_homing(FalconTransport& transport, const FalconOptions& options) {
   }
 }
 
+ForceLimits limits_of(const TrustedDevice& trusted, const FalconOptions& options) {
+  return falcon::for_moving_handle(force_limits(trusted, options.most_newton));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<FalconDevice>> FalconDevice::open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
-                                                         DeviceProfile profile, const FalconOptions& options) {
+                                                         const TrustedDevice& trusted, const FalconOptions& options) {
   const std::string name = in_words(info.vendor, info.product) + ": ";
   FalconTransport::Options wanted = options.transport;
   auto firmware = read_falcon_firmware(options.firmware);
   if (firmware) wanted.session.firmware = *std::move(firmware);
+  wanted.session.gate = falcon::TorqueGate(limits_of(trusted, options), options.hold.most);
 
   auto opened = FalconTransport::open(std::move(context), info, std::move(wanted));
   if (!opened) return std::move(opened.error());
@@ -45,17 +50,17 @@ Result<std::unique_ptr<FalconDevice>> FalconDevice::open(std::shared_ptr<UsbCont
   if (!transport.seen().is_running)
     return Error{Code::unusable_device, name + "its encoders have not found their zeros",
                  "push the handle all the way in and pull it all the way out"};
-  return std::unique_ptr<FalconDevice>(new FalconDevice(*std::move(opened), std::move(profile), options));
+  return std::unique_ptr<FalconDevice>(new FalconDevice(*std::move(opened), trusted, options));
 }
 
-FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, DeviceProfile profile,
+FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, const TrustedDevice& trusted,
                            const FalconOptions& options)
     : transport_(std::move(transport)),
-      profile_(std::move(profile)),
-      plane_(profile_.force_newton, options.hold),
+      profile_(trusted.profile()),
+      plane_(limits_of(trusted, options), options.hold),
       is_held_(options.hold.stiffness > 0),
       now_(options.transport.now),
-      stale_after_(static_cast<std::int64_t>(options.stale_after * 1e6)) {}
+      stale_after_(static_cast<std::int64_t>(options.transport.session.stale_after * 1e6)) {}
 
 Reading FalconDevice::sample() noexcept {
   const FalconTransport::Seen seen = transport_->seen();

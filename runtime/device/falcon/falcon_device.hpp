@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "runtime/device/falcon/falcon_plane.hpp"
 #include "runtime/device/falcon/falcon_transport.hpp"
 #include "runtime/device/plugged_device.hpp"
+#include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 #include "schema/result.hpp"
 
@@ -21,7 +23,8 @@ namespace wale {
 bool is_falcon(const UsbDeviceInfo& info);
 
 struct FalconOptions {
-  FalconTransport::Options transport;  ///< its firmware is ignored and read from the file below
+  FalconTransport::Options transport;  ///< its firmware and its torque gate are ignored
+  double most_newton = HUGE_VAL;       ///< N at the handle, the user's limit; the hold in the plane counts
   falcon::HoldInPlane hold;
   /// The user's own firmware file, read only if the device runs no firmware, as after a loss of power.
   std::filesystem::path firmware = falcon_firmware_path();
@@ -31,8 +34,6 @@ struct FalconOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Called with the request to the person, on the thread that opens.
   std::function<void(const std::string&)> ask = {};
-  /// s after the newest answer, from which on the position counts as stale.
-  double stale_after = 0.02;
 };
 
 /// A Novint Falcon as a joystick of two axes: an upright plane across its middle, x to the right, y up, which stands
@@ -44,11 +45,11 @@ struct FalconOptions {
 /// last position.
 class FalconDevice final : public PluggedDevice {
  public:
-  /// Loads the firmware if the device runs none, and waits until it is homed. The profile's counts and force must be
+  /// Loads the firmware if the device runs none, and waits until it is homed. The declaration's counts and force must be
   /// positive. The error names the obstacle: a missing permission and the rule that gives it, another program, missing
   /// firmware and its source, or a handle that nobody has moved.
   static Result<std::unique_ptr<FalconDevice>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
-                                                    DeviceProfile profile, const FalconOptions& options = {});
+                                                    const TrustedDevice& trusted, const FalconOptions& options = {});
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long) noexcept override {}
@@ -64,7 +65,7 @@ class FalconDevice final : public PluggedDevice {
   double out_of_plane() const noexcept { return plane_.out_of_plane(); }  ///< m, towards the user
 
  private:
-  FalconDevice(std::unique_ptr<FalconTransport> transport, DeviceProfile profile, const FalconOptions& options);
+  FalconDevice(std::unique_ptr<FalconTransport> transport, const TrustedDevice& trusted, const FalconOptions& options);
 
   std::unique_ptr<FalconTransport> transport_;
   DeviceProfile profile_;

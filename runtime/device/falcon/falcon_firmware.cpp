@@ -1,13 +1,15 @@
 #include "runtime/device/falcon/falcon_firmware.hpp"
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
+#include <system_error>
+
+#include "schema/regular_file.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::size_t most_firmware_bytes = 65536;  // known ones have less than 10 000
+constexpr std::size_t largest_firmware = 65536;  // bytes; known ones have less than 10 000
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -34,15 +36,15 @@ Result<std::vector<std::uint8_t>> read_falcon_firmware(const std::filesystem::pa
         "or name it: WALE_FALCON_FIRMWARE=FILE",
         {.name = path.string()}};
   };
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
+  const auto text = read_regular_file(path.string(), largest_firmware);
+  std::error_code ignored;
+  if (!text && !std::filesystem::exists(path, ignored))
     return refused(Code::unreadable_file, "there is no firmware at " + path.string());
-  std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
-  if (bytes.empty() || bytes.size() > most_firmware_bytes)
-    return refused(Code::damaged_file, "the file at " + path.string() + " is not firmware: it has " +
-                                           std::to_string(bytes.size()) + " bytes, expected 1 .. " +
-                                           std::to_string(most_firmware_bytes));
-  return bytes;
+  if (!text)
+    return refused(Code::unreadable_file,
+                   "the firmware at " + path.string() + " cannot be read: " + text.error().sentence);
+  if (text->empty()) return refused(Code::damaged_file, "the file at " + path.string() + " is empty, and no firmware");
+  return std::vector<std::uint8_t>(text->begin(), text->end());
 }
 
 }  // namespace wale

@@ -13,19 +13,18 @@ constexpr std::int64_t longest_pause = 100'000;  // microseconds between pushes 
 
 double largest(const glm::dvec3& v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Steps of torque per N m: `full_newton` in the worst direction takes the motors' greatest torque.
-double steps_per_newton_metre(double full_newton) noexcept {
-  const auto angles = inverse(workspace_centre);
-  const glm::dmat3 by_force = glm::inverse(glm::transpose(*turning(workspace_centre, *angles)));
-  double worst = 0;  // N m per N
-  for (int i = 0; i < 3; ++i) worst = std::max(worst, std::hypot(by_force[0][i], by_force[1][i]));
-  return most_torque / (worst * full_newton);
-}
-
 }  // namespace
 
-FalconPlane::FalconPlane(double full_newton, const HoldInPlane& hold)
-    : steps_per_newton_metre_(steps_per_newton_metre(full_newton)), hold_(hold) {}
+FalconPlane::FalconPlane(const ForceLimits& limits, const HoldInPlane& hold)
+    : steps_per_newton_metre_(steps_per_newton_metre(limits.peak.x)), limits_(limits), hold_(hold) {}
+
+/// Reduces a force in the plane to the user's limit. Returns the force across the plane that the limit leaves, N.
+double FalconPlane::room_across(glm::dvec2& force) const noexcept {
+  const double size = glm::length(limits_.gain * force), most = limits_.most_newton;
+  if (size > most) force *= most / size;
+  const double left = std::max(0.0, most * most - std::min(size * size, most * most));
+  return std::sqrt(left) / std::max(limits_.gain.x, limits_.gain.y);
+}
 
 bool FalconPlane::see(const Encoders& encoders, std::int64_t now) noexcept {
   const glm::dvec3 angles = angles_of(encoders);
@@ -48,6 +47,7 @@ FalconPlane::Push FalconPlane::push(glm::dvec2 force, std::int64_t now) noexcept
   if (!is_known_) return push;
   if (std::isnan(force.x) || std::isnan(force.y)) force = glm::dvec2(0);
   force = {std::clamp(force.x, -1e3, 1e3), std::clamp(force.y, -1e3, 1e3)};  // infinities have no direction
+  const double room_for_hold = room_across(force);
 
   const bool continues = pushed_ >= 0 && now - pushed_ <= longest_pause;
   const double elapsed = continues ? static_cast<double>(now - pushed_) * 1e-6 : 0;
@@ -63,6 +63,7 @@ FalconPlane::Push FalconPlane::push(glm::dvec2 force, std::int64_t now) noexcept
   if (hold_.stiffness > 0) {
     const double wanted = -hold_.stiffness * out_of_plane() - hold_.damping * speed_out_;
     hold = held_ * std::clamp(wanted, -hold_.most, hold_.most);
+    hold = std::clamp(hold, -room_for_hold, room_for_hold);
   }
   const glm::dvec3 for_hold = steps_for({0, 0, hold});
   double share = 1;
@@ -73,7 +74,7 @@ FalconPlane::Push FalconPlane::push(glm::dvec2 force, std::int64_t now) noexcept
   }
   glm::dvec3 exerted(0);
   for (int i = 0; i < 3; ++i) {
-    const double whole = std::clamp<double>(std::nearbyint(steps[i] + share * for_hold[i]), -most_torque, most_torque);
+    const double whole = std::clamp<double>(std::trunc(steps[i] + share * for_hold[i]), -most_torque, most_torque);
     push.torques[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(whole);
     exerted[i] = -whole / steps_per_newton_metre_;
   }

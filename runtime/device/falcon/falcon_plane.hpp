@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-#include "runtime/device/falcon/falcon_packets.hpp"
+#include "runtime/device/falcon/torque_gate.hpp"
 
 namespace wale::falcon {
 
@@ -23,9 +23,9 @@ struct HoldInPlane {
 /// nothing, takes no lock, makes no system call, does not throw.
 class FalconPlane {
  public:
-  /// `full_newton`: the force that a motor's whole torque gives at the workspace's middle, in the weakest direction.
-  /// The motors' own figures are not published, so this comes from the device's profile.
-  explicit FalconPlane(double full_newton, const HoldInPlane& hold = {});
+  /// The peak along x is the force that a motor's whole torque gives at the workspace's middle, in the weakest
+  /// direction (`steps_per_newton_metre`).
+  explicit FalconPlane(const ForceLimits& limits, const HoldInPlane& hold = {});
 
   /// Takes the encoders' counts at time `now` (microseconds). False: no place of the handle fits them, and the previous
   /// place stays.
@@ -40,15 +40,19 @@ class FalconPlane {
     glm::dvec2 force{0};  ///< N, exerted by these torques in the plane
     double hold = 0;      ///< N, exerted by these torques across the plane
   };
-  /// The torques for a force (N) in the plane at the newest place of the handle. A force beyond the motors keeps its
-  /// direction and becomes smaller; not-a-number counts as no force.
+  /// The torques for a force (N) in the plane at the newest place of the handle, rounded toward zero. A force beyond the
+  /// motors or the user's limit keeps its direction and becomes smaller; the hold gets the rest of the limit.
+  /// Not-a-number counts as no force.
   Push push(glm::dvec2 force, std::int64_t now) noexcept;
 
   /// Pushes nothing until the next `push`.
   void let_go() noexcept { pushed_ = -1; }
 
  private:
+  double room_across(glm::dvec2& force) const noexcept;
+
   double steps_per_newton_metre_;
+  ForceLimits limits_;
   HoldInPlane hold_;
   glm::dvec3 place_ = workspace_centre;
   glm::dmat3 turning_{0};

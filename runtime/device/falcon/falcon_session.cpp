@@ -90,7 +90,7 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
     case Step::loop:
       if (state_ == State::running) {
         if (now - commanded_ > in_microseconds(options_.command_silence)) hush();
-        command.torques = torques_;
+        command.torques = allowed_torques(now);
         pending_ = false;
       }
       command.light = state_ == State::running ? Light::green : Light::red;
@@ -103,7 +103,13 @@ Transfer FalconSession::written(std::int64_t now) noexcept {
   return transfer;
 }
 
-/// The answer that the loader should give now; while the firmware is loaded, its echo.
+/// The only torques that a packet gets: those commanded, as far as the limits allow them where the handle is now.
+Torques FalconSession::allowed_torques(std::int64_t now) const noexcept {
+  if (!answer_ || now - heard_ > in_microseconds(options_.stale_after)) return {};
+  return options_.gate.within(torques_, answer_->encoders);
+}
+
+/// The answer that the loader should give now; while the firmware is loaded, the echo of it.
 std::span<const std::uint8_t> FalconSession::expected() const noexcept {
   switch (step_) {
     case Step::hello: return hello_answer;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/device/falcon/falcon_packets.hpp"
+#include "runtime/device/falcon/torque_gate.hpp"
 #include "runtime/device/outcome.hpp"
 
 namespace wale::falcon {
@@ -40,10 +40,12 @@ struct Transfer {
 struct FalconSessionOptions {
   /// The bytes of the user's own firmware, loaded if the device runs none. Empty: there is none.
   std::vector<std::uint8_t> firmware;
+  TorqueGate gate;  ///< every packet keeps within it; without limits no packet has torque
   /// s without a command after which the motors are let go: before a keeper does it for the same reason, after 0.1 s.
   double command_silence = 0.05;
   double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
   int most_silences = 10;        ///< in a row; then the device is lost
+  double stale_after = 0.02;     ///< s after which an answer no longer says where the handle is: then there is no torque
 };
 
 /// What a session has done since it was made.
@@ -138,6 +140,7 @@ class FalconSession {
   bool take_echo(std::span<const std::uint8_t> bytes) noexcept;
   bool take_answers(std::span<const std::uint8_t> bytes, std::int64_t now) noexcept;
   Transfer written(std::int64_t now) noexcept;
+  Torques allowed_torques(std::int64_t now) const noexcept;
   void answered(std::int64_t now) noexcept;
   void unanswered() noexcept;
   void go_to(Step step) noexcept;

@@ -99,11 +99,12 @@ std::vector<PluggedIn> find_hid_pid(const Connections& connections, const Plugge
   return list_usb_devices(connections, hid_pid_driver, is_meant, describe_hid_pid);
 }
 
-OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugged, const DeviceProfile& profile,
+OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugged, const TrustedDevice& trusted,
                           const DeviceOptions& options) {
   if (!connections.usb) return connections.usb.error();
   HidPidDevice::Options wanted;
   wanted.priority = options.priority;
+  wanted.most_newton = options.most_newton;
   wanted.keeper = options.keeper;
   if (!options.transport.empty()) {
     wanted.transport = read_transport_kind(options.transport);
@@ -114,8 +115,8 @@ OpenedDevice open_hid_pid(const Connections& connections, const PluggedIn& plugg
                    {.name = "--transport", .text = options.transport}};
     }
   }
-  auto opened = options.descriptor < 0 ? HidPidDevice::open(*connections.usb, plugged.usb, profile, wanted)
-                                       : HidPidDevice::open(*connections.usb, options.descriptor, profile, wanted);
+  auto opened = options.descriptor < 0 ? HidPidDevice::open(*connections.usb, plugged.usb, trusted, wanted)
+                                       : HidPidDevice::open(*connections.usb, options.descriptor, trusted, wanted);
   if (!opened) return std::move(opened).error();
   if (options.descriptor >= 0) close(options.descriptor);  // the device has one of its own
   return *std::move(opened);

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 
 #include "runtime/device/usb/system_error.hpp"
 
@@ -22,7 +23,7 @@ constexpr std::int64_t full_level = 32767;  // linux/input.h: ff_constant_effect
 // Directions in 65536ths of a turn. The driver passes them on with the meaning of the PID class: a force of level m is
 // m sin along x and -m cos along y, which points to the user.
 constexpr std::uint16_t toward_x = 0x4000, toward_y = 0x8000;
-constexpr double steps_per_radian = 65536 / (2 * 3.14159265358979323846);
+constexpr std::int64_t turn_steps = 65536;
 constexpr std::uint16_t endless = 0;         // ff_replay: no length
 constexpr std::int64_t most_length = 32767;  // ms
 
@@ -94,6 +95,7 @@ EvdevTransport::EvdevTransport(EvdevNode node, const Limits& limits, const PidTr
       pace_(2000 * std::int64_t{std::max(1, limits.report_interval)}),
       refresh_period_(options.session.effect_duration > 0 ? microseconds(options.session.effect_duration / 3) : 0),
       silence_(microseconds(options.session.command_silence)),
+      limits_(options.session.limits),
       ends_reading_(eventfd(0, EFD_CLOEXEC)) {
   ranges_.full_force = std::clamp<std::int64_t>(limits.force_steps, 1, full_level);
   const std::int64_t length = std::llround(options.session.effect_duration * 1000);  // ms
@@ -110,12 +112,19 @@ Result<> EvdevTransport::set_up() {
   if (Result<> known = set_up_positions(); !known) return known;
   // The driver's own centring spring would add its force to every material.
   if (node_.has_autocenter()) tell(FF_AUTOCENTER, 0);
-  if (node_.most_effects() < 2) arrangement_ = hid::Arrangement::combined;
+
+  // Nothing tells which of the queued updates the device has, and a full queue drops the newest. Each effect keeps
+  // within its own limit whatever comes of the other; only one effect keeps a whole vector within the user's.
+  const bool is_vector_limited = limits_.most_newton < glm::length(limits_.peak);
+  if (node_.most_effects() < 2 || is_vector_limited) arrangement_ = hid::Arrangement::combined;
   for (std::size_t i = 0; i < effects(); ++i) {
     Result<> uploaded = upload(i);
     if (!uploaded && i == 0) return uploaded;
     if (!uploaded) arrangement_ = hid::Arrangement::combined;
   }
+  gate_ = arrangement_ == hid::Arrangement::combined
+              ? hid::ForceGate::of_one(limits_, ranges_.full_force, 360.0 / turn_steps, turn_steps - 1)
+              : hid::ForceGate::of_two(limits_, ranges_.full_force, {{{1, 0}, {0, 1}}});
   if (node_.has_gain()) tell(FF_GAIN, 0xffff);
   const std::int64_t now = now_();
   for (std::size_t i = 0; i < effects(); ++i) {
@@ -268,29 +277,28 @@ void EvdevTransport::write_forces() {
   }
 }
 
-std::int64_t EvdevTransport::level_of(double magnitude) const noexcept {
-  const auto steps = static_cast<double>(ranges_.full_force);
-  return std::llround(std::round(magnitude * steps) / steps * static_cast<double>(full_level));
-}
-
 /// Sends the next update; false: there is none.
 bool EvdevTransport::write_next(std::int64_t now) {
   if (refresh(now)) return true;
   if (!pending_) return false;
-  if (arrangement_ == hid::Arrangement::combined) return turn_and_push();
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::size_t effect = (turn_ + i) % 2;
-    const auto level = static_cast<std::int16_t>(level_of(effect == 0 ? wanted_.x : wanted_.y));
-    if (level == effects_[effect].u.constant.level) continue;
-    effects_[effect].u.constant.level = level;
-    turn_ = 1 - effect;
-    if (!update(effect)) return false;
-    const std::lock_guard lock(mutex_);
-    ++counts_.forces_sent[effect];
-    return true;
-  }
-  pending_ = false;
-  return false;
+  const bool is_combined = arrangement_ == hid::Arrangement::combined;
+  const auto change = is_combined ? gate_.next_at_once(wanted_) : gate_.next(wanted_);
+  if (is_combined || !change) pending_ = false;
+  return change && push(*change);
+}
+
+/// The only one that says how hard an effect pushes. False: it cannot be said any more.
+bool EvdevTransport::push(const hid::ForceGate::Change& change) {
+  ff_effect& effect = effects_[change.effect];
+  effect.u.constant.level = static_cast<std::int16_t>(change.magnitude.counts() * full_level / ranges_.full_force);
+  if (change.turns)
+    effect.direction = static_cast<std::uint16_t>(std::llround(change.direction / 360 * turn_steps) % turn_steps);
+  if (!update(change.effect)) return false;
+  gate_.arrived(change.effect);  // its own limit alone counts, see `set_up`
+  const std::lock_guard lock(mutex_);
+  ++counts_.forces_sent[change.effect];
+  if (change.turns) ++counts_.directions_sent;
+  return true;
 }
 
 /// Whether the kernel's driver has been told that no effect pushes.
@@ -315,26 +323,6 @@ bool EvdevTransport::refresh(std::int64_t now) {
     return true;
   }
   return false;
-}
-
-/// One effect for both axes.
-bool EvdevTransport::turn_and_push() {
-  pending_ = false;
-  const double size = std::min(1.0, std::sqrt(wanted_.x * wanted_.x + wanted_.y * wanted_.y));
-  const auto level = static_cast<std::int16_t>(level_of(size));
-  const double turn = std::atan2(wanted_.x, -wanted_.y) * steps_per_radian;
-  const auto direction = level == 0
-                             ? effects_[0].direction
-                             : static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(turn)) & 0xffff);
-  if (level == effects_[0].u.constant.level && direction == effects_[0].direction) return false;
-  const bool is_turned = direction != effects_[0].direction;
-  effects_[0].u.constant.level = level;
-  effects_[0].direction = direction;
-  if (!update(0)) return false;
-  const std::lock_guard lock(mutex_);
-  ++counts_.forces_sent[0];
-  if (is_turned) ++counts_.directions_sent;
-  return true;
 }
 
 void EvdevTransport::lose(std::string reason) {

@@ -42,8 +42,9 @@ class EvdevNode {
 /// A joystick through effects of the kernel's driver, which writes the reports of the PID class itself.
 ///
 /// If the driver has room for two effects, each is turned to one axis, and a change of level is one report, Set
-/// Constant Force. With room for one effect only, a change of direction takes a second report, Set Effect, and between
-/// the two the old magnitude acts along the new direction.
+/// Constant Force. With one effect, a change of direction takes a second report, Set Effect, and between the two the old
+/// magnitude acts along the new direction. One effect is used if the driver has room for one only, and if the user
+/// limits the force: its magnitude is within the limit along every direction, so late or lost updates cannot exceed it.
 ///
 /// An update returns before its report has been sent, and the driver queues up to 256 reports, old forces before new
 /// ones. It does not report when one has been sent, so updates are paced below the rate at which the device takes
@@ -94,9 +95,8 @@ class EvdevTransport final : public PidTransport {
   void write_forces();
   bool write_next(std::int64_t now);
   bool refresh(std::int64_t now);
+  bool push(const hid::ForceGate::Change& change);
   bool is_level() const noexcept;
-  bool turn_and_push();
-  std::int64_t level_of(double magnitude) const noexcept;
   void read_positions();
   void take(const input_event& event);
   void read_state();
@@ -107,6 +107,7 @@ class EvdevTransport final : public PidTransport {
   EvdevNode node_;
   const MicrosecondClock now_;
   const std::int64_t pace_, refresh_period_, silence_;  // microseconds
+  const ForceLimits limits_;
   Ranges ranges_;
   hid::Arrangement arrangement_ = hid::Arrangement::by_direction;
   OwnedDescriptor ends_reading_;              // an eventfd
@@ -117,7 +118,7 @@ class EvdevTransport final : public PidTransport {
   std::array<std::int64_t, 2> refresh_at_{};
   glm::dvec2 wanted_{0};
   std::int64_t commanded_ = 0;
-  std::size_t turn_ = 0;
+  hid::ForceGate gate_;
   bool pending_ = false, silent_ = false;
 
   // The reader's.

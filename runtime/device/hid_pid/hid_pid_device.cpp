@@ -14,37 +14,42 @@ int scaled_counts(std::int32_t raw, std::int64_t minimum, std::int64_t maximum, 
   return sign * static_cast<int>(std::lround((raw - centre) * counts / length));
 }
 
-/// `fraction` of `full` steps of force, rounded to the nearest; 0 for not-a-number.
-std::int64_t force_steps(double fraction, std::int64_t full) noexcept {
-  if (std::isnan(fraction)) return 0;
-  return std::llround(std::clamp(fraction, -1.0, 1.0) * static_cast<double>(full));
-}
-
-/// The profile's number of force levels to each side, at most that of evdev.
 std::int64_t levels_of(const DeviceProfile& profile) noexcept {
   constexpr double most = 32767;
   return static_cast<std::int64_t>(std::clamp(std::round(profile.force_counts), 1.0, most));
 }
 
+/// With the limits of the declaration and the user.
+PidTransportOptions limited(PidTransportOptions options, const ForceLimits& limits) {
+  options.session.limits = limits;
+  return options;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<HidPidDevice>> HidPidDevice::open(const std::shared_ptr<UsbContext>& context,
-                                                         const UsbDeviceInfo& info, DeviceProfile profile,
+                                                         const UsbDeviceInfo& info, const TrustedDevice& trusted,
                                                          const Options& options) {
-  auto opened = open_pid_transport(context, info, levels_of(profile), options, options.transport);
+  const ForceLimits limits = force_limits(trusted, options.most_newton);
+  auto opened =
+      open_pid_transport(context, info, levels_of(trusted.profile()), limited(options, limits), options.transport);
   if (!opened) return std::move(opened).error();
-  return std::unique_ptr<HidPidDevice>(new HidPidDevice(*std::move(opened), std::move(profile)));
+  return std::unique_ptr<HidPidDevice>(new HidPidDevice(*std::move(opened), trusted.profile(), limits));
 }
 
 Result<std::unique_ptr<HidPidDevice>> HidPidDevice::open(const std::shared_ptr<UsbContext>& context, int descriptor,
-                                                         DeviceProfile profile, const Options& options) {
-  auto opened = open_pid_transport(context, descriptor, levels_of(profile), options);
+                                                         const TrustedDevice& trusted, const Options& options) {
+  const ForceLimits limits = force_limits(trusted, options.most_newton);
+  auto opened = open_pid_transport(context, descriptor, levels_of(trusted.profile()), limited(options, limits));
   if (!opened) return std::move(opened).error();
-  return std::unique_ptr<HidPidDevice>(new HidPidDevice({*std::move(opened), {}}, std::move(profile)));
+  return std::unique_ptr<HidPidDevice>(new HidPidDevice({*std::move(opened), {}}, trusted.profile(), limits));
 }
 
-HidPidDevice::HidPidDevice(OpenedPidTransport opened, DeviceProfile profile)
-    : transport_(std::move(opened.transport)), why_(std::move(opened.why)), profile_(std::move(profile)) {}
+HidPidDevice::HidPidDevice(OpenedPidTransport opened, DeviceProfile profile, const ForceLimits& limits)
+    : transport_(std::move(opened.transport)),
+      why_(std::move(opened.why)),
+      profile_(std::move(profile)),
+      limits_(limits) {}
 
 Reading HidPidDevice::sample() noexcept {
   const PidTransport::Seen seen = transport_->seen();
@@ -58,16 +63,16 @@ Reading HidPidDevice::sample() noexcept {
 }
 
 Force HidPidDevice::command(Force force) noexcept {
-  const std::int64_t steps = transport_->ranges().full_force;
-  const auto full = static_cast<double>(steps);
-  glm::vec2 wanted(0), exerted(0);
-  for (int axis = 0; axis < 2; ++axis) {
-    const auto counts = force_steps(force[axis] / profile_.force_newton, steps);
-    wanted[axis] = static_cast<float>(hid_signs[axis] * static_cast<double>(counts) / full);
-    exerted[axis] = static_cast<float>(static_cast<double>(counts) / full * profile_.force_newton);
-  }
   if (transport_->was_lost()) return Force(0);
-  transport_->command(wanted);
+  const std::int64_t steps = transport_->ranges().full_force;
+  const glm::vec2 share(force / static_cast<float>(profile_.force_newton));
+  transport_->command({static_cast<float>(hid_signs[0]) * share.x, static_cast<float>(hid_signs[1]) * share.y});
+  // The transport goes by the same limits and the same steps: this is what it sends, unless a newer command comes.
+  const glm::dvec2 allowed = hid::within(limits_, share);
+  Force exerted(0);
+  for (int axis = 0; axis < 2; ++axis)
+    exerted[axis] = static_cast<float>(static_cast<double>(hid::commanded_counts(allowed[axis], steps)) /
+                                       static_cast<double>(steps) * profile_.force_newton);
   return exerted;
 }
 

@@ -8,12 +8,13 @@
 
 #include "runtime/device/hid_pid/open_pid_transport.hpp"
 #include "runtime/device/plugged_device.hpp"
+#include "runtime/device/trusted_device.hpp"
 #include "runtime/device/usb/usb_context.hpp"
 
 namespace wale {
 
 /// A force-feedback joystick of USB's PID class, laid out by its report descriptor. Positions are scaled from the
-/// descriptor's range to the profile's counts, forces from the profile's peak force to the descriptor's range. HID's y
+/// descriptor's range to the profile's counts, forces from the trusted peak force to the descriptor's range. HID's y
 /// points to the user and is reversed: here x points to the right and y away. The caller turns the axes further by the
 /// device's `DeviceWiring`.
 ///
@@ -25,17 +26,18 @@ class HidPidDevice final : public PluggedDevice {
     std::optional<PidTransportKind> transport;  ///< none: the first one of `transports_by_preference` that can be used
   };
 
-  /// Takes the first interface of the device that can push, and sets it up from zero force. The profile's counts and
-  /// force must be positive. The error names the obstacle: a missing permission and the rule that gives it, another
-  /// program, that it is no force device, or what its descriptor lacks.
+  /// Takes the first interface of the device that can push, and sets it up from zero force. The declaration's counts and
+  /// force must be positive; with `options.most_newton` it sets the limits of the session. The error names the obstacle:
+  /// a missing permission and the rule that gives it, another program, that it is no force device, or what its
+  /// descriptor lacks.
   static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context,
-                                                    const UsbDeviceInfo& info, DeviceProfile profile,
+                                                    const UsbDeviceInfo& info, const TrustedDevice& trusted,
                                                     const Options& options = {});
   /// Uses a hidraw, evdev or usbfs node that another party, such as a portal or a broker, has opened for reading and
   /// writing. Detects the kind of the node. The other party still owns the descriptor. The context is for usbfs and may
   /// be null otherwise; `options.transport` is ignored.
   static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context, int descriptor,
-                                                    DeviceProfile profile, const Options& options = {});
+                                                    const TrustedDevice& trusted, const Options& options = {});
 
   const DeviceProfile& profile() const noexcept override { return profile_; }
   void elapse(long) noexcept override {}
@@ -54,11 +56,12 @@ class HidPidDevice final : public PluggedDevice {
   std::optional<hid::Telemetry> telemetry() const { return transport_->telemetry(); }
 
  private:
-  HidPidDevice(OpenedPidTransport opened, DeviceProfile profile);
+  HidPidDevice(OpenedPidTransport opened, DeviceProfile profile, const ForceLimits& limits);
 
   std::unique_ptr<PidTransport> transport_;
   std::string why_;  // not a transport that is tried before
   DeviceProfile profile_;
+  ForceLimits limits_;
 };
 
 }  // namespace wale

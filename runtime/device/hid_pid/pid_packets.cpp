@@ -86,18 +86,18 @@ Packet encode_set_effect(const PidLayout& layout, const ConstantEffect& effect) 
   return packet;
 }
 
-std::int64_t magnitude_counts(const PidLayout& layout, double magnitude) noexcept {
-  if (std::isnan(magnitude)) return 0;
-  const auto full = static_cast<double>(layout.set_constant_force.full());
-  return static_cast<std::int64_t>(std::round(std::clamp(magnitude, -1.0, 1.0) * full));
-}
-
-Packet encode_constant_force(const PidLayout& layout, std::uint8_t block_index, double magnitude) noexcept {
+Packet encode_constant_force(const PidLayout& layout, std::uint8_t block_index, Magnitude magnitude) noexcept {
   const PidLayout::SetConstantForce& report = layout.set_constant_force;
   Packet packet = begin(report);
   put(packet, report.block_index, block_index);
-  put(packet, report.magnitude, magnitude_counts(layout, magnitude));
+  put(packet, report.magnitude, std::clamp(magnitude.counts(), -report.full(), report.full()));
   return packet;
+}
+
+double told_direction(const PidLayout& layout, double direction) noexcept {
+  const PidLayout::SetEffect& report = layout.set_effect;
+  const Number& field = report.direction[0];
+  return static_cast<double>(counted(direction, report.direction_step, field) - field.minimum) * report.direction_step;
 }
 
 Packet encode_start(const PidLayout& layout, std::uint8_t block_index, bool endlessly) noexcept {

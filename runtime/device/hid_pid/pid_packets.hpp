@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "runtime/device/hid_pid/force_gate.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 
 namespace wale::hid {
@@ -36,10 +37,11 @@ struct ConstantEffect {
 
 Packet encode_set_effect(const PidLayout& layout, const ConstantEffect& effect) noexcept;
 
-/// `magnitude` is a share of the device's full force, clamped to -1 .. 1; not-a-number gives 0.
-Packet encode_constant_force(const PidLayout& layout, std::uint8_t block_index, double magnitude) noexcept;
-/// The magnitude in such a packet, in counts: `encode_constant_force` rounds to the nearest.
-std::int64_t magnitude_counts(const PidLayout& layout, double magnitude) noexcept;
+/// The only packet that says how hard an effect pushes.
+Packet encode_constant_force(const PidLayout& layout, std::uint8_t block_index, Magnitude magnitude) noexcept;
+
+/// What a device makes of an effect's direction: the nearest that its field can say, in degrees.
+double told_direction(const PidLayout& layout, double direction) noexcept;
 
 /// Starts an effect: once, or repeated without end (`endlessly`).
 Packet encode_start(const PidLayout& layout, std::uint8_t block_index, bool endlessly) noexcept;

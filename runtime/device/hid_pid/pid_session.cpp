@@ -12,7 +12,6 @@ constexpr std::uint8_t standard_in = 0x81, class_in = 0xa1, class_out = 0x21;
 constexpr std::uint16_t report_descriptor_type = 0x2200;
 
 constexpr int most_load_attempts = 20;
-constexpr double toward_x = 90, toward_y = 180;  // degrees
 
 }  // namespace
 
@@ -27,7 +26,7 @@ std::string_view in_words(Arrangement arrangement) noexcept {
 
 PidSession::PidSession(const HidInterface& interface, const PidSessionOptions& options)
     : interface_(interface), options_(options) {
-  options_.most_in_flight = std::max(1, options_.most_in_flight);
+  options_.most_in_flight = std::clamp(options_.most_in_flight, 1, MayHold::most_on_their_way);
 }
 
 std::optional<Transfer> PidSession::next(std::int64_t now) noexcept {
@@ -91,7 +90,7 @@ std::optional<Transfer> PidSession::step_transfer() noexcept {
     case Step::leave_look: return get_report(feature_report, layout_->block_load, purpose);
     case Step::set: return output(effect_packet(effect_), purpose);
     case Step::zero:
-    case Step::leave_zero: return output(encode_constant_force(*layout_, blocks_[effect_], 0), purpose);
+    case Step::leave_zero: return output(encode_constant_force(*layout_, blocks_[effect_], Magnitude()), purpose);
     case Step::start: return output(encode_start(*layout_, blocks_[effect_], duration_ == endless), purpose);
     case Step::leave_stop: return output(encode_stop(*layout_, blocks_[effect_]), purpose);
     case Step::leave_stop_all:
@@ -140,6 +139,7 @@ void PidSession::advance(std::int64_t now) noexcept {
       each(Step::set, Step::run);
       if (step_ == Step::run) {
         state_ = State::running;
+        open_gate();
         commanded_ = heard_ = now;
         telemetry_at_ = now + microseconds(options_.telemetry_period);
         look_at_ = now + microseconds(options_.rival_check_period);
@@ -175,6 +175,9 @@ void PidSession::finish(const Transfer& transfer, Outcome outcome, std::span<con
       break;
     case Transfer::Purpose::poll: poll_under_way_ = false; break;
     case Transfer::Purpose::look: look_under_way_ = false; break;
+    case Transfer::Purpose::force:
+      if (outcome == Outcome::done) gate_.arrived(transfer.effect);  // otherwise the session ends without force
+      [[fallthrough]];
     default: --in_flight_; break;
   }
   if (state_ == State::over) return;
@@ -336,7 +339,7 @@ void PidSession::give_up(std::string_view reason) noexcept {
   why_ = Code::lost_device;
   step_ = Step::none;
   state_ = State::over;
-  sent_ = {};  // what the device plays now is not this session's
+  gate_ = {};  // what the device plays now is not this session's
   pending_ = false;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/device/hid_pid/force_gate.hpp"
 #include "runtime/device/hid_pid/openffboard.hpp"
 #include "runtime/device/hid_pid/pid_layout.hpp"
 #include "runtime/device/hid_pid/pid_packets.hpp"
@@ -24,6 +25,7 @@ struct HidInterface {
 };
 
 struct PidSessionOptions {
+  ForceLimits limits;  ///< at the handle; every packet keeps within them
   /// s, after which a device stops by itself when no report reaches it any more, as after a kill; `endless`: never.
   /// Playing effects are started again each third of it.
   /// 0.2 s is below the 0.25 s within which every device is to be free of force; the starts are 30 packets a second for
@@ -47,7 +49,7 @@ struct PidSessionOptions {
   bool is_shared = false;
   /// Whether setting up begins with a reset of the device, which also ends the effects of other programs.
   bool resets = true;
-  int most_in_flight = 2;   ///< output reports on their way at once, at least 1
+  int most_in_flight = 2;   ///< output reports on their way at once, 1 .. MayHold::most_on_their_way
   int most_bad_inputs = 8;  ///< in a row, after which the device is lost
 };
 
@@ -63,6 +65,7 @@ struct Transfer {
   std::uint16_t value = 0, index = 0, length = 0;
   bool pushes = false;  ///< set by the transport: the device may push once it has this
   Packet data;
+  std::size_t effect = 0;  ///< of a force: whose it is
 };
 
 using wale::Outcome;
@@ -158,7 +161,7 @@ class PidSession {
   void give_up(std::string_view reason) noexcept;
 
   /// Whether the newest packets to the device, on their way or taken, let it push. Real-time.
-  bool holds_force() const noexcept { return sent_[0] != 0 || sent_[1] != 0; }
+  bool holds_force() const noexcept { return gate_.holds_force(); }
   /// Whether it has taken all that it is to take, and pushes nothing. Real-time.
   bool is_slack() const noexcept { return !holds_force() && !pending_ && in_flight_ == 0; }
 
@@ -222,6 +225,7 @@ class PidSession {
   bool still_owns(std::span<const std::uint8_t> answer) const noexcept;
   void dispossess() noexcept { give_up("another program has reset it or stopped its effects"); }
   void dispossess_for_now(std::int64_t now) noexcept;
+  void open_gate() noexcept;
   bool is_ours(std::uint8_t block) const noexcept;
   Packet turned_effect(std::size_t effect, double direction) const noexcept;
   Packet effect_packet(std::size_t effect) const noexcept;
@@ -250,10 +254,7 @@ class PidSession {
   double duration_ = 0;  // s; endless, or within the range of the device's field
 
   glm::dvec2 wanted_{0};
-  std::array<std::int64_t, 2> sent_{};  // magnitudes, counts; of the combined effect the first
-  double direction_ = 90;               // degrees, of the combined effect
-  bool turned_ = false;                 // the direction has been sent, its magnitude not yet
-  std::size_t turn_ = 0;                // whose force comes first
+  ForceGate gate_;
   bool pending_ = false;
   std::int64_t commanded_ = 0, heard_ = 0;  // when
   bool silent_ = false;

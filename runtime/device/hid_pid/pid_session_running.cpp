@@ -9,8 +9,6 @@
 namespace wale::hid {
 namespace {
 
-constexpr double degrees_per_radian = 180 / 3.14159265358979323846;
-
 double finite_or_none(double value) noexcept { return std::isnan(value) ? 0 : std::clamp(value, -1.0, 1.0); }
 
 }  // namespace
@@ -91,55 +89,36 @@ std::optional<Transfer> PidSession::running_transfer(std::int64_t now) noexcept 
   return look_transfer(now);
 }
 
-/// The transfer for the part of the newest command that the device does not have yet. The axes take turns.
-std::optional<Transfer> PidSession::force_transfer() noexcept {
-  const auto purpose = Transfer::Purpose::force;
-  if (arrangement_ != Arrangement::combined) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::size_t effect = (turn_ + i) % 2;
-      const double magnitude = effect == 0 ? wanted_.x : wanted_.y;
-      const std::int64_t counts = magnitude_counts(*layout_, magnitude);
-      if (counts == sent_[effect]) continue;
-      sent_[effect] = counts;
-      turn_ = 1 - effect;
-      pending_ = false;
-      ++counts_.forces_sent[effect];
-      return output(encode_constant_force(*layout_, blocks_[effect], magnitude), purpose);
-    }
-    pending_ = false;
-    return std::nullopt;
+/// The effects have no force yet, and point where their packets have told.
+void PidSession::open_gate() noexcept {
+  const std::int64_t full = layout_->set_constant_force.full();
+  if (arrangement_ == Arrangement::combined) {
+    const Number& field = layout_->set_effect.direction[0];
+    gate_ = ForceGate::of_one(options_.limits, full, layout_->set_effect.direction_step, field.maximum - field.minimum);
+    return;
   }
+  std::array<glm::dvec2, 2> directions{{{1, 0}, {0, 1}}};
+  if (arrangement_ == Arrangement::by_direction)
+    directions = {unit(told_direction(*layout_, toward_x)), unit(told_direction(*layout_, toward_y))};
+  gate_ = ForceGate::of_two(options_.limits, full, directions);
+}
 
-  // One effect: it turns by at most 90 degrees, and the sign of the magnitude does the rest, so a force along one line
-  // never turns it. While it turns, the last magnitude acts for one packet.
-  double magnitude = std::min(1.0, std::sqrt(wanted_.x * wanted_.x + wanted_.y * wanted_.y));
-  if (magnitude_counts(*layout_, magnitude) != 0) {
-    double direction = std::atan2(wanted_.x, -wanted_.y) * degrees_per_radian;
-    const double change = direction - direction_ - 360 * std::round((direction - direction_) / 360);
-    if (std::abs(change) > 90) {
-      direction += 180;
-      magnitude = -magnitude;
-    }
-    const Packet turned = turned_effect(0, direction), before = turned_effect(0, direction_);
-    if (!turned_ && turned.bytes != before.bytes) {
-      direction_ = direction - 360 * std::floor(direction / 360);
-      turned_ = true;
-      pending_ = false;
-      ++counts_.directions_sent;
-      return output(turned, purpose);
-    }
-    if (turned_) {  // along the direction that was sent, even if there is a newer command
-      const double radians = direction_ / degrees_per_radian;
-      magnitude = wanted_.x * std::sin(radians) - wanted_.y * std::cos(radians);
-    }
-  }
-  turned_ = false;
+/// The part of the newest command that the device does not have yet, as far as the gate lets it through.
+std::optional<Transfer> PidSession::force_transfer() noexcept {
   pending_ = false;
-  const std::int64_t counts = magnitude_counts(*layout_, magnitude);
-  if (counts == sent_[0]) return std::nullopt;
-  sent_[0] = counts;
-  ++counts_.forces_sent[0];
-  return output(encode_constant_force(*layout_, blocks_[0], magnitude), purpose);
+  const auto change = gate_.next(wanted_);
+  if (!change) return std::nullopt;
+  Transfer transfer;
+  if (change->turns) {
+    ++counts_.directions_sent;
+    transfer = output(turned_effect(0, change->direction), Transfer::Purpose::force);
+  } else {
+    ++counts_.forces_sent[change->effect];
+    transfer =
+        output(encode_constant_force(*layout_, blocks_[change->effect], change->magnitude), Transfer::Purpose::force);
+  }
+  transfer.effect = change->effect;
+  return transfer;
 }
 
 /// The next of four questions: x and y of torque and position, in turns.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -38,6 +39,7 @@ int system_ioctl(int descriptor, unsigned long request, void* argument);
 
 struct PidTransportOptions {
   hid::PidSessionOptions session;
+  double most_newton = HUGE_VAL;   ///< N at the handle, the user's limit; `HidPidDevice` sets the session's limits
   unsigned timeout = 100;          ///< ms, of each libusb transfer while running and leaving
   unsigned set_up_timeout = 1000;  ///< ms, of each libusb transfer while setting up: a reset may take long
   /// SCHED_FIFO priority of the thread that sends forces, if permitted: best just below the loop's. 0: ordinary.

@@ -22,8 +22,8 @@ std::vector<PluggedIn> find_pointer(const Connections&, const PluggedIn*) {
   return {mouse};
 }
 
-OpenedDevice open_pointer(const Connections&, const PluggedIn&, const DeviceProfile& profile, const DeviceOptions&) {
-  auto opened = PointerDevice::open(profile);
+OpenedDevice open_pointer(const Connections&, const PluggedIn&, const TrustedDevice& trusted, const DeviceOptions&) {
+  auto opened = PointerDevice::open(trusted.profile());
   if (!opened) return std::move(opened.error());
   return *std::move(opened);
 }

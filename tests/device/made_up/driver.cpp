@@ -49,12 +49,12 @@ std::vector<PluggedIn> find_made_up(const Connections&, const PluggedIn*) {
            .profile = "handle_on_rails"}};
 }
 
-OpenedDevice open_made_up(const Connections&, const PluggedIn&, const DeviceProfile& profile,
+OpenedDevice open_made_up(const Connections&, const PluggedIn&, const TrustedDevice& trusted,
                           const DeviceOptions& options) {
   if (!made_up::rails().is_plugged_in) return Error{Code::absent_device, "it is off its rails"};
   const std::lock_guard lock(made_up::rails().mutex);
   made_up::rails().descriptors.push_back(options.descriptor);
-  return std::make_unique<RailsDevice>(profile);
+  return std::make_unique<RailsDevice>(trusted.profile());
 }
 
 }  // namespace

@@ -1,18 +1,18 @@
-#include <fcntl.h>
-#include <unistd.h>
+#include "compiler/image/decoder/height_image.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <vector>
 
+#include "compiler/image/decoder/file_in_memory.hpp"
+#include "compiler/image/decoder/sandbox.hpp"
 #include "compiler/image/openimageio.hpp"
-#include "compiler/image/openimageio/functions.hpp"
 
-namespace wale::openimageio {
+namespace wale::decoder {
 namespace {
 
 using OIIO::ImageBuf;
@@ -23,6 +23,8 @@ namespace algorithm = OIIO::ImageBufAlgo;
 // With one thread the order of additions, and so the last bit, is the same on every machine.
 constexpr int threads = 1;
 constexpr int most_channels = 64;
+/// In one tile, which is decoded as a whole: the most pixels of a picture, in four channels.
+constexpr long long most_samples_per_tile = 4 * most_image_pixels;
 constexpr long long samples_per_band = 1 << 22;
 
 /// Heights of 0 .. 1, one channel, rows from the top.
@@ -30,68 +32,6 @@ struct HeightField {
   int width = 0, height = 0;
   int orientation = 1;
   std::vector<float> heights;
-};
-
-/// Discards standard error while this object lives: libpng writes its messages there, and OpenImageIO's errors repeat
-/// them. Lines that other threads write meanwhile are lost.
-class MutedStandardError {
- public:
-  MutedStandardError() : lock_(mutex_) {
-    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (nowhere < 0) return;
-    std::fflush(stderr);
-    kept_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-    if (kept_ >= 0) ::dup2(nowhere, STDERR_FILENO);
-    ::close(nowhere);
-  }
-  ~MutedStandardError() {
-    if (kept_ < 0) return;
-    std::fflush(stderr);
-    ::dup2(kept_, STDERR_FILENO);
-    ::close(kept_);
-  }
-  MutedStandardError(const MutedStandardError&) = delete;
-  MutedStandardError& operator=(const MutedStandardError&) = delete;
-
- private:
-  inline static std::mutex mutex_;
-  std::lock_guard<std::mutex> lock_;
-  int kept_ = -1;
-};
-
-/// A file that holds given bytes while this object lives, for decoders that cannot read from memory.
-class TemporaryFile {
- public:
-  TemporaryFile(std::span<const std::byte> bytes, const std::string& extension) {
-    std::error_code error;
-    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-    if (error) return;
-    path_ = (folder / ("wale-XXXXXX." + extension)).string();
-    const int file = ::mkstemps(path_.data(), static_cast<int>(extension.size() + 1));
-    if (file < 0) {
-      path_.clear();
-      return;
-    }
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(file, bytes.data(), bytes.size());
-      if (written <= 0) break;
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-    whole_ = bytes.empty();
-    ::close(file);
-  }
-  ~TemporaryFile() {
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  bool whole() const { return whole_; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  bool whole_ = false;
 };
 
 /// OpenImageIO's message on one line, or `otherwise` if it gives none.
@@ -133,8 +73,8 @@ Error unreadable(std::string sentence) {
 
 Error of_wrong_size(std::string sentence) {
   return {Code::image_size, std::move(sentence),
-          fmt::format("give it at least {0} x {0} pixels, and at most {1} million in all", smallest_image_side,
-                      most_image_pixels / 1'000'000)};
+          fmt::format("resize it to at least {0} x {0} pixels and at most {1} x {1}", smallest_image_side,
+                      largest_image_side)};
 }
 
 /// Whether a picture can be used as heights, from what its header says.
@@ -145,12 +85,12 @@ Result<> usable(const ImageSpec& spec) {
     return of_wrong_size(fmt::format("the picture has {} x {} pixels, and heights need at least {} x {}", spec.width,
                                      spec.height, smallest_image_side, smallest_image_side));
   if (static_cast<long long>(spec.width) * spec.height > most_image_pixels)
-    return of_wrong_size(fmt::format("the picture has {} x {} pixels, more than {} million", spec.width, spec.height,
-                                     most_image_pixels / 1'000'000));
+    return of_wrong_size(fmt::format("the picture has {} x {} pixels, more than the {} that a patch can use",
+                                     spec.width, spec.height, most_image_pixels));
   if (spec.nchannels < 1 || spec.nchannels > most_channels)
     return unreadable(
         fmt::format("the picture has {} channels, and 1 to {} can be read", spec.nchannels, most_channels));
-  if (static_cast<long long>(spec.tile_width) * spec.tile_height * spec.nchannels > most_image_pixels)
+  if (static_cast<long long>(spec.tile_width) * spec.tile_height > most_samples_per_tile / spec.nchannels)
     return of_wrong_size(fmt::format("the picture has tiles of {} x {} pixels, which are too large to read",
                                      spec.tile_width, spec.tile_height));
   return {};
@@ -202,15 +142,10 @@ Result<HeightField> decode_as(const std::string& format, std::span<const std::by
   ImageSpec found, wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);  // otherwise colours come multiplied by alpha
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
-  std::optional<TemporaryFile> file;
-  std::string name = "image." + extension;
-  if (input->supports("ioproxy")) {
-    input->set_ioproxy(&memory);
-  } else {
-    file.emplace(bytes, extension);
-    if (!file->whole()) return unreadable("the picture cannot be read: no room for a temporary file");
-    name = file->path();
-  }
+  // A decoder that reads files only finds this one in memory.
+  const std::string name = "picture." + extension;
+  const FileInMemory file(name, bytes);
+  if (input->supports("ioproxy")) input->set_ioproxy(&memory);
   if (!input->open(name, found, wishes))
     return unreadable("the picture cannot be read: " + words_of(input->geterror(), "not a " + format + " file"));
   auto field = read_luminance(*input);
@@ -236,9 +171,7 @@ std::string format_of(const std::string& extension) {
   return {};
 }
 
-Result<HeightField> decode(std::span<const std::byte> bytes, const std::string& name) {
-  std::string extension = OIIO::Strutil::lower(std::filesystem::path(name).extension().string());
-  if (!extension.empty()) extension.erase(0, 1);
+Result<HeightField> decode(std::span<const std::byte> bytes, const std::string& extension) {
   const std::string expected = format_of(extension);
   std::optional<Error> problem;
   if (!expected.empty() && !is_trusted(expected)) {
@@ -362,23 +295,26 @@ Result<HeightImage> heights_from(HeightField whole, double smooth_pixels) {
 
 }  // namespace
 
-Result<HeightImage> read_height_image(std::span<const std::byte> bytes, const std::string& name, double smooth_pixels) {
-  const auto decoded = [&]() -> Result<HeightImage> {
-    if (!(smooth_pixels >= 0)) return unreadable("a picture cannot be smoothed by a negative number of pixels");
-    if (bytes.empty()) return unreadable("the file is empty");
-    const MutedStandardError muted;
-    try {
-      auto field = decode(bytes, name);
-      if (!field) return field.error();
-      return heights_from(*std::move(field), smooth_pixels);
-    } catch (const std::exception& exception) {  // a decoder's own, or too much memory for a forged header
-      return unreadable(std::string("the picture cannot be read: ") + exception.what());
-    }
-  };
-  Result<HeightImage> image = decoded();
-  if (!image) image.error().place.name = name;
-  OIIO::geterror();  // clears the messages that attempts at other formats left
-  return image;
+void prepare() {
+  OIIO::attribute("threads", threads);
+  OIIO::attribute("exr_threads", -1);  // none besides the caller's
+  // Our own limit is smaller, and its message says what to do.
+  OIIO::attribute("limits:imagesize_MB", std::numeric_limits<int>::max());
+  // A decoder loads what it needs when it is first made.
+  for (const std::string_view format : trusted_formats) ImageInput::create(std::string(format));
+  OIIO::geterror();
 }
 
-}  // namespace wale::openimageio
+Result<HeightImage> height_image(std::span<const std::byte> bytes, const std::string& extension, double smooth_pixels) {
+  try {
+    auto field = decode(bytes, extension);
+    if (!field) return field.error();
+    return heights_from(*std::move(field), smooth_pixels);
+  } catch (const std::bad_alloc&) {
+    return unreadable(fmt::format("the picture needs more than {} MB of memory to decode", most_memory >> 20));
+  } catch (const std::exception& exception) {  // a decoder's own
+    return unreadable(std::string("the picture cannot be read: ") + exception.what());
+  }
+}
+
+}  // namespace wale::decoder

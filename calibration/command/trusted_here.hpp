@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/feel/trusted_declarations.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace wale::command {
+
+/// --devices FILE, which may be repeated.
+void offer_trusted_files(CLI::App& verb, std::vector<std::string>& files);
+
+/// Where the person at this terminal keeps declarations of their own devices; empty where they have no home.
+std::string owners_file();
+
+/// What this person trusts: the declarations in `files`, then those in their own file, then the shipped ones.
+Result<TrustedDeclarations> trusted_here(const std::vector<std::string>& files);
+
+}  // namespace wale::command

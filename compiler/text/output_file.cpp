@@ -1,0 +1,237 @@
+#include "compiler/text/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <streambuf>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace wale {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t buffer_size = 1 << 16;
+constexpr int most_links = 40;  // as the kernel follows
+
+Error unwritable(const std::string& path, const std::string& why) {
+  const bool is_standard = path == "-";
+  return {.code = Code::unwritable_file,
+          .sentence = is_standard ? fmt::format("cannot write to standard output: {}", why)
+                                  : fmt::format("cannot write this file: {}", why),
+          .place = {.name = is_standard ? "" : path}};
+}
+
+Error unwritable(const std::string& path, int error) {
+  return unwritable(path, std::generic_category().message(error));
+}
+
+std::optional<struct stat> status_of(const fs::path& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return status;
+}
+
+/// The file that a link leads to at last, whether or not it exists.
+fs::path followed(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < most_links && fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) break;
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  return path;
+}
+
+/// The descriptor that a name such as /dev/stdout or /dev/fd/3 stands for. It is written where it stands, since opening
+/// the name would begin again at the first byte.
+std::optional<int> named_descriptor(const std::string& path) {
+  const std::string name = fs::path(path).lexically_normal().string();
+  if (name == "-" || name == "/dev/stdout") return STDOUT_FILENO;
+  if (name == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (!name.starts_with(folder)) continue;
+    int descriptor = 0;
+    const char* end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + folder.size(), end, descriptor);
+    if (read.ec == std::errc() && read.ptr == end) return descriptor;
+  }
+  return std::nullopt;
+}
+
+bool is_one_of(const struct stat& output, const InputFiles& inputs) {
+  return std::ranges::any_of(inputs, [&](const std::string& input) {
+    const auto status = status_of(input);
+    return status && status->st_dev == output.st_dev && status->st_ino == output.st_ino;
+  });
+}
+
+/// The bytes on their way to a descriptor. It remembers the first failure and takes no more from then on.
+class DescriptorBuffer : public std::streambuf {
+ public:
+  explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) {
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+  }
+  int error() const { return error_; }
+
+ protected:
+  int_type overflow(int_type next) override {
+    if (sync() != 0) return traits_type::eof();
+    if (!traits_type::eq_int_type(next, traits_type::eof())) sputc(traits_type::to_char_type(next));
+    return traits_type::not_eof(next);
+  }
+
+  int sync() override {
+    const char* from = pbase();
+    while (error_ == 0 && from < pptr()) {
+      const ssize_t written = ::write(descriptor_, from, static_cast<std::size_t>(pptr() - from));
+      if (written > 0) from += written;
+      if (written < 0 && errno != EINTR) error_ = errno;
+      if (written == 0) error_ = EIO;
+    }
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+    return error_ == 0 ? 0 : -1;
+  }
+
+ private:
+  int descriptor_;
+  int error_ = 0;
+  std::array<char, buffer_size> buffer_;
+};
+
+struct TemporaryFile {
+  int descriptor;
+  std::string name;
+};
+
+/// A new file in a folder, with the permissions that the user's mask gives new files.
+Result<TemporaryFile> make_temporary(const fs::path& folder, const std::string& path) {
+  for (unsigned number = 0;; ++number) {
+    const std::string name = (folder / fmt::format(".wale-{}-{}", getpid(), number)).string();
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return TemporaryFile{descriptor, name};
+    if (errno == EEXIST && number < 1000) continue;
+    return unwritable(path, errno);
+  }
+}
+
+}  // namespace
+
+class OutputFile::Target {
+ public:
+  /// A stream: `temporary` is empty. Otherwise `temporary` becomes `final` at the end.
+  Target(std::string path, int descriptor, std::string temporary, fs::path final)
+      : path_(std::move(path)),
+        descriptor_(descriptor),
+        temporary_(std::move(temporary)),
+        final_(std::move(final)),
+        buffer_(descriptor),
+        stream_(&buffer_) {}
+  Target(const Target&) = delete;
+  Target& operator=(const Target&) = delete;
+  ~Target() {
+    close(descriptor_);
+    if (!temporary_.empty()) unlink(temporary_.c_str());
+  }
+
+  std::ostream& stream() { return stream_; }
+
+  Result<> finish() {
+    stream_.flush();
+    if (buffer_.error() != 0) return unwritable(path_, buffer_.error());
+    if (temporary_.empty()) return {};
+    if (fsync(descriptor_) != 0) return unwritable(path_, errno);
+    if (std::rename(temporary_.c_str(), final_.c_str()) != 0) return unwritable(path_, errno);
+    temporary_.clear();
+    sync_folder();
+    return {};
+  }
+
+ private:
+  /// So that the name, too, outlives a failure of power. Where a file system cannot, the file itself is whole.
+  void sync_folder() const {
+    const fs::path folder = final_.has_parent_path() ? final_.parent_path() : fs::path(".");
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    fsync(descriptor);
+    close(descriptor);
+  }
+
+  std::string path_;
+  int descriptor_;
+  std::string temporary_;
+  fs::path final_;
+  DescriptorBuffer buffer_;
+  std::ostream stream_;
+};
+
+OutputFile::OutputFile(std::unique_ptr<Target> target) : target_(std::move(target)) {}
+OutputFile::OutputFile(OutputFile&&) noexcept = default;
+OutputFile& OutputFile::operator=(OutputFile&&) noexcept = default;
+OutputFile::~OutputFile() = default;
+
+Result<OutputFile> OutputFile::open(const std::string& path, const InputFiles& inputs) {
+  if (const auto open = named_descriptor(path)) {
+    // What was printed before goes out before.
+    std::fflush(stdout);
+    std::cout.flush();
+    const int descriptor = fcntl(*open, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (descriptor < 0) return unwritable(path, errno);
+    return OutputFile(std::make_unique<Target>(path, descriptor, "", fs::path()));
+  }
+  const auto status = status_of(path);
+  if (status && S_ISDIR(status->st_mode)) return unwritable(path, EISDIR);
+  if (status && S_ISREG(status->st_mode) && is_one_of(*status, inputs))
+    return Error{.code = Code::output_is_input,
+                 .sentence = "this file is read by the same command, so it is not written",
+                 .mend = "name another file to write",
+                 .place = {.name = path}};
+  if (status && !S_ISREG(status->st_mode)) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) return unwritable(path, errno);
+    return OutputFile(std::make_unique<Target>(path, descriptor, "", fs::path()));
+  }
+  if (status && access(path.c_str(), W_OK) != 0) return unwritable(path, errno);
+
+  const fs::path final = followed(path);
+  auto temporary = make_temporary(final.parent_path(), path);
+  if (!temporary) return temporary.error();
+  auto target = std::make_unique<Target>(path, temporary->descriptor, temporary->name, final);
+  if (status) {
+    // The owner stays if that is allowed; the permissions must.
+    if (fchown(temporary->descriptor, status->st_uid, status->st_gid) != 0) errno = 0;
+    if (fchmod(temporary->descriptor, status->st_mode & 07777) != 0) return unwritable(path, errno);
+  }
+  return OutputFile(std::move(target));
+}
+
+std::ostream& OutputFile::stream() { return target_->stream(); }
+Result<> OutputFile::finish() { return target_->finish(); }
+
+Result<> write_file(const std::string& path, std::string_view bytes, const InputFiles& inputs) {
+  auto file = OutputFile::open(path, inputs);
+  if (!file) return file.error();
+  file->stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return file->finish();
+}
+
+Result<> replace_file(const std::string& path, std::string_view bytes) {
+  const auto status = status_of(path);
+  if (!status) return unwritable(path, errno);
+  if (!S_ISREG(status->st_mode)) return unwritable(path, "it is not a regular file");
+  return write_file(path, bytes, {});
+}
+
+}  // namespace wale

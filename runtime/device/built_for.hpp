@@ -1,0 +1,13 @@
+#pragma once
+
+#include "schema/patch_program.hpp"
+#include "schema/result.hpp"
+
+namespace wale {
+
+/// Whether a program is built for the device that `declared` describes: the same name, and the same figures wherever
+/// its forces, places and times would mean something else (schema/PATCH_PROGRAM.md lists them). Errors: `other_device`,
+/// or `other_figures` with each figure and both values.
+Result<> is_built_for(const PatchProgram& program, const DeviceProfile& declared);
+
+}  // namespace wale
