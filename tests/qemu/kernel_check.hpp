@@ -97,7 +97,7 @@ void measure_rates(const PidFamily& family);
 void check_falcon();
 
 /// Every way to die while 3 N are commanded, by "hidraw", "libusb", "evdev" or "falcon": prints how long the force
-/// lasts, and demands 250 ms but for what remains. The second is the process that dies.
+/// lasts, and demands 250 of the device's milliseconds but for what remains. The second is the process that dies.
 void check_dying(const std::string& by);
 [[noreturn]] void push_until_dead(const std::string& by, std::uint16_t vendor, std::uint16_t product);
 

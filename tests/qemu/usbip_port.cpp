@@ -138,6 +138,7 @@ void UsbipPort::pass_frames() {
 void UsbipPort::frame() {
   const std::lock_guard lock(mutex_);
   model_->step();
+  ++frames;
   std::map<std::uint32_t, bool> is_served;
   for (auto each = waiting_.begin(); each != waiting_.end();) {
     const auto address = static_cast<std::uint8_t>(each->endpoint | (each->is_in ? 0x80u : 0u));

@@ -35,6 +35,7 @@ class UsbipPort {
   }
 
   std::atomic<long> packets_out{0}, packets_in{0}, unlinked{0};
+  std::atomic<long> frames{0};  ///< that have passed: the device's own milliseconds
 
  private:
   /// A request of the controller that waits for its answer.

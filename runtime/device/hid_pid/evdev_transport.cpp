@@ -202,6 +202,15 @@ Result<> EvdevTransport::get_keeper(const std::optional<KeeperOptions>& options)
   return {};
 }
 
+/// Takes the force from all effects; they end by themselves.
+void EvdevTransport::let_go() {
+  for (std::size_t i = 0; i < effects(); ++i) {
+    if (effects_[i].id < 0) continue;
+    effects_[i].u.constant.level = 0;
+    node_.call(EVIOCSFF, &effects_[i]);
+  }
+}
+
 /// The last look before the kernel's driver is told something. False: nothing may go, or the node is lost.
 bool EvdevTransport::may_go(bool pushes) {
   if (!keeper()) return true;
@@ -209,7 +218,9 @@ bool EvdevTransport::may_go(bool pushes) {
   const Keeper::Verdict verdict = keeper()->look();
   const bool is_late = verdict == Keeper::Verdict::late;
   if (verdict == Keeper::Verdict::good || (is_late && !pushes)) return true;
-  if (!is_late) lose(keeper()->why(verdict).data());
+  if (is_late || was_lost()) return false;
+  if (verdict != Keeper::Verdict::latched) let_go();
+  lose(std::string(keeper()->why(verdict)));
   return false;
 }
 

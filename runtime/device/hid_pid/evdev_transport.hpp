@@ -92,6 +92,7 @@ class EvdevTransport final : public PidTransport {
   Result<> get_keeper(const std::optional<KeeperOptions>& options);
 
   bool may_go(bool pushes);
+  void let_go();
   void write_forces();
   bool write_next(std::int64_t now);
   bool refresh(std::int64_t now);
