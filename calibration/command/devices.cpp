@@ -152,7 +152,7 @@ Result<> add_to_owners_file(const DeclaredDevice& declared, const std::string& d
   } else {
     fs::create_directories(fs::path(file).parent_path(), problem);
   }
-  if (auto written = write_file(file, text); !written) return written;
+  if (auto written = write_file(file, text, {}); !written) return written;
   fmt::print(stderr, "written to {}: your device is driven by it from now on\n", file);
   return {};
 }

@@ -22,7 +22,7 @@ const Driver reached{
     .is_chosen_by_auto = false,
     .is_felt = true,
     .find = [](const Connections&, const PluggedIn*) { return std::vector<PluggedIn>{}; },
-    .open = [](const Connections&, const PluggedIn&, const DeviceProfile&, const DeviceOptions&) -> OpenedDevice {
+    .open = [](const Connections&, const PluggedIn&, const TrustedDevice&, const DeviceOptions&) -> OpenedDevice {
       return Error{Code::lost_device, "the driver was asked"};
     }};
 
@@ -41,6 +41,7 @@ Error on_plugged(PatchProgram program, const Change& change) {
   DeviceToFeel device;
   device.connections = Connections{.usb = Error{Code::unusable_device, "no USB here"}};
   device.chosen.declared = DeclaredDevice{.profile = program.device};
+  device.chosen.trusted = TrustedDevice::by_owner(*device.chosen.declared, "devices.wale");
   device.chosen.plugged = PluggedIn{.driver = &reached, .port = "1-1"};
   change(program.device);
   const std::atomic<bool> stop{false};

@@ -66,8 +66,8 @@ class Dying : public testing::Test {
 };
 
 /// How a process may end, by a signal to it.
-const int signals[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1, SIGXCPU, SIGSEGV,
-                       SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGKILL, SIGSTOP, SIGTSTP};
+const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1, SIGXCPU, SIGSEGV,
+                       SIGBUS, SIGFPE, SIGILL,  SIGABRT, SIGTRAP, SIGSYS,  SIGKILL, SIGSTOP, SIGTSTP};
 
 template <class Push>
 void die_of_each(Push push) {
@@ -144,7 +144,8 @@ TEST_F(Dying, WithoutItsKeeperNothingPushesUntilThereIsAnother) {
   EXPECT_NE(another, keeper);
   feeling.interrupt();
   const Outcome outcome = feeling.outcome();
-  EXPECT_NE(outcome.out.find("its keeper has ended, and nothing may push without one"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("its keeper has ended, and nothing may push without one"), std::string::npos)
+      << outcome.out;
   EXPECT_EQ(keeper_of(owner), 0);
 }
 
@@ -169,8 +170,8 @@ TEST_F(Dying, WithoutAKeeperADeviceIsNotOpened) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   await_plugged();
   const auto listed = plugged_in(connections_);
-  DeviceProfile profile = joystick_profile();
-  const auto opened = listed.at(0).driver->open(connections_, listed[0], profile, {.keeper = {"/nowhere/wale-keeper"}});
+  const auto opened = listed.at(0).driver->open(connections_, listed[0], trusted(joystick_profile()),
+                                                {.keeper = {"/nowhere/wale-keeper"}});
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, Code::no_keeper);
   EXPECT_EQ(stick->with_model([](PidModel& model) { return model.force(); }), glm::dvec2(0));
