@@ -31,6 +31,11 @@ constexpr const Verb* verbs[] = {&check_verb,  &explain_verb, &format_verb, &bui
                                  &find_verb,   &compare_verb, &levels_verb, &feel_verb,  &replay_verb,
                                  &sample_verb, &preview_verb, &devices_verb};
 
+/// The footer of `wale --help`.
+constexpr const char* statuses =
+    R"(exit status  0: done;  1: the command cannot be carried out, or an error was found;
+             2: the words of the command make no sense, or an option names something unknown)";
+
 constexpr const char* about =
     R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
 
@@ -42,12 +47,30 @@ constexpr const char* about =
 
 Begin with library/fabric/corduroy.wale; schema/LANGUAGE.md is the language.)";
 
-/// The message for a misspelt verb, which CLI11 would report as a missing one; nothing if the first word is a verb or
-/// an option.
+/// "there is no option `--devise`; did you mean `--device`?"
+std::string unknown_option(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  const auto enter = [&](const CLI::App& of) {
+    for (const CLI::Option* option : of.get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) known.push_back("-" + name);
+    }
+  };
+  enter(app);
+  for (const CLI::App* group : app.get_subcommands({}))
+    if (group->get_name().empty()) enter(*group);
+  const auto near = nearest_spelling(word.substr(0, word.find('=')), known);
+  return fmt::format("there is no option `{}`{}", word, near ? fmt::format("; did you mean `{}`?", *near) : "");
+}
+
+/// The message for a misspelt verb or option at the beginning, which CLI11 would report as a missing verb. Returns
+/// nullopt if the first word is a verb or a known option.
 std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first) {
   std::vector<std::string> verbs;
   for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
-  if (first.starts_with('-') || std::ranges::find(verbs, first) != verbs.end()) return std::nullopt;
+  if (first == "-h" || first == "--help" || first == "--version" || std::ranges::find(verbs, first) != verbs.end())
+    return std::nullopt;
+  if (first.starts_with('-')) return unknown_option(app, first);
   const auto near = nearest_spelling(first, verbs);
   return fmt::format("there is no verb `{}`; {}", first,
                      near ? fmt::format("did you mean `{}`?", *near)
@@ -58,7 +81,14 @@ std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string&
 std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
   const auto verbs = app->get_subcommands();
   const std::string verb = verbs.empty() ? "wale" : "wale " + verbs.front()->get_name();
-  return fmt::format("wale: {}\n  = help: `{} --help` lists the options\n", error.what(), verb);
+  std::string what = error.what();
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !verbs.empty()) {
+    const std::vector<std::string> unexpected = verbs.front()->remaining();
+    const auto option = std::ranges::find_if(unexpected, [](const auto& word) { return word.starts_with('-'); });
+    what = option != unexpected.end() ? unknown_option(*verbs.front(), *option)
+                                      : fmt::format("unexpected: {}", fmt::join(unexpected, " "));
+  }
+  return fmt::format("wale: {}\n  = help: `{} --help` lists the options\n", what, verb);
 }
 
 }  // namespace
@@ -66,6 +96,7 @@ std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
 int main(int argc, char** argv) {
   CLI::App app(about, "wale");
   app.set_version_flag("--version", "wale " WALE_VERSION ", language version 1");
+  app.footer(statuses);
   app.require_subcommand(1);
   int status = 0;
 
@@ -93,7 +124,8 @@ int main(int argc, char** argv) {
     const int refusal = app.exit(error);  // the codes of CLI11 itself are above 100
     return refusal == done || refusal == refused ? refusal : misused;
   } catch (const std::exception& error) {  // thrown on the way here, it has let every device go
-    fmt::print(stderr, "wale: ended by an error that nothing handles: {}; please report what led to it\n", error.what());
+    fmt::print(stderr, "wale: ended by an error that nothing handles: {}; please report what led to it\n",
+               error.what());
     return refused;
   }
   return status;

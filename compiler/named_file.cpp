@@ -82,7 +82,7 @@ std::shared_ptr<const LibraryIndex> index_here(const std::vector<std::string>& r
 std::string instead_of_shipped(const LibraryIndex& index, const std::string& name, const IndexedMaterial& meant) {
   const auto all = index.meant_by(name);
   const auto shipped = std::ranges::find(all, true, &IndexedMaterial::shipped);
-  if (meant.shipped || shipped == all.end()) return {};
+  if (meant.shipped() || shipped == all.end()) return {};
   return fmt::format("`{}` is your own `{}:{}`; the shipped one is `{}:{}`", name, meant.file, meant.name,
                      (*shipped)->file, (*shipped)->name);
 }
@@ -110,11 +110,22 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
       error.sentence = fmt::format("`{}` is a kind of material, not a material", name);
       error.mend = fmt::format("`wale find --kind {}` lists its materials", name);
     } else if (const auto near = nearest_materials(*index, name); !near.empty())
-      error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed(near));
+      error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed_near(near));
     else
       error.mend = "`wale find` lists the materials of the library";
   }
   return error;
+}
+
+/// The file that `name` means in `name:material`: the module of that name, else the file of the material of that name.
+Result<NamedFile> find_in_module(const std::string& name, const std::string& material,
+                                 const std::vector<std::string>& roots) {
+  const std::shared_ptr<const LibraryIndex> index = index_here(roots);
+  const auto in_module = std::ranges::find(index->materials(), name, &IndexedMaterial::module);
+  const bool is_material =
+      std::ranges::find(index->materials(), name, &IndexedMaterial::name) != index->materials().end();
+  return in_module != index->materials().end() && !is_material ? read_named(in_module->file, material)
+                                                               : find_by_name(name, roots);
 }
 
 }  // namespace
@@ -139,8 +150,13 @@ Result<NamedFile> find_named(const std::string& argument, const std::vector<std:
                  .mend = "write FILE:MATERIAL, or leave out the colon",
                  .place = {.text = argument}};
   const bool is_file = exists(file) && !is_folder(file);
+  if (file.empty() || (!is_file && !is_path(file) && file.find(':') != std::string::npos))
+    return Error{.code = Code::malformed_value,
+                 .sentence = fmt::format("expected FILE:MATERIAL, found `{}`", argument),
+                 .mend = "write a file or the name of a material, one colon, and a material of that file",
+                 .place = {.text = argument}};
   if (!is_file && !is_path(file)) {
-    auto found = find_by_name(file, roots);
+    auto found = material.empty() ? find_by_name(file, roots) : find_in_module(file, material, roots);
     if (found && !material.empty()) found->material = material;
     return found;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace wale {
 namespace {
@@ -20,8 +21,8 @@ std::string quoted(std::string_view text) {
   return '"' + std::string(text.substr(0, longest)) + (text.size() > longest ? "…\"" : "\"");
 }
 
-/// Takes one cell and the comma behind it from the front of `line`; `more` becomes whether there was a comma. Nothing
-/// for a quote that does not end.
+/// Takes one cell and the comma behind it from the front of `line`, and sets `more` if there was a comma. Returns
+/// nullopt if a quote does not end.
 std::optional<std::string_view> take_cell(std::string_view& line, bool& more) {
   line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
   std::size_t from = 0;
@@ -106,7 +107,7 @@ Result<std::optional<std::size_t>> find_column(const CsvRow& headings, std::stri
 
 Result<double> number_in(const CsvRow& row, std::size_t column, std::string_view name) {
   const std::string expected = "a finite number for " + quoted(name) + " in column " + std::to_string(column + 1);
-  const std::string mend = "write numbers with a point, as in 0.25";
+  const char* mend = "write numbers with a point, as in 0.25";
   if (column >= row.cells.size()) {
     const std::string count = std::to_string(row.cells.size());
     return unlike_csv(row.line, expected, "only " + count + (row.cells.size() == 1 ? " column" : " columns"));
@@ -115,7 +116,10 @@ Result<double> number_in(const CsvRow& row, std::size_t column, std::string_view
   if (cell.starts_with('+')) cell.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
+  // Programs compute in single precision, where a larger number would be infinite.
+  const bool fits = std::abs(value) <= std::numeric_limits<float>::max();
+  if (error == std::errc{} && std::isfinite(value) && !fits) mend = "give a number below 3.4e38";
+  if (error != std::errc{} || end != cell.data() + cell.size() || !fits)
     return unlike_csv(row.line, expected, row.cells[column].empty() ? "nothing" : quoted(row.cells[column]), mend);
   return value;
 }

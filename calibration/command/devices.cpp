@@ -83,6 +83,7 @@ Result<ChosenDevice> device_to_identify(const DevicesOptions& options, const Con
   auto chosen =
       choose_device({.spelling = asked.empty() ? "auto" : asked}, {}, trusted->devices, plugged_in(connections, asked));
   if (!chosen) {
+    if (chosen.error().place.name == "--device") chosen.error().place.name = "--identify";
     if (chosen.error().code == Code::absent_device) chosen.error().mend = "`wale devices` lists what is plugged in";
     return chosen;
   }
@@ -220,7 +221,9 @@ Run declare_devices(CLI::App& verb) {
              "how --identify drives it, where its driver knows several ways")
       ->needs(identifies);
   verb.footer("for example: wale devices --json; wale devices --identify --save");
-  return [options, identifies] { return identifies->count() > 0 ? status_after_signals(identify(*options)) : list_devices(*options); };
+  return [options, identifies] {
+    return identifies->count() > 0 ? status_after_signals(identify(*options)) : list_devices(*options);
+  };
 }
 
 }  // namespace

@@ -231,7 +231,11 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     return ran;
   }();
   if (live) fmt::print(stderr, "\r\033[K");
-  if (!result) return refuse(result.error());
+  if (!result) {
+    Error error = result.error();
+    if (error.place.name == "seconds") error.place.name = "--seconds";
+    return refuse(error);
+  }
   return report_run(options, *result, *stage.bank(), *std::move(felt));
 }
 

@@ -122,6 +122,10 @@ struct ReplayOptions {
 };
 
 int replay(const ReplayOptions& options) {
+  if (!options.wav.empty() && !options.wav.ends_with(".wav"))
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a file NAME.wav, found `{}`", options.wav),
+                        .place = {.name = "--wav", .text = options.wav}});
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
   if (!opened) return refuse(with_kind(opened.error(), options.file));
   const auto& recording = *opened;

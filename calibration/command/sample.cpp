@@ -38,6 +38,11 @@ Result<std::vector<SampledHand>> hands_of(const SampleOptions& options) {
 }
 
 int sample(const SampleOptions& options) {
+  if (!options.at && options.trace.empty())
+    return refuse(Error{.code = Code::missing_argument,
+                        .sentence = "expected a hand, found none",
+                        .mend = "for example, `--at \"10.6 mm, 5 mm\"`, or `--trace FILE`",
+                        .place = {.name = "--at"}});
   const auto programs = load_programs(options.choice, false);
   if (programs.empty()) return refused;
   const Program& program = programs.front();
@@ -57,12 +62,12 @@ Run declare_sample(CLI::App& verb) {
   const auto options = std::make_shared<SampleOptions>();
   offer_material(verb, options->choice);
   offer_settings(verb, options->settings);
-  auto* places = verb.add_option_group("hands", "where the hand is")->require_option(1);
-  offer_hand(*places, "--at", options->at, "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"");
-  places
-      ->add_option("--trace", options->trace,
-                   "a CSV file with t (s), x, y (m), and optionally vx, vy (m/s); each line is a tick")
-      ->type_name("FILE");
+  auto* at = offer_hand(verb, "--at", options->at,
+                        "one hand from the patch's centre: \"10 mm, 5 mm[, 0.1 m/s, 0 m/s]\"; or give --trace");
+  verb.add_option("--trace", options->trace,
+                  "a CSV file with t (s), x, y (m), and optionally vx, vy (m/s); each line is a tick")
+      ->type_name("FILE")
+      ->excludes(at);
   offer_output(verb, options->out, "where to write (default: standard output)");
   offer_json(verb, options->json, "a JSON array instead of CSV");
   verb.footer("for example: wale sample corduroy --at \"10.6 mm, 5 mm\"");

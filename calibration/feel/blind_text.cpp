@@ -49,8 +49,9 @@ std::string blind_text(const BlindReport& report) {
     text += fmt::format("  d'           {}: sqrt(2) z(share right), two intervals, forced choice\n",
                         sensitivity_text(score));
     const auto first = std::ranges::count(report.session.trials, 1, &BlindTrial::answer);
-    text += fmt::format("  answered     {} times \"the first\", {} times \"the second\"\n", first,
-                        static_cast<long>(answered) - first);
+    const auto times = [](long count) { return fmt::format("{} time{}", count, count == 1 ? "" : "s"); };
+    text += fmt::format("  answered     {} \"the first\", {} \"the second\"\n", times(first),
+                        times(static_cast<long>(answered) - first));
   }
   text += fmt::format("  predicted    {}\n", predicted_text(report.predicted));
   return text + fmt::format("  --seed {} gives the same order again\n", report.seed);

@@ -32,6 +32,7 @@ Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person)
       if (!near && hand.size() >= telling && motion.starts_with(hand.substr(0, telling))) near = motion;
     error.sentence = fmt::format("`{}` is neither lateral, circular, rest nor the file of a trace", hand);
     error.mend = near ? fmt::format("did you mean `{}`?", *near) : "a trace is a CSV file of t, x, y";
+    error.code = Code::malformed_value;
     error.place = {.name = "--hand", .text = hand};
     return error;
   }

@@ -11,13 +11,19 @@ namespace wale {
 
 namespace {
 
+/// A level above this was meant in percent; one between 1 and this was meant to be stronger than the reference
+/// stimulus.
+constexpr double most_meant_as_level = 5;
+
 /// The fix for a level such as `60`, which was meant in percent.
 std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const PerceptStatement& node, double level) {
-  if (!node.value || !(level > 1 && level <= 100)) return {};
+  if (!node.value || !(level > most_meant_as_level && level <= 100)) return {};
   const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(*node.value));
   if (!literal || literal->suffix.count > 0) return {};
   return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
 }
+
+}  // namespace
 
 std::optional<double> named_level(const Declarations& declarations, const std::string& percept, const Word& word,
                                   Diagnostics& diagnostics) {
@@ -37,8 +43,6 @@ std::optional<double> named_level(const Declarations& declarations, const std::s
                                              fmt::format("no level of {} is called `{}`", percept, word.text)));
   return std::nullopt;
 }
-
-}  // namespace
 
 std::optional<double> plain_constant(const Declared<MaterialDecl>& declared, ExprId expr,
                                      const Surroundings& surroundings) {
@@ -97,14 +101,15 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
     return;  // the parser has reported it
   }
   if (!(asked.level >= 0 && asked.level <= 1))
-    return report(Code::level_out_of_range, asked.span, fmt::format("the level {:.4g} is outside 0 .. 1", asked.level),
-                  Advice(asked.level > 1 && asked.level <= 100
-                             ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`",
-                                           node.name.text, asked.level, asked.level / 100)
-                             : fmt::format("0 is none of it, 1 is the reference stimulus of `{}`", node.name.text))
-                      .fact("low", 0)
-                      .fact("high", 1)
-                      .fix(as_percentage(declared, node, asked.level)));
+    return report(
+        Code::level_out_of_range, asked.span, fmt::format("the level {:.4g} is outside 0 .. 1", asked.level),
+        Advice(asked.level > most_meant_as_level && asked.level <= 100
+                   ? fmt::format("1 is the reference stimulus of `{}`; {:.4g} % is written `{:.4g}`", node.name.text,
+                                 asked.level, asked.level / 100)
+                   : fmt::format("give a level from 0 to 1, where 1 is the reference stimulus of `{}`", node.name.text))
+            .fact("low", 0)
+            .fact("high", 1)
+            .fix(as_percentage(declared, node, asked.level)));
   if (node.tolerance) {
     const auto tolerance = plain_constant(declared, *node.tolerance, surroundings);
     if (!tolerance) return;

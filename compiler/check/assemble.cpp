@@ -22,6 +22,8 @@ constexpr std::size_t deepest_derivation = 64;
 /// Of a component in a blend. No more is needed: 1 is the whole material, and whole materials push with some newtons on
 /// devices that give 2 to 20 N. A larger weight is most likely a number of percent.
 constexpr double largest_weight = 10;
+/// The same as in a program: components that weigh less are absent.
+constexpr double least_weight = 1e-6;
 
 class Assembler {
  public:
@@ -161,10 +163,15 @@ class Assembler {
       const auto percept = std::ranges::find(
           result->percepts, meant.percept ? meant.percept->name : argument.name->text, &AskedPercept::name);
       if (percept != result->percepts.end()) {  // `velvet(roughness: 0.1)`
-        const auto level = plain_constant(from, argument.value, surroundings_);
+        const auto* name = std::get_if<NameUse>(&from.tree->expr(argument.value));
+        const bool is_named = name && !from.home->constants.contains(name->name);
+        const auto level = is_named
+                               ? named_level(*from.home, percept->name, {name->name, span}, surroundings_.diagnostics)
+                               : plain_constant(from, argument.value, surroundings_);
         if (level) {
           good_level(*level, span, fmt::format("the reference stimulus of `{}`", percept->name));
-          percept->level = meant.reversed ? 1 - *level : *level;
+          // A name means the same place on the scale for the percept and for its antonym.
+          percept->level = meant.reversed && !is_named ? 1 - *level : *level;
           percept->span = span;
           percept->blended = false;
         }
@@ -237,14 +244,16 @@ class Assembler {
   }
 
   bool good_weight(double weight, Span span) {
-    if (weight > 0 && weight <= largest_weight) return true;
+    if (weight >= least_weight && weight <= largest_weight) return true;
     if (weight > largest_weight)
       report(Code::value_out_of_range, span,
              fmt::format("expected a weight of at most {}, found {:.6g}", largest_weight, weight),
              weight <= 100 ? fmt::format("1 is the material as it is; for a share write `{:.6g} %`", weight)
                            : "1 is the material as it is");
     else
-      report(Code::value_out_of_range, span, "the weight of a component must be greater than zero",
+      report(Code::value_out_of_range, span,
+             weight > 0 ? fmt::format("expected a weight of at least {:.6g}, found {:.6g}", least_weight, weight)
+                        : "the weight of a component must be greater than zero",
              "leave out components that are not in the blend");
     return false;
   }
@@ -405,10 +414,17 @@ class Assembler {
       const auto* other = find(suffix[next].name, *from.home);
       name = other ? other->node->name.text : suffix[next].name.text;
       material = other ? assemble(*other) : nullptr;
+    } else if (const auto* unary = std::get_if<Unary>(&node);
+               unary && unary->op == UnaryOperator::negate &&
+               std::holds_alternative<NumberLiteral>(from.tree->expr(unary->operand))) {  // -1 denim
+      return good_weight(-std::get<NumberLiteral>(from.tree->expr(unary->operand)).value, span);
     } else if (const auto* product = std::get_if<Binary>(&node);
                product && product->op == BinaryOperator::multiply) {  // 0.3 * denim(weave: 1 mm)
       if (std::holds_alternative<NumberLiteral>(from.tree->expr(product->right)))
         return weight_behind(from, *product, span);
+      if (const auto* left = std::get_if<NameUse>(&from.tree->expr(product->left));
+          left && !from.home->constants.contains(left->name))
+        return weight_is_name(from, *product);
       const auto factor = plain_constant(from, product->left, surroundings_);
       if (!factor) return false;
       weight = *factor;
@@ -444,6 +460,16 @@ class Assembler {
     const std::string mended = fmt::format("{} * {}", right, left);
     report(Code::wrong_type, span, "the weight of a component stands before it",
            Advice(fmt::format("write `{}`", mended)).fix(replace(span, mended)));
+    return false;
+  }
+
+  /// `brick * oak`.
+  bool weight_is_name(const Declared<MaterialDecl>& from, const Binary& product) {
+    const Span span = from.tree->span(product.left);
+    const std::string_view left = surroundings_.sources.text(span);
+    const std::string_view right = surroundings_.sources.text(from.tree->span(product.right));
+    report(Code::wrong_type, span, fmt::format("expected a weight, found `{}`", left),
+           fmt::format("to mix materials, write `0.5 {} + 0.5 {}`", left, right));
     return false;
   }
 

@@ -90,8 +90,9 @@ int build(const BuildOptions& options) {
   if (!options.stage.empty()) return show_stage(options);
   if (options.out.empty()) {
     refuse(Error{.code = Code::malformed_value,
-                 .sentence = "expected the name of the file to write",
-                 .mend = "for example, `wale build corduroy -o corduroy.wpp`",
+                 .sentence = fmt::format("expected the name of the {} to write", options.all ? "folder" : "file"),
+                 .mend = options.all ? "for example, `wale build my.wale --all -o programs`"
+                                     : "for example, `wale build corduroy -o corduroy.wpp`",
                  .place = {.name = "-o"}});
     return misused;
   }

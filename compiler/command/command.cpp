@@ -4,13 +4,14 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
-#include "compiler/modules/owners_devices_file.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/modules/owners_devices_file.hpp"
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
 #include "schema/spelling.hpp"
@@ -28,7 +29,7 @@ Error not_a_setting(const std::string& text) {
           .place = {.name = "--set", .text = text}};
 }
 
-/// Whether an error means that an option's value cannot be read: malformed, of the wrong dimension, or out of range.
+/// Whether an error means that an option's value cannot be read or names something unknown.
 bool is_misuse(const Error& error) {
   if (!error.place.name.starts_with('-')) return false;
   switch (error.code) {
@@ -38,7 +39,9 @@ bool is_misuse(const Error& error) {
     case Code::wrong_dimension:
     case Code::mismatched_dimensions:
     case Code::unknown_unit:
-    case Code::number_out_of_range: return true;
+    case Code::number_out_of_range:
+    case Code::unknown_device:
+    case Code::unknown_setting: return true;
     default: return false;
   }
 }
@@ -124,6 +127,19 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   return {};
 }
 
+void need_device(const OpenedFile& opened, const Choice& choice) {
+  if (!opened.module || choice.device_option.empty() || choice.device.empty()) return;
+  const auto known = opened.module->declarations().devices.spellings();
+  if (std::ranges::find(known, choice.device) != known.end()) return;
+  const auto near = nearest_spelling(choice.device, known);
+  throw CLI::ValidationError(error_text({.code = Code::unknown_device,
+                                         .sentence = fmt::format("nothing declares a device `{}`", choice.device),
+                                         .mend = near ? fmt::format("did you mean `{}`?", *near)
+                                                      : fmt::format("there are: {}", fmt::join(known, ", ")),
+                                         .place = {.name = choice.device_option, .text = choice.device}}),
+                             misused);
+}
+
 std::optional<OpenedFile> open(const Choice& choice) {
   const std::string named = named_material(choice.file).material;
   if (!named.empty() && !choice.material.empty() && named != choice.material) {
@@ -141,6 +157,7 @@ std::optional<OpenedFile> open(const Choice& choice) {
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error()), std::nullopt;
   say_taken(*opened);
+  need_device(*opened, choice);
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return std::nullopt;

@@ -22,7 +22,7 @@ inline constexpr int misused = 2;
 
 /// Prints the reason on standard error and returns `refused`.
 int refuse(const std::string& reason);
-/// The same, but returns `misused` if the value of an option cannot be read.
+/// The same, but returns `misused` if the value of an option cannot be read or names something unknown.
 int refuse(const Error& error);
 
 /// Prints a warning on standard error.
@@ -52,8 +52,11 @@ struct Choice {
 void say_taken(const OpenedFile& opened);
 
 /// Checks that a patch program holds `material` and is built for the device of `choice`, if these are named. Wale files
-/// always pass. Errors: W0202 for another material, W0607 for another device.
+/// always pass. Errors: W0602 for another material, W0607 for another device.
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice);
+
+/// Ends the command with `misused` if the device that an option named is not declared where the file can see it.
+void need_device(const OpenedFile& opened, const Choice& choice);
 
 /// Opens a file; nothing if it cannot be read or has errors, which are printed.
 std::optional<OpenedFile> open(const Choice& choice);

@@ -30,6 +30,7 @@ int compare(const CompareOptions& options) {
       continue;
     }
     const OpenedFile& opened = *file.opened;
+    need_device(opened, options.choice);
     say_taken(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
     if (const auto same = is_as_named(opened, file.name.material, options.choice); !same) {

@@ -97,7 +97,10 @@ Result<> comparable(const std::vector<ComparedFile>& files) {
                      "build both for one device"};
       ++count;
     }
-  if (count < 2) return Error{Code::unknown_material, "there is only one material", "name another to compare it with"};
+  if (count < 2)
+    return Error{Code::unknown_material,
+                 fmt::format("expected at least two materials, found {}", count == 0 ? "none" : "only one"),
+                 "name another to compare, as in `wale compare velvet denim`"};
   return {};
 }
 

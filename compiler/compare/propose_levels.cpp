@@ -118,7 +118,8 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
   if (!scale.people().known())
     return Error{
         Code::no_threshold,
-        fmt::format("unknown: no published threshold says how small a difference of {} is noticed", percept.name)};
+        fmt::format("unknown: no published threshold says how small a difference of {} is noticed as `{}` renders it",
+                    percept.name, device)};
 
   // Levels near the threshold, outside the measured range or beyond the device are not proposed.
   const double measured[] = {scale.level_of(choice.map->valid_low), scale.level_of(choice.map->valid_high)};

@@ -31,11 +31,11 @@ bool same_but_for_capitals(std::string_view a, std::string_view b) {
 
 /// Adds one file to the index. Its errors are ignored here and reported when it is compiled.
 void read_into(LibraryIndex& index, const std::string& module, const std::string& name, std::string text,
-               bool shipped) {
+               Origin origin) {
   SourceSet sources;
   Diagnostics diagnostics;
   const SourceId source = sources.add(name, std::move(text));
-  index.add(module, name, parse(sources, source, diagnostics), shipped);
+  index.add(module, name, parse(sources, source, diagnostics), origin);
 }
 
 /// "library/std/friction.wale" -> "std.friction".
@@ -61,18 +61,23 @@ LibraryIndex read_all(Resolver& resolver, const std::string& from) {
     std::string path = module;
     std::ranges::replace(path, '.', '/');
     auto found = resolver.file(path + ".wale", from);
-    if (found && known.insert(module).second) read_into(index, module, found->name, std::move(found->bytes), false);
+    if (found && known.insert(module).second)
+      read_into(index, module, found->name, std::move(found->bytes), Origin::own);
   }
+  for (const ListedModule& hidden : resolver.hidden_modules(from))
+    if (auto read = read_file(hidden.path))
+      read_into(index, hidden.name, read->name, std::move(read->bytes), Origin::hidden);
   for (const EmbeddedFile& file : embedded_files())
     if (!file.common && known.insert(module_of(file.name)).second)
-      read_into(index, module_of(file.name), std::string(file.name), std::string(file.text), true);
+      read_into(index, module_of(file.name), std::string(file.name), std::string(file.text), Origin::shipped);
   return index;
 }
 
 }  // namespace
 
-void LibraryIndex::add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped) {
+void LibraryIndex::add(const std::string& module, const std::string& file, const SyntaxTree& tree, Origin origin) {
   const auto add_export = [&](const auto& node, std::string_view what) {
+    if (origin == Origin::hidden) return;  // no import finds it
     if (node.exported) exports_.push_back({std::string(node.name.text), module, what});
   };
   // A map's own name is a setting: behind `map` stands the percept.
@@ -97,7 +102,7 @@ void LibraryIndex::add(const std::string& module, const std::string& file, const
     if (!material) continue;
     IndexedMaterial& entry = materials_.emplace_back();
     entry.name = material->name.text, entry.module = module, entry.file = file;
-    entry.documentation = material->documentation, entry.shipped = shipped;
+    entry.documentation = material->documentation, entry.origin = origin;
     for (const Setting& setting : material->representative) {
       std::vector<std::string> texts = texts_in(setting, tree);
       const std::string_view key = setting.key.text;
@@ -119,6 +124,7 @@ const ExportedName* LibraryIndex::exported(std::string_view name) const {
 }
 
 std::vector<const IndexedMaterial*> LibraryIndex::meant_by(std::string_view text) const {
+  if (text.empty()) return {};  // a material without a title is not called ""
   std::vector<const IndexedMaterial*> found;
   const auto take = [&](const auto& meant) {
     for (const IndexedMaterial& each : materials_)

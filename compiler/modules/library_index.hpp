@@ -10,6 +10,13 @@
 
 namespace wale {
 
+/// Where an entry of the index comes from.
+enum class Origin {
+  own,      ///< a file of the user
+  hidden,   ///< a file of the user that imports do not find: a folder searched earlier has a module of that name
+  shipped,  ///< part of the binary
+};
+
 /// A material of a library, with all texts by which people look for it.
 struct IndexedMaterial {
   std::string name;
@@ -18,7 +25,9 @@ struct IndexedMaterial {
   std::string title, kind;
   std::vector<std::string> called, feels;
   std::string documentation;  ///< text of its `///` comment
-  bool shipped = false;       ///< part of the binary, not a file of the user
+  Origin origin = Origin::own;
+
+  bool shipped() const { return origin == Origin::shipped; }
 };
 
 /// A name that a file of a library exports, other than a material.
@@ -32,7 +41,7 @@ struct ExportedName {
 class LibraryIndex {
  public:
   /// Enters the materials and the exports of a file. Errors in the file are ignored.
-  void add(const std::string& module, const std::string& file, const SyntaxTree& tree, bool shipped = false);
+  void add(const std::string& module, const std::string& file, const SyntaxTree& tree, Origin origin = Origin::own);
 
   const std::vector<IndexedMaterial>& materials() const { return materials_; }
 
@@ -41,7 +50,7 @@ class LibraryIndex {
 
   /// The materials that a text may mean: those with that name. If there are none, those with that title or `called`
   /// text (capitals do not matter); if there are none, those of that kind; if there are none, those of that module,
-  /// "fabric.denim", or the one named with its module, "sandpaper.chapter4.Viscous".
+  /// "fabric.denim", or the one named with its module, "sandpaper.chapter4.Viscous". The empty text means none.
   std::vector<const IndexedMaterial*> meant_by(std::string_view text) const;
 
   /// All texts that may mean a material.

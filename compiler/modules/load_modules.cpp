@@ -11,6 +11,7 @@
 
 #include "compiler/diagnostics/advice.hpp"
 #include "compiler/modules/declare.hpp"
+#include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_index.hpp"
 #include "compiler/modules/meant_material.hpp"
 #include "compiler/parse/made_from.hpp"
@@ -208,7 +209,9 @@ class ModuleLoader {
     LibraryIndex own;
     own.add(module.name, module.name, module.tree);
     const auto others = [&](std::vector<const IndexedMaterial*> found) {
-      std::erase_if(found, [&](const IndexedMaterial* each) { return each->name == asking && is_file(module, *each); });
+      std::erase_if(found, [&](const IndexedMaterial* each) {
+        return each->origin == Origin::hidden || (each->name == asking && is_file(module, *each));
+      });
       return found;
     };
     if (const auto near = others(own.meant_by(word.text)); near.size() == 1)
@@ -232,40 +235,60 @@ class ModuleLoader {
   }
 
   void report_unknown(const Module& module, const Word& word, const LibraryIndex& own, const LibraryIndex& index) {
+    if (word.text.empty())
+      return diagnostics_.report(
+          Advice("write a name or a title, as in `corduroy` or `\"Wide-wale corduroy\"`")
+              .about(Code::unknown_name, word.span, "expected the name of a material, found an empty text"));
     const std::string message = fmt::format("no material is called `{}`", word.text);
-    const std::string_view before_dot = word.text.substr(0, word.text.find('.'));
+    const auto kinds = kinds_in(index);
+    if (std::ranges::find(kinds, word.text) != kinds.end())
+      return diagnostics_.report(
+          Advice(fmt::format("name one of its materials; `wale find --kind {}` lists them", word.text))
+              .about(Code::unknown_name, word.span,
+                     fmt::format("`{}` is a kind of material, not a material", word.text)));
     if (const ExportedName* other = index.exported(word.text))
       return diagnostics_.report(
           Advice(fmt::format("`{}` is a {} of `{}`, and no material; to use it, write `import {}`", word.text,
                              other->what, other->module, other->module))
               .about(Code::unknown_name, word.span, message));
     // Materials that the file declares or imports need no import.
-    std::vector<std::pair<std::string, std::string>> near;  // a name, and the module to import
-    for (const IndexedMaterial* each : nearest_materials(own, word.text)) near.emplace_back(each->name, "");
-    for (const IndexedMaterial* each : nearest_materials(index, word.text))
-      if (std::ranges::find(near, each->name, &std::pair<std::string, std::string>::first) == near.end())
-        near.emplace_back(each->name, module.declarations.materials.contains(each->name) ? "" : each->module);
-    std::ranges::stable_sort(near, {}, [&](const auto& each) { return letters_changed(word.text, each.first); });
+    std::vector<NearMaterial> near = nearest_materials(own, word.text);
+    const auto is_own = [&](const NearMaterial& each) {
+      return each.material->module == module.name || module.declarations.materials.contains(each.material->name);
+    };
+    for (NearMaterial& each : nearest_materials(index, word.text)) {
+      const auto same = [&](const NearMaterial& other) { return other.material->name == each.material->name; };
+      if (std::ranges::none_of(near, same) && each.material->origin != Origin::hidden) near.push_back(std::move(each));
+    }
+    std::ranges::stable_sort(near, {}, &NearMaterial::changed);
     constexpr std::size_t most_told = 3;
     if (near.size() > most_told) near.resize(most_told);
+    const bool is_dotted = word.text.find('.') != std::string_view::npos;
     if (near.empty())
       return diagnostics_.report(
-          Advice(fmt::format("declare it, as in `material {} {{ … }}`, or take one of the library; "
-                             "`wale find` lists them",
-                             before_dot))
+          Advice(is_dotted ? "take one of the library; `wale find` lists them"
+                           : fmt::format("declare it, as in `material {} {{ … }}`, or take one of the library; "
+                                         "`wale find` lists them",
+                                         word.text))
               .about(Code::unknown_name, word.span, message));
     std::vector<std::string> told;
-    for (const auto& [name, from] : near)
-      told.push_back(from.empty() ? fmt::format("`{}`", name) : fmt::format("`{}` (`import {}`)", name, from));
+    for (const NearMaterial& each : near) {
+      const auto& called = each.material->called;
+      const bool by_text = each.name == each.material->title || std::ranges::find(called, each.name) != called.end();
+      std::string text = fmt::format("`{}`", each.material->name);
+      if (by_text) text += fmt::format(", called \"{}\"", each.name);
+      told.push_back(is_own(each) ? text : fmt::format("{} (`import {}`)", text, each.material->module));
+    }
+    const std::string nearest(near.front().material->name);
     const std::string last = std::exchange(told.back(), "");
     told.pop_back();
     // A misspelt name that the file itself knows gets a safe fix.
     std::vector<Fix> fixes = respell(word.span, word.text, module.declarations.materials.spellings());
-    if (fixes.empty()) fixes.push_back(replace(word.span, near.front().first, {}, false));
+    if (fixes.empty()) fixes.push_back(replace(word.span, nearest, {}, false));
     diagnostics_.report(Advice(told.empty() ? fmt::format("did you mean {}?", last)
                                             : fmt::format("did you mean {} or {}?", fmt::join(told, ", "), last))
                             .fix(std::move(fixes))
-                            .fact("meant", near.front().first)
+                            .fact("meant", nearest)
                             .about(Code::unknown_name, word.span, message));
   }
 

@@ -12,15 +12,28 @@
 namespace wale {
 namespace {
 
-/// The edit distance between a text and the nearest of a material's names, in letters.
-std::size_t distance(std::string_view text, const IndexedMaterial& material) {
-  std::size_t least = letters_changed(text, material.name);
-  const auto hold_against = [&](std::string_view name) {
-    if (!name.empty()) least = std::min(least, letters_changed(text, name));
+/// The name of a material that is nearest to a text.
+NearMaterial nearest_name(std::string_view text, const IndexedMaterial& material) {
+  NearMaterial near{&material, material.name, letters_changed(text, material.name)};
+  const auto hold_against = [&](const std::string& name) {
+    if (name.empty()) return;
+    if (const std::size_t changed = letters_changed(text, name); changed < near.changed)
+      near.changed = changed, near.name = name;
   };
   hold_against(material.title);
   for (const std::string& name : material.called) hold_against(name);
-  return least;
+  if (text.find('.') == std::string_view::npos) return near;
+  hold_against(material.module);
+  hold_against(material.module + "." + material.name);
+  return near;
+}
+
+/// The module of a material, or its file if another one of the list has that module too.
+const std::string& place_of(const IndexedMaterial& material, const std::vector<const IndexedMaterial*>& among) {
+  const auto is_other = [&](const IndexedMaterial* each) {
+    return each->module == material.module && each->file != material.file;
+  };
+  return std::ranges::any_of(among, is_other) ? material.file : material.module;
 }
 
 }  // namespace
@@ -30,7 +43,7 @@ void keep_preferred(std::vector<const IndexedMaterial*>& found, const std::vecto
     if (std::ranges::any_of(found, preferred)) std::erase_if(found, std::not_fn(preferred));
   };
   keep([&](const IndexedMaterial* each) { return std::ranges::find(imported, each->module) != imported.end(); });
-  keep([](const IndexedMaterial* each) { return !each->shipped; });
+  keep([](const IndexedMaterial* each) { return !each->shipped(); });
 }
 
 Result<const IndexedMaterial*> meant_material(const LibraryIndex& index, std::string_view text) {
@@ -43,33 +56,42 @@ Result<const IndexedMaterial*> meant_material(const LibraryIndex& index, std::st
                  fmt::format("name the file too, as in `{}:{}`", found.front()->file, found.front()->name),
                  {.name = std::string(text)}};
   const auto near = nearest_materials(index, text);
-  return Error{Code::unknown_name,
-               fmt::format("no material is called `{}`", text),
-               near.empty() ? "`wale find WORD` searches the library" : fmt::format("the nearest: {}", listed(near)),
-               {.name = std::string(text)}};
+  return Error{
+      Code::unknown_name,
+      fmt::format("no material is called `{}`", text),
+      near.empty() ? "`wale find WORD` searches the library" : fmt::format("the nearest: {}", listed_near(near)),
+      {.name = std::string(text)}};
 }
 
-std::vector<const IndexedMaterial*> nearest_materials(const LibraryIndex& index, std::string_view text,
-                                                      std::size_t most) {
+std::vector<NearMaterial> nearest_materials(const LibraryIndex& index, std::string_view text, std::size_t most) {
   constexpr std::size_t longest_compared = 64;
-  if (text.size() > longest_compared) return {};
-  std::vector<std::pair<std::size_t, const IndexedMaterial*>> near;
+  if (text.empty() || text.size() > longest_compared) return {};
+  std::vector<NearMaterial> near;
   const std::size_t limit = std::max<std::size_t>(1, text.size() / 2);
   for (const IndexedMaterial& each : index.materials())
-    if (const std::size_t changed = distance(text, each); changed <= limit) near.emplace_back(changed, &each);
-  std::ranges::stable_sort(near, {}, [](const auto& each) { return each.first; });
-  std::vector<const IndexedMaterial*> nearest;
-  for (const auto& [changed, material] : near)
-    if (nearest.size() < most) nearest.push_back(material);
-  return nearest;
+    if (NearMaterial found = nearest_name(text, each); found.changed <= limit) near.push_back(std::move(found));
+  std::ranges::stable_sort(near, {}, &NearMaterial::changed);
+  if (near.size() > most) near.resize(most);
+  return near;
 }
 
 std::string listed(const std::vector<const IndexedMaterial*>& materials) {
   constexpr std::size_t most_told = 5;
   std::string all;
   for (std::size_t i = 0; i < std::min(materials.size(), most_told); ++i)
-    all += fmt::format("{}`{}` of `{}`", i == 0 ? "" : ", ", materials[i]->name, materials[i]->module);
+    all += fmt::format("{}`{}` of `{}`", i == 0 ? "" : ", ", materials[i]->name, place_of(*materials[i], materials));
   if (materials.size() > most_told) all += fmt::format(" and {} more", materials.size() - most_told);
+  return all;
+}
+
+std::string listed_near(const std::vector<NearMaterial>& materials) {
+  std::string all;
+  for (const NearMaterial& near : materials) {
+    const auto& [material, name, changed] = near;
+    all += fmt::format("{}`{}` of `{}`", all.empty() ? "" : ", ", material->name, material->module);
+    if (name == material->title || std::ranges::find(material->called, name) != material->called.end())
+      all += fmt::format(" (\"{}\")", name);
+  }
   return all;
 }
 

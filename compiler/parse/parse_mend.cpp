@@ -88,6 +88,8 @@ std::string Parser::mend_origin() const {
                        value_at(previous.kind == TokenKind::percent && at_ > 1 ? at_ - 2 : at_ - 1), spelling(here()));
   if (at(TokenKind::number) && previous.kind == TokenKind::name)
     return fmt::format("the weight stands first: write `{} {}`", spelling(here()), spelling(previous));
+  if (at(TokenKind::name) && previous.kind == TokenKind::name)
+    return fmt::format("to mix materials, write `0.5 {} + 0.5 {}`", spelling(previous), spelling(here()));
   return {};
 }
 

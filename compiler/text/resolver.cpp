@@ -61,9 +61,20 @@ class FileResolver final : public Resolver {
 
   std::vector<std::string> modules(const std::string& from) override {
     std::vector<std::string> all;
-    list(own_folder(from), project_of(from).has_value(), all);
-    for (const auto& root : roots_) list(root, true, all);
+    for (const ListedModule& each : listed(from))
+      if (std::ranges::find(all, each.name) == all.end()) all.push_back(each.name);
     return all;
+  }
+
+  std::vector<ListedModule> hidden_modules(const std::string& from) override {
+    std::vector<ListedModule> hidden;
+    std::map<std::string, std::string> first;  // the path that an import of this name finds
+    for (ListedModule& each : listed(from)) {
+      const auto [known, is_first] = first.try_emplace(each.name, each.path);
+      std::error_code ignored;
+      if (!is_first && !fs::equivalent(known->second, each.path, ignored)) hidden.push_back(std::move(each));
+    }
+    return hidden;
   }
 
  private:
@@ -74,9 +85,17 @@ class FileResolver final : public Resolver {
     return folder.empty() ? fs::path(".") : folder;
   }
 
+  /// All files that `from` could import, hidden ones among them, in the order in which folders are searched.
+  std::vector<ListedModule> listed(const std::string& from) {
+    std::vector<ListedModule> all;
+    list(own_folder(from), project_of(from).has_value(), all);
+    for (const auto& root : roots_) list(root, true, all);
+    return all;
+  }
+
   /// Adds the modules of a folder in the order of their names; if `whole`, those of its subfolders too.
-  static void list(const fs::path& folder, bool whole, std::vector<std::string>& all) {
-    std::vector<std::string> found;
+  static void list(const fs::path& folder, bool whole, std::vector<ListedModule>& all) {
+    std::vector<ListedModule> found;
     std::error_code error;
     fs::recursive_directory_iterator each(folder, fs::directory_options::skip_permission_denied, error);
     for (std::size_t seen = 0; !error && each != fs::recursive_directory_iterator() && seen < most_listed; ++seen) {
@@ -89,14 +108,13 @@ class FileResolver final : public Resolver {
         // A dot in a module's name would mean a folder.
         if (module.find_first_of(". ") == std::string::npos) {
           std::ranges::replace(module, '/', '.');
-          found.push_back(std::move(module));
+          found.push_back({std::move(module), path.lexically_normal().string()});
         }
       }
       each.increment(error);
     }
-    std::ranges::sort(found);
-    for (std::string& module : found)
-      if (std::ranges::find(all, module) == all.end()) all.push_back(std::move(module));
+    std::ranges::sort(found, {}, &ListedModule::name);
+    std::ranges::move(found, std::back_inserter(all));
   }
 
   Result<ResolvedFile> look_for(const std::string& name, const std::string& from, std::size_t largest) {

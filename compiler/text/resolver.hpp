@@ -24,6 +24,12 @@ inline constexpr std::size_t largest_file = std::size_t{512} << 20;
 /// Whether an untrusted picture may be decoded where the system offers no sandbox for the decoder.
 enum class Sandbox { required, if_possible };
 
+/// A module in a folder that imports search.
+struct ListedModule {
+  std::string name;  ///< "fabric.denim"
+  std::string path;
+};
+
 /// Supplies the bytes of imports and images. The compiler opens no files itself: its caller decides where they come
 /// from. `from` is the name of the importing file. Errors: W0501, with a sentence that fits after "cannot be read:".
 class Resolver {
@@ -46,6 +52,8 @@ class Resolver {
   /// The modules that `from` could import, each once. Those of its project come first, or, without a project, those
   /// beside it. Empty if the source of the files cannot be listed.
   virtual std::vector<std::string> modules(const std::string& /*from*/) { return {}; }
+  /// The files that imports do not find, since a folder searched earlier has a module of the same name.
+  virtual std::vector<ListedModule> hidden_modules(const std::string& /*from*/) { return {}; }
 };
 
 /// The name of the file that marks the root folder of a project's modules. The file may be empty.

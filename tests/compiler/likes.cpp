@@ -236,14 +236,14 @@ TEST(MaterialNames, OnACommandLineFollowTheSameRule) {
   SourceSet sources;
   Diagnostics diagnostics;
   LibraryIndex index;
-  const auto add = [&](const std::string& module, const std::string& text, bool shipped) {
+  const auto add = [&](const std::string& module, const std::string& text, Origin origin = Origin::own) {
     const SourceId source = sources.add(module, "wale 1\n" + text);
-    index.add(module, module + ".wale", parse(sources, source, diagnostics), shipped);
+    index.add(module, module + ".wale", parse(sources, source, diagnostics), origin);
   };
-  add("shipped", spring("denim", 1, "called \"jeans\"") + spring("felt", 1) + spring("oak", 1), true);
-  add("own", spring("denim", 2), false);
-  add("other", spring("oak", 2), false);
-  add("third", spring("oak", 2), false);
+  add("shipped", spring("denim", 1, "called \"jeans\"") + spring("felt", 1) + spring("oak", 1), Origin::shipped);
+  add("own", spring("denim", 2));
+  add("other", spring("oak", 2));
+  add("third", spring("oak", 2));
   ASSERT_TRUE(meant_material(index, "denim"));
   EXPECT_EQ((*meant_material(index, "denim"))->module, "own");
   EXPECT_EQ((*meant_material(index, "Jeans"))->module, "shipped");

@@ -349,7 +349,7 @@ PidSession::Leaving PidSession::leaving() const noexcept {
   const auto order = [&](const Order& which) {
     if (which && !options_.is_shared) add(encode_device_control(*layout_, which));
   };
-  for (std::size_t i = 0; i < created_; ++i) add(encode_constant_force(*layout_, blocks_[i], 0));
+  for (std::size_t i = 0; i < created_; ++i) add(encode_constant_force(*layout_, blocks_[i], Magnitude()));
   for (std::size_t i = 0; i < created_; ++i) add(encode_stop(*layout_, blocks_[i]));
   order(layout_->device_control.stop_all);
   order(layout_->device_control.disable_actuators);

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -168,6 +169,12 @@ Result<Trace> read_trace(std::string_view text) {
   }
   if (trace.points.empty()) return unlike_csv(0, "at least one line of numbers after the header", "none");
   if (!trace.velocities_given) derive_velocities(trace.points);
+  // Programs compute in single precision, where a faster hand would have an infinite velocity.
+  constexpr double fastest = std::numeric_limits<float>::max();
+  for (const TracePoint& point : trace.points)
+    if (!(std::abs(point.velocity.x) <= fastest && std::abs(point.velocity.y) <= fastest))
+      return unlike_csv(0, "positions that a hand can reach", "an infinite velocity at " + shortest(point.time) + " s",
+                        "times are in s, positions in m");
   return trace;
 }
 
