@@ -33,8 +33,8 @@ const std::map<std::string, std::string> not_as_one_file = {
 /// examples.
 bool is_of_wale_text(Code code) {
   return code < Code::absent_device && code != Code::unwritable_file && code != Code::damaged_file &&
-         code != Code::newer_file && code != Code::refused_program && code != Code::other_device &&
-         code != Code::other_figures;
+         code != Code::newer_file && code != Code::output_is_input && code != Code::refused_program &&
+         code != Code::other_device && code != Code::other_figures;
 }
 
 struct Example {
