@@ -93,7 +93,7 @@ std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomi
   const std::vector<DeclaredDevice> known =
       opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known)
-    return refuse(is_known.error()), std::nullopt;
+    return status = refuse(is_known.error()), std::nullopt;
   const bool asks = !options.device.empty();
   auto device =
       device_to_feel({.spelling = asks ? options.device : "auto",
@@ -114,14 +114,14 @@ std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomi
 }
 
 std::optional<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run,
-                                        const std::atomic<bool>& stop) {
+                                        const std::atomic<bool>& stop, int& status) {
   const HandDeclaration* person = declared_everywhere()->declarations.hands.find("normal");
   FeltOptions how{.virtual_time = options.virtual_time,
                   .transport = options.transport,
                   .most_newton = options.max_force.value_or(HUGE_VAL)};
   if (options.hand) how.hand = *options.hand, options.choice.inputs->push_back(*options.hand);
   auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
-  if (!device) return refuse(device.error()), std::nullopt;
+  if (!device) return status = refuse(device.error()), std::nullopt;
   return *std::move(device);
 }
 
@@ -210,8 +210,8 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   const auto& [device, built, material] = *prepared_run;
   const PatchProgram& program = material.program.description();
   if (!can_limit(options, program)) return refused;
-  auto felt = open_prepared(options, *prepared_run, stop);
-  if (!felt) return refused;
+  auto felt = open_prepared(options, *prepared_run, stop, status);
+  if (!felt) return status;
   Stage stage(*felt->device);
   stage.place(material.program);
   for (std::size_t i = 0; i < material.parameters.size(); ++i)
@@ -273,8 +273,8 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
   const auto b = material_to_feel(programs.front(), {});
   if (!b) return refuse(b.error());
   if (const auto able = can_be_blind(*run, *b); !able) return refuse(able.error());
-  auto felt = open_prepared(options, *run, stop);
-  if (!felt) return refused;
+  auto felt = open_prepared(options, *run, stop, status);
+  if (!felt) return status;
 
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const auto cues = [&](const BlindMaterial& material) {

@@ -52,7 +52,7 @@ int show_stage(const BuildOptions& options) {
   auto opened = open(options.choice);
   if (!opened) return refused;
   const auto text =
-      build_stage(*opened, options.choice.request(), options.choice.material, known->stage, opened->diagnostics);
+      build_stage(*opened, options.choice.recording_request(), options.choice.material, known->stage, opened->diagnostics);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   if (!text) return refuse(text.error());
   if (!*text) return refused;
@@ -71,7 +71,7 @@ int build_collection(const BuildOptions& options) {
                         .sentence = "this is a patch program, but --all builds the materials of a Wale file",
                         .place = {.name = opened->name}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  const auto collection = build_all(*opened, options.choice.request(), options.out, *options.choice.inputs);
+  const auto collection = build_all(*opened, options.choice.recording_request(), options.out, *options.choice.inputs);
   if (!collection) return refuse(collection.error());
   for (const auto& built : collection->materials) {
     print_diagnostics(stderr, built.diagnostics, opened->sources);

@@ -97,13 +97,18 @@ FileRequest Choice::request() const {
                       .device = device,
                       .roots = library_folders(folders, std::getenv("WALE_LIBRARY")),
                       .devices = devices,
-                      .looked_for = inputs.get(),
                       .sandbox = sandbox};
   const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
   if (is_shipped || !devices.empty()) return request;
   if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
     request.devices.push_back(*std::move(owners));
   return request;
+}
+
+FileRequest Choice::recording_request() const {
+  FileRequest recording = request();
+  recording.looked_for = inputs.get();
+  return recording;
 }
 
 void say_taken(const OpenedFile& opened) {
@@ -129,6 +134,7 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
 
 void need_device(const OpenedFile& opened, const Choice& choice) {
   if (!opened.module || choice.device_option.empty() || choice.device.empty()) return;
+  if (choice.device == "all") return;  // `describe` compares them; the other verbs know no such device
   const auto known = opened.module->declarations().devices.spellings();
   if (std::ranges::find(known, choice.device) != known.end()) return;
   const auto near = nearest_spelling(choice.device, known);
@@ -150,7 +156,7 @@ std::optional<OpenedFile> open(const Choice& choice) {
         .place = {.text = choice.material}});
     return std::nullopt;
   }
-  auto opened = open_file(choice.request());
+  auto opened = open_file(choice.recording_request());
   if (!opened) return refuse(opened.error()), std::nullopt;
   choice.inputs->push_back(opened->name);
   for (const ResolvedFile& trusted : choice.devices) choice.inputs->push_back(trusted.name);
@@ -176,7 +182,7 @@ std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool 
   std::vector<Program> programs;
   for (const auto& name : names) {
     if (opened.diagnostics.has_errors()) break;
-    if (auto program = compile_opened(opened, choice.request(), name, opened.diagnostics)) programs.push_back(*program);
+    if (auto program = compile_opened(opened, choice.recording_request(), name, opened.diagnostics)) programs.push_back(*program);
   }
   print_diagnostics(stderr, opened.diagnostics, opened.sources);
   if (opened.diagnostics.has_errors()) programs.clear();

@@ -46,6 +46,8 @@ struct Choice {
 
   /// Includes the owner's devices.wale if the device is not a shipped one.
   FileRequest request() const;
+  /// The same; what is read for it becomes one of the `inputs`. For one thread at a time.
+  FileRequest recording_request() const;
 };
 
 /// If a name may mean two materials, prints on standard error which of them was taken.

@@ -69,8 +69,12 @@ TEST(SuitedDevice, OtherFiguresOfForceAndPlaceAreRefused) {
   const PatchProgram program = built_for("openffboard");
   for (const auto& [figure, change] : changes) {
     const Error error = on_plugged(program, change);
-    EXPECT_EQ(code_name(error.code), "W0607") << figure << ": " << error.sentence;
-    EXPECT_EQ(error.sentence, "`wall` is built for a `openffboard` with other figures than in its declaration");
+    EXPECT_EQ(code_name(error.code), "W0608") << figure << ": " << error.sentence;
+    const std::string expected =
+        "`wall` is built for other figures of `openffboard` than its trusted declaration has: " + figure;
+    EXPECT_TRUE(error.sentence.starts_with(expected)) << error.sentence;
+    EXPECT_TRUE(error.sentence.find(" in the program, ") != std::string::npos) << error.sentence;
+    EXPECT_TRUE(error.sentence.ends_with(" declared")) << error.sentence;
     EXPECT_FALSE(error.mend.empty()) << figure;
   }
 }
@@ -89,7 +93,7 @@ TEST(SuitedDevice, OtherFiguresOfVibrationAreRefused) {
   const PatchProgram program = built_for("touch_pad");
   for (const auto& [figure, change] : changes) {
     const Error error = on_plugged(program, change);
-    EXPECT_EQ(code_name(error.code), "W0607") << figure << ": " << error.sentence;
+    EXPECT_EQ(code_name(error.code), "W0608") << figure << ": " << error.sentence;
   }
 }
 

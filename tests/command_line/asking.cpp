@@ -235,9 +235,9 @@ TEST(Choices, UnknownNamesAreRefusedWithTheNearest) {
   EXPECT_EQ(material.status, 1);
   EXPECT_TRUE(contains(material.err, "`corduroy`")) << material.err;
   const Outcome device = wale({"build", corduroy, "--device", "sandpapre", "-o", folder / "out.wpp"});
-  EXPECT_EQ(device.status, 1);
+  EXPECT_EQ(device.status, 2);
   EXPECT_TRUE(contains(device.err, "`sandpaper`")) << device.err;
-  EXPECT_EQ(wale({"feel", corduroy, "--device", "phantom", "--virtual-time"}).status, 1);
+  EXPECT_EQ(wale({"feel", corduroy, "--device", "phantom", "--virtual-time"}).status, 2);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 
 constexpr long most_megabytes = 1500;
 
-/// Runs `wale check` on the file and expects bounded memory and output. Time is not measured: a step that is quadratic in
-/// such a file would not end.
+/// Runs `wale check` on the file and expects bounded memory and output. Time is not measured: a step that is quadratic
+/// in such a file would not end.
 Outcome check_within_bounds(const std::string& file) {
   const Outcome outcome = wale({"check", file});
   EXPECT_LT(outcome.out.size(), 1u << 20) << file;

@@ -33,7 +33,7 @@ TEST(Compare, AMaterialIsAlikeToItself) {
 TEST(Compare, OneMaterialOrAMissingFileIsAnError) {
   const Outcome alone = wale({"compare", corduroy});
   EXPECT_EQ(alone.status, 1);
-  EXPECT_TRUE(contains(alone.err, "only one material")) << alone.err;
+  EXPECT_TRUE(contains(alone.err, "expected at least two materials, found only one")) << alone.err;
   const Outcome missing = wale({"compare", corduroy, "nowhere.wale"});
   EXPECT_EQ(missing.status, 1);
   EXPECT_TRUE(contains(missing.err, "nowhere.wale")) << missing.err;

@@ -1,5 +1,6 @@
-// Every way to end `wale feel` that can be caught, on the simulated device and in a terminal: the recording is whole, the
-// terminal is as before, the exit status is the signal's, and one line says why. Real devices: tests/usb_mock/dying_test.cpp.
+// Every way to end `wale feel` that can be caught, on the simulated device and in a terminal: the recording is whole,
+// the terminal is as before, the exit status is the signal's, and one line says why. Real devices:
+// tests/usb_mock/dying_test.cpp.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -106,7 +107,8 @@ struct Recording {
   Child child;
 
   explicit Recording(const std::vector<int>& ignored = {})
-      : child({"feel", corduroy, "--device", "simulated", "--seconds", "600", "--record", file}, out, err, {}, ignored) {
+      : child({"feel", corduroy, "--device", "simulated", "--seconds", "600", "--record", file}, out, err, {},
+              ignored) {
     EXPECT_TRUE(eventually([&] { return fs::exists(file) && fs::file_size(file) > 100'000; })) << bytes_of(err);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the file is this large before the first tick
   }
@@ -201,7 +203,8 @@ class Pty {
 
   const std::string& screen() {
     char bytes[4096];
-    for (ssize_t got = 0; (got = read(master_, bytes, sizeof bytes)) > 0;) screen_.append(bytes, static_cast<size_t>(got));
+    for (ssize_t got = 0; (got = read(master_, bytes, sizeof bytes)) > 0;)
+      screen_.append(bytes, static_cast<size_t>(got));
     return screen_;
   }
   bool is_as_before() const {
@@ -223,7 +226,8 @@ TEST(Dying, TheTerminalIsGivenBack) {
   for (const int signal : {SIGHUP, SIGQUIT, SIGTERM, SIGSEGV, SIGABRT, SIGTSTP}) {
     Pty pty;
     const TemporaryFolder folder;
-    Child child({"feel", corduroy, "--device", "pointer", "--seconds", "600"}, folder / "out", folder / "err", pty.path);
+    Child child({"feel", corduroy, "--device", "pointer", "--seconds", "600"}, folder / "out", folder / "err",
+                pty.path);
     ASSERT_TRUE(eventually([&] { return contains(pty.screen(), taken); })) << bytes_of(folder / "err");
     ASSERT_FALSE(pty.is_as_before());
     child.tell(signal);

@@ -97,17 +97,19 @@ TEST(Values, UnknownNamesAreRefused) {
   expect_refused(
       {{{"describe", "brick:"}, 1, "after its colon"},
        {{"compare", "denim:", "velvet"}, 1, "after its colon"},
-       {{"describe", corduroy + ":corduroy", "--material", "other"}, 1, "names `corduroy`, but --material names `other`"},
+       {{"describe", corduroy + ":corduroy", "--material", "other"},
+        1,
+        "names `corduroy`, but --material names `other`"},
        {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
        {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},
        {{"describe", "std"}, 1, "`wale find --kind std`"},
        {{"describe", corduroy, "--library", "/nowhere"}, 1, "--library: `/nowhere` does not exist"},
        {{"feel", corduroy, "--virtual-time", "--transport", "banana"}, 2, "expected hidraw, libusb, evdev"},
-       {{"feel", corduroy, "--device", "simulated:falcon", "--built-for", "nope"}, 1, "error[W0601]: --built-for"},
-       {{"feel", corduroy, "--virtual-time", "--hand", "foo"}, 1, "lateral, circular, rest nor"},
-       {{"feel", corduroy, "--virtual-time", "--hand", "circle"}, 1, "did you mean `circular`"},
-       {{"feel", corduroy, "--virtual-time", "--hand", "Lateral"}, 1, "did you mean `lateral`"},
-       {{"describe", corduroy, "--set", "Wale=4mm"}, 1, "did you mean `wale`"},
+       {{"feel", corduroy, "--device", "simulated:falcon", "--built-for", "nope"}, 2, "error[W0601]: --built-for"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "foo"}, 2, "lateral, circular, rest nor"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "circle"}, 2, "did you mean `circular`"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "Lateral"}, 2, "did you mean `lateral`"},
+       {{"describe", corduroy, "--set", "Wale=4mm"}, 2, "did you mean `wale`"},
        {{"describe", corduroy, "--set", "wale=4mm", "--set", "wale=5mm"}, 2, "`wale` is set twice"}});
 }
 

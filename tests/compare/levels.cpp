@@ -130,7 +130,8 @@ TEST(Levels, OfAVibrationDeviceNeedAThreshold) {
     ASSERT_FALSE(proposed) << percept;
     EXPECT_EQ(proposed.error().code, Code::no_threshold);
     EXPECT_EQ(proposed.error().sentence,
-              std::string("unknown: no published threshold says how small a difference of ") + percept + " is noticed");
+              std::string("unknown: no published threshold says how small a difference of ") + percept +
+                  " is noticed as `touch_pad` renders it");
   }
   const auto spring = propose_levels("springiness", "touch_pad", std::nullopt, 1, common_modules()->declarations);
   ASSERT_FALSE(spring);
@@ -154,7 +155,7 @@ TEST(CloseLevels, TheProposalIsOneApart) {
   // Springiness is proportional to stiffness, so the next level is 0.5 (1 + w).
   const double share = 1 + 0.22 / d_prime_of_three_of_four;
   const std::string said = said_of_levels("levels springiness {\n  a 0.5\n  b 0.6\n}\n", "sandpaper");
-  EXPECT_TRUE(contains(said, "`b 0.616` would be one apart")) << said;
+  EXPECT_TRUE(contains(said, "`b 0.616` is one just noticeable difference")) << said;
   EXPECT_NEAR(0.5 * share, 0.616, 0.001);
   EXPECT_EQ(said_of_levels("levels springiness {\n  a 0.5\n  b 0.616\n}\n", "sandpaper"), "");
   EXPECT_EQ(said_of_levels("levels vibration {\n  a 0.5\n  b 0.51\n}\n", "sandpaper"), "") << "there is no threshold";
