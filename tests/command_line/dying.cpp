@@ -9,7 +9,6 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
@@ -161,25 +160,6 @@ TEST(Dying, WhatWasIgnoredFromTheBeginningStaysIgnored) {
   feeling.child.tell(SIGTERM);
   const int status = feeling.child.wait();
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << "and not HUP: " << status;
-}
-
-TEST(Dying, AThreadThatCannotGoOnEndsTheRunWithItsReason) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("c.wale", bytes_of(corduroy)), recording = folder / "a.wrec",
-                    err = folder / "err";
-  Child child({"feel", file, "--device", "simulated", "--watch", "--record", recording}, folder / "out", err);
-  ASSERT_TRUE(eventually([&] { return fs::exists(recording) && fs::file_size(recording) > 100'000; }));
-  const rlimit little{1, 1};  // no more memory than it has: the next version cannot be compiled
-  ASSERT_EQ(prlimit(child.process(), RLIMIT_AS, &little, nullptr), 0);
-  std::string large = corduroy_with("2.5 mm in", "3.5 mm in");
-  large += "// " + std::string(2'000'000, 'x') + "\n";
-  folder.write("c.wale", large);
-  const int status = child.wait();
-  // Whichever thread meets it first: the watch hands it over, others end in `std::terminate`.
-  EXPECT_TRUE((WIFEXITED(status) && WEXITSTATUS(status) == 1) || (WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT))
-      << status << bytes_of(err);
-  EXPECT_TRUE(contains(bytes_of(err), "wale: ended by an error that nothing handles: std::bad_alloc")) << bytes_of(err);
-  EXPECT_EQ(wale({"replay", recording, "--json"}).status, 0) << "what there was memory for";
 }
 
 /// A terminal whose other end the test holds.
