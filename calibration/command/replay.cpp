@@ -47,7 +47,8 @@ std::string verdict(const Replay& replay, double rate) {
   if (!replay.first) return "the same, bit for bit";
   const ReplayDifference& first = *replay.first;
   return fmt::format(
-      "differs on {} of {} ticks, first on tick {} ({:.4f} s, skipped periods not counted): the {} was {:.9g} and is "
+      "differs on {} of {} ticks, first on tick {} counted from 0 ({:.4f} s without missed periods): the {} was {:.9g} "
+      "and is "
       "{:.9g}; "
       "the commands differ by at most {:.3g}",
       replay.differing, replay.ticks, first.tick, static_cast<double>(first.tick) / rate, first.what, first.recorded,
@@ -153,7 +154,8 @@ Run declare_replay(CLI::App& verb) {
                   "writes the force as sound: x left, y right, the device's peak force full scale")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
-              "only this many ticks from the beginning; of a damaged recording, those before the damage");
+              "only this many ticks from the beginning; of a damaged recording, those before the damage "
+              "(default: all)");
   offer_json(verb, options->json, "a JSON object");
   verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
   return [options] { return replay(*options); };
