@@ -24,7 +24,7 @@ class CsvReader {
   /// The text must outlive the rows.
   explicit CsvReader(std::string_view text);
 
-  /// The next row; nothing after the last one. Errors: W0504 for a quote that does not end.
+  /// The next row; empty after the last one. Errors: W0504 for a quote that does not end.
   Result<std::optional<CsvRow>> next();
 
  private:

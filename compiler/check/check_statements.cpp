@@ -88,7 +88,7 @@ void StatementChecker::operator()(const ForceStatement& node) {
   if (auto* binding = scope_.find(node.name->text)) binding->used = true;
 }
 
-/// The limit of `limit 3 N`. Nothing if it is not a force, or not constant from tick to tick, which is reported.
+/// The limit of `limit 3 N`. Empty if it is not a force, or not constant from tick to tick, which is reported.
 std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
   const Value limit = checker_.check_as(tree(), expr, scope_, Value::Type::number, declarations().dimension("force"));
   if (limit.failed()) return std::nullopt;

@@ -84,7 +84,7 @@ int describe_fates(const DescribeOptions& options) {
   return done;
 }
 
-/// Prints the exports of a file; nothing if it has none and they were not asked for.
+/// Prints the exports of a file, if it has any or they were asked for.
 std::optional<int> describe_exports(const OpenedFile& opened, const DescribeOptions& options) {
   const bool is_asked = options.exports || (opened.module && opened.module->materials.empty());
   if (!opened.module || !options.choice.material.empty() || !is_asked) return std::nullopt;

@@ -139,7 +139,7 @@ TermId power_by_logarithm(Terms& terms, TermId base, TermId exponent, Span span)
   return terms.apply(Operation::exp2, terms.apply(Operation::multiply, exponent, logarithm, span), span);
 }
 
-/// A power with a known exponent; nothing if that power of the base's dimension does not exist.
+/// A power with a known exponent; empty if that power of the base's dimension does not exist.
 std::optional<Value> known_power(Terms& terms, const Value& base, const Value& exponent, double value, Span span) {
   constexpr int largest_whole = 16;
   for (const int denominator : {1, 2, 3, 4, 6, 12}) {

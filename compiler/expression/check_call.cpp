@@ -50,7 +50,7 @@ std::size_t formal_of(ExpressionReading& reading, const Argument& argument, Span
   return std::min(position, formals.size());
 }
 
-/// The values of a call's arguments in the order of the formals; nothing after an error, which is reported.
+/// The values of a call's arguments in the order of the formals; empty after an error, which is reported.
 struct BoundArguments {
   std::vector<Actual> actuals;
   bool good = true;

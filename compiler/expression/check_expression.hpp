@@ -70,7 +70,7 @@ bool is_builtin_function(std::string_view name);
 /// Whether the language itself defines this name on a patch: the hand's place and motion, the patch's extents, time.
 bool names_hand_or_patch(std::string_view name);
 
-/// The value of a constant term in double precision; nothing if the term is not constant. With `parameters` it may
+/// The value of a constant term in double precision; empty if the term is not constant. With `parameters` it may
 /// depend on them too, and they have their default values.
 std::optional<double> constant_value(const Terms& terms, TermId id, const std::vector<Parameter>* parameters = nullptr);
 

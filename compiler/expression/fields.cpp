@@ -112,7 +112,7 @@ Value call_field(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr
 
 namespace {
 
-/// The values of the arguments of `curve`; nothing after an error, which is reported.
+/// The values of the arguments of `curve`; empty after an error, which is reported.
 std::optional<std::vector<Value>> curve_values(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
                                                Scope& scope) {
   std::vector<Value> values;

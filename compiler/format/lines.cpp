@@ -9,7 +9,7 @@
 namespace wale::formatting {
 namespace {
 
-/// How well a line may be broken after a token, best first; nothing if it may not be broken there.
+/// How well a line may be broken after a token, best first; empty if it may not be broken there.
 std::optional<int> bond(TokenKind kind) {
   switch (kind) {
     case TokenKind::comma: return 0;

@@ -39,7 +39,7 @@ struct Polynomial {
   bool constant() const { return !coefficients[1] && !coefficients[2]; }
 };
 
-/// Reads an expression as a polynomial in one function of the unknown; nothing if it is not such a polynomial.
+/// Reads an expression as a polynomial in one function of the unknown; empty if it is not such a polynomial.
 class PolynomialReader {
  public:
   PolynomialReader(Terms& terms, TermId unknown) : terms_(terms), unknown_(unknown) {}
@@ -73,7 +73,7 @@ class PolynomialReader {
     return polynomial;
   }
 
-  /// The common atom of both; nothing if they have different ones.
+  /// The common atom of both; empty if they have different ones.
   std::optional<TermId> common_atom(const Polynomial& a, const Polynomial& b) const {
     if (a.constant()) return b.atom;
     if (b.constant() || same_term(terms_, a.atom, b.atom)) return a.atom;

@@ -61,7 +61,7 @@ struct Heading {
   std::string_view unit;
 };
 
-/// The quantity and unit of a column named "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx"; nothing for a column to ignore,
+/// The quantity and unit of a column named "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx"; empty for a column to ignore,
 /// such as "x_target".
 std::optional<Heading> read_heading(std::string_view text) {
   const auto underscore = text.find('_');
