@@ -13,7 +13,8 @@ std::vector<DeclaredDevice> devices_here(const std::vector<std::string>& folders
                                          const std::vector<ResolvedFile>& files) {
   SourceSet sources;
   Diagnostics diagnostics;
-  const auto resolver = file_resolver(library_folders(folders, std::getenv("WALE_LIBRARY")), nullptr, Sandbox::required, files);
+  const auto resolver =
+      file_resolver(library_folders(folders, std::getenv("WALE_LIBRARY")), nullptr, Sandbox::required, files);
   const CheckedModule module = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
   print_diagnostics(stderr, diagnostics, sources);
   return declared_devices(module.declarations());

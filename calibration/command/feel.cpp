@@ -3,15 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <random>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "calibration/command/interrupt.hpp"
 #include "calibration/command/trusted_here.hpp"
 #include "calibration/feel/asking_person.hpp"
+#include "calibration/feel/background_loop.hpp"
 #include "calibration/feel/felt_device.hpp"
 #include "calibration/feel/material_watch.hpp"
 #include "compiler/command/options.hpp"
@@ -80,59 +80,54 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
 }
 
 /// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it.
-/// After an error, which it prints, it gives nothing and sets the exit `status`.
-std::optional<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop, int& status) {
-  status = refused;
+OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop) {
   auto trusted = trusted_here(options.trusted);
-  if (!trusted) return status = refuse(trusted.error()), std::nullopt;
+  if (!trusted) return refuse(trusted.error());
   Choice built = options.choice;
   built.device.clear();  // it is not known yet
   built.devices = trusted->files;
   auto opened = open(built);
-  if (!opened) return std::nullopt;
+  if (!opened) return opened.status();
   const std::vector<DeclaredDevice> known =
       opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
-  if (const auto is_known = can_be_built_for(options.built_for, known); !is_known)
-    return status = refuse(is_known.error()), std::nullopt;
+  if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
   const bool asks = !options.device.empty();
   auto device =
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
                       .only_simulated = options.virtual_time || options.hand},
                      known, trusted->devices, options.seconds, say, stop);
-  if (!device) return status = refuse(device.error()), std::nullopt;
+  if (!device) return refuse(device.error());
   const ChosenDevice& chosen = device->chosen;
   if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
 
   built.device = chosen.declared ? chosen.declared->profile.name : options.choice.device;
   if (opened->module) check_levels(opened->module->declarations(), opened->source, built.device, opened->diagnostics);
   const auto programs = programs_of(*opened, built, false);
-  if (programs.empty()) return std::nullopt;
-  auto material = material_to_feel(programs.front(), options.settings);
-  if (!material) return status = refuse(material.error()), std::nullopt;
+  if (!programs) return programs.status();
+  auto material = material_to_feel(programs->front(), options.settings);
+  if (!material) return refuse(material.error());
   return PreparedRun{*std::move(device), std::move(built), *std::move(material)};
 }
 
-std::optional<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run,
-                                        const std::atomic<bool>& stop, int& status) {
+OrStatus<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun& run, const std::atomic<bool>& stop) {
   const HandDeclaration* person = declared_everywhere()->declarations.hands.find("normal");
   FeltOptions how{.virtual_time = options.virtual_time,
                   .transport = options.transport,
                   .most_newton = options.max_force.value_or(HUGE_VAL)};
   if (options.hand) how.hand = *options.hand, options.choice.inputs->push_back(*options.hand);
   auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
-  if (!device) return status = refuse(device.error()), std::nullopt;
+  if (!device) return refuse(device.error());
   return *std::move(device);
 }
 
-/// Whether the device has a force to limit; if not, prints the error.
-bool can_limit(const FeelOptions& options, const PatchProgram& program) {
-  if (!options.max_force || !program.vibrates()) return true;
-  refuse(Error{Code::other_device,
+/// Checks that the device has a force to limit, if there is a limit. Error: W0607.
+Result<> can_limit(const FeelOptions& options, const PatchProgram& program) {
+  if (!options.max_force || !program.vibrates()) return {};
+  return Error{Code::other_device,
                fmt::format("`{}` only vibrates: it has no force to limit", program.device.name),
                "leave out --max-force",
-               {.name = "--max-force"}});
-  return false;
+               {.name = "--max-force"}};
 }
 
 /// The recording to make of the run, if the person asked for one.
@@ -140,42 +135,6 @@ std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner
   if (!options.record.ends_with(".wrec")) return std::nullopt;
   return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
 }
-
-/// Keeps the stage up to date with the file until the run is over, on a thread of its own.
-class Watching {
- public:
-  Watching(const FeelOptions& options, const Choice& built, Stage& stage, const Program& felt, bool live)
-      : watch_(built, stage, felt,
-               [live](const std::string& said) { fmt::print(stderr, "{}{}", live ? "\r\033[K" : "", said); }) {
-    if (options.watch) thread_ = std::thread([this] { attend(); });
-  }
-  ~Watching() { end(); }
-
-  /// Ends it, and throws what ended it before, if anything did.
-  void finish() {
-    end();
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
- private:
-  void attend() {
-    try {
-      while (!over_) watch_.attend(std::chrono::milliseconds(100));
-    } catch (...) {  // whatever it is, the device is let go before anybody says so
-      failure_ = std::current_exception();
-      ask_to_stop();
-    }
-  }
-  void end() {
-    over_ = true;
-    if (thread_.joinable()) thread_.join();
-  }
-
-  MaterialWatch watch_;
-  std::atomic<bool> over_ = false;
-  std::exception_ptr failure_;
-  std::thread thread_;
-};
 
 RunOptions run_options(const FeelOptions& options, const RunManner& manner, const std::atomic<bool>& stop) {
   const bool is_recording = options.record.ends_with(".wrec"), is_table = !options.record.empty() && !is_recording;
@@ -204,14 +163,13 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
 }
 
 int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
-  int status = done;
-  const auto prepared_run = prepared(options, stop, status);
-  if (!prepared_run) return status;
+  const auto prepared_run = prepared(options, stop);
+  if (!prepared_run) return prepared_run.status();
   const auto& [device, built, material] = *prepared_run;
   const PatchProgram& program = material.program.description();
-  if (!can_limit(options, program)) return refused;
-  auto felt = open_prepared(options, *prepared_run, stop, status);
-  if (!felt) return status;
+  if (const auto able = can_limit(options, program); !able) return refuse(able.error());
+  auto felt = open_prepared(options, *prepared_run, stop);
+  if (!felt) return felt.status();
   Stage stage(*felt->device);
   stage.place(material.program);
   for (std::size_t i = 0; i < material.parameters.size(); ++i)
@@ -224,12 +182,12 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     run.progress = [vibrates = program.vibrates()](const Progress& now) {
       fmt::print(stderr, "\r{}", progress_line(now, vibrates));
     };
-  const auto result = [&] {
-    Watching watching(options, built, stage, material.program, live);
-    auto ran = stage.run(run);
-    watching.finish();
-    return ran;
-  }();
+  MaterialWatch watch(built, stage, material.program,
+                      [live](const std::string& said) { fmt::print(stderr, "{}{}", live ? "\r\033[K" : "", said); });
+  std::optional<BackgroundLoop> watching;
+  if (options.watch) watching.emplace([&] { watch.attend(std::chrono::milliseconds(100)); }, ask_to_stop);
+  const auto result = stage.run(run);
+  if (watching) watching->finish();
   if (live) fmt::print(stderr, "\r\033[K");
   if (!result) {
     Error error = result.error();
@@ -260,21 +218,20 @@ Result<> can_be_blind(const PreparedRun& run, const BlindMaterial& b) {
 
 /// Runs a blind comparison and reports it. Returns the exit status.
 int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
-  int status = done;
-  const auto run = prepared(options, stop, status);
-  if (!run) return status;
+  const auto run = prepared(options, stop);
+  if (!run) return run.status();
   Choice against = run->built;
   const NamedMaterial named = named_material(options.against);
   against.file = named.file, against.material = named.material;
   const BlindMaterial& a = run->material;
   against.device_option.clear();  // it was named for A
   const auto programs = load_programs(against, false);
-  if (programs.empty()) return refused;
-  const auto b = material_to_feel(programs.front(), {});
+  if (!programs) return programs.status();
+  const auto b = material_to_feel(programs->front(), {});
   if (!b) return refuse(b.error());
   if (const auto able = can_be_blind(*run, *b); !able) return refuse(able.error());
-  auto felt = open_prepared(options, *run, stop, status);
-  if (!felt) return status;
+  auto felt = open_prepared(options, *run, stop);
+  if (!felt) return felt.status();
 
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   const auto cues = [&](const BlindMaterial& material) {

@@ -27,8 +27,8 @@ constexpr int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIG
 
 // Set by signal handlers.
 std::atomic<bool> is_to_stop{false};
-std::atomic<int> first_signal{0};              // that asked to end
-std::atomic<std::int64_t> first_came{0};       // ns of CLOCK_MONOTONIC
+std::atomic<int> first_signal{0};         // that asked to end
+std::atomic<std::int64_t> first_came{0};  // ns of CLOCK_MONOTONIC
 std::atomic<bool> is_crashing{false}, has_let_go{false};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 

@@ -44,8 +44,8 @@ int sample(const SampleOptions& options) {
                         .mend = "for example, `--at \"10.6 mm, 5 mm\"`, or `--trace FILE`",
                         .place = {.name = "--at"}});
   const auto programs = load_programs(options.choice, false);
-  if (programs.empty()) return refused;
-  const Program& program = programs.front();
+  if (!programs) return programs.status();
+  const Program& program = programs->front();
   const auto parameters = chosen_parameters(program, options.settings);
   if (!parameters) return refuse(parameters.error());
   const auto hands = hands_of(options);

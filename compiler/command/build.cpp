@@ -21,7 +21,7 @@ struct BuildOptions {
 
 int build_one(const BuildOptions& options) {
   auto opened = open(options.choice);
-  if (!opened) return refused;
+  if (!opened) return opened.status();
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("this is a patch program already, built for `{}`",
@@ -29,8 +29,8 @@ int build_one(const BuildOptions& options) {
                         .mend = "name the Wale file that it was built from",
                         .place = {.name = opened->name}});
   const auto programs = programs_of(*opened, options.choice, false);
-  if (programs.empty()) return refused;
-  const auto bytes = write_patch_program(programs.front().description());
+  if (!programs) return programs.status();
+  const auto bytes = write_patch_program(programs->front().description());
   if (const auto written =
           write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *options.choice.inputs);
       !written)
@@ -43,16 +43,15 @@ int show_stage(const BuildOptions& options) {
   if (known == stage_names.end()) {
     std::vector<std::string_view> names;
     for (const StageName& each : stage_names) names.push_back(each.name);
-    refuse(Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("no stage is called `{}`", options.stage),
-                 .mend = fmt::format("the stages are {}", fmt::join(names, ", ")),
-                 .place = {.name = "--emit", .text = options.stage}});
-    return misused;
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("no stage is called `{}`", options.stage),
+                        .mend = fmt::format("the stages are {}", fmt::join(names, ", ")),
+                        .place = {.name = "--emit", .text = options.stage}});
   }
   auto opened = open(options.choice);
-  if (!opened) return refused;
-  const auto text =
-      build_stage(*opened, options.choice.recording_request(), options.choice.material, known->stage, opened->diagnostics);
+  if (!opened) return opened.status();
+  const auto text = build_stage(*opened, options.choice.recording_request(), options.choice.material, known->stage,
+                                opened->diagnostics);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   if (!text) return refuse(text.error());
   if (!*text) return refused;
@@ -65,7 +64,7 @@ int show_stage(const BuildOptions& options) {
 /// Builds every material to a program of its own, and reports each.
 int build_collection(const BuildOptions& options) {
   const auto opened = open(options.choice);
-  if (!opened) return refused;
+  if (!opened) return opened.status();
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = "this is a patch program, but --all builds the materials of a Wale file",
@@ -88,14 +87,13 @@ int build_collection(const BuildOptions& options) {
 
 int build(const BuildOptions& options) {
   if (!options.stage.empty()) return show_stage(options);
-  if (options.out.empty()) {
-    refuse(Error{.code = Code::malformed_value,
-                 .sentence = fmt::format("expected the name of the {} to write", options.all ? "folder" : "file"),
-                 .mend = options.all ? "for example, `wale build my.wale --all -o programs`"
-                                     : "for example, `wale build corduroy -o corduroy.wpp`",
-                 .place = {.name = "-o"}});
-    return misused;
-  }
+  if (options.out.empty())
+    return refuse(
+        Error{.code = Code::malformed_value,
+              .sentence = fmt::format("expected the name of the {} to write", options.all ? "folder" : "file"),
+              .mend = options.all ? "for example, `wale build my.wale --all -o programs`"
+                                  : "for example, `wale build corduroy -o corduroy.wpp`",
+              .place = {.name = "-o"}});
   return options.all ? build_collection(options) : build_one(options);
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 
@@ -132,41 +131,37 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   return {};
 }
 
-void need_device(const OpenedFile& opened, const Choice& choice) {
-  if (!opened.module || choice.device_option.empty() || choice.device.empty()) return;
-  if (choice.device == "all") return;  // `describe` compares them; the other verbs know no such device
+Result<> has_device(const OpenedFile& opened, const Choice& choice) {
+  if (!opened.module || choice.device_option.empty() || choice.device.empty()) return {};
   const auto known = opened.module->declarations().devices.spellings();
-  if (std::ranges::find(known, choice.device) != known.end()) return;
+  if (std::ranges::find(known, choice.device) != known.end()) return {};
   const auto near = nearest_spelling(choice.device, known);
-  throw CLI::ValidationError(error_text({.code = Code::unknown_device,
-                                         .sentence = fmt::format("nothing declares a device `{}`", choice.device),
-                                         .mend = near ? fmt::format("did you mean `{}`?", *near)
-                                                      : fmt::format("there are: {}", fmt::join(known, ", ")),
-                                         .place = {.name = choice.device_option, .text = choice.device}}),
-                             misused);
+  return Error{
+      .code = Code::unknown_device,
+      .sentence = fmt::format("nothing declares a device `{}`", choice.device),
+      .mend = near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(known, ", ")),
+      .place = {.name = choice.device_option, .text = choice.device}};
 }
 
-std::optional<OpenedFile> open(const Choice& choice) {
+OrStatus<OpenedFile> open(const Choice& choice) {
   const std::string named = named_material(choice.file).material;
-  if (!named.empty() && !choice.material.empty() && named != choice.material) {
-    refuse(Error{
+  if (!named.empty() && !choice.material.empty() && named != choice.material)
+    return refuse(Error{
         .code = Code::malformed_value,
         .sentence = fmt::format("`{}` names `{}`, but --material names `{}`", choice.file, named, choice.material),
         .mend = "name only one of the two",
         .place = {.text = choice.material}});
-    return std::nullopt;
-  }
   auto opened = open_file(choice.recording_request());
-  if (!opened) return refuse(opened.error()), std::nullopt;
+  if (!opened) return refuse(opened.error());
   choice.inputs->push_back(opened->name);
   for (const ResolvedFile& trusted : choice.devices) choice.inputs->push_back(trusted.name);
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
-    return refuse(same.error()), std::nullopt;
+    return refuse(same.error());
   say_taken(*opened);
-  need_device(*opened, choice);
+  if (const auto has = has_device(*opened, choice); !has) return refuse(has.error());
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
-  return std::nullopt;
+  return refused;
 }
 
 std::shared_ptr<const CommonModules> declared_everywhere() {
@@ -175,23 +170,25 @@ std::shared_ptr<const CommonModules> declared_everywhere() {
   return common;
 }
 
-std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all) {
-  if (opened.program) return {*opened.program};
+OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all) {
+  if (opened.program) return std::vector{*opened.program};
   std::vector<std::string> names{choice.material};
   if (all && choice.material.empty() && opened.module->materials.size() > 1) names = materials_of(opened);
   std::vector<Program> programs;
   for (const auto& name : names) {
     if (opened.diagnostics.has_errors()) break;
-    if (auto program = compile_opened(opened, choice.recording_request(), name, opened.diagnostics)) programs.push_back(*program);
+    if (auto program = compile_opened(opened, choice.recording_request(), name, opened.diagnostics))
+      programs.push_back(*program);
   }
   print_diagnostics(stderr, opened.diagnostics, opened.sources);
-  if (opened.diagnostics.has_errors()) programs.clear();
+  if (opened.diagnostics.has_errors()) return refused;
   return programs;
 }
 
-std::vector<Program> load_programs(const Choice& choice, bool all) {
+OrStatus<std::vector<Program>> load_programs(const Choice& choice, bool all) {
   auto opened = open(choice);
-  return opened ? programs_of(*opened, choice, all) : std::vector<Program>{};
+  if (!opened) return opened.status();
+  return programs_of(*opened, choice, all);
 }
 
 Result<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {

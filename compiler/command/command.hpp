@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compiler/open_file.hpp"
@@ -57,19 +58,45 @@ void say_taken(const OpenedFile& opened);
 /// always pass. Errors: W0602 for another material, W0607 for another device.
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice);
 
-/// Ends the command with `misused` if the device that an option named is not declared where the file can see it.
-void need_device(const OpenedFile& opened, const Choice& choice);
+/// Checks that a device which an option named is declared where the file can see it. Error: W0601.
+Result<> has_device(const OpenedFile& opened, const Choice& choice);
 
-/// Opens a file; nothing if it cannot be read or has errors, which are printed.
-std::optional<OpenedFile> open(const Choice& choice);
+/// A value; or, after an error that has been printed, the exit status of the command, which has nothing more to do.
+///
+///     auto opened = open(choice);
+///     if (!opened) return opened.status();
+template <class Value>
+class [[nodiscard]] OrStatus {
+ public:
+  OrStatus(Value value) : value_(std::move(value)) {}
+  OrStatus(int status) : status_(status) {}
+
+  explicit operator bool() const noexcept { return value_.has_value(); }
+  /// The value. Call these only if there is one.
+  Value& operator*() & { return *value_; }
+  const Value& operator*() const& { return *value_; }
+  Value&& operator*() && { return *std::move(value_); }
+  Value* operator->() { return &*value_; }
+  const Value* operator->() const { return &*value_; }
+
+  /// `refused` or `misused`. Call it only if there is no value.
+  int status() const noexcept { return status_; }
+
+ private:
+  std::optional<Value> value_;
+  int status_ = done;
+};
+
+/// Opens a file. A file that has errors or lacks the device is not opened.
+OrStatus<OpenedFile> open(const Choice& choice);
 
 /// The declarations that every file knows, for verbs without a file. Errors in them, which mean a broken build, are
 /// printed.
 std::shared_ptr<const CommonModules> declared_everywhere();
 
-/// The programs of an opened file: that of one material, or of all. Empty after errors, which are printed.
-std::vector<Program> programs_of(OpenedFile& opened, const Choice& choice, bool all);
-std::vector<Program> load_programs(const Choice& choice, bool all);
+/// The programs of an opened file, at least one: that of one material, or of all.
+OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all);
+OrStatus<std::vector<Program>> load_programs(const Choice& choice, bool all);
 
 /// The program's parameters with `--set NAME=VALUE` applied. Errors: W0801 for a malformed setting and for a parameter
 /// that is set twice, W0206 for an unknown parameter, and those of `read_parameter`.

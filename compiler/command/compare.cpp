@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "compiler/command/options.hpp"
@@ -22,26 +23,23 @@ struct CompareOptions {
 int compare(const CompareOptions& options) {
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<ComparedFile> files = read_cues(options.names, options.choice.request(), common->declarations);
-  bool all_read = true;
+  int status = done;
+  const auto require = [&](const auto& result) {
+    if (!result) status = std::max(status, refuse(result.error()));
+    return result.has_value();
+  };
   for (const ComparedFile& file : files) {
-    if (!file.opened) {
-      refuse(file.opened.error());
-      all_read = false;
-      continue;
-    }
+    if (!require(file.opened)) continue;
     const OpenedFile& opened = *file.opened;
-    need_device(opened, options.choice);
+    if (!require(has_device(opened, options.choice))) return status;  // nor have the others, most likely
     say_taken(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
-    if (const auto same = is_as_named(opened, file.name.material, options.choice); !same) {
-      refuse(same.error());
-      all_read = false;
-    }
-    all_read = all_read && !opened.diagnostics.has_errors();
+    require(is_as_named(opened, file.name.material, options.choice));
+    if (opened.diagnostics.has_errors()) status = std::max(status, refused);
     // Some files only have functions for others.
     if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
   }
-  if (!all_read) return refused;
+  if (status != done) return status;
   if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());

@@ -51,9 +51,10 @@ Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& reques
 
 /// Prints the fates of a file's materials on all devices.
 int describe_fates(const DescribeOptions& options) {
-  const Choice& choice = options.choice;
+  Choice choice = options.choice;
+  choice.device = default_device, choice.device_option.clear();  // `all` is no device
   const auto opened = open(choice);
-  if (!opened) return refused;
+  if (!opened) return opened.status();
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = "this patch program is already built for one device",
@@ -98,7 +99,7 @@ std::optional<int> describe_exports(const OpenedFile& opened, const DescribeOpti
 int describe(const DescribeOptions& options) {
   if (options.choice.device == "all") return describe_fates(options);
   auto opened = open(options.choice);
-  if (!opened) return refused;
+  if (!opened) return opened.status();
   if (options.exports && opened->program)
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("this is a patch program, built for `{}`, and exports nothing",
@@ -107,10 +108,10 @@ int describe(const DescribeOptions& options) {
                         .place = {.name = opened->name}});
   if (const auto status = describe_exports(*opened, options)) return *status;
   const auto programs = programs_of(*opened, options.choice, true);
-  if (programs.empty()) return refused;
+  if (!programs) return programs.status();
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<Description> descriptions;
-  for (const auto& program : programs) {
+  for (const auto& program : *programs) {
     const auto parameters = chosen_parameters(program, options.settings);
     if (!parameters) return refuse(parameters.error());
     descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));

@@ -34,7 +34,7 @@ Run declare_explain(CLI::App& verb) {
 
 }  // namespace
 
-extern const Verb explain_verb{"explain", "explains the code of a diagnostic; for errors in the text of a file, with an example",
-                               declare_explain};
+extern const Verb explain_verb{
+    "explain", "explains the code of a diagnostic; for errors in the text of a file, with an example", declare_explain};
 
 }  // namespace wale::command

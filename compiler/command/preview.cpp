@@ -19,11 +19,12 @@ struct PreviewOptions {
 
 int preview(const PreviewOptions& options) {
   const auto programs = load_programs(options.choice, false);
-  if (programs.empty()) return refused;
-  const auto parameters = chosen_parameters(programs.front(), options.settings);
+  if (!programs) return programs.status();
+  const Program& program = programs->front();
+  const auto parameters = chosen_parameters(program, options.settings);
   if (!parameters) return refuse(parameters.error());
   const auto common = common_modules();
-  const Bank bank(programs.front(), *parameters, programs.front().default_size());
+  const Bank bank(program, *parameters, program.default_size());
   const auto drawing = draw_preview(bank, preview_text(bank, common->declarations), common->declarations);
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
