@@ -32,6 +32,9 @@ class CsvReader {
   std::size_t line_ = 0;
 };
 
+/// Calls `take` for each row that is left, until it gives an error. Errors: those of `next` and of `take`.
+Result<> each_row(CsvReader& reader, const std::function<Result<>(const CsvRow& row)>& take);
+
 /// The first row, which names the columns. Errors: W0504 if there is no row (the sentence names what was `expected`),
 /// or if semicolons or tabs separate the columns.
 Result<CsvRow> read_headings(CsvReader& reader, const std::string& expected);
