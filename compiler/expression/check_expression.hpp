@@ -27,7 +27,7 @@ class ExpressionChecker {
   /// The expression's value. After an error, which is reported, the value is `failed`.
   Value check(const SyntaxTree& tree, ExprId expr, Scope& scope);
 
-  /// The same, but reports a value of another type or dimension: "force expected, found energy".
+  /// The same, but reports a value of another type or dimension: "expected force, found energy".
   Value check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type, const Dimension& dimension);
 
   /// The value of a name that the parser has read as a word.

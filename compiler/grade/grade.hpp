@@ -17,7 +17,7 @@ enum class Standing {
   stable_in_the_hand,  ///< the damping of device and hand together absorbs it
   unstable,            ///< both together do not absorb it
   active,        ///< the program itself gives energy: a moving source, a force along the motion, a field with a curl
-  ungraded,      ///< the device's damping is not known, and the program is not active
+  unknown,       ///< the device's damping is not known, and the program is not active
   not_analysed,  ///< the program is too large to be derived, or only vibrates
 };
 

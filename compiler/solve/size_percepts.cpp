@@ -109,8 +109,10 @@ void PerceptSolver::warn_of_range(const Told& told) {
       size > map.valid_high * (1 + rounding))
     report(Code::beyond_validity, asked.span,
            asked.level < percept.near_threshold
-               ? fmt::format("{} {:.3g} is near or below threshold", asked.name, asked.level)
-               : fmt::format("{} {:.3g} is outside the measured range ({})", asked.name, asked.level, map.source),
+               ? fmt::format("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
+                             percept.near_threshold, asked.level)
+               : fmt::format("expected {} from {:.2g} to {:.2g}, the measured range, found {:.3g} ({})", asked.name,
+                             law.level_of(map.valid_low), law.level_of(map.valid_high), asked.level, map.source),
            fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
                        law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())

@@ -152,12 +152,13 @@ void PerceptSolver::match(const AskedPercept& asked) {
   if (!percept.has_reference) {
     settle_all();
     return report(Code::untied_map, asked.span,
-                  fmt::format("{} has no reference stimulus yet, so it has an order and no levels", asked.name),
-                  Advice("leave it out: it is told of the finished material, and two can be compared")
+                  fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
+                  Advice("leave it out: `wale describe` and `wale compare` report it for finished materials")
                       .see(percept.span, "declared here"));
   }
   if (mine.empty())
-    return report(Code::percept_unrealised, asked.span, fmt::format("no part of the force carries {}", asked.name),
+    return report(Code::percept_unrealised, asked.span,
+                  fmt::format("expected a force that carries {}, found none", asked.name),
                   fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
   if (open.size() > 1) {
     settle_all();
@@ -208,10 +209,10 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
                   std::move(advice));
   }
   if (!choice.untied.empty()) {
-    Advice advice = "remove the level, or measure a map that is tied to the reference stimulus";
+    Advice advice = "remove the level, or measure a map with the percept's reference stimulus as its anchor";
     for (const Map* map : choice.untied) advice = std::move(advice).see(map->span, map->source);
     return report(Code::untied_map, asked.span,
-                  fmt::format("the maps for {} are not tied to its reference stimulus, so they cannot set levels ({})",
+                  fmt::format("expected a map that can set a level of {}, found only maps that compare ({})",
                               asked.name, sources_of(choice.untied)),
                   std::move(advice));
   }
