@@ -26,4 +26,7 @@ struct NearSpelling {
 /// As `nearest_spelling`, with its certainty.
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
+/// Whether the name of a file ends with `ending`, as in ".wrec", in capital or small ASCII letters.
+bool has_ending(std::string_view name, std::string_view ending);
+
 }  // namespace wale

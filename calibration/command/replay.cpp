@@ -10,6 +10,7 @@
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
 #include "compiler/text/resolver.hpp"
+#include "schema/spelling.hpp"
 #include "wale/recording.hpp"
 
 namespace wale::command {
@@ -123,7 +124,7 @@ struct ReplayOptions {
 };
 
 int replay(const ReplayOptions& options) {
-  if (!options.wav.empty() && !options.wav.ends_with(".wav"))
+  if (!options.wav.empty() && !has_ending(options.wav, ".wav"))
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected a file NAME.wav, found `{}`", options.wav),
                         .place = {.name = "--wav", .text = options.wav}});
@@ -148,15 +149,20 @@ int replay(const ReplayOptions& options) {
 
 Run declare_replay(CLI::App& verb) {
   const auto options = std::make_shared<ReplayOptions>();
-  verb.add_option("FILE", options->file, "a recording that `wale feel --record` made (.wrec)")->required();
-  verb.add_option("--csv", options->csv, "writes every tick to a CSV file")->type_name("FILE");
-  verb.add_option("--wav", options->wav,
-                  "writes the force as sound: x left, y right, the device's peak force full scale")
+  verb.add_option("FILE", options->file, "a recording, made by `wale feel corduroy --record corduroy.wrec`")
+      ->required();
+  verb.add_option("--csv", options->csv,
+                  "also writes a table with a line for each tick, with units in its first line, as in ticks.csv")
+      ->type_name("FILE");
+  verb.add_option(
+          "--wav", options->wav,
+          "also writes the force as sound, 44.1 kHz, as in corduroy.wav: x left, y right; the device's peak force is "
+          "full scale")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
-              "only this many ticks from the beginning; of a damaged recording, those before the damage "
-              "(default: all)");
-  offer_json(verb, options->json, "a JSON object");
+              "reads only the first N ticks, as in 900 for the first second at 900 Hz (default: all); so a damaged "
+              "recording can be read up to the damage");
+  offer_json(verb, options->json, "the result as a JSON object");
   verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
   return [options] { return replay(*options); };
 }
