@@ -22,9 +22,11 @@ std::string visible(std::string_view text, bool in_lines) {
     const Character character = decode(text, at);
     if (in_lines && text.substr(at).starts_with("\r\n")) {
       // a line break as well; the next character is it
+    } else if (in_lines && text[at] == '\t') {
+      shown += ' ';
     } else if (!character.valid) {
       shown += "\uFFFD";
-    } else if (is_obeyed_by_terminals(character.code) && !(in_lines && (text[at] == '\n' || text[at] == '\t'))) {
+    } else if (is_obeyed_by_terminals(character.code) && !(in_lines && text[at] == '\n')) {
       char digits[16];
       std::snprintf(digits, sizeof digits, "\\u%04x", static_cast<unsigned>(character.code));
       shown += digits;

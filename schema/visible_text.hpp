@@ -19,7 +19,7 @@ bool is_obeyed_by_terminals(char32_t code);
 /// as once.
 std::string visible_text(std::string_view text);
 
-/// The same for a text of several lines: its line breaks (with `\r` or without) and tabs stay.
+/// The same for a text of several lines: its line breaks stay (without `\r`), and a tab is a space.
 std::string visible_lines(std::string_view text);
 
 /// Makes all texts of a program that somebody else wrote visible; its documentation and its two layers of source text

@@ -133,9 +133,9 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   return {};
 }
 
-Result<> has_device(const OpenedFile& opened, const Choice& choice) {
-  if (!opened.module || choice.device_option.empty() || choice.device.empty()) return {};
-  const auto known = opened.module->declarations().devices.spellings();
+Result<> has_device(const CheckedModule& module, const Choice& choice) {
+  if (choice.device_option.empty() || choice.device.empty()) return {};
+  const auto known = module.declarations().devices.spellings();
   if (std::ranges::find(known, choice.device) != known.end()) return {};
   const auto near = nearest_spelling(choice.device, known);
   return Error{
@@ -160,7 +160,8 @@ OrStatus<OpenedFile> open(const Choice& choice) {
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error());
   say_taken(*opened);
-  if (const auto has = has_device(*opened, choice); !has) return refuse(has.error());
+  if (opened->module)
+    if (const auto has = has_device(*opened->module, choice); !has) return refuse(has.error());
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return refused;
@@ -170,6 +171,15 @@ std::shared_ptr<const CommonModules> declared_everywhere() {
   std::shared_ptr<const CommonModules> common = common_modules();
   print_diagnostics(stderr, common->problems, SourceSet());
   return common;
+}
+
+CheckedModule known_here(const FileRequest& request) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
+  CheckedModule module = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
+  print_diagnostics(stderr, diagnostics, sources);
+  return module;
 }
 
 OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all) {

@@ -33,7 +33,8 @@ int compare(const CompareOptions& options) {
   for (const ComparedFile& file : files) {
     if (!require(file.opened)) continue;
     const OpenedFile& opened = *file.opened;
-    if (!require(has_device(opened, options.choice))) return status;  // nor have the others, most likely
+    if (opened.module && !require(has_device(*opened.module, options.choice)))
+      return status;  // nor have the others, most likely
     say_taken(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
     require(is_as_named(opened, file.name.material, options.choice));

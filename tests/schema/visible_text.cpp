@@ -35,7 +35,7 @@ TEST(VisibleText, ReplacesWhatIsNotUtf8) {
 }
 
 TEST(VisibleText, OfSeveralLinesKeepsThem) {
-  EXPECT_EQ(visible_lines("a\n\tb\r\nc\rd\x1b"), "a\n\tb\nc\\u000dd\\u001b");
+  EXPECT_EQ(visible_lines("a\n\tb\r\nc\rd\x1b"), "a\n b\nc\\u000dd\\u001b");
   EXPECT_EQ(visible_text(visible_text("\n\xff")), visible_text("\n\xff"));
 }
 
