@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "compiler/command/print.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -14,6 +15,7 @@
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -60,7 +62,7 @@ Error no_parameter(const PatchProgram& program, const std::string& name) {
 }  // namespace
 
 int refuse(const std::string& reason) {
-  fmt::print(stderr, "wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
+  print_error("wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
   return refused;
 }
 
@@ -69,26 +71,26 @@ int refuse(const Error& error) {
   return is_misuse(error) ? misused : refused;
 }
 
-void warn(const Error& warning) { fmt::print(stderr, "wale: {}\n", error_text(warning)); }
+void warn(const Error& warning) { print_error("wale: {}\n", error_text(warning)); }
 
 std::string error_text(const Error& error) {
   const Place& place = error.place;
   std::string text = severity_of(error.code) == Severity::error ? "error" : "warning";
-  text += fmt::format("[{}]: {}{}", code_name(error.code), place.name,
+  text += fmt::format("[{}]: {}{}", code_name(error.code), visible_text(place.name),
                       place.number ? fmt::format("{}{}", place.name.empty() ? "" : ":", *place.number) : "");
   if (!place.name.empty() || place.number) text += ": ";
-  text += error.sentence;
-  if (!place.source.empty()) text += fmt::format(" (from {})", place.source);
+  text += visible_text(error.sentence);
+  if (!place.source.empty()) text += fmt::format(" (from {})", visible_text(place.source));
   for (const Place& before : error.led_to)
-    text += fmt::format("\n  after {} {} {}", before.name, before.number ? std::to_string(*before.number) : "",
-                        before.text);
-  if (!error.mend.empty()) text += "\n  = help: " + error.mend;
+    text += "\n  after " + visible_text(fmt::format("{} {} {}", before.name,
+                                                    before.number ? std::to_string(*before.number) : "", before.text));
+  if (!error.mend.empty()) text += "\n  = help: " + visible_lines(error.mend);  // some have lines to copy
   return text;
 }
 
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
   for (const auto& diagnostic : diagnostics.all())
-    fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
+    print_as_is(stream, render_text(diagnostic, sources, colour(stream)) + "\n");  // which is visible, with colours
 }
 
 FileRequest Choice::request() const {
@@ -111,7 +113,7 @@ FileRequest Choice::recording_request() const {
 }
 
 void say_taken(const OpenedFile& opened) {
-  if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);
+  if (!opened.taken.empty()) print_error("wale: {}\n", visible_text(opened.taken));
 }
 
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice) {

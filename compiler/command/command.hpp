@@ -20,6 +20,8 @@ inline constexpr int done = 0;
 inline constexpr int refused = 1;
 /// The command line makes no sense.
 inline constexpr int misused = 2;
+/// There is an error in Wale itself.
+inline constexpr int failed = 3;
 
 /// Prints the reason on standard error and returns `refused`.
 int refuse(const std::string& reason);
@@ -29,7 +31,8 @@ int refuse(const Error& error);
 /// Prints a warning on standard error.
 void warn(const Error& warning);
 
-/// "error[W0801]: --steps: expected …" with the mend on a line of its own, without a newline at the end.
+/// "error[W0801]: --steps: expected …" with the mend on a line of its own, without a newline at the end. Texts of
+/// others in it are visible, and forge no line.
 std::string error_text(const Error& error);
 
 /// Prints diagnostics with their source lines, in colour on a terminal.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/command/recalled.hpp"
 #include "compiler/compare/propose_levels.hpp"
 
@@ -28,7 +29,7 @@ int levels(const LevelsOptions& options) {
   for (const ProposedLevel& each : proposed->levels)
     if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
   print_recalled(recalled);
-  fmt::print("{}", options.json ? proposal_json(*proposed) : proposal_text(*proposed));
+  print_out(options.json ? proposal_json(*proposed) : proposal_text(*proposed));
   return done;
 }
 
