@@ -5,14 +5,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 
@@ -34,7 +35,8 @@ constexpr const Verb* verbs[] = {&check_verb,  &explain_verb, &format_verb, &bui
 /// The footer of `wale --help`.
 constexpr const char* statuses =
     R"(exit status  0: done;  1: the command cannot be carried out, or an error was found;
-             2: the words of the command make no sense, or an option names something unknown)";
+             2: the words of the command make no sense, or an option names something unknown;
+             3: an error in Wale itself)";
 
 constexpr const char* about =
     R"(Wale: a language for how things feel, and the runtime that makes a force-feedback joystick feel that way.
@@ -60,7 +62,8 @@ std::string unknown_option(const CLI::App& app, const std::string& word) {
   for (const CLI::App* group : app.get_subcommands({}))
     if (group->get_name().empty()) enter(*group);
   const auto near = nearest_spelling(word.substr(0, word.find('=')), known);
-  return fmt::format("there is no option `{}`{}", word, near ? fmt::format("; did you mean `{}`?", *near) : "");
+  return fmt::format("there is no option `{}`{}", visible_text(word),
+                     near ? fmt::format("; did you mean `{}`?", *near) : "");
 }
 
 /// The message for a misspelt verb or option at the beginning, which CLI11 would report as a missing verb. Returns
@@ -72,7 +75,7 @@ std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string&
     return std::nullopt;
   if (first.starts_with('-')) return unknown_option(app, first);
   const auto near = nearest_spelling(first, verbs);
-  return fmt::format("there is no verb `{}`; {}", first,
+  return fmt::format("there is no verb `{}`; {}", visible_text(first),
                      near ? fmt::format("did you mean `{}`?", *near)
                           : fmt::format("the verbs are {}; `wale --help` says what they do", fmt::join(verbs, ", ")));
 }
@@ -86,14 +89,13 @@ std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
     const std::vector<std::string> unexpected = verbs.front()->remaining();
     const auto option = std::ranges::find_if(unexpected, [](const auto& word) { return word.starts_with('-'); });
     what = option != unexpected.end() ? unknown_option(*verbs.front(), *option)
-                                      : fmt::format("unexpected: {}", fmt::join(unexpected, " "));
+                                      : "unexpected: " + visible_text(fmt::format("{}", fmt::join(unexpected, " ")));
   }
   return fmt::format("wale: {}\n  = help: `{} --help` lists the options\n", what, verb);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Runs the verb that the words name. Returns the exit status.
+int run(int argc, char** argv) {
   CLI::App app(about, "wale");
   app.set_version_flag("--version", "wale " WALE_VERSION ", language version 1");
   app.footer(statuses);
@@ -115,8 +117,8 @@ int main(int argc, char** argv) {
     });
   }
 
-  if (argc == 1) {
-    fmt::print(stderr, "{}", app.help());
+  if (argc <= 1) {
+    print_error(app.help());
     return misused;
   }
   if (const auto misspelt = misspelt_verb(app, argv[1])) {
@@ -127,12 +129,18 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int refusal = app.exit(error);  // the codes of CLI11 itself are above 100
+    std::ostringstream out, err;
+    const int refusal = app.exit(error, out, err);  // the codes of CLI11 itself are above 100
+    print_out(out.str());
+    print_error(err.str());
     return refusal == done || refusal == refused ? refusal : misused;
-  } catch (const std::exception& error) {  // thrown on the way here, it has let every device go
-    fmt::print(stderr, "wale: ended by an error that nothing handles: {}; please report what led to it\n",
-               error.what());
-    return refused;
   }
   return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  prepare_streams();
+  return finish_output(status_of([&] { return run(argc, argv); }));
 }

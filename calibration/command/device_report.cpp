@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "compiler/text/json_text.hpp"
 #include "runtime/device/match_device.hpp"
 
 namespace wale::command {
@@ -226,7 +227,7 @@ std::string devices_json(std::span<const DeclaredDevice> known, std::span<const 
   for (const DeclaredDevice& device : known)
     json.push_back(device.profile.shaker ? shaker_json(device) : joystick_json(device));
   for (const PluggedIn& device : plugged) json.push_back(plugged_json(device, trusted));
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_lines(json);
 }
 
 }  // namespace wale::command

@@ -25,9 +25,12 @@
 #include "calibration/command/interrupt.hpp"
 #include "calibration/command/trusted_here.hpp"
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
+#include "compiler/text/standard_output.hpp"
 #include "runtime/device/identify_device.hpp"
 #include "runtime/device/match_device.hpp"
 #include "runtime/device/open_device.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -70,8 +73,8 @@ int list_devices(const DevicesOptions& options) {
   const std::vector<DeclaredDevice> known = devices_here({}, trusted->files);
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
-  fmt::print("{}", options.json ? devices_json(known, trusted->devices, plugged)
-                                : devices_text(known, trusted->devices, connections, plugged));
+  print_out(options.json ? devices_json(known, trusted->devices, plugged)
+                         : devices_text(known, trusted->devices, connections, plugged));
   return done;
 }
 
@@ -123,7 +126,7 @@ DeclaredDevice own_declaration(DeclaredDevice declared, const Identified& found,
 /// Whether the person at this terminal wants a file to be written; nobody is asked where there is none.
 bool agrees_to_write(const std::string& file) {
   if (isatty(fileno(stdin)) == 0) return false;
-  fmt::print(stderr, "write it to {}? [y/N] ", file);
+  print_error("write it to {}? [y/N] ", visible_text(file));
   std::string answer;
   std::getline(std::cin, answer);
   return answer == "y" || answer == "yes";
@@ -153,21 +156,22 @@ Result<> add_to_owners_file(const DeclaredDevice& declared, const std::string& d
     fs::create_directories(fs::path(file).parent_path(), problem);
   }
   if (auto written = write_file(file, text, {}); !written) return written;
-  fmt::print(stderr, "written to {}: your device is driven by it from now on\n", file);
+  print_error("written to {}: your device is driven by it from now on\n", visible_text(file));
   return {};
 }
 
 /// Prints a declaration, and writes it to the owner's file where the person wants that.
 int offer_declaration(const DevicesOptions& options, const DeclaredDevice& declared, const std::string& declaration) {
-  fmt::print("{}", declaration);
-  std::fflush(stdout);
+  print_out(declaration);
+  finish_standard_output();  // before the question; a failure is told at the end
   const std::string file = owners_file();
   if (options.save || (!file.empty() && agrees_to_write(file))) {
     const auto added = add_to_owners_file(declared, declaration);
     return added ? done : refuse(added.error());
   }
   if (!file.empty())
-    fmt::print(stderr, "saved in {} (`--save` does that), your device is driven by it, whatever is felt\n", file);
+    print_error("saved in {} (`--save` does that), your device is driven by it, whatever is felt\n",
+                visible_text(file));
   return done;
 }
 
@@ -179,7 +183,7 @@ int identify(const DevicesOptions& options) {
   DeclaredDevice declared = *choice->declared;
   ChosenDevice chosen = *std::move(choice);
   chosen.trusted = chosen.trusted->as_built();
-  const auto say = [](std::string_view what) { fmt::print(stderr, "{}\n", what); };
+  const auto say = [](std::string_view what) { print_error("{}\n", what); };
   const auto opened = open_device(connections, chosen,
                                   {.priority = loop_priority - 1,
                                    .ask = say,
@@ -187,14 +191,13 @@ int identify(const DevicesOptions& options) {
                                    .transport = options.transport,
                                    .most_newton = options.max_force.value_or(HUGE_VAL)});
   if (!opened) return refuse(opened.error());
-  fmt::print(stderr, "identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged),
-             declared.profile.name);
+  print_error("identifying {}, as {}; Ctrl-C ends it at once\n", in_words(*chosen.plugged), declared.profile.name);
   HotPluggedDevice& joystick = **opened;
   IdentifyOptions how{.asks = isatty(fileno(stdin)) != 0};
   if (options.max_force) how.most_newton = *options.max_force;
   const auto found = identify_device(joystick, how, say, stop);
   if (!found) return refuse(with_reason(found.error(), joystick));
-  fmt::print(stderr, "{}", identified_text(*found));
+  print_error(identified_text(*found));
   if (!found->motors_settled) return refused;
   const DeclaredDevice own = own_declaration(std::move(declared), *found, *chosen.plugged);
   return offer_declaration(options, own, device_declaration(own, comments_on(chosen, own.wiring)));

@@ -23,6 +23,7 @@
 #include "calibration/feel/felt_device.hpp"
 #include "calibration/feel/material_watch.hpp"
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/declarations/declared_devices.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "compiler/solve/level_scale.hpp"
@@ -52,7 +53,7 @@ struct FeelOptions {
   std::optional<std::uint64_t> trials, seed;
 };
 
-void say(const std::string& what) { fmt::print(stderr, "wale: {}\n", what); }
+void say(const std::string& what) { print_error("wale: {}\n", what); }
 
 /// A material to feel, with its parameters as set.
 Result<BlindMaterial> material_to_feel(const Program& program, const std::vector<std::string>& settings) {
@@ -195,7 +196,7 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));
   const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
   felt.device.reset();  // the pointer restores the terminal
-  fmt::print("{}", options.json ? felt_json(report) : felt_text(report));
+  print_out(options.json ? felt_json(report) : felt_text(report));
   return result.record_problem ? refuse(*result.record_problem) : done;
 }
 
@@ -216,15 +217,15 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   RunOptions run = run_options(options, felt->manner(), stop);
   if (live)
     run.progress = [vibrates = program.vibrates()](const Progress& now) {
-      fmt::print(stderr, "\r{}", progress_line(now, vibrates));
+      print_as_is(stderr, "\r" + progress_line(now, vibrates));
     };
   MaterialWatch watch(built, stage, material.program,
-                      [live](const std::string& said) { fmt::print(stderr, "{}{}", live ? "\r\033[K" : "", said); });
+                      [live](const std::string& said) { print_as_is(stderr, (live ? "\r\033[K" : "") + said); });
   std::optional<BackgroundLoop> watching;
   if (options.watch) watching.emplace([&] { watch.attend(std::chrono::milliseconds(100)); }, ask_to_stop);
   const auto result = stage.run(run);
   if (watching) watching->finish();
-  if (live) fmt::print(stderr, "\r\033[K");
+  if (live) print_as_is(stderr, "\r\033[K");
   if (!result) {
     Error error = result.error();
     if (error.place.name == "seconds") error.place.name = "--seconds";
@@ -295,7 +296,7 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
     error.sentence = "no trial was answered: " + error.sentence;
     return refuse(error);
   }
-  fmt::print("{}", options.json ? blind_json(report) : blind_text(report));
+  print_out(options.json ? blind_json(report) : blind_text(report));
   return done;
 }
 

@@ -20,9 +20,10 @@
 namespace wale::command {
 namespace {
 
-/// Signals that ask a process to end, and by default end it; those of SIGRTMIN and above do too.
-constexpr int endings[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE,   SIGALRM, SIGVTALRM, SIGPROF,
-                           SIGUSR1, SIGUSR2, SIGIO,   SIGPWR,  SIGSTKFLT, SIGXCPU, SIGXFSZ};
+/// Signals that ask a process to end, and by default end it; those of SIGRTMIN and above do too. SIGPIPE and SIGXFSZ
+/// are ignored (`prepare_streams`).
+constexpr int endings[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGALRM,   SIGVTALRM, SIGPROF,
+                           SIGUSR1, SIGUSR2, SIGIO,   SIGPWR,  SIGSTKFLT, SIGXCPU};
 constexpr int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP};
 
 // Set by signal handlers.

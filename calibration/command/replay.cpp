@@ -7,10 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
+#include "compiler/text/json_text.hpp"
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
 #include "compiler/text/resolver.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 #include "wale/recording.hpp"
 
 namespace wale::command {
@@ -25,7 +28,7 @@ struct Summary {
 
 std::string material_of(const RecordedProgram& program) {
   const auto read = read_patch_program(program.bytes);
-  return fmt::format("{} {:016x}", read ? read->material : "a program that cannot be read", program.hash);
+  return fmt::format("{} {:016x}", read ? visible_text(read->material) : "a program that cannot be read", program.hash);
 }
 
 Summary summary_of(const Recording& recording) {
@@ -59,10 +62,10 @@ std::string verdict(const Replay& replay, double rate) {
 std::string replay_text(const std::string& file, const Recording& recording, const Replay& replay) {
   const RecordingHeader& header = recording.header();
   const Summary summary = summary_of(recording);
-  std::string text =
-      fmt::format("{}: {} on the {}{}{}, {:.4g} s{}\n", file, recording.complete() ? "a run" : "the beginning of a run",
-                  header.device.name, header.hand.empty() ? "" : ", ", header.hand, summary.seconds,
-                  header.virtual_time ? " of virtual time" : "");
+  std::string text = fmt::format("{}: {} on the {}{}{}, {:.4g} s{}\n", visible_text(file),
+                                 recording.complete() ? "a run" : "the beginning of a run", header.device.name,
+                                 header.hand.empty() ? "" : ", ", visible_text(header.hand), summary.seconds,
+                                 header.virtual_time ? " of virtual time" : "");
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", recording.ticks(), summary.missed,
                       header.device.rate);
   for (const std::string& material : summary.materials) text += fmt::format("  program      {}\n", material);
@@ -93,7 +96,7 @@ std::string replay_json(const std::string& file, const Recording& recording, con
                                {"what", replay.first->what},
                                {"recorded", replay.first->recorded},
                                {"replayed", replay.first->replayed}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_lines(json);
 }
 
 /// Writes a file by `write`, unless `path` is empty.
@@ -142,8 +145,7 @@ int replay(const ReplayOptions& options) {
   const auto replayed = wale::replay(recording);
   if (!replayed) return refuse(replayed.error());
   const auto& result = *replayed;
-  fmt::print(
-      "{}", options.json ? replay_json(options.file, recording, result) : replay_text(options.file, recording, result));
+  print_out(options.json ? replay_json(options.file, recording, result) : replay_text(options.file, recording, result));
   return result.first ? refused : done;
 }
 

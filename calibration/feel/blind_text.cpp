@@ -5,6 +5,7 @@
 
 #include "calibration/feel/blind_comparison.hpp"
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/text/json_text.hpp"
 
 namespace wale {
 namespace {
@@ -83,7 +84,7 @@ std::string blind_json(const BlindReport& report) {
       {"d_prime", known ? Json(apart) : Json(nullptr)},
       {"proportion", known ? Json(proportion_right(apart)) : Json(nullptr)},
       {"cue", known && apart > 0 ? Json(cue_table()[static_cast<std::size_t>(plainest->kind)].name) : Json(nullptr)}};
-  return json.dump(2) + '\n';
+  return json_lines(json);
 }
 
 }  // namespace wale

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/text/json_text.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 
@@ -149,7 +151,7 @@ std::string felt_text(const FeltReport& report) {
                          ? fmt::format("{} on {} as {}, in your hand, {:.4g} s\n", report.material,
                                        report.manner.device, report.device.name, report.seconds)
                          : fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
-                                       report.device.name, report.manner.hand, report.seconds,
+                                       report.device.name, visible_text(report.manner.hand), report.seconds,
                                        report.manner.virtual_time ? " of virtual time" : "");
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed,
                       report.device.rate);
@@ -243,7 +245,7 @@ std::string felt_json(const FeltReport& report) {
   }
   for (const auto& [name, count] : named(report.guards)) json["guards"][std::string(name)] = count;
   json["guards"]["restored"] = report.guards.restored;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_lines(json);
 }
 
 std::string progress_line(const Progress& now, bool vibrates) {

@@ -8,6 +8,8 @@
 #include "compiler/build_all.hpp"
 #include "compiler/build_stage.hpp"
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -66,7 +68,8 @@ int show_stage(const BuildOptions& options) {
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   if (!text) return refuse(text.error());
   if (!*text) return refused;
-  if (const auto written = write_file(options.out.empty() ? "-" : options.out, **text, *options.choice.inputs);
+  if (const auto written =
+          write_file(options.out.empty() ? "-" : options.out, visible_lines(**text), *options.choice.inputs);
       !written)
     return refuse(written.error());
   return done;
@@ -90,10 +93,10 @@ int build_collection(const BuildOptions& options) {
     if (built.path.empty())
       refuse(fmt::format("`{}` is not built", built.material));
     else
-      fmt::print("{}  {} bytes\n", built.path, built.bytes);
+      print_out("{}  {} bytes\n", visible_text(built.path), built.bytes);
   }
   const std::size_t all = collection->materials.size(), built = collection->built();
-  fmt::print("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");
+  print_out("{} of {} material{} built\n", built, all, all == 1 ? "" : "s");
   return built == all ? done : refused;
 }
 

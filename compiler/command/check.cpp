@@ -6,9 +6,11 @@
 
 #include "compiler/check_files.hpp"
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/diagnostics/apply_fixes.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -24,7 +26,8 @@ bool mend(const std::vector<std::string>& files, const std::vector<std::string>&
   bool written = true;
   for (const auto& file : mend_files(files, roots, sandbox)) {
     for (const auto& mend : file.mends)
-      fmt::print(stderr, "mended {}:{}:{}: {}\n", file.file, mend.place.line, mend.place.column, mend.title);
+      print_error("mended {}:{}:{}: {}\n", visible_text(file.file), mend.place.line, mend.place.column,
+                  visible_text(mend.title));
     if (!file.written) refuse(file.written.error());
     written = written && file.written;
   }
@@ -38,14 +41,14 @@ int check(const CheckOptions& options) {
   const bool mended = !options.fix || mend(options.files, roots, options.sandbox);
   const auto [sources, diagnostics] = check_files(options.files, roots, options.sandbox);
   if (options.json) {
-    fmt::print("{}\n", render_json(diagnostics, sources));
+    print_out(render_json(diagnostics, sources) + "\n");
   } else {
     print_diagnostics(stdout, diagnostics, sources);
     const std::size_t warnings = diagnostics.all().size() - diagnostics.error_count();
     const std::size_t mendable = safe_fixes(diagnostics.all()).size();
-    fmt::print("{}: {}{}, {}{}\n", counted(options.files.size(), "file"), counted(diagnostics.error_count(), "error"),
-               diagnostics.is_full() ? " and more that are not listed" : "", counted(warnings, "warning"),
-               mendable > 0 && !options.fix ? fmt::format("; `wale check --fix` mends {}", mendable) : "");
+    print_out("{}: {}{}, {}{}\n", counted(options.files.size(), "file"), counted(diagnostics.error_count(), "error"),
+              diagnostics.is_full() ? " and more that are not listed" : "", counted(warnings, "warning"),
+              mendable > 0 && !options.fix ? fmt::format("; `wale check --fix` mends {}", mendable) : "");
   }
   return diagnostics.has_errors() || !mended ? refused : done;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "compiler/command/print.hpp"
 #include "compiler/diagnostics/render.hpp"
 #include "compiler/modules/library_folders.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -14,6 +15,7 @@
 #include "compiler/quantity.hpp"
 #include "compiler/typed_number.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -60,7 +62,7 @@ Error no_parameter(const PatchProgram& program, const std::string& name) {
 }  // namespace
 
 int refuse(const std::string& reason) {
-  fmt::print(stderr, "wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
+  print_error("wale: {}{}", reason, reason.ends_with('\n') ? "" : "\n");
   return refused;
 }
 
@@ -69,26 +71,26 @@ int refuse(const Error& error) {
   return is_misuse(error) ? misused : refused;
 }
 
-void warn(const Error& warning) { fmt::print(stderr, "wale: {}\n", error_text(warning)); }
+void warn(const Error& warning) { print_error("wale: {}\n", error_text(warning)); }
 
 std::string error_text(const Error& error) {
   const Place& place = error.place;
   std::string text = severity_of(error.code) == Severity::error ? "error" : "warning";
-  text += fmt::format("[{}]: {}{}", code_name(error.code), place.name,
+  text += fmt::format("[{}]: {}{}", code_name(error.code), visible_text(place.name),
                       place.number ? fmt::format("{}{}", place.name.empty() ? "" : ":", *place.number) : "");
   if (!place.name.empty() || place.number) text += ": ";
-  text += error.sentence;
-  if (!place.source.empty()) text += fmt::format(" (from {})", place.source);
+  text += visible_text(error.sentence);
+  if (!place.source.empty()) text += fmt::format(" (from {})", visible_text(place.source));
   for (const Place& before : error.led_to)
-    text += fmt::format("\n  after {} {} {}", before.name, before.number ? std::to_string(*before.number) : "",
-                        before.text);
-  if (!error.mend.empty()) text += "\n  = help: " + error.mend;
+    text += "\n  after " + visible_text(fmt::format("{} {} {}", before.name,
+                                                    before.number ? std::to_string(*before.number) : "", before.text));
+  if (!error.mend.empty()) text += "\n  = help: " + visible_lines(error.mend);  // some have lines to copy
   return text;
 }
 
 void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const SourceSet& sources) {
   for (const auto& diagnostic : diagnostics.all())
-    fmt::print(stream, "{}\n", render_text(diagnostic, sources, colour(stream)));
+    print_as_is(stream, render_text(diagnostic, sources, colour(stream)) + "\n");  // which is visible, with colours
 }
 
 FileRequest Choice::request() const {
@@ -111,7 +113,7 @@ FileRequest Choice::recording_request() const {
 }
 
 void say_taken(const OpenedFile& opened) {
-  if (!opened.taken.empty()) fmt::print(stderr, "wale: {}\n", opened.taken);
+  if (!opened.taken.empty()) print_error("wale: {}\n", visible_text(opened.taken));
 }
 
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice) {
@@ -131,9 +133,9 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   return {};
 }
 
-Result<> has_device(const OpenedFile& opened, const Choice& choice) {
-  if (!opened.module || choice.device_option.empty() || choice.device.empty()) return {};
-  const auto known = opened.module->declarations().devices.spellings();
+Result<> has_device(const CheckedModule& module, const Choice& choice) {
+  if (choice.device_option.empty() || choice.device.empty()) return {};
+  const auto known = module.declarations().devices.spellings();
   if (std::ranges::find(known, choice.device) != known.end()) return {};
   const auto near = nearest_spelling(choice.device, known);
   return Error{
@@ -158,7 +160,8 @@ OrStatus<OpenedFile> open(const Choice& choice) {
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error());
   say_taken(*opened);
-  if (const auto has = has_device(*opened, choice); !has) return refuse(has.error());
+  if (opened->module)
+    if (const auto has = has_device(*opened->module, choice); !has) return refuse(has.error());
   if (!opened->diagnostics.has_errors()) return *std::move(opened);
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   return refused;
@@ -168,6 +171,15 @@ std::shared_ptr<const CommonModules> declared_everywhere() {
   std::shared_ptr<const CommonModules> common = common_modules();
   print_diagnostics(stderr, common->problems, SourceSet());
   return common;
+}
+
+CheckedModule known_here(const FileRequest& request) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
+  CheckedModule module = check_source(sources, sources.add("here", "wale 1\n"), *resolver, diagnostics);
+  print_diagnostics(stderr, diagnostics, sources);
+  return module;
 }
 
 OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all) {

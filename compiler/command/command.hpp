@@ -20,6 +20,8 @@ inline constexpr int done = 0;
 inline constexpr int refused = 1;
 /// The command line makes no sense.
 inline constexpr int misused = 2;
+/// There is an error in Wale itself.
+inline constexpr int failed = 3;
 
 /// Prints the reason on standard error and returns `refused`.
 int refuse(const std::string& reason);
@@ -29,7 +31,8 @@ int refuse(const Error& error);
 /// Prints a warning on standard error.
 void warn(const Error& warning);
 
-/// "error[W0801]: --steps: expected …" with the mend on a line of its own, without a newline at the end.
+/// "error[W0801]: --steps: expected …" with the mend on a line of its own, without a newline at the end. Texts of
+/// others in it are visible, and forge no line.
 std::string error_text(const Error& error);
 
 /// Prints diagnostics with their source lines, in colour on a terminal.
@@ -58,8 +61,8 @@ void say_taken(const OpenedFile& opened);
 /// always pass. Errors: W0602 for another material, W0607 for another device.
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice);
 
-/// Checks that a device which an option named is declared where the file can see it. Error: W0601.
-Result<> has_device(const OpenedFile& opened, const Choice& choice);
+/// Checks that a device which an option named is declared where a file can see it. Error: W0601.
+Result<> has_device(const CheckedModule& module, const Choice& choice);
 
 /// A value; or, after an error that has been printed, the exit status of the command, which has nothing more to do.
 ///
@@ -93,6 +96,10 @@ OrStatus<OpenedFile> open(const Choice& choice);
 /// The declarations that every file knows, for verbs without a file. Errors in them, which mean a broken build, are
 /// printed.
 std::shared_ptr<const CommonModules> declared_everywhere();
+
+/// What a file in the current folder knows without an import: what every file knows, and the devices of the request.
+/// Errors in these are printed.
+CheckedModule known_here(const FileRequest& request);
 
 /// The programs of an opened file, at least one: that of one material, or of all.
 OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all);

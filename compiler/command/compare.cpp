@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/command/recalled.hpp"
 #include "compiler/compare/compare_files.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -31,13 +33,15 @@ int compare(const CompareOptions& options) {
   for (const ComparedFile& file : files) {
     if (!require(file.opened)) continue;
     const OpenedFile& opened = *file.opened;
-    if (!require(has_device(opened, options.choice))) return status;  // nor have the others, most likely
+    if (opened.module && !require(has_device(*opened.module, options.choice)))
+      return status;  // nor have the others, most likely
     say_taken(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
     require(is_as_named(opened, file.name.material, options.choice));
     if (opened.diagnostics.has_errors()) status = std::max(status, refused);
     // Some files only have functions for others.
-    if (file.without_material()) refuse(fmt::format("`{}` has no material and is left out", file.name.file));
+    if (file.without_material())
+      refuse(fmt::format("`{}` has no material and is left out", visible_text(file.name.file)));
   }
   if (status != done) return status;
   if (const auto fit = comparable(files); !fit) return refuse(fit.error());
@@ -45,7 +49,7 @@ int compare(const CompareOptions& options) {
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
   const ComparisonMatrix matrix(std::move(materials), common->declarations);
   print_recalled(matrix.recalled());
-  fmt::print("{}", options.json ? comparison_json(matrix) : comparison_text(matrix, options.with_table));
+  print_out(options.json ? comparison_json(matrix) : comparison_text(matrix, options.with_table));
   return done;
 }
 

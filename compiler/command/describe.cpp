@@ -9,6 +9,7 @@
 #include <set>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/describe/describe_module.hpp"
 #include "compiler/describe/fates.hpp"
 #include "compiler/modules/load_modules.hpp"
@@ -82,7 +83,7 @@ int describe_fates(const DescribeOptions& options) {
       return refuse(Error{.code = Code::unknown_setting,
                           .sentence = fmt::format("`{}` sets a parameter that no material has on any device", setting),
                           .place = {.name = "--set", .text = setting}});
-  fmt::print("{}", options.json ? fates_json(all) : fates_text(all));
+  print_out(options.json ? fates_json(all) : fates_text(all));
   return done;
 }
 
@@ -101,7 +102,7 @@ std::optional<int> describe_exports(const OpenedFile& opened, const DescribeOpti
                         .mend = fmt::format("leave out {} to list what the file exports", of_a_material),
                         .place = {.name = of_a_material}});
   print_diagnostics(stderr, opened.diagnostics, opened.sources);
-  fmt::print("{}", options.json ? module_json(module) : module_text(module));
+  print_out(options.json ? module_json(module) : module_text(module));
   return done;
 }
 
@@ -126,11 +127,11 @@ int describe(const DescribeOptions& options) {
     descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
   }
   if (options.json) {
-    fmt::print("{}", descriptions_json(descriptions));
+    print_out(descriptions_json(descriptions));
     return done;
   }
   for (std::size_t i = 0; i < descriptions.size(); ++i)
-    fmt::print("{}{}", i == 0 ? "" : "\n", description_text(descriptions[i]));
+    print_out((i == 0 ? "" : "\n") + description_text(descriptions[i]));
   return done;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 
 namespace wale::command {
 namespace {
@@ -16,12 +17,12 @@ struct ExplainOptions {
 
 int explain(const ExplainOptions& options) {
   if (options.code.empty()) {
-    fmt::print("{}", codes_text());
+    print_out(codes_text());
     return done;
   }
   const auto code = code_named(options.code);
   if (!code) return refuse(code.error());
-  fmt::print("{}", explanation_text(*code));
+  print_out(explanation_text(*code));
   return done;
 }
 

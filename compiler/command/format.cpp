@@ -9,8 +9,10 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -59,7 +61,7 @@ int format_file(const std::string& file, bool check_only) {
   if (!formatted) return refused;
   const bool changes = *formatted != sources[source].text;
   if (check_only) {
-    if (changes) fmt::print("{}\n", file);
+    if (changes) print_out("{}\n", visible_text(file));
     return changes ? refused : done;
   }
   if (standard) {

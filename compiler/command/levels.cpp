@@ -4,37 +4,39 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/command/recalled.hpp"
 #include "compiler/compare/propose_levels.hpp"
-#include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
 namespace {
 
 struct LevelsOptions {
-  std::string percept, device = default_device;
+  std::string percept;
+  Choice choice;                       ///< only of the device
   std::optional<std::uint64_t> steps;  ///< number of levels; by default as many as can be told apart
   std::optional<double> apart;         ///< in just noticeable differences; 1 by default
   bool json = false;
 };
 
 int levels(const LevelsOptions& options) {
-  const std::shared_ptr<const CommonModules> common = declared_everywhere();
-  const auto proposed =
-      propose_levels(options.percept, options.device, options.steps, options.apart.value_or(1), common->declarations);
+  const CheckedModule known = known_here(options.choice.request());
+  if (const auto has = has_device(known, options.choice); !has) return refuse(has.error());
+  const auto proposed = propose_levels(options.percept, options.choice.device, options.steps, options.apart.value_or(1),
+                                       known.declarations());
   if (!proposed) return refuse(proposed.error());
   std::set<const Threshold*> recalled;
   for (const ProposedLevel& each : proposed->levels)
     if (each.threshold && each.threshold->recalled()) recalled.insert(each.threshold);
   print_recalled(recalled);
-  fmt::print("{}", options.json ? proposal_json(*proposed) : proposal_text(*proposed));
+  print_out(options.json ? proposal_json(*proposed) : proposal_text(*proposed));
   return done;
 }
 
 Run declare_levels(CLI::App& verb) {
   const auto options = std::make_shared<LevelsOptions>();
   verb.add_option("PERCEPT", options->percept, "a percept or its opposite, as in roughness or smoothness")->required();
-  offer_device(verb, options->device);
+  offer_device(verb, options->choice);
   offer_count(verb, "--steps", options->steps, {.least = 2, .most = 1000, .example = 5},
               "how many levels, as in 5 (default: as many as people can tell apart)");
   offer_number(

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
@@ -28,7 +29,7 @@ int preview(const PreviewOptions& options) {
   const auto drawing = draw_preview(bank, preview_text(bank, common->declarations), common->declarations);
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
-    fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+    print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
   const auto bytes = encode_drawing(*drawing, options.out);
   if (!bytes) return refuse(bytes.error());
   const auto written =

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 
-#include "compiler/command/command.hpp"
+#include "compiler/command/print.hpp"
 
 namespace wale::command {
 
@@ -14,7 +13,7 @@ void print_recalled(const std::set<const Threshold*>& thresholds) {
   for (const Threshold* each : thresholds)
     lines.insert(fmt::format("wale: warning[{}]: the threshold of {} was recalled and not looked up ({})\n",
                              code_name(Code::unverified_basis), each->cue, each->source));
-  for (const std::string& line : lines) fmt::print(stderr, "{}", line);
+  for (const std::string& line : lines) print_error(line);
 }
 
 }  // namespace wale::command

@@ -7,6 +7,7 @@
 
 #include "compiler/compare/compare.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/text/json_text.hpp"
 
 namespace wale {
 namespace {
@@ -146,7 +147,7 @@ std::string matrix_json(const ComparisonMatrix& matrix) {
     for (std::size_t b = a + 1; b < count; ++b) {
       const Distance distance = matrix.distance(a, b);
       if (b > a + 1) text += ", ";
-      if (distance.verdict == Verdict::unknown)
+      if (distance.verdict == Verdict::unknown || !std::isfinite(distance.noticeable))
         text += "null";
       else
         fmt::format_to(std::back_inserter(text), "{:.4g}", distance.noticeable);
@@ -196,7 +197,7 @@ std::string comparison_json(const ComparisonMatrix& matrix) {
   const Json near = nearest.empty() ? Json(nullptr) : Json{all[nearest[0].a].material, all[nearest[0].b].material};
   return fmt::format(
       "{{\n  \"device\": {},\n  \"materials\": {},\n  \"pairs\": {},\n  \"nearest\": {},\n  \"matrix\": {}\n}}\n",
-      Json(all.empty() ? "" : all.front().device).dump(), materials.dump(), pairs.dump(), near.dump(),
+      json_text(Json(all.empty() ? "" : all.front().device)), json_text(materials), json_text(pairs), json_text(near),
       matrix_json(matrix));
 }
 

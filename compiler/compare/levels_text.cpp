@@ -6,6 +6,7 @@
 
 #include "compiler/compare/propose_levels.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/text/json_text.hpp"
 
 namespace wale {
 
@@ -64,7 +65,7 @@ std::string proposal_json(const LevelProposal& proposal) {
     level["source"] = each.threshold->source;
   }
   json["wale"] = levels_line(proposal);
-  return json.dump(2) + '\n';
+  return json_lines(json);
 }
 
 }  // namespace wale

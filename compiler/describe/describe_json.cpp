@@ -5,6 +5,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/describe/fates_json.hpp"
+#include "compiler/text/json_text.hpp"
 
 namespace wale {
 namespace {
@@ -202,10 +203,7 @@ nlohmann::ordered_json to_json(const Description& description) {
 std::string descriptions_json(const std::vector<Description>& descriptions) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& description : descriptions) json.push_back(to_json(description));
-  // Names may hold any bytes from a file; bytes that are not UTF-8 are replaced instead of throwing.
-  return (descriptions.size() == 1 ? json.front() : json)
-             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-         "\n";
+  return json_lines(descriptions.size() == 1 ? json.front() : json);
 }
 
 }  // namespace wale

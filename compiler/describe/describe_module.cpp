@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "compiler/describe/describe_figure.hpp"
+#include "compiler/text/json_text.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -79,7 +81,7 @@ ModuleDescription describe_module(const CheckedModule& module, const SourceSet& 
 }
 
 std::string module_text(const ModuleDescription& description) {
-  std::string text = fmt::format("{}\n", description.file);
+  std::string text = visible_text(description.file) + "\n";
   if (!description.functions.empty()) text += "\nfunctions\n";
   for (const auto& function : description.functions) {
     text += fmt::format("  {}\n", signature(function));
@@ -131,7 +133,7 @@ std::string module_json(const ModuleDescription& description) {
   Json& dimensions = json["dimensions"] = Json::array();
   for (const auto& dimension : description.dimensions)
     dimensions.push_back({{"name", dimension.name}, {"factors", dimension.factors}});
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_lines(json);
 }
 
 }  // namespace wale

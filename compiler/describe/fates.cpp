@@ -9,6 +9,7 @@
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
 #include "compiler/describe/fates_json.hpp"
+#include "compiler/text/json_text.hpp"
 
 namespace wale {
 namespace {
@@ -101,7 +102,7 @@ std::string fates_json(const std::vector<DeviceFates>& all) {
     else
       entry = {{"refused", each.fates.error().sentence}};
   }
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_lines(json);
 }
 
 }  // namespace wale

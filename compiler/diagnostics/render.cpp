@@ -6,7 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "compiler/text/utf8.hpp"
+#include "schema/utf8.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -25,12 +26,9 @@ struct DisplayedLine {
   std::size_t begin = 0, end = 0;  ///< columns of the carets
 };
 
-/// Control characters and broken UTF-8 become visible and harmless: a file must not control the reader's terminal.
+/// A character in one column, as carets below it need: what a terminal would obey and broken UTF-8 become U+FFFD.
 std::string displayable(std::string_view bytes, const Character& character) {
-  const bool control = character.code < ' ' || (character.code >= 0x7F && character.code < 0xA0);
-  const bool reorders =
-      (character.code >= 0x202A && character.code <= 0x202E) || (character.code >= 0x2066 && character.code <= 0x2069);
-  return character.valid && !control && !reorders ? std::string(bytes) : "\uFFFD";
+  return character.valid && !is_obeyed_by_terminals(character.code) ? std::string(bytes) : "\uFFFD";
 }
 
 /// The line as columns, with carets below the bytes `begin` .. `end`. Only the surroundings of the place are read: a
@@ -89,16 +87,9 @@ constexpr Palette warning_colours = {"\x1b[1;33m", "\x1b[1m", "\x1b[1;34m", "\x1
 
 /// The further lines of a note start below its first character.
 std::string indented(std::string_view text, std::size_t indent) {
-  std::string result;
-  for (std::size_t at = 0; at < text.size();) {
-    const Character character = decode(text, at);
-    if (character.code == '\n') {
-      result += '\n' + std::string(indent, ' ');
-    } else {
-      result += displayable(text.substr(at, character.bytes), character);
-    }
-    at += character.bytes;
-  }
+  std::string result = visible_lines(text);
+  for (std::size_t at = result.find('\n'); at != std::string::npos; at = result.find('\n', at + 1))
+    result.insert(at + 1, indent, ' ');
   return result;
 }
 
@@ -140,7 +131,7 @@ class Excerpt {
       const LineColumn place = sources_.place(primary ? files_.front().second.at(primary_line_).front().span
                                                       : lines.begin()->second.front().span);
       out += fmt::format("{}{}{}{} {}:{}:{}\n", margin(), paint_.gutter, primary ? "-->" : ":::", paint_.off,
-                         sources_[source].name, place.line, place.column);
+                         visible_text(sources_[source].name), place.line, place.column);
       out += fmt::format("{}{} |{}\n", margin(), paint_.gutter, paint_.off);
       unsigned previous = 0;
       for (const auto& [number, marks] : lines) {
@@ -185,7 +176,7 @@ class Excerpt {
       out += fmt::format("{}{} |{} {}{}{}{}{}{}\n", margin(), paint_.gutter, paint_.off, std::string(shown.begin, ' '),
                          marked.sign == '^' ? paint_.severity : paint_.gutter,
                          std::string(shown.end - shown.begin, marked.sign), marked.label.empty() ? "" : " ",
-                         indented(marked.label, 0), paint_.off);
+                         visible_text(marked.label), paint_.off);
     }
     return out;
   }
@@ -206,7 +197,7 @@ std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, 
   const Palette& paint = !colour ? plain : severity == Severity::error ? error_colours : warning_colours;
   std::string out =
       fmt::format("{}{}[{}]{}{}: {}{}\n", paint.severity, severity_name(severity), code_name(diagnostic.code),
-                  paint.off, paint.bold, indented(diagnostic.message, 0), paint.off);
+                  paint.off, paint.bold, visible_text(diagnostic.message), paint.off);
   // An error of a command line has no place in a file.
   const Excerpt excerpt(diagnostic, sources, paint);
   out += excerpt.text();

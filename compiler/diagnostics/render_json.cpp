@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/diagnostics/render.hpp"
+#include "compiler/text/json_text.hpp"
 
 namespace wale {
 namespace {
@@ -75,9 +76,9 @@ Json json_of(const Diagnostic& diagnostic, const SourceSet& sources) {
 std::string render_json(const Diagnostics& diagnostics, const SourceSet& sources) {
   Json list = Json::array();
   for (const Diagnostic& each : diagnostics.all()) list.push_back(json_of(each, sources));
-  constexpr int indent = 2;
-  // Bytes that are not UTF-8 become the replacement character: an error in a file must not stop its report.
-  return list.dump(indent, ' ', false, Json::error_handler_t::replace);
+  std::string text = json_lines(list);
+  text.pop_back();
+  return text;
 }
 
 }  // namespace wale

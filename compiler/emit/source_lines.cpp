@@ -1,5 +1,7 @@
 #include "compiler/emit/source_lines.hpp"
 
+#include "schema/visible_text.hpp"
+
 namespace wale {
 
 SourceLines::SourceLines(const SourceSet& sources, const ModuleSet& modules) : sources_(sources) {
@@ -13,7 +15,7 @@ SourceLines::SourceLines(const SourceSet& sources, const ModuleSet& modules) : s
 std::string SourceLines::file(SourceId source) const {
   if (const auto name = imported_.find(source); name != imported_.end()) return name->second;
   const std::string& path = sources_[source].name;
-  return path.substr(path.find_last_of("/\\") + 1);
+  return visible_text(path.substr(path.find_last_of("/\\") + 1));
 }
 
 }  // namespace wale

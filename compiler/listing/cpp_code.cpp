@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "compiler/listing/cpp_names.hpp"
 #include "compiler/listing/figures.hpp"
 #include "runtime/machine/arithmetic.hpp"
 
@@ -166,7 +167,7 @@ std::string CppCode::lines(const Surroundings& surroundings, std::size_t indent)
                          : operation == Operation::recall ? "GridSample"
                                                           : "float";
       const std::string line = fmt::format("{}const {} {} = {};", before, type, name, expression(instruction));
-      text += beside(line, comment_column, place.empty() ? "" : "// " + place) + '\n';
+      text += beside(line, comment_column, place.empty() ? "" : "// " + cpp_comment(place)) + '\n';
     }
     const int results = facts(operation).results;
     for (int k = 0; k < results; ++k)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "schema/visible_text.hpp"
+
 namespace wale {
 namespace {
 
@@ -25,6 +27,14 @@ bool is_numbered(std::string_view name) {
 }
 
 }  // namespace
+
+std::string cpp_comment(std::string_view text) {
+  std::string usable(text);
+  std::ranges::replace(usable, '\\', ' ');
+  for (std::size_t at = usable.find("??"); at != std::string::npos; at = usable.find("??", at + 1))
+    usable.insert(at + 1, " ");
+  return visible_text(usable);  // whose backslashes stand before digits
+}
 
 CppNames::CppNames() {
   for (std::size_t at = 0; at < keywords.size();) {

@@ -6,6 +6,10 @@
 
 namespace wale {
 
+/// Somebody's text for a place after `//`, in one line that stays a comment: no line break, no backslash and no
+/// trigraph of one, which would join the next line to it, and nothing that hides or reorders what a reader sees.
+std::string cpp_comment(std::string_view text);
+
 /// The identifiers of one C++ file. Words with a meaning are never given out, and no identifier is given out twice.
 class CppNames {
  public:

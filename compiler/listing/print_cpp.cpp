@@ -345,10 +345,10 @@ class CppPrinter {
 // -ffast-math. Functions are inline and change only their arguments; enter and tick do not allocate.
 // Pictures and predictions are left out. `t12` is instruction 12 of its section, as in `wale build --emit listing`.
 )",
-        program_.material, name_space_, program_.grids.empty() ? "" : "Cells&, ",
+        cpp_comment(program_.material), name_space_, program_.grids.empty() ? "" : "Cells&, ",
         figure(static_cast<float>(1 / program_.device.rate)));
     for (const auto& [key, texts] : program_.layers.representative)
-      if (key == "title" && !texts.empty()) add("//\n// {}\n", one_line(texts.front()));
+      if (key == "title" && !texts.empty()) add("//\n// {}\n", cpp_comment(texts.front()));
     add(R"(
 #include <algorithm>
 #include <array>
@@ -392,8 +392,8 @@ class CppPrinter {
     for (std::size_t i = 0; i < program_.parameters.size(); ++i) {
       const Parameter& p = program_.parameters[i];
       const std::string comment =
-          fmt::format("///< {}{}{} .. {}{}{}", p.si_unit, p.si_unit.empty() ? "" : ", ", figure(p.low), figure(p.high),
-                      p.description.empty() ? "" : ": ", one_line(p.description));
+          fmt::format("///< {}{}{} .. {}{}{}", cpp_comment(p.si_unit), p.si_unit.empty() ? "" : ", ", figure(p.low),
+                      figure(p.high), p.description.empty() ? "" : ": ", cpp_comment(p.description));
       text_ += beside(fmt::format("  float {} = {};", parameters_[i], cpp_literal(p.value)), 40, comment) + '\n';
     }
     add("}};\n\nstruct Patch {{\n  float half_width = {}, half_height = {}, rim = {};  ///< m\n}};\n",
@@ -467,13 +467,6 @@ class CppPrinter {
     for (std::size_t i = 0; i < program_.grids.size(); ++i)
       add("    {}.fill({});\n", grids_[i], cpp_literal(program_.grids[i].initial));
     add("  }}\n}};\n");
-  }
-
-  /// The author's text after `//`.
-  static std::string one_line(std::string text) {
-    for (char& c : text)
-      if (static_cast<unsigned char>(c) < ' ' || c == '\\') c = ' ';
-    return text;
   }
 
   const PatchProgram& program_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compiler/text/json_text.hpp"
 #include "wale/memory.hpp"
 
 namespace wale {
@@ -66,7 +67,7 @@ std::string samples_json(const std::vector<SampledHand>& samples, bool vibrates)
                     {"vy", shortest(hand.velocity.y)},
                     {vibrates ? "amplitude" : "fx", shortest(force.x)},
                     {vibrates ? "frequency" : "fy", shortest(force.y)}});
-  return json.dump(2) + "\n";
+  return json_lines(json);
 }
 
 }  // namespace wale

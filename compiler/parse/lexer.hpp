@@ -11,7 +11,7 @@
 #include "compiler/parse/lookalikes.hpp"
 #include "compiler/text/characters.hpp"
 #include "compiler/text/source.hpp"
-#include "compiler/text/utf8.hpp"
+#include "schema/utf8.hpp"
 
 namespace wale {
 

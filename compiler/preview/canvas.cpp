@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "compiler/text/utf8.hpp"
+#include "schema/utf8.hpp"
 
 namespace wale {
 namespace {

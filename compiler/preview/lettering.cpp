@@ -12,7 +12,7 @@
 #include <iterator>
 #include <vector>
 
-#include "compiler/text/utf8.hpp"
+#include "schema/utf8.hpp"
 
 namespace wale {
 namespace {

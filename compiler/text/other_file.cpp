@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "schema/visible_text.hpp"
+
 namespace wale {
 namespace {
 
@@ -60,7 +62,7 @@ std::string mend_of_path(const std::string& path) {
     const std::string file = (fs::path(path) / each->path().filename()).string();
     if (file.ends_with(".wale") && (first.empty() || file < first)) first = file;
   }
-  return first.empty() ? "name a Wale file" : fmt::format("name a Wale file in it, as in `{}`", first);
+  return first.empty() ? "name a Wale file" : fmt::format("name a Wale file in it, as in `{}`", visible_text(first));
 }
 
 }  // namespace wale

@@ -11,12 +11,13 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <streambuf>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "compiler/text/standard_output.hpp"
 
 namespace wale {
 namespace {
@@ -27,11 +28,9 @@ constexpr std::size_t buffer_size = 1 << 16;
 constexpr int most_links = 40;  // as the kernel follows
 
 Error unwritable(const std::string& path, const std::string& why) {
-  const bool is_standard = path == "-";
   return {.code = Code::unwritable_file,
-          .sentence = is_standard ? fmt::format("cannot write to standard output: {}", why)
-                                  : fmt::format("cannot write this file: {}", why),
-          .place = {.name = is_standard ? "" : path}};
+          .sentence = fmt::format("cannot write this file: {}", why),
+          .place = {.name = path}};
 }
 
 Error unwritable(const std::string& path, int error) {
@@ -78,7 +77,8 @@ bool is_one_of(const struct stat& output, const InputFiles& inputs) {
   });
 }
 
-/// The bytes on their way to a descriptor. It remembers the first failure and takes no more from then on.
+/// The bytes on their way to a descriptor. It remembers the first failure and takes no more from then on. Those to
+/// standard output follow what was printed before, and their failure is told with that of everything else there.
 class DescriptorBuffer : public std::streambuf {
  public:
   explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) {
@@ -95,6 +95,10 @@ class DescriptorBuffer : public std::streambuf {
 
   int sync() override {
     const char* from = pbase();
+    if (descriptor_ == STDOUT_FILENO) {
+      write_standard_output({from, static_cast<std::size_t>(pptr() - from)});
+      from = pptr();
+    }
     while (error_ == 0 && from < pptr()) {
       const ssize_t written = ::write(descriptor_, from, static_cast<std::size_t>(pptr() - from));
       if (written > 0) from += written;
@@ -142,7 +146,7 @@ class OutputFile::Target {
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
   ~Target() {
-    close(descriptor_);
+    if (descriptor_ != STDOUT_FILENO) close(descriptor_);
     if (!temporary_.empty()) unlink(temporary_.c_str());
   }
 
@@ -184,10 +188,7 @@ OutputFile::~OutputFile() = default;
 
 Result<OutputFile> OutputFile::open(const std::string& path, const InputFiles& inputs) {
   if (const auto open = named_descriptor(path)) {
-    // What was printed before goes out before.
-    std::fflush(stdout);
-    std::cout.flush();
-    const int descriptor = fcntl(*open, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    const int descriptor = *open == STDOUT_FILENO ? STDOUT_FILENO : fcntl(*open, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     if (descriptor < 0) return unwritable(path, errno);
     return OutputFile(std::make_unique<Target>(path, descriptor, "", fs::path()));
   }

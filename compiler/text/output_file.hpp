@@ -17,7 +17,8 @@ using InputFiles = std::vector<std::string>;
 /// the old one. Its permissions stay; a link stays a link, and the file that it leads to is replaced.
 ///
 /// "-", names of open descriptors (/dev/stdout, /dev/fd/3), and files that are not regular (a FIFO, a terminal) are
-/// streams: their bytes go out as they come. One thread at a time.
+/// streams: their bytes go out as they come. Whether standard output took them, `finish_standard_output` tells. One
+/// thread at a time.
 class OutputFile {
  public:
   /// Errors: W0505 where the file cannot be written or is a folder; W0508 where it is one of `inputs`, by whatever

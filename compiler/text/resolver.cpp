@@ -10,6 +10,7 @@
 
 #include "compiler/text/source.hpp"
 #include "schema/regular_file.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 
@@ -130,7 +131,7 @@ class FileResolver final : public Resolver {
     std::set<std::string> said;  // a folder may occur twice, if the file is in the root of its project
     for (const auto& candidate : candidates)
       if (const auto shown = candidate.lexically_normal().string(); said.insert(shown).second)
-        searched += fmt::format("{}`{}`", searched.empty() ? "" : ", ", shown);
+        searched += fmt::format("{}`{}`", searched.empty() ? "" : ", ", visible_text(shown));
     return unreadable(name, fmt::format("no such file; looked for {}", searched));
   }
 

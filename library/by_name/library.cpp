@@ -48,9 +48,12 @@ bool is_level(const std::string& text) {
 
 struct Library::Parts {
   std::shared_ptr<const CommonModules> common = common_modules();
+  Sandbox sandbox = Sandbox::required;
 };
 
-Library::Library() : parts_(std::make_unique<Parts>()) {}
+Library::Library(const LibraryOptions& options) : parts_(std::make_unique<Parts>()) {
+  if (options.unsandboxed_pictures) parts_->sandbox = Sandbox::if_possible;
+}
 
 Library::~Library() = default;
 
@@ -76,7 +79,7 @@ Result<Program> Library::level(const std::string& percept, const std::string& le
 
 Result<Program> Library::material(const std::string& file_or_name, const std::string& name,
                                   const std::string& device) const {
-  const FileRequest request{.file = file_or_name, .device = device, .roots = {}};
+  const FileRequest request{.file = file_or_name, .device = device, .roots = {}, .sandbox = parts_->sandbox};
   auto opened = open_file(request);
   if (!opened) return opened.error();
   if (opened->program) return *std::move(opened->program);

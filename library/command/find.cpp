@@ -7,9 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/command/options.hpp"
+#include "compiler/command/print.hpp"
 #include "compiler/modules/find_materials.hpp"
 #include "compiler/modules/library_folders.hpp"
+#include "compiler/text/json_text.hpp"
 #include "schema/spelling.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale::command {
 namespace {
@@ -54,12 +57,13 @@ std::string found_text(const std::vector<FoundMaterial>& found) {
     name = std::max(name, each.material->name.size());
     title = std::max(title, each.material->title.size());
     kind = std::max(kind, each.material->kind.size());
-    file = std::max(file, each.material->file.size());
+    file = std::max(file, visible_text(each.material->file).size());
   }
   std::string text;
   for (const FoundMaterial& each : found) {
-    std::string line = fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {}", each.material->name, name, each.material->title,
-                                   title, each.material->kind, kind, each.material->file, file, found_in(each));
+    std::string line =
+        fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {}", each.material->name, name, each.material->title, title,
+                    each.material->kind, kind, visible_text(each.material->file), file, found_in(each));
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
@@ -79,7 +83,7 @@ std::string found_json(const std::vector<FoundMaterial>& found) {
                    {"file", each.material->file},
                    {"found_by", in_words(each.by)},
                    {"found_in", each.text}});
-  return all.dump(2) + "\n";
+  return json_lines(all);
 }
 
 int find(const FindOptions& options) {
@@ -87,9 +91,9 @@ int find(const FindOptions& options) {
   // The index of what a file in the current folder could import; there need not be such a file.
   const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
   const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
-  if (options.json) fmt::print("{}", found_json(found));
-  if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
-  if (!options.json) fmt::print("{}", found_text(found));
+  if (options.json) print_out(found_json(found));
+  if (found.empty()) return refuse(visible_text(why_nothing_is_found(*index, options.texts, options.kind)));
+  if (!options.json) print_out(found_text(found));
   return done;
 }
 

@@ -7,6 +7,7 @@
 #include "runtime/machine/floating_point_mode.hpp"
 #include "runtime/machine/lane.hpp"
 #include "runtime/machine/verify.hpp"
+#include "schema/visible_text.hpp"
 
 namespace wale {
 namespace {
@@ -32,6 +33,7 @@ PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
 Result<Program> Program::load(std::span<const std::byte> bytes) {
   Result<PatchProgram> read = read_patch_program(bytes);
   if (!read) return std::move(read).error();
+  make_visible(*read);
   return load(*std::move(read));
 }
 

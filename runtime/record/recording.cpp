@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "runtime/record/event_reader.hpp"
-#include "runtime/record/file_bytes.hpp"
 #include "runtime/record/format.hpp"
 #include "runtime/record/recording_contents.hpp"
+#include "schema/regular_file.hpp"
 #include "schema/sentence.hpp"
 
 namespace wale {
@@ -21,6 +21,9 @@ bool all_zero(std::span<const std::byte> bytes) {
   return std::ranges::all_of(bytes, [](std::byte byte) { return byte == std::byte{0}; });
 }
 
+/// Bytes of the largest file that is read: six hours at 1 kHz.
+constexpr std::size_t largest_recording = std::size_t{1} << 31;
+
 /// Larger than in any run, and small enough that sums of two do not overflow.
 constexpr std::int32_t most_counts = 1 << 29;
 constexpr std::int64_t most_periods = std::int64_t{1} << 53;
@@ -29,7 +32,7 @@ constexpr std::int64_t most_periods = std::int64_t{1} << 53;
 class RecordingReader {
  public:
   RecordingReader(RecordingContents& contents, std::size_t most_ticks)
-      : contents_(contents), bytes_(contents.bytes.span()), most_ticks_(most_ticks) {}
+      : contents_(contents), bytes_(contents.bytes()), most_ticks_(most_ticks) {}
 
   Result<> read() {
     if (auto header = read_file_header(); !header) return header;
@@ -199,9 +202,10 @@ class RecordingReader {
 };
 
 template <class Contents>
-Result<std::shared_ptr<Contents>> contents_of(FileBytes bytes, const std::string& name, std::size_t most_ticks) {
+Result<std::shared_ptr<Contents>> contents_of(decltype(RecordingContents::held) held, const std::string& name,
+                                              std::size_t most_ticks) {
   auto contents = std::make_shared<Contents>();
-  contents->bytes = std::move(bytes);
+  contents->held = std::move(held);
   auto read = RecordingReader(*contents, most_ticks).read();
   if (read) return contents;
   Error error = std::move(read).error();
@@ -212,15 +216,19 @@ Result<std::shared_ptr<Contents>> contents_of(FileBytes bytes, const std::string
 }  // namespace
 
 Result<Recording> Recording::open(const std::string& path, std::size_t most_ticks) {
-  Result<FileBytes> mapped = FileBytes::map(path);
-  if (!mapped) return std::move(mapped).error();
-  auto contents = contents_of<Contents>(*std::move(mapped), path, most_ticks);
+  // Read, and not mapped: of a file that another program shortens meanwhile, mapped memory would end this process.
+  Result<std::string> bytes = read_regular_file(path, largest_recording);
+  if (!bytes) {
+    bytes.error().sentence = "the file cannot be read: " + bytes.error().sentence;
+    return std::move(bytes).error();
+  }
+  auto contents = contents_of<Contents>(*std::move(bytes), path, most_ticks);
   if (!contents) return std::move(contents).error();
   return Recording(*std::move(contents));
 }
 
 Result<Recording> Recording::read(std::vector<std::byte> bytes, const std::string& name, std::size_t most_ticks) {
-  auto contents = contents_of<Contents>(FileBytes(std::move(bytes)), name, most_ticks);
+  auto contents = contents_of<Contents>(std::move(bytes), name, most_ticks);
   if (!contents) return std::move(contents).error();
   return Recording(*std::move(contents));
 }

@@ -30,7 +30,6 @@ struct Case {
 const Case ends[] = {{SIGHUP, "wale: ended by the signal HUP (Hangup)\n"},
                      {SIGQUIT, "wale: ended by the signal QUIT (Quit)\n"},
                      {SIGTERM, "wale: ended by the signal TERM (Terminated)\n"},
-                     {SIGPIPE, "wale: ended by the signal PIPE (Broken pipe)\n"},
                      {SIGALRM, "wale: ended by the signal ALRM (Alarm clock)\n"},
                      {SIGUSR1, "wale: ended by the signal USR1 (User defined signal 1)\n"},
                      {SIGXCPU, "wale: ended by the signal XCPU (CPU time limit exceeded)\n"}};

@@ -83,5 +83,40 @@ TEST(Names, YieldToFilesWithANote) {
   EXPECT_EQ(path.err, "");
 }
 
+TEST(Names, OfTheOwnersDevicesAreKnownToEveryVerbWithADevice) {
+  const TemporaryFolder config, folder;
+  config.write("wale/devices.wale", R"(wale 1
+export device my_stick {
+  usb "1234:5678"
+  class force_plane
+  axes x, y
+  motors x, y
+  gain 1
+  workspace disc(200 mm)
+  position 4096 counts
+  force 5 N, 32767 counts
+  rate 900 Hz
+  speed 1 m/s
+  slew 200 N/s
+  velocity_filter 15, 1 counts
+  patch 120 mm, 120 mm, 5 mm
+}
+)");
+  const std::vector<std::vector<std::string>> all{{"describe", "corduroy"},
+                                                  {"compare", "corduroy", "denim"},
+                                                  {"levels", "roughness"},
+                                                  {"build", "corduroy", "-o", folder / "corduroy.wpp"},
+                                                  {"preview", "corduroy", "-o", folder / "corduroy.png"},
+                                                  {"sample", "corduroy", "--at", "1 mm, 2 mm"}};
+  for (std::vector<std::string> words : all) {
+    words.insert(words.end(), {"--device", "my_stick"});
+    const Outcome known = wale(words, {}, config / ".");
+    EXPECT_EQ(known.status, 0) << words.front() << known.err;
+    const Outcome unknown = wale(words);
+    EXPECT_EQ(unknown.status, 2) << words.front() << unknown.err;
+    EXPECT_TRUE(contains(unknown.err, "W0601")) << words.front() << unknown.err;
+  }
+}
+
 }  // namespace
 }  // namespace wale::command_line::naming_test

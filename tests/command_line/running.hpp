@@ -42,10 +42,12 @@ inline std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Runs `wale` with these arguments and with `typed` as standard input. Colours are off, since outputs are files.
-inline Outcome wale(const std::vector<std::string>& words, const std::string& typed = {}) {
+/// Runs `wale` with these arguments and with `typed` as standard input, for an owner whose settings are in `config`.
+/// Colours are off, since outputs are files.
+inline Outcome wale(const std::vector<std::string>& words, const std::string& typed = {},
+                    const std::string& config = "/nonexistent") {
   const TemporaryFolder folder;
-  std::string command = "XDG_CONFIG_HOME=/nonexistent " + quoted(WALE_BINARY);  // no devices of whoever runs the tests
+  std::string command = "XDG_CONFIG_HOME=" + quoted(config) + " " + quoted(WALE_BINARY);
   for (const auto& word : words) command += " " + quoted(word);
   command += " <" + (typed.empty() ? "/dev/null" : quoted(folder.write("typed", typed))) + " >" +
              quoted(folder / "out") + " 2>" + quoted(folder / "err");

@@ -25,8 +25,8 @@ constexpr char pushing[] = "wale 1\n\nmaterial push {\n  physical {\n    force =
 constexpr long most_frames = 250;
 
 /// How a process may end, by a signal to it.
-const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1, SIGXCPU, SIGSEGV,
-                       SIGBUS, SIGFPE, SIGILL,  SIGABRT, SIGTRAP, SIGSYS,  SIGKILL, SIGSTOP, SIGTSTP};
+const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGXCPU, SIGSEGV, SIGBUS,
+                       SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS,  SIGKILL, SIGSTOP, SIGTSTP};
 
 /// How a process that felt ended by a signal.
 struct End {

@@ -19,12 +19,18 @@ struct SimulatedPerson {
   std::string source;  ///< the source of the figures
 };
 
+struct LibraryOptions {
+  /// Whether a stranger's picture may be decoded where the system offers no sandbox for its decoder. Otherwise a
+  /// material that needs it is an error there (W0807).
+  bool unsandboxed_pictures = false;
+};
+
 /// Materials and levels by name, compiled for a device.
 ///
 /// All materials and calibrations are in the binary: no files are needed at run time.
 class Library {
  public:
-  Library();
+  explicit Library(const LibraryOptions& options = {});
   ~Library();
 
   /// A surface with a level of a percept: a named level ("coarse") or a number from 0 to 1 ("0.6"). Errors name the

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <system_error>
 
+#include "schema/visible_text.hpp"
+
 namespace wale {
 namespace {
 
@@ -32,10 +34,11 @@ std::string content_of(const fs::path& path) {
   return file ? std::string(std::istreambuf_iterator<char>(file), {}) : std::string();
 }
 
+/// The name that a device or a program gives itself, in one line: its maker may have written anything.
 std::string line_of(const fs::path& path) {
   std::string line = content_of(path);
   while (!line.empty() && line.back() == '\n') line.pop_back();
-  return line;
+  return visible_text(line);
 }
 
 /// Whether an input device makes a constant force, by its bits of force feedback: words of hexadecimal digits, the
