@@ -11,9 +11,9 @@ namespace {
 
 using std::numbers::pi;
 
-/// What a relief without a period leaves open.
+/// What a relief without a period leaves open: its mean over the patch is a little force, too.
 void without_period(Composition& made) {
-  for (const Cue cue : {Cue::orientation, Cue::roughness, Cue::bumpiness}) made.truth[cue] = open;
+  for (const Cue cue : {Cue::orientation, Cue::roughness, Cue::bumpiness, Cue::constant}) made.truth[cue] = open;
   made.truth.waves.reset();
 }
 
@@ -44,9 +44,9 @@ Composition grains(Chance& chance) {
 Composition chirp(Chance& chance) {
   Composition made = any_patch(chance);
   const double size = rounded(chance.octaves(0.05, 4), 3), angle = any_orientation(chance);
-  const double middle = rounded(chance.octaves(1, 8), 3);                            // mm
+  const double middle = rounded(chance.octaves(1, 4), 3);                            // mm
   const double reach = 1.42e3 * std::max(made.half().x, made.half().y);              // mm
-  const double curve = rounded(chance.between(0.5, 0.9) / (2 * middle * reach), 4);  // 1/mm^2
+  const double curve = rounded(chance.between(0.5, 0.8) / (2 * middle * reach), 4);  // 1/mm^2
   const glm::dvec2 way{std::cos(angle), std::sin(angle)};
   made.statement(fmt::format("let along = ({} * x + {} * y) / 1 mm", number(way.x), number(way.y)));
   made.push(fmt::format("{} N * sin(2 * pi * (along / {} + {} * along^2)) * {}", number(size), number(middle),
@@ -75,7 +75,7 @@ void add_hill(Composition& made, Chance& chance, double strongest) {
               return size * std::exp(0.5 - glm::dot(from_top, from_top) / 2) * from_top;
             });
   // Whether a single hill is a trend or all of the relief.
-  for (const Cue cue : {Cue::amplitude, Cue::bumpiness, Cue::constant}) made.truth[cue] = open;
+  for (const Cue cue : {Cue::amplitude, Cue::roughness, Cue::bumpiness, Cue::constant}) made.truth[cue] = open;
 }
 
 std::vector<Family> aperiodic_families() { return {{"hill", hills}, {"grains", grains}, {"chirp", chirp}}; }

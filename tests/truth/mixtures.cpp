@@ -5,8 +5,8 @@
 namespace wale::truth {
 namespace {
 
-void add_any_texture(Composition& made, Chance& chance) {
-  add_texture(made, chance, any_waveform(chance), 0.3e-3, std::min(made.longest_period(), 0.025), 1.5);
+void add_any_texture(Composition& made, Chance& chance, double longest = 0.025) {
+  add_texture(made, chance, any_waveform(chance), 0.3e-3, std::min(made.longest_period(), longest), 1.5);
 }
 
 Composition texture_on_trend(Chance& chance) {
@@ -21,10 +21,10 @@ Composition texture_on_trend(Chance& chance) {
   return made;
 }
 
-/// The wall stands at the side; the relief is felt everywhere.
+/// The wall stands at the side; the relief is felt everywhere, and repeats often enough in front of it.
 Composition texture_and_wall(Chance& chance) {
   Composition made = any_patch(chance);
-  add_any_texture(made, chance);
+  add_any_texture(made, chance, 8e-3);
   add_wall(made, chance);
   // The device's limit takes some of the relief where the wall is hard.
   for (const Cue cue : {Cue::amplitude, Cue::roughness, Cue::bumpiness}) made.truth[cue] = open;

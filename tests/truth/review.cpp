@@ -147,7 +147,7 @@ std::vector<ReviewedCase> walls_and_motion() {
        [] {
          return faults_of(
              "active 5 W\n    let beat = fract(1.2 Hz * time)\n"
-             "    force = vector(if beat < 0.3 then 1 N * sin(pi * beat / 0.3)^2 else 0 N, 0 N)",
+             "    force = vector(if beat < 0.3 then 0.5 N * sin(pi * beat / 0.3)^2 else 0 N, 0 N)",
              [](Truth& truth) {
                truth[Cue::sway] = some, truth[Cue::sway_rate] = valued(1.2), truth[Cue::constant] = open;
              });

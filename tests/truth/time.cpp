@@ -56,8 +56,9 @@ Composition beats(Chance& chance) {
 /// One soft push after another: a sway by its rate, with a force in the mean.
 Composition heartbeats(Chance& chance) {
   Composition made = any_patch(chance);
-  const double size = rounded(chance.octaves(0.1, 3), 3), rate = rounded(chance.between(0.8, 1.6), 3);
-  const double share = rounded(chance.between(0.25, 0.5), 2), angle = any_orientation(chance);
+  // Slow and weak enough that its harmonics above 10 Hz are below 0.01 N.
+  const double size = rounded(chance.octaves(0.1, 0.8), 3), rate = rounded(chance.between(0.8, 1.6), 3);
+  const double share = rounded(chance.between(0.4, 0.6), 2), angle = any_orientation(chance);
   const glm::dvec2 way{std::cos(angle), std::sin(angle)};
   made.statement("active 20 W");
   made.statement(fmt::format("let turn = {} Hz * time", number(rate)));
