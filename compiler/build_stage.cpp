@@ -68,7 +68,8 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
   const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
   const SolvedMaterial solved = solve(*checked, module, request.device, opened.sources, *resolver, diagnostics);
   if (diagnostics.has_errors()) return Text();
-  return Text(print_graph(lower(solved), solved, lines));
+  const LoweredMaterial lowered = lower(solved, diagnostics);
+  return diagnostics.has_errors() ? Text() : Text(print_graph(lowered, solved, lines));
 }
 
 }  // namespace wale

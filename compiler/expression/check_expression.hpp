@@ -49,6 +49,12 @@ class ExpressionChecker {
   void read(const Declarations& declarations) { reading_.names = &declarations; }
   const Declarations& declarations() const { return *reading_.names; }
 
+  /// Takes operations from the budget before they are done; false if it is spent, which has been reported.
+  bool charge(std::size_t operations, const Span& span) { return reading_.charge(operations, span); }
+  /// The component of a blend that spends the budget from now on; nothing outside blends.
+  void spend_on(std::optional<Span> component) { reading_.component = component; }
+  const std::optional<Span>& spender() const { return reading_.component; }
+
   CallRecord& record() { return reading_.record; }
 
  private:
@@ -60,9 +66,6 @@ Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprI
 
 /// In words, a quantity with which a value changes: "place", "velocity".
 std::string what_changes(const Dependence& dependence);
-
-/// The most terms of a material; far more than fit into a patch program.
-inline constexpr std::size_t most_terms = std::size_t{1} << 18;
 
 /// Whether the compiler itself defines a function of that name.
 bool is_builtin_function(std::string_view name);

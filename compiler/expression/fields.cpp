@@ -107,6 +107,8 @@ Value call_field(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr
     report_dimension(reading, tree, tree.arguments(call)[0].value, scope, arguments[0].dimension, field.from);
     return failed_value(span);
   }
+  constexpr std::size_t operations_of_a_knot = 8;
+  if (!reading.charge(operations_of_a_knot * field.knots.size(), span)) return failed_value(span);
   return value_at(reading.terms, field, arguments[0], span);
 }
 

@@ -30,10 +30,7 @@ void PerceptSolver::solve_size(Told& told, std::vector<Parameter>& parameters) {
 /// Adds a parameter for a level; if the name is taken, a number is appended.
 void PerceptSolver::add_level(const std::string& name, double level, const std::string& of,
                               std::vector<Parameter>& parameters) {
-  std::string free = name;
-  for (int count = 2; std::ranges::find(parameters, free, &Parameter::name) != parameters.end(); ++count)
-    free = fmt::format("{}_{}", name, count);
-  parameters.push_back({.name = free,
+  parameters.push_back({.name = names_.free(parameters, name),
                         .unit = "",
                         .unit_in_si = 1,
                         .value = static_cast<float>(level),
