@@ -25,9 +25,9 @@ struct DeviceToFeel {
   ChosenDevice chosen;
 };
 
-/// Chooses by `request` among plugged devices, which use the `trusted` declarations, and simulations of `known` devices.
-/// Tells the choice if the person asked or it matters. Waits for a real device that is not plugged in, for at most
-/// `seconds`, until `stop` is true. Errors: those of `choose_device` and `wait_for_device`.
+/// Chooses by `request` among plugged devices, which use the `trusted` declarations, and simulations of `known`
+/// devices. Tells the choice if the person asked or it matters. Waits for a real device that is not plugged in, for at
+/// most `seconds`, until `stop` is true. Errors: those of `choose_device` and `wait_for_device`.
 Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<const DeclaredDevice> known,
                                     std::span<const TrustedDevice> trusted, std::optional<double> seconds,
                                     const Say& say, const std::atomic<bool>& stop);
@@ -53,7 +53,8 @@ struct FeltDevice {
 
 /// Opens the chosen device for `program`, or simulates it in a hand of `person` that moves as `FeltOptions::hand` says.
 /// `stop` must outlive the device. Errors: those of `open_device` and `load_trace`; `other_device` if the program is
-/// built for another device; `other_figures` if it is built for other figures than the trusted declaration of a real one.
+/// built for another device; `other_figures` if it is built for other figures than the trusted declaration of a real
+/// one.
 Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& program, const HandDeclaration& person,
                                 const FeltOptions& options, const Say& say, const std::atomic<bool>& stop);
 

@@ -229,11 +229,9 @@ class Solver {
   void lose_all() {
     const auto& asked = material_.percepts.front();
     if (!declarations_.percepts.find(asked.name)->has_reference)
-      return report(
-          Code::untied_map, asked.span,
-          fmt::format("expected a percept that has levels, found {}, which can only be compared",
-                      asked.name),
-          "leave it out: `wale describe` and `wale compare` report it for finished materials");
+      return report(Code::untied_map, asked.span,
+                    fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
+                    "leave it out: `wale describe` and `wale compare` report it for finished materials");
     report(Code::percept_unrealised, asked.span,
            fmt::format("expected physics for {}, found none, and `{}` has no rule that makes it from a level",
                        asked.name, device_->profile.name),

@@ -33,8 +33,8 @@ struct ChosenDevice {
 /// `known`; of two declarations of one device the first counts. A name means the real device, unless its declaration is
 /// about one that cannot be plugged in. `auto` takes the best real device, or else the simulated one. If an untrusted
 /// declaration is about the chosen device, `said` names it and says what to do. Errors, each with what to do:
-/// `absent_device`: the requested real device is not plugged in; `unusable_device`: it is plugged in but cannot be used;
-/// `other_device`: the program is built for another device; `unknown_device`: no device has that name, or none is
+/// `absent_device`: the requested real device is not plugged in; `unusable_device`: it is plugged in but cannot be
+/// used; `other_device`: the program is built for another device; `unknown_device`: no device has that name, or none is
 /// declared for the one that has it; `untrusted_device`: the name of a real device is only in an untrusted declaration;
 /// `malformed_value`: a real device was requested together with virtual time or a simulated hand.
 Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,

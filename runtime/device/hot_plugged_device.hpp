@@ -18,9 +18,9 @@ namespace wale {
 
 /// The losses and returns of a device while it was used.
 struct HotPlugReport {
-  long losses = 0;                                  ///< how often it was unplugged or stopped answering
-  long returns = 0;                                 ///< how often it was set up again
-  std::string reason;                               ///< why it was lost the last time; empty: never
+  long losses = 0;      ///< how often it was unplugged or stopped answering
+  long returns = 0;     ///< how often it was set up again
+  std::string reason;   ///< why it was lost the last time; empty: never
   std::string refusal;  ///< why the last attempt to set it up again failed; empty: it did not
   std::string manner;   ///< how it is driven, or was driven last
   std::vector<std::pair<std::string, long>> tally;  ///< sums over the whole time, before and after losses

@@ -14,7 +14,8 @@ struct MatchedDevice {
   bool is_generic = false;                ///< no declaration names it, so its figures are assumed
 };
 
-/// The first of `trusted` that its driver names or that has its numbers; otherwise, for a device on USB, the generic one.
+/// The first of `trusted` that its driver names or that has its numbers; otherwise, for a device on USB, the generic
+/// one.
 MatchedDevice match_device(const PluggedIn& plugged, std::span<const TrustedDevice> trusted);
 
 /// The declaration of `known` that the same rule would choose if it were trusted. Null if there is none, or if one of

@@ -53,8 +53,8 @@ void make_unreachable(const KeeperBoard* board) noexcept {
 }
 
 Error no_keeper(const char* what, int error) {
-  return {Code::no_keeper, std::string("the keeper cannot be started: ") + what + ": " +
-                               std::generic_category().message(error)};
+  return {Code::no_keeper,
+          std::string("the keeper cannot be started: ") + what + ": " + std::generic_category().message(error)};
 }
 
 /// Descriptors of a start, closed at its end.
@@ -93,8 +93,8 @@ bool is_ended(int pidfd) noexcept {
 
 }  // namespace
 
-// CLOCK_MONOTONIC stands still while the computer sleeps, CLOCK_BOOTTIME does not. Read in this order, an interruption in
-// between makes the sleep shorter, and never makes one up.
+// CLOCK_MONOTONIC stands still while the computer sleeps, CLOCK_BOOTTIME does not. Read in this order, an interruption
+// in between makes the sleep shorter, and never makes one up.
 std::int64_t nanoseconds_asleep() noexcept {
   const std::int64_t with_sleep = nanoseconds_of(CLOCK_BOOTTIME);
   return with_sleep - nanoseconds_of(CLOCK_MONOTONIC);

@@ -29,7 +29,8 @@ class Keeper {
   /// Starts one for a device that is set up and does not push yet. `descriptor` is that of its node; the keeper gets a
   /// copy. Waits until the keeper watches: a few milliseconds. Error: `no_keeper`.
   static Result<std::unique_ptr<Keeper>> start(const LetGoPlan& plan, int descriptor, const KeeperOptions& options);
-  /// Call it when no thread sends packets to the device any more. Ends the keeper, and waits for that, a second at most.
+  /// Call it when no thread sends packets to the device any more. Ends the keeper, and waits for that, a second at
+  /// most.
   ~Keeper();
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
@@ -64,8 +65,8 @@ class Keeper {
   bool was_asleep() const noexcept;
 
   KeeperBoard* board_;
-  int wake_;             // an eventfd that the keeper waits for
-  int pidfd_ = -1;       // of the keeper
+  int wake_;        // an eventfd that the keeper waits for
+  int pidfd_ = -1;  // of the keeper
   pid_t process_ = 0;
   std::int64_t (*asleep_)() noexcept;
   std::int64_t asleep_before_;  // ns, when this began

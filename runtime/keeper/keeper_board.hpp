@@ -29,13 +29,13 @@ struct KeeperBoard {
   std::uint32_t version = current_version;
 
   // The owner's.
-  std::atomic<std::int64_t> beat{0};        ///< ns of CLOCK_MONOTONIC, when the loop last ticked
-  std::atomic<std::uint32_t> pushes{0};     ///< 1: the device may be pushing, so that the beat matters
-  std::atomic<std::uint32_t> is_over{0};    ///< 1: the owner sends nothing more, and has let the device go if it could
+  std::atomic<std::int64_t> beat{0};      ///< ns of CLOCK_MONOTONIC, when the loop last ticked
+  std::atomic<std::uint32_t> pushes{0};   ///< 1: the device may be pushing, so that the beat matters
+  std::atomic<std::uint32_t> is_over{0};  ///< 1: the owner sends nothing more, and has let the device go if it could
   // Both may set it, once, from `open`.
-  std::atomic<std::uint32_t> latch{0};      ///< a `Latch`
+  std::atomic<std::uint32_t> latch{0};  ///< a `Latch`
   // The keeper's.
-  std::atomic<std::int64_t> look{0};        ///< ns, when the keeper last looked; 0: it has not begun
+  std::atomic<std::int64_t> look{0};           ///< ns, when the keeper last looked; 0: it has not begun
   std::atomic<std::uint32_t> times_let_go{0};  ///< how often it has made all steps since the latch was set
 
   LetGoPlan plan;

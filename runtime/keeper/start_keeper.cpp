@@ -42,8 +42,7 @@ struct Start {
 int start_and_leave(void* start) {
   Start& wanted = *static_cast<Start*>(start);
   for (const int descriptor : wanted.descriptors) fcntl(descriptor, F_SETFD, 0);
-  wanted.error =
-      posix_spawn(&wanted.keeper, wanted.program, nullptr, wanted.attributes, wanted.words, environ);
+  wanted.error = posix_spawn(&wanted.keeper, wanted.program, nullptr, wanted.attributes, wanted.words, environ);
   _exit(0);
 }
 
@@ -81,8 +80,7 @@ Result<std::string> find_keeper(const std::string& named) {
   for (const fs::path& place : {folder / keeper_name, folder.parent_path() / "libexec" / "wale" / keeper_name}) {
     if (access(place.c_str(), X_OK) == 0) return place.string();
   }
-  return no_keeper(std::string("there is no ") + keeper_name + " beside " + self.filename().string(),
-                   folder.string());
+  return no_keeper(std::string("there is no ") + keeper_name + " beside " + self.filename().string(), folder.string());
 }
 
 // A child of this process would raise SIGCHLD when it ends, and an application's handler or `waitpid(-1)` would meet a
@@ -113,7 +111,8 @@ Result<pid_t> start_keeper(const std::string& program, std::span<const std::stri
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   munmap(stack, stack_bytes);
   const int failure = intermediate < 0 ? error : start.error;
-  if (failure != 0) return no_keeper("the keeper cannot be started: " + std::generic_category().message(failure), program);
+  if (failure != 0)
+    return no_keeper("the keeper cannot be started: " + std::generic_category().message(failure), program);
   return start.keeper;
 }
 

@@ -419,7 +419,8 @@ class Verifier {
 
   /// Refuses an instruction, and shows it with those that its operands come from, nearest first up to the limit.
   template <typename... Parts>
-  [[noreturn]] void refuse_at(const Section& section, Instructions code, std::size_t number, const Parts&... parts) const {
+  [[noreturn]] void refuse_at(const Section& section, Instructions code, std::size_t number,
+                              const Parts&... parts) const {
     std::vector<std::size_t> shown = {number};
     for (std::size_t next = 0; next < shown.size() && shown.size() < shown_instructions; ++next) {
       const Instruction& instruction = code[shown[next]];

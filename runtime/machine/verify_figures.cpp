@@ -122,7 +122,8 @@ void verify_lattices(const PatchProgram& program) {
 void verify_patch(const PatchProgram& program) {
   const double most = program.device.widest_patch();
   const auto side = [most](float value, std::string_view what) {
-    if (!(value >= 2 * arithmetic::least_normal && value <= most)) {  // the machine flushes half of a smaller one to zero
+    if (!(value >= 2 * arithmetic::least_normal &&
+          value <= most)) {  // the machine flushes half of a smaller one to zero
       refuse("the patch's ", what, " is ", value, " m, expected more than 0 and at most the workspace's ", most, " m");
     }
   };

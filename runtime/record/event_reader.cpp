@@ -19,7 +19,8 @@ Result<> EventReader::read(const EventHeader& header, std::span<const std::byte>
 void EventReader::read_whole(const EventHeader& header, std::span<const std::byte> payload) {
   const auto code = static_cast<EventCode>(header.kind);
   Bytes in("an event", payload);
-  if ((code == EventCode::header) == has_header_) damaged("the header must be the first event, and the only one of its kind");
+  if ((code == EventCode::header) == has_header_)
+    damaged("the header must be the first event, and the only one of its kind");
   if (contents_.said_ticks) damaged("it comes after the end event");
   if (code == EventCode::header) {
     read_header(in, payload);

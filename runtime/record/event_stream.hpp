@@ -49,8 +49,8 @@ class EventStream {
   void leave_all_but_last() noexcept;
 
   ChunkFile& file_;
-  std::vector<std::byte*> chunks_;  // mapped, of the event that is being stored
-  std::uint64_t made_ = 0;          // chunks of events so far
+  std::vector<std::byte*> chunks_;                         // mapped, of the event that is being stored
+  std::uint64_t made_ = 0;                                 // chunks of events so far
   std::size_t used_ = recording_format::events_per_chunk;  // bytes of the last chunk
 };
 

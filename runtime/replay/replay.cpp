@@ -143,9 +143,7 @@ class Replaying final : public RecordedRun {
         placed_[event.patch] = event.program;
         return;
       case RecordedEvent::Kind::set: set(event.patch, event.parameter, event.value); return;
-      case RecordedEvent::Kind::move:
-        require(stage_.move(event.patch, event.position));
-        return;
+      case RecordedEvent::Kind::move: require(stage_.move(event.patch, event.position)); return;
       case RecordedEvent::Kind::publish: revision_ = event.revision; return;
       case RecordedEvent::Kind::end: return;
     }

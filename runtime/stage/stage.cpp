@@ -93,10 +93,10 @@ Result<RunLength> length_of(const RunOptions& options, double rate) {
   const double kept = std::min(options.seconds, options.kept_seconds);
   if (kept * rate > static_cast<double>(longest_run)) {
     const bool endless_run = kept < options.seconds;
-    return malformed(endless_run ? "kept_seconds" : "seconds",
-                     "a run " + std::string(endless_run ? "keeps" : "lasts") + " at most " +
-                         digits(static_cast<double>(longest_run) / rate) + " s at " + digits(rate) + " Hz" +
-                         asked(kept));
+    return malformed(endless_run ? "kept_seconds" : "seconds", "a run " + std::string(endless_run ? "keeps" : "lasts") +
+                                                                   " at most " +
+                                                                   digits(static_cast<double>(longest_run) / rate) +
+                                                                   " s at " + digits(rate) + " Hz" + asked(kept));
   }
   return RunLength{std::max(1L, std::lround(std::min(options.seconds * rate, endless))),
                    std::max(1L, std::lround(kept * rate))};
@@ -218,8 +218,8 @@ struct Stage::Parts {
   void play_recorded(Player& player, Exchange<PlacedPatches>& patches, RecordedRun& recorded, RunResult& result);
   void play_in_virtual_time(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
                             RunResult& result);
-  Result<> play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
-                                           const RunOptions& options, RunResult& result);
+  Result<> play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks, const RunOptions& options,
+                             RunResult& result);
   void attend(const Player& player, Exchange<PlacedPatches>& patches, const RunOptions& options);
 };
 
@@ -270,7 +270,7 @@ void Stage::Parts::play_in_virtual_time(Player& player, Exchange<PlacedPatches>&
 }
 
 Result<> Stage::Parts::play_in_real_time(Player& player, Exchange<PlacedPatches>& patches, long ticks,
-                                                       const RunOptions& options, RunResult& result) {
+                                         const RunOptions& options, RunResult& result) {
   std::atomic<bool> abandoned = false;
   finished = false;
   const auto loop = [&] {

@@ -73,7 +73,8 @@ TEST(Choosing, AutoTakesTheBestAndSaysWhich) {
   EXPECT_EQ(choice("auto", {}).said, "no force-feedback device is plugged in; using a simulated one");
   EXPECT_EQ(choice("auto", {mouse}).said, "no force-feedback device is plugged in; using a simulated one");
   EXPECT_EQ(choice("auto", {mouse, rhino}).device, "1-2");
-  EXPECT_EQ(choice("auto", {unheard_of, rhino}).profile, "vpforce_rhino") << "declared devices come before unknown ones";
+  EXPECT_EQ(choice("auto", {unheard_of, rhino}).profile, "vpforce_rhino")
+      << "declared devices come before unknown ones";
   const Choice generic = choice("auto", {unheard_of});
   EXPECT_EQ(generic.profile, "usb_joystick");
   EXPECT_TRUE(contains(generic.said, "no declaration is about it"));

@@ -115,7 +115,8 @@ TEST(HotPlugging, HasNoForceWhileLostAndIsReopenedWhenBack) {
     EXPECT_EQ(report.returns, 1);
     EXPECT_EQ(report.reason, "it was unplugged");
     EXPECT_EQ(report.refusal, "");
-    EXPECT_EQ(report.tally, (std::vector<std::pair<std::string, long>>{{"opened", 2}})) << "the sum over both connections";
+    EXPECT_EQ(report.tally, (std::vector<std::pair<std::string, long>>{{"opened", 2}}))
+        << "the sum over both connections";
   }
   EXPECT_EQ(plug.alive, 0);
 }

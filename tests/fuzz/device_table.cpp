@@ -1,13 +1,14 @@
 // A libFuzzer target for tables of declared devices. Any bytes are refused with a reason, or are read and written back
 // unchanged. Without a seed, it starts with the built-in table.
 
+#include "schema/device_table.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <span>
 #include <vector>
 
 #include "runtime/device/shipped_devices.hpp"
-#include "schema/device_table.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 

@@ -175,8 +175,7 @@ TEST(Image, FormatThatNeedsAFileFindsItInMemory) {
   const auto of_fits = read({bytes.begin(), bytes.end()}, "slate.fits");
   ASSERT_EQ(of_fits.table.heights.size(), pixels);
   // OpenImageIO 2.4 begins a row too late, so the first one is missing.
-  for (std::size_t i = width; i < pixels; ++i)
-    EXPECT_EQ(of_fits.table.heights[i], image.table.heights[i - width]) << i;
+  for (std::size_t i = width; i < pixels; ++i) EXPECT_EQ(of_fits.table.heights[i], image.table.heights[i - width]) << i;
 }
 
 TEST(Image, SmoothingIsAGaussianOfTheStatedWidth) {

@@ -113,7 +113,8 @@ TEST(AKeeper, TakesADeviceThatPushesWhenTheLoopDoesNotTick) {
   keeper->beat();
   EXPECT_EQ(keeper->look(), Verdict::latched) << "for good";
   const std::size_t before = device.told().size();
-  EXPECT_TRUE(eventually([&] { return device.told().size() > before + 3; })) << "again and again: something may still come";
+  EXPECT_TRUE(eventually([&] { return device.told().size() > before + 3; }))
+      << "again and again: something may still come";
   EXPECT_FALSE(device.has_farewell());
   keeper.reset();
   EXPECT_TRUE(device.has_farewell()) << device.told();

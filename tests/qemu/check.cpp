@@ -1,6 +1,6 @@
 // Runs the USB drivers with models of devices, through a real kernel. The kernel's virtual host controller enumerates
-// the models, and its HID driver binds them. The drivers reach them through usbfs, hidraw and evdev. The program runs as
-// root with vhci-hcd loaded; tests/qemu/run starts a kernel for it. It asserts counts, order and bytes.
+// the models, and its HID driver binds them. The drivers reach them through usbfs, hidraw and evdev. The program runs
+// as root with vhci-hcd loaded; tests/qemu/run starts a kernel for it. It asserts counts, order and bytes.
 
 #include <algorithm>
 #include <charconv>

@@ -74,17 +74,15 @@ struct Way {
 };
 
 const std::vector<Way>& ways() {
-  static const std::vector<Way> all{
-      {"SIGKILL", [](pid_t owner) { ::kill(owner, SIGKILL); }},
-      {"SIGSTOP, then SIGCONT", [](pid_t owner) { ::kill(owner, SIGSTOP); }},
-      {"a crash with a core dump", [](pid_t owner) { ::kill(owner, SIGUSR1); }},
-      {"a loop that runs away", [](pid_t owner) { ::kill(owner, SIGUSR2); }},
-      {"its keeper killed", [](pid_t) { ::kill(keeper_now(), SIGKILL); }},
-      {"both killed",
-       [](pid_t owner) {
-         ::kill(keeper_now(), SIGKILL);
-         ::kill(owner, SIGKILL);
-       }}};
+  static const std::vector<Way> all{{"SIGKILL", [](pid_t owner) { ::kill(owner, SIGKILL); }},
+                                    {"SIGSTOP, then SIGCONT", [](pid_t owner) { ::kill(owner, SIGSTOP); }},
+                                    {"a crash with a core dump", [](pid_t owner) { ::kill(owner, SIGUSR1); }},
+                                    {"a loop that runs away", [](pid_t owner) { ::kill(owner, SIGUSR2); }},
+                                    {"its keeper killed", [](pid_t) { ::kill(keeper_now(), SIGKILL); }},
+                                    {"both killed", [](pid_t owner) {
+                                       ::kill(keeper_now(), SIGKILL);
+                                       ::kill(owner, SIGKILL);
+                                     }}};
   return all;
 }
 
@@ -97,16 +95,16 @@ double milliseconds_until(const std::function<bool()>& holds, double most) {
   }
 }
 
-/// How long a force lasted: by the clock, at most 2000 ms, and by the device's frames. An emulated processor that others
-/// keep busy makes frames longer than a millisecond; a device's durations and the bus go by frames, the keeper by the
-/// clock.
+/// How long a force lasted: by the clock, at most 2000 ms, and by the device's frames. An emulated processor that
+/// others keep busy makes frames longer than a millisecond; a device's durations and the bus go by frames, the keeper
+/// by the clock.
 struct Lasted {
   double milliseconds = 0;
   long frames = 0;
 };
 
-/// When the device last pushed, from now on, until it has not for 200 ms; 2000 ms where it does not end. A loop that the
-/// emulated processor keeps waiting is silent for a while too, so the first moment without force is not the end.
+/// When the device last pushed, from now on, until it has not for 200 ms; 2000 ms where it does not end. A loop that
+/// the emulated processor keeps waiting is silent for a while too, so the first moment without force is not the end.
 Lasted last_push(const std::function<double()>& force, const std::atomic<long>& frames, long first_frame) {
   constexpr double long_time = 2000, calm = 200;  // ms
   const std::int64_t began = microseconds_now();
@@ -200,16 +198,16 @@ void check_dying(const std::string& by) {
     const auto force = [&] {
       return port.with<FalconModel>([](FalconModel& each) { return std::hypot(each.force().x, each.force().y); });
     };
-    die_of_all(by, found.info, force, port.frames, [&] { port.with<FalconModel>([](FalconModel& each) { each.torques = {}; }); });
+    die_of_all(by, found.info, force, port.frames,
+               [&] { port.with<FalconModel>([](FalconModel& each) { each.torques = {}; }); });
   } else {
     auto port = plugged(openffboard());
     await([] { return !pushing_input().empty(); }, "the kernel's own driver binds it");
     port->with<PidModel>([](PidModel& each) { each.logs = false; });
     const Found found = find(openffboard().vendor, openffboard().product);
     const auto force = [&] { return std::hypot(force_of(*port).x, force_of(*port).y); };
-    die_of_all(by, found.info, force, port->frames, [] {
-      milliseconds_until([] { return !pushing_input().empty(); }, 60'000);
-    });
+    die_of_all(by, found.info, force, port->frames,
+               [] { milliseconds_until([] { return !pushing_input().empty(); }, 60'000); });
   }
   demand(late_deaths == 0, "however it dies, the force ends within 250 frames");
 }

@@ -60,7 +60,8 @@ TEST(AccelerationFilter, IsSmallForAHandAtRest) {
   EXPECT_LT(most, 0.02) << "a plain second difference would be 2";
 }
 
-// The delay is half the window, 15 ticks of the 900 of a period, so the error is at most 2 pi 15 / 900 of the amplitude.
+// The delay is half the window, 15 ticks of the 900 of a period, so the error is at most 2 pi 15 / 900 of the
+// amplitude.
 TEST(AccelerationFilter, ASineIsFollowedWithHalfAWindowOfDelay) {
   const double amplitude = 900, w = 2 * std::numbers::pi / 900;  // 50 mm at 1 Hz
   AccelerationFilter filter(sandpaper());

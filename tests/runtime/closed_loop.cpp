@@ -1,5 +1,5 @@
-// The guards in the loop with the simulated joystick: the motion of a device of known mass and damping under sampled and
-// held control, compared with control theory and tests/reference/closed_loop.md.
+// The guards in the loop with the simulated joystick: the motion of a device of known mass and damping under sampled
+// and held control, compared with control theory and tests/reference/closed_loop.md.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -101,8 +101,8 @@ TEST(ClosedLoop, AWallOfTwiceThePassiveStiffnessIsCalmed) {
   }
 }
 
-/// The stiffest passive spring, in N/m, with a delay of `ticks` and the damping of device and hand: the bound of Colgate
-/// and Schenkel with a delay, b / (T / 2 + t).
+/// The stiffest passive spring, in N/m, with a delay of `ticks` and the damping of device and hand: the bound of
+/// Colgate and Schenkel with a delay, b / (T / 2 + t).
 double stiffest_passive(const Scene& scene, double ticks) {
   return (scene.profile.damping + scene.hand.damping) * scene.profile.rate / (0.5 + ticks);
 }
@@ -136,7 +136,8 @@ TEST(ClosedLoop, PassiveFieldsWithADelayAreNotChanged) {
     for (const double ticks : {1.0, 2.0, 2.7})
       for (const double share : {0.1, 0.5, 0.9}) {
         SCOPED_TRACE(testing::Message() << share << ", " << ticks << " ticks late");
-        const Scene alone{late(frictionless(encoder), ticks), no_hand, Rest{{0.012, 0.006}}};  // the handle is released there
+        const Scene alone{late(frictionless(encoder), ticks), no_hand,
+                          Rest{{0.012, 0.006}}};  // the handle is released there
         const double stiffness = share * stiffest_passive(alone, ticks);
         EXPECT_EQ(run(alone, spring(stiffness), 10, true, stiffness * glm::dvec2(-0.012, -0.006)).acted, 0);
         const Scene leaning{late(frictionless(encoder), ticks), normal_hand(), Lateral{0.02, 1}};
@@ -176,8 +177,8 @@ TEST(ClosedLoop, ARubbedTextureIsNotChanged) {
       EXPECT_EQ(run({sandpaper(), hand, motion}, ribs(1.934), 5, true).acted, 0) << hand.mass << " kg";
 }
 
-/// At constant speed over a spring, the loop gains K dx^2 / 2 - b dx^2 / T per tick, since the held force is that of the
-/// place before.
+/// At constant speed over a spring, the loop gains K dx^2 / 2 - b dx^2 / T per tick, since the held force is that of
+/// the place before.
 TEST(PassivityObserver, MetersTheGainOfAHeldSpring) {
   DeviceProfile profile = frictionless(false);
   PassivityObserver observer(profile);

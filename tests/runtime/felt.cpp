@@ -197,7 +197,8 @@ TEST(LevelsBack, AreRefusedWithTheReason) {
   const Bank mixed(*Program::load(program));
   felt.crossings = 1000;
   EXPECT_EQ(in_words(levels_back(mixed, felt)[0].back.error()),
-            "other forces push besides the lateral amplitude, so the force at the handle does not give the level of roughness");
+            "other forces push besides the lateral amplitude, so the force at the handle does not give the level of "
+            "roughness");
 }
 
 TEST(LevelsBack, NoPerceptsNoLevels) {

@@ -5,7 +5,8 @@
 
 namespace wale {
 
-/// The joystick and hand of tests/reference/closed_loop.md, with the slew and filter of calibration/devices/sandpaper.wale.
+/// The joystick and hand of tests/reference/closed_loop.md, with the slew and filter of
+/// calibration/devices/sandpaper.wale.
 inline DeviceProfile sandpaper() {
   return {.name = "sandpaper",
           .workspace_diameter = 0.2286,

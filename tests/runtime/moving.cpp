@@ -177,7 +177,8 @@ TEST(Moving, RefusesUnknownPatchesAndInvalidPlaces) {
   EXPECT_EQ(in_words(stage.move(0, {0, 0}).error()), "nothing is placed on the stage");
   stage.place(push(1));
   EXPECT_EQ(in_words(stage.move(1, {0, 0}).error()), "patch 1 is not among the 1 on the stage");
-  EXPECT_EQ(in_words(stage.move(0, {std::nanf(""), 0}).error()), "the position to which a patch is moved must be finite");
+  EXPECT_EQ(in_words(stage.move(0, {std::nanf(""), 0}).error()),
+            "the position to which a patch is moved must be finite");
   EXPECT_FALSE(stage.move(0, {0, std::numeric_limits<float>::infinity()}));
   EXPECT_TRUE(stage.move(0, {0.5f, 0}));
   run_of(stage, 3);

@@ -18,9 +18,7 @@ namespace {
 
 using example::pad_device;
 
-Program ribs(PositionSource source = PositionSource::touch) {
-  return *Program::load(example::pad(source));
-}
+Program ribs(PositionSource source = PositionSource::touch) { return *Program::load(example::pad(source)); }
 
 RunResult run(Stage& stage, double seconds) {
   auto result = stage.run({.seconds = seconds, .virtual_time = true, .progress = {}, .stop = nullptr});

@@ -34,8 +34,8 @@ TEST(PotentialRange, OfAConstantForceIsTheForceTimesTheWidth) {
 
 TEST(PotentialRange, OfATextureIsThatOfOneOfItsSlopes) {
   for (const float wale : {0.001f, 0.0025f, 0.005f}) {
-    // The area under a Gaussian is amplitude times standard deviation times sqrt(2 pi), less its parts beyond a quarter of
-    // a wale from its middle, 2.67 standard deviations.
+    // The area under a Gaussian is amplitude times standard deviation times sqrt(2 pi), less its parts beyond a quarter
+    // of a wale from its middle, 2.67 standard deviations.
     const double truth = 1.934 * wale * 24 / 256 * std::sqrt(2 * std::numbers::pi);
     const double range = range_of(corduroy(1.934f, wale)) - between_lines(1.934);
     EXPECT_GT(range, 0.9 * truth) << wale;

@@ -95,9 +95,9 @@ inline Program push(float force, float ceiling = 9) {
   return a.load();
 }
 
-/// A bead of 1 kg on a spring to the hand, with the parameter `stiffness` (N/m). It starts at the hand's entry, at rest,
-/// and moves along x by semi-implicit Euler. The force is that of the spring. The bead writes 1 into a track of 9 cells,
-/// each 2.5 mm wide, with the middle one at the patch's centre.
+/// A bead of 1 kg on a spring to the hand, with the parameter `stiffness` (N/m). It starts at the hand's entry, at
+/// rest, and moves along x by semi-implicit Euler. The force is that of the spring. The bead writes 1 into a track of 9
+/// cells, each 2.5 mm wide, with the middle one at the patch's centre.
 inline Program bead(float stiffness) {
   Assembly a({9, 1, 0, 400, 4}, {{"stiffness", "N/m", 1, stiffness, 0, 1e6f, 0, 1e6f, ""}});
   const RegisterNumber place = a.state("place", -1, 1), speed = a.state("speed", -10, 10);
@@ -117,9 +117,9 @@ inline Program bead(float stiffness) {
   return a.load();
 }
 
-/// Corduroy by its gradient: Gaussian pulses of alternating sign every half wale, with a standard deviation of 24/256 of a
-/// wale (the flanks of a smoothed square wave) and a height of `amplitude` N. The exact RMS is 0.576 of that. Its percept
-/// has the law of Minsky 1995, figure 19.
+/// Corduroy by its gradient: Gaussian pulses of alternating sign every half wale, with a standard deviation of 24/256
+/// of a wale (the flanks of a smoothed square wave) and a height of `amplitude` N. The exact RMS is 0.576 of that. Its
+/// percept has the law of Minsky 1995, figure 19.
 inline Program corduroy(float amplitude, float wale = 0.0025f) {
   const float width = 24.0f / 128.0f;  // standard deviation in half wales
   const float exponent = 0.759593f, reference = 194 * 10.0f / 512;

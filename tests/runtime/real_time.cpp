@@ -97,8 +97,8 @@ TEST(RealTime, AllocationsLocksAndExceptionsAreCounted) {
   EXPECT_EQ(throws, thrown + 1);
 }
 
-/// With everything that a beat may do: reading the clock, motor heat, a delayed actuator, patches that stay, and patches
-/// that were moved.
+/// With everything that a beat may do: reading the clock, motor heat, a delayed actuator, patches that stay, and
+/// patches that were moved.
 TEST(RealTime, ABeatNeitherAllocatesNorLocksNorThrowsEvenWhenABankArrives) {
   DeviceProfile profile = sandpaper();
   profile.continuous_newton = 0.4;

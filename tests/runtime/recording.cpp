@@ -205,7 +205,8 @@ TEST(Recording, ReplaysSkippedPeriodsAndOverruns) {
   const Program program = bead(400);
   GuardCounts guards;
   {
-    const auto begun = RecordWriter::begin(folder / "a.wrec", {.device = device.profile(), .most_newton = HUGE_VAL}, true);
+    const auto begun =
+        RecordWriter::begin(folder / "a.wrec", {.device = device.profile(), .most_newton = HUGE_VAL}, true);
     RecordWriter& writer = **begun;
     writer.add(program, {0, 0}, program.default_size(), 0, program.default_parameters());
     writer.publish(1);

@@ -235,7 +235,8 @@ TEST(Replacing, OutsideOfTheHandStatesBeginAtTheNextEntry) {
 }
 
 TEST(Replacing, KeepsTheCellsOfGrids) {
-  // The bead has written into the middle of its track. A program with a stiffer spring that replaces it keeps the track.
+  // The bead has written into the middle of its track. A program with a stiffer spring that replaces it keeps the
+  // track.
   const Program soft = bead(100), stiff = bead(200);
   Bank bank(soft);
   auto first = std::make_shared<Memory>(soft);
@@ -291,8 +292,8 @@ TEST(Inputs, ThePlaceOnTheWorkspace) {
   EXPECT_NEAR(run(stage, 3).record.ticks[2].force.x, 358 * 0.2286 / 4096 - 0.01, 1e-7);
 }
 
-// x = t^2 counts and y = -2 t^2: the raw velocity along x is 2 t - 1 counts per tick, and the acceleration is 2 counts per
-// tick^2 by any estimate.
+// x = t^2 counts and y = -2 t^2: the raw velocity along x is 2 t - 1 counts per tick, and the acceleration is 2 counts
+// per tick^2 by any estimate.
 TEST(Inputs, MotionInMetresAndSeconds) {
   const double step = 0.2286 / 4096, rate = 900;
   const auto reading = [](long period) {

@@ -76,9 +76,9 @@ TEST(PidSession, StopsByteForByte) {
   for (int i = 0; i < 3; ++i) bus.frame();  // packets under way arrive first
   model.log.erase(model.log.begin(), model.log.end() - 1);
   bus.settle();
-  const std::vector<std::string> leaving{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00", "OUT 0A 02 03 00",
-                                         "OUT 0C 04",       "OUT 0B 01",       "OUT 0B 02",       "OUT 0C 08",
-                                         "OUT 0C 02"};
+  const std::vector<std::string> leaving{"OUT 05 01 00 00", "OUT 05 02 00 00", "OUT 0A 01 03 00",
+                                         "OUT 0A 02 03 00", "OUT 0C 04",       "OUT 0B 01",
+                                         "OUT 0B 02",       "OUT 0C 08",       "OUT 0C 02"};
   ASSERT_GE(model.log.size(), leaving.size());
   EXPECT_EQ(std::vector<std::string>(model.log.end() - 9, model.log.end()), leaving);
   EXPECT_EQ(bus.session.state(), State::over);
@@ -101,7 +101,8 @@ TEST(PidSession, TenThousandTicksOfEachFamily) {
     for (const PidBus::Sent& sent : bus.forces) {  // only the newest command ever goes out
       const double wanted = sent.packet.bytes[1] == 1 ? sent.newest.x : sent.newest.y;
       ASSERT_LT(std::abs(sent_counts(sent) - wanted * family.magnitude_maximum), 1) << family.name;
-      ASSERT_LE(std::abs(sent_counts(sent)), std::abs(wanted) * family.magnitude_maximum * (1 + 2e-6)) << "rounded toward zero";
+      ASSERT_LE(std::abs(sent_counts(sent)), std::abs(wanted) * family.magnitude_maximum * (1 + 2e-6))
+          << "rounded toward zero";
     }
     const auto& counts = bus.session.counts();
     EXPECT_EQ(model.wrong_reports, 0) << family.name;

@@ -309,9 +309,10 @@ int MockUsbDevice::transfer_at_once(gulong request, UMockdevIoctlData* argument)
   if (is_control) {
     const auto low = [](unsigned word) { return static_cast<std::uint8_t>(word & 0xff); };
     const auto high = [](unsigned word) { return static_cast<std::uint8_t>(word >> 8); };
-    is_taken = model_->control({control.bRequestType, control.bRequest, low(control.wValue), high(control.wValue),
-                                low(control.wIndex), high(control.wIndex), low(control.wLength), high(control.wLength)},
-                               out)
+    is_taken = model_
+                   ->control({control.bRequestType, control.bRequest, low(control.wValue), high(control.wValue),
+                              low(control.wIndex), high(control.wIndex), low(control.wLength), high(control.wLength)},
+                             out)
                    .has_value();
   } else {
     is_taken = model_->listens(static_cast<std::uint8_t>(packet.ep)) &&

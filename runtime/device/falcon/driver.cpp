@@ -40,12 +40,11 @@ OpenedDevice open_falcon(const Connections& connections, const PluggedIn& plugge
 
 }  // namespace
 
-constinit const Driver falcon_driver{
-    .name = "novint-falcon",
-    .is_chosen_by_auto = true,
-    .is_felt = true,
-    .find = find_falcon,
-    .open = open_falcon,
-    .left_alone = "keeps pushing until it is opened again or loses its power"};
+constinit const Driver falcon_driver{.name = "novint-falcon",
+                                     .is_chosen_by_auto = true,
+                                     .is_felt = true,
+                                     .find = find_falcon,
+                                     .open = open_falcon,
+                                     .left_alone = "keeps pushing until it is opened again or loses its power"};
 
 }  // namespace wale

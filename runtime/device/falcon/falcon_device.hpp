@@ -45,9 +45,9 @@ struct FalconOptions {
 /// last position.
 class FalconDevice final : public PluggedDevice {
  public:
-  /// Loads the firmware if the device runs none, and waits until it is homed. The declaration's counts and force must be
-  /// positive. The error names the obstacle: a missing permission and the rule that gives it, another program, missing
-  /// firmware and its source, or a handle that nobody has moved.
+  /// Loads the firmware if the device runs none, and waits until it is homed. The declaration's counts and force must
+  /// be positive. The error names the obstacle: a missing permission and the rule that gives it, another program,
+  /// missing firmware and its source, or a handle that nobody has moved.
   static Result<std::unique_ptr<FalconDevice>> open(std::shared_ptr<UsbContext> context, const UsbDeviceInfo& info,
                                                     const TrustedDevice& trusted, const FalconOptions& options = {});
 

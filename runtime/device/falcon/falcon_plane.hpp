@@ -40,8 +40,8 @@ class FalconPlane {
     glm::dvec2 force{0};  ///< N, exerted by these torques in the plane
     double hold = 0;      ///< N, exerted by these torques across the plane
   };
-  /// The torques for a force (N) in the plane at the newest place of the handle, rounded toward zero. A force beyond the
-  /// motors or the user's limit keeps its direction and becomes smaller; the hold gets the rest of the limit.
+  /// The torques for a force (N) in the plane at the newest place of the handle, rounded toward zero. A force beyond
+  /// the motors or the user's limit keeps its direction and becomes smaller; the hold gets the rest of the limit.
   /// Not-a-number counts as no force.
   Push push(glm::dvec2 force, std::int64_t now) noexcept;
 

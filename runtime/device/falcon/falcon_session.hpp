@@ -45,7 +45,7 @@ struct FalconSessionOptions {
   double command_silence = 0.05;
   double answer_silence = 0.03;  ///< s without an answer after which the device is asked again
   int most_silences = 10;        ///< in a row; then the device is lost
-  double stale_after = 0.02;     ///< s after which an answer no longer says where the handle is: then there is no torque
+  double stale_after = 0.02;  ///< s after which an answer no longer says where the handle is: then there is no torque
 };
 
 /// What a session has done since it was made.

@@ -42,8 +42,8 @@ class EvdevNode {
 /// A joystick through effects of the kernel's driver, which writes the reports of the PID class itself.
 ///
 /// If the driver has room for two effects, each is turned to one axis, and a change of level is one report, Set
-/// Constant Force. With one effect, a change of direction takes a second report, Set Effect, and between the two the old
-/// magnitude acts along the new direction. One effect is used if the driver has room for one only, and if the user
+/// Constant Force. With one effect, a change of direction takes a second report, Set Effect, and between the two the
+/// old magnitude acts along the new direction. One effect is used if the driver has room for one only, and if the user
 /// limits the force: its magnitude is within the limit along every direction, so late or lost updates cannot exceed it.
 ///
 /// An update returns before its report has been sent, and the driver queues up to 256 reports, old forces before new
@@ -57,7 +57,8 @@ class EvdevNode {
 /// - Programs that have opened the node themselves cannot change or erase our effects. The kernel lets them stop an
 ///   effect, which the next refresh starts again, and set the gain and the centring spring, about which it tells
 ///   nobody.
-/// - A program that grabs the node (EVIOCGRAB) gets all events, and the others none, but the kernel still tells them the
+/// - A program that grabs the node (EVIOCGRAB) gets all events, and the others none, but the kernel still tells them
+/// the
 ///   state when they ask, and still plays their effects (drivers/input/evdev.c, Linux 6.12). Within 20 ms after the
 ///   hand moves the transport notices that, and asks for the state each millisecond until events come again.
 /// - A reset through hidraw does not go through the kernel's force-feedback driver. The driver continues to accept

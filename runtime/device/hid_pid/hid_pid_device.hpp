@@ -26,10 +26,10 @@ class HidPidDevice final : public PluggedDevice {
     std::optional<PidTransportKind> transport;  ///< none: the first one of `transports_by_preference` that can be used
   };
 
-  /// Takes the first interface of the device that can push, and sets it up from zero force. The declaration's counts and
-  /// force must be positive; with `options.most_newton` it sets the limits of the session. The error names the obstacle:
-  /// a missing permission and the rule that gives it, another program, that it is no force device, or what its
-  /// descriptor lacks.
+  /// Takes the first interface of the device that can push, and sets it up from zero force. The declaration's counts
+  /// and force must be positive; with `options.most_newton` it sets the limits of the session. The error names the
+  /// obstacle: a missing permission and the rule that gives it, another program, that it is no force device, or what
+  /// its descriptor lacks.
   static Result<std::unique_ptr<HidPidDevice>> open(const std::shared_ptr<UsbContext>& context,
                                                     const UsbDeviceInfo& info, const TrustedDevice& trusted,
                                                     const Options& options = {});

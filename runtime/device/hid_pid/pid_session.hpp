@@ -31,8 +31,8 @@ struct PidSessionOptions {
   /// 0.2 s is below the 0.25 s within which every device is to be free of force; the starts are 30 packets a second for
   /// two effects, 3 % of what a full-speed endpoint takes, and a start may come 130 ms late before the force stutters.
   double effect_duration = 0.2;
-  /// s without a command after which the force is none and effects are left to end: before a keeper takes the device for
-  /// the same reason, after 0.1 s.
+  /// s without a command after which the force is none and effects are left to end: before a keeper takes the device
+  /// for the same reason, after 0.1 s.
   double command_silence = 0.05;
   /// s without an input report after which the device is asked for one.
   double input_silence = 0.1;
@@ -156,8 +156,8 @@ class PidSession {
   /// With other users only what is its own is stopped. Real-time.
   void stop() noexcept;
 
-  /// Sends nothing more, not even to stop: another owns the device now, or its state is not known any more. Effects that
-  /// still play end with their duration. `reason` outlives the session. Real-time.
+  /// Sends nothing more, not even to stop: another owns the device now, or its state is not known any more. Effects
+  /// that still play end with their duration. `reason` outlives the session. Real-time.
   void give_up(std::string_view reason) noexcept;
 
   /// Whether the newest packets to the device, on their way or taken, let it push. Real-time.

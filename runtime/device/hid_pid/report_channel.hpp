@@ -42,7 +42,8 @@ class ReportChannel {
   /// The greatest number of transfers under way, besides one poll.
   virtual int most_under_way() const noexcept = 0;
   virtual hid::HidInterface interface() const noexcept = 0;
-  /// How a keeper sends these packets by the same way, and the descriptor that it gets for that; -1: its plan has a path.
+  /// How a keeper sends these packets by the same way, and the descriptor that it gets for that; -1: its plan has a
+  /// path.
   virtual LetGoPlan let_go_plan(const hid::PidSession::Leaving& leaving) const = 0;
   virtual int descriptor() const noexcept = 0;
 };

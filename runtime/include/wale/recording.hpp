@@ -92,9 +92,8 @@ struct RecordingHeader {
   std::string hand;  ///< what moved the handle, "simulated, lateral"; empty if that is not known
 };
 
-/// A file that `RunOptions::record_to` made, complete or up to the moment when its process was killed. Immutable; copies
-/// share it; any number of threads may use it at once.
-/// The format is runtime/record/RECORDING.md.
+/// A file that `RunOptions::record_to` made, complete or up to the moment when its process was killed. Immutable;
+/// copies share it; any number of threads may use it at once. The format is runtime/record/RECORDING.md.
 class Recording {
  public:
   /// Maps the file and checks its first `most_ticks` ticks and all events. Errors: `unreadable_file`, `newer_file`, and

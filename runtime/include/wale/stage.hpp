@@ -43,8 +43,8 @@ struct RunOptions {
   std::function<void(const Progress&)> progress = {};
   /// Ends the run when it becomes true; a signal handler may set it.
   const std::atomic<bool>* stop = nullptr;
-  /// Records every tick and every change of the stage in a file, for `Recording` and `replay`. The file is complete up to
-  /// the last tick even if the process is killed.
+  /// Records every tick and every change of the stage in a file, for `Recording` and `replay`. The file is complete up
+  /// to the last tick even if the process is killed.
   std::optional<RecordTo> record_to = {};
   /// s: how much of the run's end `RunResult::record` keeps. With a finite value the run may be infinitely long.
   double kept_seconds = HUGE_VAL;
@@ -85,13 +85,13 @@ struct GuardCounts {
   long device_limit = 0;  ///< clamped to the device's peak force on an axis
   long user_limit = 0;    ///< clamped to the user's limit
   long heat = 0;          ///< reduced, because a motor was already hot
-  long energy = 0;     ///< reduced, because the program gave more energy than it declares or than the device allows
-  long passivity = 0;  ///< damped, because the sampled loop gained energy
-  long slew = 0;       ///< slowed after a start, an entry, a leaving or a change of bank
-  long overrun = 0;    ///< no force, because no tick had run for more than 20 ms
-  long stale = 0;      ///< no force, because the position was an old one
-  long lost = 0;       ///< no force, because the device was gone
-  long restored = 0;   ///< times that a state was not a number and got its initial value again
+  long energy = 0;        ///< reduced, because the program gave more energy than it declares or than the device allows
+  long passivity = 0;     ///< damped, because the sampled loop gained energy
+  long slew = 0;          ///< slowed after a start, an entry, a leaving or a change of bank
+  long overrun = 0;       ///< no force, because no tick had run for more than 20 ms
+  long stale = 0;         ///< no force, because the position was an old one
+  long lost = 0;          ///< no force, because the device was gone
+  long restored = 0;      ///< times that a state was not a number and got its initial value again
 };
 
 struct RunResult {

@@ -42,8 +42,8 @@ void DeviceNode::say_farewell() {
   ioctl(node_, USBDEVFS_IOCTL, &connect);
 }
 
-/// Without flags, this takes the interface from another user of usbfs too, and ends what that has under way. Whoever has
-/// lost it cannot submit anything more. It is repeated without harm.
+/// Without flags, this takes the interface from another user of usbfs too, and ends what that has under way. Whoever
+/// has lost it cannot submit anything more. It is repeated without harm.
 void DeviceNode::claim() const {
   usbdevfs_disconnect_claim wanted{};
   wanted.interface = plan_.interface;

@@ -40,7 +40,8 @@ void keep_only(const int* kept, int count) {
   }
 }
 
-/// No more rights than the open descriptors give, and no delay by the pager or by others' work, where that is permitted.
+/// No more rights than the open descriptors give, and no delay by the pager or by others' work, where that is
+/// permitted.
 void settle() {
   setsid();
   if (chdir("/") != 0) return;
@@ -66,8 +67,9 @@ int main(int count, char** words) {
     if (*end != 0 || handed[i] < 3) handed[i] = -1;
   }
   if (given < least || given > most || handed[0] < 0 || handed[1] < 0 || handed[2] < 0) {
-    std::fprintf(stderr, "wale-keeper: Wale starts this program for each joystick that it opens, and nobody else needs "
-                         "to\n");
+    std::fprintf(stderr,
+                 "wale-keeper: Wale starts this program for each joystick that it opens, and nobody else needs "
+                 "to\n");
     return 2;
   }
   void* mapped = mmap(nullptr, sizeof(KeeperBoard), PROT_READ | PROT_WRITE, MAP_SHARED, handed[0], 0);
