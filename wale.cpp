@@ -100,11 +100,17 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "wale " WALE_VERSION ", language version 1");
   app.footer(statuses);
   app.require_subcommand(1);
+  app.get_formatter()->label("REQUIRED", "(required)");
+  app.get_formatter()->label("Needs", "needs");
+  app.get_formatter()->label("Excludes", "not with");
   int status = 0;
 
   for (const Verb* each : verbs) {
     CLI::App* declared = app.add_subcommand(each->name, each->about);
-    declared->callback([&status, declared, run = each->declare(*declared)] {
+    const Run chosen = each->declare(*declared);
+    for (CLI::Option* option : declared->get_options())
+      if (option->get_positional()) option->type_name("");  // its name says it: FILE, not FILE TEXT
+    declared->callback([&status, declared, run = chosen] {
       const Result<> complete = without_empty_words(*declared);
       if (!complete) refuse(complete.error());
       status = complete ? run() : misused;

@@ -47,9 +47,9 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
   const bool of_source = stage == BuildStage::tree || stage == BuildStage::checked || stage == BuildStage::ir;
   if (opened.program && of_source)
     return Error{.code = Code::malformed_value,
-                 .sentence = "this is a patch program, which no longer has this stage",
-                 .mend = "show its listing or cpp, or name the Wale file that it was built from",
-                 .place = {.name = opened.name}};
+                 .sentence = "a patch program has only the stages listing and cpp",
+                 .mend = "show one of these, or name the Wale file that it was built from",
+                 .place = {.name = "--emit"}};
   if (stage == BuildStage::tree) {
     Diagnostics known;  // discarded: the file has been parsed before, and its errors have been reported
     return Text(print_tree(parse(opened.sources, opened.source, known)));
@@ -68,7 +68,8 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
   const auto resolver = file_resolver(request.roots, nullptr, request.sandbox, request.devices);
   const SolvedMaterial solved = solve(*checked, module, request.device, opened.sources, *resolver, diagnostics);
   if (diagnostics.has_errors()) return Text();
-  return Text(print_graph(lower(solved), solved, lines));
+  const LoweredMaterial lowered = lower(solved, diagnostics);
+  return diagnostics.has_errors() ? Text() : Text(print_graph(lowered, solved, lines));
 }
 
 }  // namespace wale

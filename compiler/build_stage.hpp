@@ -23,7 +23,7 @@ inline constexpr std::array<StageName, 5> stage_names = {{{"tree", BuildStage::t
                                                           {"listing", BuildStage::listing},
                                                           {"cpp", BuildStage::cpp}}};
 
-/// A material after a stage, as text; for `tree`, the whole file. Nothing if an earlier stage fails, which is reported
+/// A material after a stage, as text; for `tree`, the whole file. Empty if an earlier stage fails, which is reported
 /// to `diagnostics`. Error: W0801 for a patch program and a stage before the listing.
 Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const FileRequest& request,
                                                const std::string& material, BuildStage stage, Diagnostics& diagnostics);

@@ -61,7 +61,9 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics) {
+  diagnostics.renew_budget();
   SyntaxTree tree = parse(sources, source, diagnostics);
+  diagnostics.allow_text(sources[source].text.size());
   ModuleSet modules = load_modules(std::move(tree), sources, resolver, diagnostics);
   CheckedModule checked = check(std::move(modules), sources, resolver, diagnostics);
   if (diagnostics.all().empty()) return checked;
@@ -94,11 +96,15 @@ std::optional<Program> compile_material(const CheckedModule& module, const std::
                                         Diagnostics& diagnostics) {
   const CheckedMaterial* material = chosen_material(module, name, source, diagnostics);
   if (!material) return std::nullopt;
+  diagnostics.renew_budget();
+  diagnostics.allow_text(sources[source].text.size());
   SolvedMaterial solved = solve(*material, module, device, sources, resolver, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
 
   const SourceLines lines(sources, module.modules);
-  auto program = emit(lower(solved), solved, diagnostics, &lines);
+  const LoweredMaterial lowered = lower(solved, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  auto program = emit(lowered, solved, diagnostics, &lines);
   if (!program) return std::nullopt;
 
   auto loaded = Program::load(std::move(*program));

@@ -21,7 +21,7 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
 const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
                                        Diagnostics& diagnostics);
 
-/// Compiles one material of a checked module to a loaded program: solve, lower, emit, verify, measure. Nothing after
+/// Compiles one material of a checked module to a loaded program: solve, lower, emit, verify, measure. Empty after
 /// errors, which are reported. An empty name means the first material of the file.
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& material,
                                         const std::string& device, const SourceSet& sources, SourceId source,

@@ -34,7 +34,7 @@ bool is_path(const std::string& text) {
   return text.empty() || text.find('/') != std::string::npos || text.ends_with(".wale") || text.ends_with(".wpp");
 }
 
-/// An embedded module of the library, by its path in the source tree; nothing for other paths.
+/// An embedded module of the library, by its path in the source tree; empty for other paths.
 std::optional<NamedFile> shipped_file(const std::string& path) {
   const std::string name = fs::path(path).lexically_normal().generic_string();
   const auto files = embedded_files();

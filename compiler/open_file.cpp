@@ -11,12 +11,13 @@ Result<OpenedFile> open_file(const FileRequest& request) {
   if (!named) return named.error();
   OpenedFile opened;
   opened.name = named->name, opened.material = named->material, opened.taken = named->taken;
+  opened.is_on_disk = !named->embedded;
   std::string& bytes = named->bytes;
   if (is_patch_program(opened.name, bytes)) {
     auto loaded = Program::load(std::as_bytes(std::span(bytes)));
     if (!loaded) {
       Error error = loaded.error();
-      error.sentence = "this program is refused: " + in_words(error);
+      error.sentence = "cannot be loaded: " + in_words(error);
       error.mend = "build it again from its Wale file";
       error.place = {.name = opened.name};
       error.led_to.clear();  // the sentence contains it

@@ -28,6 +28,7 @@ struct OpenedFile {
   SourceId source = 0;
   Diagnostics diagnostics;
   std::string name;                     ///< the path of the file
+  bool is_on_disk = true;               ///< false for a shipped file that is only in this binary
   std::string material;                 ///< the material that was named; empty if only the file was
   std::string taken;                    ///< as in `NamedFile`
   std::optional<Program> program;       ///< for a patch program

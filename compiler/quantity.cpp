@@ -62,7 +62,7 @@ Result<std::vector<double>> read_list(const Declarations& known, const std::stri
   return values;
 }
 
-/// The dimension of a parameter; nothing if its SI unit is not a unit of the language.
+/// The dimension of a parameter; empty if its SI unit is not a unit of the language.
 std::optional<Dimension> dimension_of(const Declarations& known, const Parameter& parameter) {
   if (parameter.si_unit.empty()) return Dimension{};
   SourceSet sources;

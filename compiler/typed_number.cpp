@@ -39,7 +39,7 @@ Error unexpected(const std::string& option, const std::string& text, const std::
           .place = {.name = option, .text = text}};
 }
 
-/// Seconds in a unit of time, 1 for no unit; nothing for other words.
+/// Seconds in a unit of time, 1 for no unit; empty for other words.
 std::optional<double> seconds_in(std::string_view unit) {
   if (unit.empty() || unit == "s") return 1;
   if (unit == "ms") return 1e-3;

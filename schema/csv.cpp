@@ -70,6 +70,15 @@ Result<std::optional<CsvRow>> CsvReader::next() {
   return std::optional<CsvRow>();
 }
 
+Result<> each_row(CsvReader& reader, const std::function<Result<>(const CsvRow& row)>& take) {
+  while (true) {
+    const auto row = reader.next();
+    if (!row) return row.error();
+    if (!*row) return {};
+    if (auto taken = take(**row); !taken) return taken;
+  }
+}
+
 Result<CsvRow> read_headings(CsvReader& reader, const std::string& expected) {
   auto row = reader.next();
   if (!row) return row.error();

@@ -24,13 +24,16 @@ class CsvReader {
   /// The text must outlive the rows.
   explicit CsvReader(std::string_view text);
 
-  /// The next row; nothing after the last one. Errors: W0504 for a quote that does not end.
+  /// The next row; empty after the last one. Errors: W0504 for a quote that does not end.
   Result<std::optional<CsvRow>> next();
 
  private:
   std::string_view rest_;
   std::size_t line_ = 0;
 };
+
+/// Calls `take` for each row that is left, until it gives an error. Errors: those of `next` and of `take`.
+Result<> each_row(CsvReader& reader, const std::function<Result<>(const CsvRow& row)>& take);
 
 /// The first row, which names the columns. Errors: W0504 if there is no row (the sentence names what was `expected`),
 /// or if semicolons or tabs separate the columns.

@@ -16,7 +16,7 @@ struct UsbNumbers {
   friend bool operator==(const UsbNumbers&, const UsbNumbers&) = default;
 };
 
-/// Reads "1209:ffb0", four hexadecimal digits each; nothing for any other text.
+/// Reads "1209:ffb0", four hexadecimal digits each; empty for any other text.
 std::optional<UsbNumbers> read_usb_numbers(std::string_view text);
 std::string in_words(const UsbNumbers& numbers);
 

@@ -60,4 +60,8 @@ std::optional<std::string> nearest_spelling(std::string_view word, const std::ve
   return std::move(near->text);
 }
 
+bool has_ending(std::string_view name, std::string_view ending) {
+  return name.size() >= ending.size() && std::ranges::equal(name.substr(name.size() - ending.size()), ending, same);
+}
+
 }  // namespace wale

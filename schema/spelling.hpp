@@ -12,7 +12,7 @@ namespace wale {
 /// neighbours; each letter takes part in one slip at most (the optimal string alignment distance).
 std::size_t letters_changed(std::string_view a, std::string_view b);
 
-/// The candidate other than `word` with the fewest slips: at most one, or a third of the word's letters. Nothing for
+/// The candidate other than `word` with the fewest slips: at most one, or a third of the word's letters. Empty for
 /// words of more than 64 bytes and for more than 2000 candidates.
 std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
@@ -25,5 +25,8 @@ struct NearSpelling {
 
 /// As `nearest_spelling`, with its certainty.
 std::optional<NearSpelling> near_spelling(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Whether the name of a file ends with `ending`, as in ".wrec", in capital or small ASCII letters.
+bool has_ending(std::string_view name, std::string_view ending);
 
 }  // namespace wale

@@ -176,7 +176,7 @@ void write_places(ByteWriter& out, const SourcePlaces& places) {
   }
 }
 
-/// The bytes of one section; nothing for one that may be left out and would be empty.
+/// The bytes of one section; empty for one that may be left out and would be empty.
 std::vector<std::byte> write_section(std::string_view kind, const PatchProgram& program) {
   ByteWriter out;
   if (kind == "NAME") out.text(program.material);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -80,6 +81,48 @@ Result<> can_be_built_for(const std::string& name, const std::vector<DeclaredDev
                {.name = "--built-for", .text = name}};
 }
 
+/// An option that cannot apply to a run.
+struct Inapplicable {
+  const char* option;
+  bool is_so;
+  std::string why;  ///< it cannot apply
+  const char* mend;
+};
+
+/// Checks that none of them is so. Error: W0801, which means wrong usage.
+Result<> all_apply(std::initializer_list<Inapplicable> options) {
+  for (const auto& [option, is_so, why, mend] : options)
+    if (is_so) return Error{Code::malformed_value, why, mend, {.name = option}};
+  return {};
+}
+
+/// Checks that options about the file apply to it.
+Result<> apply_to_file(const FeelOptions& options, const OpenedFile& opened) {
+  return all_apply({{"--watch", options.watch && !opened.is_on_disk,
+                     fmt::format("expected a file on disk, found `{}`, which is only inside wale", opened.name),
+                     "leave out --watch, or save the material in a file of your own"}});
+}
+
+/// Checks that options about the device apply to the chosen one.
+Result<> apply_to_device(const FeelOptions& options, const ChosenDevice& chosen) {
+  const auto knows = [&](const Driver& driver) {
+    return std::ranges::find(driver.transports, options.transport) != driver.transports.end();
+  };
+  return all_apply(
+      {{"--transport", !options.transport.empty() && !chosen.plugged, "expected a real device, found a simulated one",
+        "leave out --transport, or name a real device with --device"},
+       {"--transport", !options.transport.empty() && chosen.plugged && !knows(*chosen.plugged->driver),
+        fmt::format("the {} is not driven by `{}`", chosen.plugged ? in_words(*chosen.plugged) : "", options.transport),
+        "leave out --transport; `wale devices` says how each device is driven"}});
+}
+
+/// Checks that options about forces apply to the program.
+Result<> apply_to_program(const FeelOptions& options, const PatchProgram& program) {
+  return all_apply(
+      {{"--max-force", options.max_force && program.vibrates(),
+        fmt::format("`{}` only vibrates: it has no force to limit", program.device.name), "leave out --max-force"}});
+}
+
 /// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it.
 OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop) {
   auto trusted = trusted_here(options.trusted);
@@ -89,6 +132,7 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   built.devices = trusted->files;
   auto opened = open(built);
   if (!opened) return opened.status();
+  if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
   const std::vector<DeclaredDevice> known =
       opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
@@ -100,12 +144,14 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
                      known, trusted->devices, options.seconds, say, stop);
   if (!device) return refuse(device.error());
   const ChosenDevice& chosen = device->chosen;
+  if (const auto fit = apply_to_device(options, chosen); !fit) return refuse(fit.error());
   if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
 
   built.device = chosen.declared ? chosen.declared->profile.name : options.choice.device;
   if (opened->module) check_levels(opened->module->declarations(), opened->source, built.device, opened->diagnostics);
   const auto programs = programs_of(*opened, built, false);
   if (!programs) return programs.status();
+  if (const auto fit = apply_to_program(options, programs->front().description()); !fit) return refuse(fit.error());
   auto material = material_to_feel(programs->front(), options.settings);
   if (!material) return refuse(material.error());
   return PreparedRun{*std::move(device), std::move(built), *std::move(material)};
@@ -122,23 +168,14 @@ OrStatus<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun
   return *std::move(device);
 }
 
-/// Checks that the device has a force to limit, if there is a limit. Error: W0607.
-Result<> can_limit(const FeelOptions& options, const PatchProgram& program) {
-  if (!options.max_force || !program.vibrates()) return {};
-  return Error{Code::other_device,
-               fmt::format("`{}` only vibrates: it has no force to limit", program.device.name),
-               "leave out --max-force",
-               {.name = "--max-force"}};
-}
-
 /// The recording to make of the run, if the person asked for one.
 std::optional<RecordTo> recording_of(const FeelOptions& options, const RunManner& manner) {
-  if (!options.record.ends_with(".wrec")) return std::nullopt;
+  if (!has_ending(options.record, ".wrec")) return std::nullopt;
   return RecordTo{options.record, fmt::format("{}, {}", manner.device, manner.hand)};
 }
 
 RunOptions run_options(const FeelOptions& options, const RunManner& manner, const std::atomic<bool>& stop) {
-  const bool is_recording = options.record.ends_with(".wrec"), is_table = !options.record.empty() && !is_recording;
+  const bool is_recording = has_ending(options.record, ".wrec"), is_table = !options.record.empty() && !is_recording;
   return {.seconds = options.seconds.value_or(options.watch ? HUGE_VAL : usual_seconds),
           .most_newton = options.max_force.value_or(HUGE_VAL),
           .virtual_time = options.virtual_time,
@@ -149,7 +186,7 @@ RunOptions run_options(const FeelOptions& options, const RunManner& manner, cons
 
 /// Writes the table and the report of a finished run. Returns the exit status.
 int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt) {
-  if (!options.record.empty() && !options.record.ends_with(".wrec")) {
+  if (!options.record.empty() && !has_ending(options.record, ".wrec")) {
     auto table = OutputFile::open(options.record, *options.choice.inputs);
     if (!table) return refuse(table.error());
     write_csv(table->stream(), result.record);
@@ -168,7 +205,6 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   if (!prepared_run) return prepared_run.status();
   const auto& [device, built, material] = *prepared_run;
   const PatchProgram& program = material.program.description();
-  if (const auto able = can_limit(options, program); !able) return refuse(able.error());
   auto felt = open_prepared(options, *prepared_run, stop);
   if (!felt) return felt.status();
   Stage stage(*felt->device);
@@ -266,7 +302,7 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
 
 int feel(const FeelOptions& options) {
   const std::string& record = options.record;
-  if (!record.empty() && record != "-" && !record.ends_with(".wrec") && !record.ends_with(".csv"))
+  if (!record.empty() && record != "-" && !has_ending(record, ".wrec") && !has_ending(record, ".csv"))
     return refuse(Error{Code::malformed_value,
                         fmt::format("expected a file NAME.wrec or NAME.csv, found `{}`", record),
                         "NAME.wrec is a recording for `wale replay`, NAME.csv a table",
@@ -282,15 +318,21 @@ int feel(const FeelOptions& options) {
 
 void offer_blind(CLI::App& verb, FeelOptions& options, CLI::Option* record) {
   auto* against = verb.add_option("--against", options.against,
-                                  "the other material (B): a file, FILE:MATERIAL, or a material by name");
+                                  "the other material (B), as in denim: a file, FILE:MATERIAL, or a material by name; "
+                                  "--set is for A only")
+                      ->type_name("FILE");
   auto* blind = verb.add_flag("--blind", options.blind,
-                              "feels FILE (A) and the other (B) in random order and asks which of two was A")
+                              "a test of whether you can tell FILE (A) from the other (B): you feel both in random "
+                              "order, and say which was A")
                     ->needs(against)
                     ->excludes(record);
   against->needs(blind);
-  offer_count(verb, "--trials", options.trials, {.least = 1, .most = 1000}, "how often it asks (default: 12)")
+  offer_count(verb, "--trials", options.trials, {.least = 1, .most = 1000},
+              "how many answers --blind asks for, 1 to 1000 (default: 12)")
       ->needs(blind);
-  offer_count(verb, "--seed", options.seed, {}, "the seed of the random order (default: a new one each time)")
+  offer_count(verb, "--seed", options.seed, {},
+              "repeats the random order of an earlier --blind, whose report names its "
+              "seed (default: a new order each time)")
       ->needs(blind);
 }
 
@@ -299,30 +341,40 @@ Run declare_feel(CLI::App& verb) {
   offer_material(
       verb, options->choice,
       {.device_option = "--built-for",
-       .about_device = "the device to build for (default: the one that it is felt on; sandpaper for `simulated`)"});
+       .about_device = "the device to build for, as in falcon (default: the one that it is felt on; sandpaper for "
+                       "`simulated`)"});
   offer_settings(verb, options->settings);
-  verb.add_option("--device", options->device,
-                  "auto (default): the best one plugged in, else simulated; simulated; simulated:NAME; NAME, as `wale "
-                  "devices` lists them; usb; vendor and product, 1209:ffb0; a port, 1-2")
+  verb.add_option(
+          "--device", options->device,
+          "where to feel it: auto (default), the best joystick plugged in, else a simulated one; simulated; "
+          "simulated:falcon; a device as `wale devices` lists them; usb, the best on USB; vendor and product, as "
+          "in 1209:ffb0; a port, as in 1-2")
       ->type_name("NAME");
   offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
-             "how a real device is driven, where its driver knows several ways (see `wale devices`)");
+             "the way to drive a real device, if it has several (default: the first that works; see `wale devices`)");
   verb.add_option("--hand", options->hand,
-                  "how the simulated hand moves: lateral (default), circular, rest, or a CSV trace of t, x, y");
-  offer_duration(verb, "--seconds", options->seconds, {.endless = true},
-                 "the length of the run (default: 5; with --blind 3 for each of the two), and the longest wait for a "
-                 "device that is not plugged in (default: until Ctrl-C)");
-  auto* virtual_time =
-      verb.add_flag("--virtual-time", options->virtual_time, "as fast as possible, with the same bits each time");
-  offer_force(verb, "--max-force", options->max_force,
-              "the largest force at the handle, as in \"3 N\"; every packet to a real device keeps within it");
+                  "how the hand on a simulated device moves: lateral (default), to and fro; circular; rest; or a CSV "
+                  "file with columns t (s), x (m), y (m)")
+      ->type_name("HAND");
+  offer_duration(
+      verb, "--seconds", options->seconds, {.endless = true},
+      "how long to feel, as in 10, \"10 s\", \"2 min\" or inf (default: 5 s; with --watch until Ctrl-C; with "
+      "--blind 3 s for each of the two); also the longest wait for a device to be plugged in (default: until "
+      "Ctrl-C)");
+  auto* virtual_time = verb.add_flag("--virtual-time", options->virtual_time,
+                                     "simulates as fast as the computer can, with exactly the same result each time");
+  offer_force(
+      verb, "--max-force", options->max_force,
+      "the largest force at the handle, as in \"3 N\" (default: the device's own); every packet to a real device "
+      "keeps within it");
   auto* record = verb.add_option("--record", options->record,
-                                 "records every tick: NAME.wrec during the run, for `wale replay`; NAME.csv after it")
+                                 "records every tick: to NAME.wrec while it runs, for `wale replay`; to NAME.csv, a "
+                                 "table, at the end (default: no recording)")
                      ->type_name("FILE");
   offer_blind(verb, *options, record);
   verb.add_flag("--watch", options->watch,
-                "runs the new version whenever the file is saved; until Ctrl-C, or for --seconds")
+                "puts each saved version of the file in your hand at once; until Ctrl-C, or for --seconds")
       ->excludes("--blind")
       ->excludes(virtual_time);
   offer_json(verb, options->json, "the report as a JSON object");

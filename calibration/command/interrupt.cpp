@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 #include <signal.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,6 +15,7 @@
 
 #include "runtime/device/pointer/terminal.hpp"
 #include "runtime/keeper/keeper.hpp"
+#include "runtime/keeper/nanoseconds.hpp"
 
 namespace wale::command {
 namespace {
@@ -32,12 +32,6 @@ std::atomic<int> first_signal{0};         // that asked to end
 std::atomic<std::int64_t> first_came{0};  // ns of CLOCK_MONOTONIC
 std::atomic<bool> is_crashing{false}, has_let_go{false};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
-
-std::int64_t nanoseconds_now() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 /// Texts to standard error, without memory or locks.
 void tell(std::initializer_list<const char*> texts) noexcept {
@@ -98,8 +92,8 @@ void when_asked_to_end(int signal) {
   constexpr std::int64_t patience = 1'000'000'000;  // ns; a run ends within 0.1 s, also on a slow machine within 1 s
   int none = 0;
   if (first_signal.compare_exchange_strong(none, signal)) {
-    first_came.store(nanoseconds_now());
-  } else if (nanoseconds_now() - first_came.load() > patience) {
+    first_came.store(nanoseconds_of(CLOCK_MONOTONIC));
+  } else if (nanoseconds_of(CLOCK_MONOTONIC) - first_came.load() > patience) {
     let_all_go();
     tell({"wale: ended at once by the second signal, ", short_name(signal), "\n"});
     raise_by_default(signal);

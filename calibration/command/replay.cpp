@@ -12,6 +12,7 @@
 #include "compiler/text/other_file.hpp"
 #include "compiler/text/output_file.hpp"
 #include "compiler/text/resolver.hpp"
+#include "schema/spelling.hpp"
 #include "schema/visible_text.hpp"
 #include "wale/recording.hpp"
 
@@ -50,7 +51,8 @@ std::string verdict(const Replay& replay, double rate) {
   if (!replay.first) return "the same, bit for bit";
   const ReplayDifference& first = *replay.first;
   return fmt::format(
-      "differs on {} of {} ticks, first on tick {} ({:.4f} s, skipped periods not counted): the {} was {:.9g} and is "
+      "differs on {} of {} ticks, first on tick {} counted from 0 ({:.4f} s without missed periods): the {} was {:.9g} "
+      "and is "
       "{:.9g}; "
       "the commands differ by at most {:.3g}",
       replay.differing, replay.ticks, first.tick, static_cast<double>(first.tick) / rate, first.what, first.recorded,
@@ -125,7 +127,7 @@ struct ReplayOptions {
 };
 
 int replay(const ReplayOptions& options) {
-  if (!options.wav.empty() && !options.wav.ends_with(".wav"))
+  if (!options.wav.empty() && !has_ending(options.wav, ".wav"))
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected a file NAME.wav, found `{}`", options.wav),
                         .place = {.name = "--wav", .text = options.wav}});
@@ -149,14 +151,20 @@ int replay(const ReplayOptions& options) {
 
 Run declare_replay(CLI::App& verb) {
   const auto options = std::make_shared<ReplayOptions>();
-  verb.add_option("FILE", options->file, "a recording that `wale feel --record` made (.wrec)")->required();
-  verb.add_option("--csv", options->csv, "writes every tick to a CSV file")->type_name("FILE");
-  verb.add_option("--wav", options->wav,
-                  "writes the force as sound: x left, y right, the device's peak force full scale")
+  verb.add_option("FILE", options->file, "a recording, made by `wale feel corduroy --record corduroy.wrec`")
+      ->required();
+  verb.add_option("--csv", options->csv,
+                  "also writes a table with a line for each tick, with units in its first line, as in ticks.csv")
+      ->type_name("FILE");
+  verb.add_option(
+          "--wav", options->wav,
+          "also writes the force as sound, 44.1 kHz, as in corduroy.wav: x left, y right; the device's peak force is "
+          "full scale")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
-              "only this many ticks from the beginning; of a damaged recording, those before the damage");
-  offer_json(verb, options->json, "a JSON object");
+              "reads only the first N ticks, as in 900 for the first second at 900 Hz (default: all); so a damaged "
+              "recording can be read up to the damage");
+  offer_json(verb, options->json, "the result as a JSON object");
   verb.footer("for example: wale replay corduroy.wrec --wav corduroy.wav");
   return [options] { return replay(*options); };
 }

@@ -86,7 +86,7 @@ BlindScore blind_score(int right, int trials) {
   const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   score.low = right == 0 ? 0 : centre - half;
   score.high = right == trials ? 1 : centre + half;
-  score.sensitivity = sensitivity(Task::forced_choice, std::clamp(p, 0.5 / n, 1 - 0.5 / n));
+  score.sensitivity = sensitivity(Task::forced_choice, std::clamp(p, 0.5 / n, 1 - 0.5 / n)) + 0.0;  // turns -0 into 0
   if (score.low > 0) score.sensitivity_low = sensitivity(Task::forced_choice, score.low);
   if (score.high < 1) score.sensitivity_high = sensitivity(Task::forced_choice, score.high);
   double likely = 0;

@@ -51,7 +51,7 @@ class BlindPerson {
 
 struct BlindSession {
   std::vector<BlindTrial> trials;  ///< the answered ones
-  std::optional<Error> ended;      ///< why it ended before the last trial; nothing if it did not
+  std::optional<Error> ended;      ///< why it ended before the last trial; empty if it did not
 };
 
 /// Two-interval forced choice: which of two was A? The person feels A and B once by name, then pairs in random order,
@@ -67,7 +67,7 @@ struct BlindScore {
   /// d' = sqrt(2) z(proportion), as for all thresholds of forced choice (Macmillan and Creelman 2005, chapter 7). If
   /// all answers are right, half an answer counts as wrong, and the reverse (chapter 1).
   double sensitivity = 0;
-  std::optional<double> sensitivity_low, sensitivity_high;  ///< of the interval's ends; nothing for an open end
+  std::optional<double> sensitivity_low, sensitivity_high;  ///< of the interval's ends; empty for an open end
   double by_chance = 1;                                     ///< the probability of as many or more by guessing
 };
 

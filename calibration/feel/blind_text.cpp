@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/feel/blind_comparison.hpp"
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
 
 namespace wale {
@@ -16,12 +17,12 @@ BlindScore score_of(const BlindSession& session) {
 
 /// "1.4 (0.3 to 2.6)", "2.9 (1.1 or more)".
 std::string sensitivity_text(const BlindScore& score) {
-  const auto end = [](const std::optional<double>& value) { return value ? fmt::format("{:.1f}", *value) : ""; };
+  const auto end = [](const std::optional<double>& value) { return value ? with_decimals(*value, 1) : ""; };
   const std::string interval = !score.sensitivity_high ? end(score.sensitivity_low) + " or more"
                                : !score.sensitivity_low
                                    ? end(score.sensitivity_high) + " or less"
                                    : end(score.sensitivity_low) + " to " + end(score.sensitivity_high);
-  return fmt::format("{:.1f} ({})", score.sensitivity, interval);
+  return fmt::format("{} ({})", with_decimals(score.sensitivity, 1), interval);
 }
 
 std::string predicted_text(const Comparison& predicted) {

@@ -72,13 +72,10 @@ Result<DeviceToFeel> device_to_feel(const DeviceRequest& request, std::span<cons
   auto choice = choose_device(request, known, trusted, plugged);
   if (!choice && choice.error().code == Code::absent_device) {
     const Error& absent = choice.error();
-    if (!device.connections->usb) {
-      Error error = device.connections->usb.error();
-      error.sentence = absent.sentence + ", and " + error.sentence;
-      return error;
-    }
-    say(fmt::format("{}: waiting for it; Ctrl-C ends that\n  = help: {}; `wale devices` lists what is plugged in",
-                    absent.sentence, absent.mend));
+    const auto& usb = device.connections->usb;
+    say(fmt::format("{}{}: waiting for it; Ctrl-C ends that\n  = help: {}; `wale devices` lists what is plugged in",
+                    absent.sentence, usb ? "" : ", and " + usb.error().sentence,
+                    usb || usb.error().mend.empty() ? absent.mend : usb.error().mend));
     choice = wait_for_device(*device.connections, request, known, trusted, seconds, stop);
   }
   if (!choice) return std::move(choice.error());

@@ -37,7 +37,7 @@ struct FeltOptions {
   std::string hand = "lateral";  ///< of a simulated person: lateral, circular, rest, or a trace's file
   bool virtual_time = false;
   std::string transport;          ///< of a real device, as in `DeviceOptions`
-  double most_newton = HUGE_VAL;  ///< likewise: what the user allows
+  double most_newton = HUGE_VAL;  ///< what the user allows
 };
 
 /// An open device, real or simulated.

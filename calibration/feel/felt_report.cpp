@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
 #include "schema/visible_text.hpp"
 
@@ -250,9 +251,10 @@ std::string felt_json(const FeltReport& report) {
 std::string progress_line(const Progress& now, bool vibrates) {
   const std::string output = vibrates ? fmt::format("{:5.1f} m/s^2  {:4.0f} Hz", now.force.x, now.force.y)
                                       : fmt::format("{:5.2f} N", glm::length(now.force));
-  return fmt::format("{:7.1f} s  x {:6.1f} mm  y {:6.1f} mm  {:5.0f} mm/s  {}  {} ticks, {} missed{}\033[K", now.time,
-                     1e3 * now.position.x, 1e3 * now.position.y, 1e3 * glm::length(now.velocity), output, now.ticks_run,
-                     now.ticks_missed, now.inside ? "" : "  (off the patch)");
+  return fmt::format("{:7.1f} s  x {:>6} mm  y {:>6} mm  {:5.0f} mm/s  {}  {} ticks, {} missed{}\033[K", now.time,
+                     with_decimals(1e3 * now.position.x, 1), with_decimals(1e3 * now.position.y, 1),
+                     1e3 * glm::length(now.velocity), output, now.ticks_run, now.ticks_missed,
+                     now.inside ? "" : "  (off the patch)");
 }
 
 }  // namespace wale

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "compiler/check/ask.hpp"
 #include "compiler/check/override_statements.hpp"
@@ -16,7 +18,8 @@ namespace wale {
 
 namespace {
 
-/// The most statements of a material, including those from other materials; more do not fit into a patch program.
+/// The most statements and components of a material, including those from other materials; more do not fit into a patch
+/// program.
 constexpr std::size_t most_statements = 20'000;
 constexpr std::size_t deepest_derivation = 64;
 /// Of a component in a blend. No more is needed: 1 is the whole material, and whole materials push with some newtons on
@@ -36,17 +39,29 @@ class Assembler {
              "let one of the materials stand on its own");
       return nullptr;
     }
-    if (path_.size() >= deepest_derivation) {
-      report(Code::nested_too_deep, node.name.span,
-             fmt::format("more than {} materials are made from one another", deepest_derivation),
-             "make them from an earlier one");
-      return nullptr;
+    if (const auto known = assembled_.find(&node); known != assembled_.end()) {
+      const auto& material = known->second;  // null if it has errors, which have been reported
+      if (!material) return nullptr;
+      depth_ = std::max(depth_, material->depth);
+      return path_.size() + material->depth > deepest_derivation ? too_deep(node) : material;
     }
+    if (path_.size() >= deepest_derivation) return too_deep(node);
     path_.push_back(&node);
+    const std::size_t depth_before = std::exchange(depth_, 0);
+    std::shared_ptr<const AssembledMaterial> material = assemble_new(declared);
+    depth_ = std::max(depth_before, depth_ + 1);
+    path_.pop_back();
+    return assembled_[&node] = std::move(material);
+  }
+
+ private:
+  std::shared_ptr<const AssembledMaterial> assemble_new(const Declared<MaterialDecl>& declared) {
+    const MaterialDecl& node = *declared.node;
     auto result = std::make_shared<AssembledMaterial>();
     bool good = true;
     if (node.derived_from) {
       const auto made = made_from(declared, *node.derived_from);
+      if (made && !charge(made->statements.size() + made->components.size())) return nullptr;
       if (made) *result = *made;
       good = made != nullptr;
       result->derived = true;
@@ -55,21 +70,46 @@ class Assembler {
       if (setting.key.text == "like") good = take_over(declared, setting, *result) && good;
       if (setting.key.text == "kind") result->kind = &setting, result->kind_tree = declared.tree;
     }
+    if (!charge(node.perceptual.size() * (1 + node.perceptual.size() / 8)) ||
+        !charge(node.physical.size() * (1 + result->statements.size())))
+      return nullptr;
     for (const auto& percept : node.perceptual) ask(declared, percept, surroundings_, result->percepts);
     override_statements(declared, result->statements);
-    statements_ += result->statements.size();
-    path_.pop_back();
-    if (statements_ > most_statements) {
+    result->depth = depth_ + 1;
+    measure(*result);
+    if (result->size > most_statements) {
       report(Code::program_too_large, node.name.span,
-             fmt::format("with all that it is made from, `{}` has more than {} statements", node.name.text,
-                         most_statements),
-             "make it from fewer materials");
+             fmt::format("with all that it is made from, `{}` has more than {} statements and components",
+                         node.name.text, most_statements),
+             Advice("make it from fewer materials").fact("limit", static_cast<double>(most_statements)));
       return nullptr;
     }
     return good ? result : nullptr;
   }
 
- private:
+  std::shared_ptr<const AssembledMaterial> too_deep(const MaterialDecl& node) {
+    report(Code::nested_too_deep, node.name.span,
+           fmt::format("more than {} materials are made from one another", deepest_derivation),
+           "make them from an earlier one");
+    return nullptr;
+  }
+
+  /// Takes operations from the budget before they are done; false if it is spent, which has been reported.
+  bool charge(std::size_t operations) {
+    return surroundings_.diagnostics.charge(operations, path_.front()->name.span, Work::assembly);
+  }
+  /// Counts what a material consists of.
+  static void measure(AssembledMaterial& material) {
+    std::size_t levels = 1;
+    material.size = material.work = material.statements.size();
+    for (const auto& component : material.components) {
+      material.size += 1 + component.material->size;
+      material.work += 1 + component.material->work;
+      levels += component.material->percepts.size();
+    }
+    material.work += levels * material.percepts.size();
+  }
+
   // ---- what a material is made from -------------------------------------------------------------------------------
 
   /// `like denim`: takes everything from `denim` that the material does not state itself.
@@ -131,12 +171,13 @@ class Assembler {
   std::shared_ptr<const AssembledMaterial> instance(const Declared<MaterialDecl>& from, const Call& call) {
     const auto* other = find(call.callee, *from.home);
     const auto base = other ? assemble(*other) : nullptr;
-    if (!base) return nullptr;
+    if (!base || !charge(4 * base->work)) return nullptr;
     auto result = std::make_shared<AssembledMaterial>(*base);
     bool good = true;
     std::map<std::string_view, Span> given;
     for (const auto& argument : from.tree->arguments(call)) {
       const Span span = from.tree->span(argument.value);
+      if (!charge(4 * base->work)) return nullptr;
       if (!argument.name) {
         report(Code::unknown_argument, span, fmt::format("the parameters of `{}` are given by name", call.callee.text),
                fmt::format("write, for example, `{}({})`", call.callee.text, example_of(*base)));
@@ -278,7 +319,9 @@ class Assembler {
     }
     const auto first = made_from(from, arguments[0].value), second = made_from(from, arguments[1].value);
     const auto way = plain_constant(from, arguments[2].value, surroundings_);
-    if (!first || !second || !way) return nullptr;
+    if (!first || !second || !way ||
+        !charge(4 * (first->work + second->work) + first->percepts.size() * second->percepts.size()))
+      return nullptr;
     if (!(*way >= 0 && *way <= 1)) {
       report(Code::value_out_of_range, from.tree->span(arguments[2].value),
              fmt::format("the position {:.4g} is not between the two materials", *way), "give a number from 0 to 1");
@@ -355,16 +398,11 @@ class Assembler {
   std::shared_ptr<const AssembledMaterial> blend(const Declared<MaterialDecl>& from, ExprId expr) {
     auto result = std::make_shared<AssembledMaterial>();
     if (!add_components(from, expr, result->components)) return nullptr;
-    for (std::size_t i = 0; i < result->components.size(); ++i) {
-      auto& component = result->components[i];
-      std::string name = component.name + "_weight";
-      const auto is_taken = [&](const auto& other) { return other.weight_name == name; };
-      const auto before = std::span(result->components).first(i);
-      for (int count = 2; std::ranges::any_of(before, is_taken); ++count)
-        name = fmt::format("{}_weight_{}", component.name, count);
-      component.weight_name = name;
-    }
-    for (const auto& component : result->components)
+    name_weights(result->components);
+    std::size_t asked_for = 0;
+    for (const auto& component : result->components) {
+      asked_for += component.material->percepts.size();
+      if (!charge(component.material->percepts.size() * (1 + result->percepts.size()))) return nullptr;
       for (const auto& asked : component.material->percepts)
         if (std::ranges::find(result->percepts, asked.name, &AskedPercept::name) == result->percepts.end())
           result->percepts.push_back({.name = asked.name,
@@ -372,8 +410,23 @@ class Assembler {
                                       .by = asked.by,
                                       .essential = asked.essential,
                                       .blended = true});
+    }
+    if (!charge(asked_for * result->percepts.size())) return nullptr;
+    measure(*result);
     blend_levels(*result);
     return result;
+  }
+
+  /// Gives the weight of each component a name that no other has.
+  static void name_weights(std::vector<AssembledMaterial::Component>& components) {
+    std::unordered_set<std::string> taken;
+    std::unordered_map<std::string, int> counts;  // for each name, a number below which none is free
+    for (auto& component : components) {
+      component.weight_name = component.name + "_weight";
+      int& count = counts.try_emplace(component.name, 2).first->second;
+      while (!taken.insert(component.weight_name).second)
+        component.weight_name = fmt::format("{}_weight_{}", component.name, count++);
+    }
   }
 
   /// Computes the levels of a blend from those of its components, for all percepts that the blend does not ask for.
@@ -485,7 +538,9 @@ class Assembler {
 
   const Surroundings& surroundings_;
   std::vector<const MaterialDecl*> path_;
-  std::size_t statements_ = 0;
+  std::size_t depth_ = 0;  ///< of the materials from which the current one is made, so far
+  /// Each material is assembled once, however often others are made from it.
+  std::unordered_map<const MaterialDecl*, std::shared_ptr<const AssembledMaterial>> assembled_;
 };
 
 }  // namespace

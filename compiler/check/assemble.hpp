@@ -42,7 +42,10 @@ struct AssembledMaterial {
   std::vector<Component> components;  ///< of a blend; the blend's own statements are added to theirs
   const Setting* kind = nullptr;      ///< `kind fabric.woven`, its own or that of the material after `like`
   const SyntaxTree* kind_tree = nullptr;
-  bool derived = false;  ///< some parts come from other materials
+  bool derived = false;   ///< some parts come from other materials
+  std::size_t size = 0;   ///< statements and components of it, of its components, and so on
+  std::size_t work = 0;   ///< operations of a walk through all of them, with the levels of each
+  std::size_t depth = 0;  ///< of the materials that it is made from, one from another
 };
 
 /// Assembles a material from its own statements and from others: `like`, `= other(parameter: value)`, `= 0.7 a + 0.3

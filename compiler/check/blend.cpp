@@ -14,11 +14,18 @@ constexpr double least_whole = 1e-6;
 }  // namespace
 
 std::optional<Value> Blender::compose(const AssembledMaterial& assembled, StatementChecker& own) {
+  constexpr std::size_t operations_of_a_component = 32;
+  if (!charge(operations_of_a_component * assembled.components.size())) return std::nullopt;
   Superposition sum;
   std::vector<TermId> weights;
   for (const auto& component : assembled.components) weights.push_back(add_weight(component));
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    superpose(assembled.components[i], weights[i], share_of(weights[i], weights), sum);
+  if (!weights.empty()) {
+    const TermId whole = whole_of(weights);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      superpose(assembled.components[i], weights[i], material_.terms.apply(Operation::divide, weights[i], whole, span_),
+                sum);
+  }
+  if (surroundings_.diagnostics.is_spent()) return std::nullopt;
   if (!sum.textures.empty()) add_textures(sum);
   own.check(assembled.statements);
   for (const auto& layer : own.layers()) sum.force = add(sum.force, layer.force);
@@ -28,10 +35,7 @@ std::optional<Value> Blender::compose(const AssembledMaterial& assembled, Statem
 
 /// Makes the weight a parameter, so that a slider can move a blend from one component to another.
 TermId Blender::add_weight(const AssembledMaterial::Component& component) {
-  std::string name = component.weight_name;
-  for (int count = 2; std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
-       ++count)
-    name = fmt::format("{}_{}", component.weight_name, count);
+  const std::string name = material_.parameter_names.free(material_.parameters, component.weight_name);
   const auto index = static_cast<std::uint32_t>(material_.parameters.size());
   const float weight = static_cast<float>(component.weight), most = std::max(1.0f, weight);
   material_.parameters.push_back({.name = name,
@@ -47,22 +51,26 @@ TermId Blender::add_weight(const AssembledMaterial::Component& component) {
   return material_.terms.parameter(index, component.span);
 }
 
-/// A weight divided by the sum of all; 0 if all are 0.
-TermId Blender::share_of(TermId weight, const std::vector<TermId>& weights) {
+/// The sum of the weights, by which each is divided for its share; a share is 0 if all weights are 0.
+TermId Blender::whole_of(const std::vector<TermId>& weights) {
   Terms& terms = material_.terms;
   TermId whole = weights.front();
   for (std::size_t i = 1; i < weights.size(); ++i) whole = terms.apply(Operation::add, whole, weights[i], span_);
-  whole = terms.apply(Operation::maximum, whole, terms.literal(least_whole, span_), span_);
-  return terms.apply(Operation::divide, weight, whole, span_);
+  return terms.apply(Operation::maximum, whole, terms.literal(least_whole, span_), span_);
 }
 
 void Blender::superpose(const AssembledMaterial::Component& component, TermId weight, TermId share,
                         Superposition& sum) {
+  if (surroundings_.diagnostics.is_spent()) return;
+  const std::optional<Span> spender = checker_.spender();  // the outermost component, which the author wrote
+  if (!spender) checker_.spend_on(component.span);
   const std::size_t first_carrier = checker_.record().carriers.size();
   StatementChecker statements(material_, checker_, surroundings_, component.name);
   const std::size_t errors_before = surroundings_.diagnostics.error_count();
   const auto force = compose(*component.material, statements);
   add_levels(component, share, sum);
+  if (force) add_leaves(*force, weight, component.name, first_carrier, sum);
+  checker_.spend_on(spender);
   if (!force) {
     if (surroundings_.diagnostics.error_count() == errors_before)
       surroundings_.diagnostics.report(
@@ -70,23 +78,27 @@ void Blender::superpose(const AssembledMaterial::Component& component, TermId we
            .span = span_,
            .message = fmt::format("`{}` has percepts but no force, so there is nothing to blend", component.name),
            .help = "give it a `physical` block, or leave it out and ask for its percepts in the blend"});
-    return;
   }
-  // The force is a sum. Separate its open textures from the other terms.
-  std::vector<Value> waiting{*force};
+}
+
+/// Separates the open textures of a component's force, which is a sum, from its other terms.
+void Blender::add_leaves(const Value& force, TermId weight, const std::string& name, std::size_t first_carrier,
+                         Superposition& sum) {
+  auto& carriers = checker_.record().carriers;
+  CarriersByForce by_force;
+  for (std::size_t i = first_carrier; i < carriers.size(); ++i)
+    by_force[{carriers[i].force_x, carriers[i].force_y}].push_back(i);
+  std::vector<Value> waiting{force};
   while (!waiting.empty()) {
+    constexpr std::size_t operations_of_a_leaf = 8;
+    if (!charge(operations_of_a_leaf)) return;
     const Value leaf = waiting.back();
     waiting.pop_back();
     const Term x = material_.terms[leaf.x], y = material_.terms[leaf.y];
-    const auto is_carrier = [&](const Carrier& carrier) {
-      return carrier.force_x == leaf.x && carrier.force_y == leaf.y;
-    };
-    const bool carried = std::any_of(checker_.record().carriers.begin() + static_cast<std::ptrdiff_t>(first_carrier),
-                                     checker_.record().carriers.end(), is_carrier);
     const bool is_sum = x.kind == TermKind::operation && x.operation == Operation::add &&
                         y.kind == TermKind::operation && y.operation == Operation::add;
-    if (carried || !is_sum) {
-      add_leaf(weight, component.name, leaf, first_carrier, sum);
+    if (by_force.contains({leaf.x, leaf.y}) || !is_sum) {
+      add_leaf(weight, name, leaf, by_force, sum);
       continue;
     }
     for (const auto& [a, b] : {std::pair{x.b, y.b}, std::pair{x.a, y.a}}) {
@@ -95,6 +107,9 @@ void Blender::superpose(const AssembledMaterial::Component& component, TermId we
       waiting.push_back(part);
     }
   }
+  std::size_t index = 0;
+  std::erase_if(carriers, [&](const Carrier&) { return std::ranges::binary_search(sum.taken, index++); });
+  sum.taken.clear();
 }
 
 /// Adds the levels that a component or its own components ask for, each weighted by the component's share.
@@ -105,25 +120,30 @@ void Blender::add_levels(const AssembledMaterial::Component& component, TermId s
       all.push_back({component.name, asked.level, share});
       continue;
     }
-    for (LevelShare part : levels_[asked.name]) {
+    const auto& parts = levels_[asked.name];
+    if (!charge(4 * parts.size())) return;
+    for (LevelShare part : parts) {
       part.share = material_.terms.apply(Operation::multiply, share, part.share, span_);
       all.push_back(std::move(part));
     }
   }
 }
 
-void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
+void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf, CarriersByForce& by_force,
                        Superposition& sum) {
-  auto& carriers = checker_.record().carriers;
-  const auto found =
-      std::find_if(carriers.begin() + static_cast<std::ptrdiff_t>(first_carrier), carriers.end(),
-                   [&](const Carrier& carrier) { return carrier.force_x == leaf.x && carrier.force_y == leaf.y; });
-  if (found != carriers.end() && found->open) {
-    sum.textures.push_back({weight, *found});
-    carriers.erase(found);
-    return;
+  Carrier* carrier = nullptr;
+  if (const auto found = by_force.find({leaf.x, leaf.y}); found != by_force.end()) {
+    const std::size_t index = found->second.front();
+    carrier = &checker_.record().carriers[index];
+    found->second.erase(found->second.begin());
+    if (found->second.empty()) by_force.erase(found);
+    if (carrier->open) {
+      sum.textures.push_back({weight, *carrier});
+      sum.taken.insert(std::ranges::lower_bound(sum.taken, index), index);
+      return;
+    }
   }
-  if (found == carriers.end() && material_.terms.dependence(leaf.x).on(Dependence::open)) {
+  if (!carrier && material_.terms.dependence(leaf.x).on(Dependence::open)) {
     surroundings_.diagnostics.report(
         {.code = Code::different_structures,
          .span = span_,
@@ -132,10 +152,10 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
     return;
   }
   const Value weighed = scaled(leaf, weight);
-  if (found != carriers.end()) {
-    found->size = material_.terms.apply(Operation::multiply, found->size, weight);
-    found->force_x = weighed.x;
-    found->force_y = weighed.y;
+  if (carrier) {
+    carrier->size = material_.terms.apply(Operation::multiply, carrier->size, weight);
+    carrier->force_x = weighed.x;
+    carrier->force_y = weighed.y;
   }
   sum.force = add(sum.force, weighed);
 }
@@ -143,6 +163,8 @@ void Blender::add_leaf(TermId weight, const std::string& name, const Value& leaf
 /// Replaces several textures by one: the same force function of the blended height, with its size open again.
 void Blender::add_textures(Superposition& sum) {
   const auto textures = sum.textures;
+  constexpr std::size_t operations_of_a_texture = 32;
+  if (!charge(operations_of_a_texture * textures.size())) return;
   const std::string function_name = textures.front().carrier.name.substr(0, textures.front().carrier.name.find(' '));
   for (const auto& texture : textures) {
     if (texture.carrier.relief && texture.carrier.name == textures.front().carrier.name) continue;
@@ -175,7 +197,7 @@ std::optional<Value> Blender::blended_height(const std::vector<Texture>& texture
   Terms& terms = material_.terms;
   std::vector<TermId> weights;
   for (const auto& texture : textures) weights.push_back(texture.weight);
-  std::optional<TermId> height;
+  std::optional<TermId> height, whole;
   for (const auto& [weight, carrier] : textures) {
     const TermId along_x = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 0, .span = span_});
     const TermId along_y = terms.add({.kind = TermKind::gradient, .a = *carrier.relief, .index = 1, .span = span_});
@@ -183,9 +205,10 @@ std::optional<Value> Blender::blended_height(const std::vector<Texture>& texture
                                        terms.apply(Operation::multiply, along_y, along_y, span_), span_);
     const TermId slope = terms.apply(Operation::square_root, squares, span_);
     const TermId steepest = terms.add({.kind = TermKind::peak, .a = slope, .span = span_});
-    const TermId share =
-        terms.apply(Operation::multiply, terms.apply(Operation::divide, *carrier.relief, steepest, span_),
-                    share_of(weight, weights), span_);
+    if (!whole) whole = whole_of(weights);
+    const TermId of_whole = terms.apply(Operation::divide, weight, *whole, span_);
+    const TermId share = terms.apply(Operation::multiply,
+                                     terms.apply(Operation::divide, *carrier.relief, steepest, span_), of_whole, span_);
     height = height ? terms.apply(Operation::add, *height, share, span_) : share;
   }
   if (!height) return std::nullopt;
@@ -193,6 +216,11 @@ std::optional<Value> Blender::blended_height(const std::vector<Texture>& texture
                .x = *height,
                .dimension = surroundings_.declarations.dimension("length"),
                .span = span_};
+}
+
+bool Blender::charge(std::size_t operations) {
+  const std::optional<Span> spender = checker_.spender();
+  return surroundings_.diagnostics.charge(operations, spender ? *spender : span_, Work::blend);
 }
 
 Value Blender::scaled(const Value& vector, TermId weight) {

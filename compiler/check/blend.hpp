@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/check/check_statements.hpp"
@@ -35,17 +36,24 @@ class Blender {
   struct Superposition {
     std::optional<Value> force;
     std::vector<Texture> textures;
+    std::vector<std::size_t> taken;  ///< the indices of the carriers of the current component's textures, ascending
     Levels levels;
   };
 
   void superpose(const AssembledMaterial::Component& component, TermId weight, TermId share, Superposition& sum);
   void add_levels(const AssembledMaterial::Component& component, TermId share, Superposition& sum);
   TermId add_weight(const AssembledMaterial::Component& component);
-  TermId share_of(TermId weight, const std::vector<TermId>& weights);
-  void add_leaf(TermId weight, const std::string& name, const Value& leaf, std::size_t first_carrier,
+  TermId whole_of(const std::vector<TermId>& weights);
+  void add_leaves(const Value& force, TermId weight, const std::string& name, std::size_t first_carrier,
+                  Superposition& sum);
+  /// The indices of the carriers with a force, ascending.
+  using CarriersByForce = std::map<std::pair<TermId, TermId>, std::vector<std::size_t>>;
+  void add_leaf(TermId weight, const std::string& name, const Value& leaf, CarriersByForce& by_force,
                 Superposition& sum);
   void add_textures(Superposition& sum);
   std::optional<Value> blended_height(const std::vector<Texture>& textures);
+  /// Takes operations from the budget before they are done; false if it is spent, which has been reported.
+  bool charge(std::size_t operations);
   Value scaled(const Value& vector, TermId weight);
   Value add(const std::optional<Value>& left, const Value& right);
 

@@ -71,6 +71,7 @@ class MaterialChecker {
     const Terms& terms = material_.terms;
     for (const auto& carrier : checker_.record().carriers) {
       if (!carrier.open) continue;
+      if (!checker_.charge(terms.size() / 8, carrier.span)) return;
       for (TermId id = carrier.force_x + 1; id < terms.size(); ++id) {
         const Term& term = terms[id];
         const bool product = term.kind == TermKind::operation && term.operation == Operation::multiply;

@@ -92,6 +92,7 @@ void StatementChecker::operator()(const StateStatement& node) {
   Value value = initial;
   value.span = node.name.span;
   const std::string name = free_name(std::string(node.name.text), [&](const std::string& taken) {
+    if (!checker_.charge(1 + checker_.record().states.size(), node.name.span)) return false;
     return std::ranges::any_of(checker_.record().states,
                                [&](const auto& other) { return other.name == taken || other.name == taken + ".x"; });
   });

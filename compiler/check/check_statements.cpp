@@ -15,6 +15,7 @@ StatementChecker::StatementChecker(CheckedMaterial& material, ExpressionChecker&
 }
 
 void StatementChecker::check(const std::vector<AssembledStatement>& statements) {
+  constexpr std::size_t operations_of_a_statement = 4;
   scope_.reserve(statements.size());
   const auto is_parameter = [](const AssembledStatement& each) {
     return std::holds_alternative<ParamStatement>(each.statement->what);
@@ -22,6 +23,7 @@ void StatementChecker::check(const std::vector<AssembledStatement>& statements) 
   const auto parameters = static_cast<std::size_t>(std::ranges::count_if(statements, is_parameter));
   if (material_.parameters.empty()) material_.parameters.reserve(parameters);
   for (const auto& assembled : statements) {
+    if (!checker_.charge(operations_of_a_statement, assembled.statement->span)) return;
     statement_ = &assembled;
     checker_.read(*assembled.home);
     std::visit(*this, assembled.statement->what);
@@ -88,7 +90,7 @@ void StatementChecker::operator()(const ForceStatement& node) {
   if (auto* binding = scope_.find(node.name->text)) binding->used = true;
 }
 
-/// The limit of `limit 3 N`. Nothing if it is not a force, or not constant from tick to tick, which is reported.
+/// The limit of `limit 3 N`. Empty if it is not a force, or not constant from tick to tick, which is reported.
 std::optional<TermId> StatementChecker::force_limit(ExprId expr) {
   const Value limit = checker_.check_as(tree(), expr, scope_, Value::Type::number, declarations().dimension("force"));
   if (limit.failed()) return std::nullopt;
@@ -202,16 +204,17 @@ void StatementChecker::operator()(const ParamStatement& node) {
   parameter.si_unit = declarations().names().unit(value.dimension);
   check_soft_range(node, value.dimension, *number, parameter);
 
-  const auto taken = [&](const std::string& name) {
-    return std::ranges::find(material_.parameters, name, &Parameter::name) != material_.parameters.end();
+  const auto is_taken = [&](const std::string& name) {
+    return material_.parameter_names.contains(material_.parameters, name);
   };
-  parameter.name = free_name(parameter.name, taken);
+  if (!prefix_.empty() && is_taken(parameter.name))
+    parameter.name = material_.parameter_names.free(material_.parameters, prefix_ + "_" + parameter.name);
   const auto index = static_cast<std::uint32_t>(material_.parameters.size());
   declare(node.name, {.type = Value::Type::number,
                       .x = material_.terms.parameter(index, node.name.span),
                       .dimension = value.dimension,
                       .span = node.name.span});
-  if (taken(parameter.name)) return;  // reported as declared twice
+  if (is_taken(parameter.name)) return;  // reported as declared twice
   material_.parameters.push_back(std::move(parameter));
   material_.parameter_spans.push_back(node.name.span);
 }

@@ -50,6 +50,17 @@ int show_stage(const BuildOptions& options) {
                         .mend = fmt::format("the stages are {}", fmt::join(names, ", ")),
                         .place = {.name = "--emit", .text = options.stage}});
   }
+  const bool of_no_device = known->stage == BuildStage::tree || known->stage == BuildStage::checked;
+  if (of_no_device && !options.choice.device_option.empty())
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("the stage `{}` is the same for all devices", options.stage),
+                        .mend = "leave out --device, or show ir, listing or cpp",
+                        .place = {.name = "--device"}});
+  if (known->stage == BuildStage::tree && !options.choice.material.empty())
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = "the stage `tree` is of the whole file",
+                        .mend = "leave out --material, or show another stage",
+                        .place = {.name = "--material"}});
   auto opened = open(options.choice);
   if (!opened) return opened.status();
   const auto text = build_stage(*opened, options.choice.recording_request(), options.choice.material, known->stage,
@@ -70,8 +81,9 @@ int build_collection(const BuildOptions& options) {
   if (!opened) return opened.status();
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
-                        .sentence = "this is a patch program, but --all builds the materials of a Wale file",
-                        .place = {.name = opened->name}});
+                        .sentence = fmt::format("expected a Wale file, found the patch program `{}`", opened->name),
+                        .mend = "leave out --all, or name the Wale file that it was built from",
+                        .place = {.name = "--all"}});
   print_diagnostics(stderr, opened->diagnostics, opened->sources);
   const auto collection = build_all(*opened, options.choice.recording_request(), options.out, *options.choice.inputs);
   if (!collection) return refuse(collection.error());

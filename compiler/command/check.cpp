@@ -55,11 +55,12 @@ int check(const CheckOptions& options) {
 
 Run declare_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckOptions>();
-  verb.add_option("FILE", options->files, "paths of Wale files; names of materials are not looked for")->required();
+  verb.add_option("FILE", options->files, "paths of your Wale files, as in my.wale (not names of materials)")
+      ->required();
   offer_library(verb, options->folders);
   offer_sandbox(verb, options->sandbox);
   offer_json(verb, options->json, "the diagnostics as a JSON array");
-  verb.add_flag("--fix", options->fix, "first applies the safe mends to these files");
+  verb.add_flag("--fix", options->fix, "first writes the mends into the files, where only one meaning is possible");
   verb.footer("for example: wale check --fix my.wale");
   return [options] { return check(*options); };
 }

@@ -58,9 +58,10 @@ int describe_fates(const DescribeOptions& options) {
   if (!opened) return opened.status();
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
-                        .sentence = "this patch program is already built for one device",
-                        .mend = "name the Wale file that it was built from",
-                        .place = {.name = choice.file}});
+                        .sentence = fmt::format("expected a Wale file, found `{}`, which is built for `{}` already",
+                                                opened->name, opened->program->description().device.name),
+                        .mend = "leave out --device, or name the Wale file that it was built from",
+                        .place = {.name = "--device"}});
   const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<DeviceFates> all;
@@ -86,12 +87,20 @@ int describe_fates(const DescribeOptions& options) {
   return done;
 }
 
-/// Prints the exports of a file; nothing if it has none and they were not asked for.
+/// Prints the exports of a file, if it has any or they were asked for.
 std::optional<int> describe_exports(const OpenedFile& opened, const DescribeOptions& options) {
   const bool is_asked = options.exports || (opened.module && opened.module->materials.empty());
   if (!opened.module || !options.choice.material.empty() || !is_asked) return std::nullopt;
   const ModuleDescription module = describe_module(*opened.module, opened.sources);
   if (!options.exports && module.empty()) return std::nullopt;
+  const char* of_a_material = !options.choice.device_option.empty() ? "--device"
+                              : !options.settings.empty()           ? "--set"
+                                                                    : nullptr;
+  if (of_a_material != nullptr)
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("`{}` has no material", opened.name),
+                        .mend = fmt::format("leave out {} to list what the file exports", of_a_material),
+                        .place = {.name = of_a_material}});
   print_diagnostics(stderr, opened.diagnostics, opened.sources);
   print_out(options.json ? module_json(module) : module_text(module));
   return done;
@@ -103,10 +112,10 @@ int describe(const DescribeOptions& options) {
   if (!opened) return opened.status();
   if (options.exports && opened->program)
     return refuse(Error{.code = Code::malformed_value,
-                        .sentence = fmt::format("this is a patch program, built for `{}`, and exports nothing",
-                                                opened->program->description().device.name),
-                        .mend = "name the Wale file that it was built from",
-                        .place = {.name = opened->name}});
+                        .sentence = fmt::format(
+                            "expected a Wale file, found `{}`, a patch program, which exports nothing", opened->name),
+                        .mend = "leave out --exports, or name the Wale file that it was built from",
+                        .place = {.name = "--exports"}});
   if (const auto status = describe_exports(*opened, options)) return *status;
   const auto programs = programs_of(*opened, options.choice, true);
   if (!programs) return programs.status();
@@ -134,7 +143,9 @@ Run declare_describe(CLI::App& verb) {
   offer_settings(verb, options->settings);
   verb.add_flag("--exports", options->exports,
                 "lists what the file exports (the default for a file without a material)")
-      ->excludes("--material");
+      ->excludes("--material")
+      ->excludes("--device")
+      ->excludes("--set");
   offer_json(verb, options->json, "an object for one material, an array for several");
   verb.footer("for example: wale describe corduroy --set wale=4mm;  wale describe my.wale --device all");
   return [options] { return describe(*options); };

@@ -35,13 +35,15 @@ int levels(const LevelsOptions& options) {
 
 Run declare_levels(CLI::App& verb) {
   const auto options = std::make_shared<LevelsOptions>();
-  verb.add_option("PERCEPT", options->percept, "a percept or its antonym, as in roughness or smoothness")->required();
+  verb.add_option("PERCEPT", options->percept, "a percept or its opposite, as in roughness or smoothness")->required();
   offer_device(verb, options->choice);
   offer_count(verb, "--steps", options->steps, {.least = 2, .most = 1000, .example = 5},
-              "how many levels (default: as many as can be told apart)");
-  offer_number(verb, "--jnd", options->apart, {.least = 0.01, .most = 1000, .example = 1.5},
-               "the least distance between two levels, in just noticeable differences (default: 1)");
-  offer_json(verb, options->json, "a JSON object");
+              "how many levels, as in 5 (default: as many as people can tell apart)");
+  offer_number(
+      verb, "--jnd", options->apart, {.least = 0.01, .most = 1000, .example = 1.5},
+      "how far apart neighbouring levels are at least, in just noticeable differences: at 1, people are right about "
+      "three times in four (default: 1)");
+  offer_json(verb, options->json, "the result as a JSON object");
   verb.footer("for example: wale levels roughness --device falcon --steps 5");
   return [options] { return levels(*options); };
 }

@@ -56,7 +56,7 @@ Comparer::Comparer(const Declarations& declarations, const std::string& device) 
   }
 }
 
-/// The difference in just noticeable differences; nothing if no publication gives a threshold.
+/// The difference in just noticeable differences; empty if no publication gives a threshold.
 std::optional<double> Comparer::noticeable(const CueFacts& facts, std::optional<double> a,
                                            std::optional<double> b) const {
   // If only one material has a period or an orientation, the other cues of that texture tell the two apart.

@@ -13,8 +13,8 @@ namespace wale {
 /// One cue of two materials.
 struct CueDifference {
   CueKind kind = CueKind::amplitude;
-  std::optional<double> a, b;               ///< SI; nothing if the material does not have this cue
-  std::optional<double> noticeable;         ///< in just noticeable differences at d' = 1; nothing if unknown
+  std::optional<double> a, b;               ///< SI; empty if the material does not have this cue
+  std::optional<double> noticeable;         ///< in just noticeable differences at d' = 1; empty if unknown
   const Threshold* threshold = nullptr;     ///< that gives `noticeable`; null if none is published or nothing differs
   Evidence evidence = Evidence::estimated;  ///< of the threshold on this device
 };

@@ -29,7 +29,7 @@ std::string cue_text(CueKind kind, const std::optional<double>& value, int more 
     return fmt::format("{:.{}f} degrees", std::fmod(rounded, 180) + 0.0, more);
   }
   const CueFacts& facts = facts_of(kind);
-  return fmt::format("{:.{}g}{}{}", *value, 3 + more, *facts.unit ? " " : "", facts.unit);
+  return fmt::format("{:.{}g}{}{}", *value + 0.0, 3 + more, *facts.unit ? " " : "", facts.unit);
 }
 
 /// Both values of a cue; with more digits if they differ and three digits would not show it.

@@ -74,14 +74,13 @@ std::string candidates(const std::string& wrong, const std::vector<std::string>&
 Error no_map(const Percept& percept, const MapChoice& choice, const std::string& device) {
   if (!percept.has_reference)
     return {Code::untied_map,
-            fmt::format("{} has no reference stimulus, so it can be ordered but has no levels", percept.name)};
+            fmt::format("expected a percept that has levels, found {}, which can only be compared", percept.name)};
   if (!choice.rivals.empty())
     return {Code::several_maps, fmt::format("{} maps of {} fit `{}`, and the device does not choose one",
                                             choice.rivals.size(), percept.name, device)};
   if (!choice.untied.empty())
     return {Code::untied_map,
-            fmt::format("no map of {} is tied to its reference stimulus, so they can order it but not set levels",
-                        percept.name)};
+            fmt::format("expected a map that can set a level of {}, found only maps that compare", percept.name)};
   return {Code::no_map, fmt::format("no map ties {} to a force on `{}`", percept.name, device)};
 }
 
@@ -110,7 +109,7 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
   if (steps && *steps < 2) return Error{Code::malformed_value, "expected at least two levels", {}, {"--steps"}};
   if (on->profile.shaker && !on->realise.contains(meant.percept->name))
     return Error{Code::percept_unrealised,
-                 fmt::format("`{}` only vibrates, and has no realisation of {}", device, meant.percept->name)};
+                 fmt::format("`{}` only vibrates, and has no rule that makes {}", device, meant.percept->name)};
   const Percept percept = carried_on(*on, *meant.percept, declarations);
   const MapChoice choice = percept.has_reference ? choose_map(percept, *on, declarations) : MapChoice{};
   if (!choice.map) return no_map(percept, choice, device);

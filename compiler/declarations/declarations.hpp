@@ -187,7 +187,7 @@ struct Declarations {
 
   const DimensionNames& names() const { return shared_names->known(); }
 
-  /// All maps; those that every file knows come first. Likewise for thresholds, rules and levels.
+  /// All maps, thresholds, rules and levels; of each, those that every file knows come first.
   std::vector<const Map*> maps() const;
   template <typename Visit>
   void each_map(const Visit& visit) const {

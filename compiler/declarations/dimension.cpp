@@ -49,7 +49,7 @@ struct BaseSteps {
   std::optional<std::size_t> times, over;
 };
 
-/// Nothing if more are needed, or none.
+/// Empty if more are needed, or none.
 std::optional<BaseSteps> steps_between(const Dimension& from, const Dimension& to) {
   BaseSteps steps;
   for (std::size_t i = 0; i < Dimension::capacity; ++i) {

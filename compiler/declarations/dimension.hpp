@@ -36,7 +36,7 @@ inline Dimension operator/(Dimension a, const Dimension& b) {
   for (std::size_t i = 0; i < Dimension::capacity; ++i) a.twelfths[i] -= b.twelfths[i];
   return a;
 }
-/// `a` to the power numerator / denominator; nothing if an exponent is not a whole number of twelfths.
+/// `a` to the power numerator / denominator; empty if an exponent is not a whole number of twelfths.
 std::optional<Dimension> power(Dimension a, int numerator, int denominator = 1);
 
 /// "a length", "an energy".
@@ -50,7 +50,7 @@ struct DimensionNames {
   };
   std::vector<std::string> base_units;  ///< "m", "kg", "s": one for each base dimension, in order
   std::vector<Named> dimensions;        ///< in the order of declaration; the first that fits names it
-  std::vector<Named> units;             ///< units with factor 1, likewise
+  std::vector<Named> units;             ///< units with factor 1
 
   /// "force", or the unit if it has no name; "a plain number" if it has no dimension.
   std::string words(const Dimension& dimension) const;

@@ -38,7 +38,7 @@ class Discrimination {
   double floor(const Threshold& threshold) const;
 
   /// The distance in just noticeable differences at d' = 1: ln(ratio) / ln(1 + w), or the difference divided by the
-  /// floor if that is less, or if one size is 0 or their signs differ. Nothing if there is no threshold.
+  /// floor if that is less, or if one size is 0 or their signs differ. Empty if there is no threshold.
   std::optional<double> distance(double a, double b) const;
 
  private:

@@ -13,6 +13,13 @@ namespace wale {
 /// A figure with the digits of single precision: 0.6, not 0.60000002384.
 inline double figure(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value; }
 
+/// `value` with so many decimals, and no minus before a number that rounds to zero.
+inline std::string with_decimals(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
 /// A value of a parameter in the unit that its author used.
 inline double shown(float value, double unit_in_si) { return figure(value / unit_in_si); }
 

@@ -4,15 +4,19 @@
 
 #include <cmath>
 
+#include "compiler/describe/describe_figure.hpp"
+
 namespace wale {
 namespace {
 
 std::string line(std::string_view key, const std::string& words) { return fmt::format("  {:<12} {}\n", key, words); }
 
 std::string place_words(const WorstPlace& place) {
-  std::string words = fmt::format("({:.1f}, {:.1f}) mm", 1e3 * place.position.x, 1e3 * place.position.y);
+  std::string words =
+      fmt::format("({}, {}) mm", with_decimals(1e3 * place.position.x, 1), with_decimals(1e3 * place.position.y, 1));
   if (place.velocity != glm::vec2(0.0f))
-    words += fmt::format(" moving at ({:.2f}, {:.2f}) m/s", place.velocity.x, place.velocity.y);
+    words +=
+        fmt::format(" moving at ({}, {}) m/s", with_decimals(place.velocity.x, 2), with_decimals(place.velocity.y, 2));
   return words;
 }
 

@@ -87,9 +87,11 @@ void write_fates(std::string& text, const Description& description) {
     std::string level;
     if (each.percept && each.fate == Fate::saturated)
       level = fmt::format(" from {:.2f} to {:.2f}", each.asked, each.given);
-    text +=
-        fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level, each.reason.empty() ? "" : ": ",
-                    each.reason, described.changes.empty() ? "" : "; " + changes_text(described));
+    // Of a force that no level asked for, nothing was compared: it is only not solved for.
+    const std::string reason =
+        !each.percept && each.fate == Fate::kept ? "by the material's formulas, not found from a level" : each.reason;
+    text += fmt::format("  {:<18} {}{}{}{}{}\n", each.name, fate_word(each.fate), level, reason.empty() ? "" : ": ",
+                        reason, described.changes.empty() ? "" : "; " + changes_text(described));
   }
 }
 
@@ -170,7 +172,7 @@ void write_memory(std::string& text, const Description& description) {
   if (description.states.empty() && description.memories.empty()) return;
   text += "\nremembers (in SI units)\n";
   for (const auto& state : description.states)
-    text += fmt::format("  {:<12} {:.6g} .. {:.6g}\n", state.name, state.low, state.high);
+    text += fmt::format("  {:<12} {:.6g} .. {:.6g}\n", state.name, state.low + 0.0, state.high + 0.0);
   for (const auto& grid : description.memories)
     text += fmt::format("  {:<12} {:.6g} .. {:.6g}, at first {:.6g}; {} x {} cells, {} bytes\n", grid.name, grid.low,
                         grid.high, grid.initial, grid.columns, grid.rows, bytes_of(grid));

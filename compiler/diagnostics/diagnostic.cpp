@@ -1,11 +1,57 @@
 #include "compiler/diagnostics/diagnostic.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 namespace wale {
+
+namespace {
+
+/// What takes the work, and what to do.
+struct Spending {
+  const char *what, *mend;
+};
+Spending spending(Work on) {
+  switch (on) {
+    case Work::expansion:
+      return {"this expands to",
+              "functions are expanded at every call; let them call each other less often, and name a "
+              "value that is used twice with `let`"};
+    case Work::assembly:
+      return {"making this from other materials takes",
+              "make it from fewer materials, or from one that stands on its own"};
+    case Work::blend:
+      return {"this blend takes",
+              "a blend computes each of its components, and those of the blends in it; blend fewer"};
+    case Work::solving:
+      return {"solving these percepts takes", "ask for fewer percepts, or write the force as fewer terms"};
+    case Work::gradient:
+      return {"this gradient takes", "a gradient of a gradient is far larger than its height; derive a simpler one"};
+    case Work::program: break;
+  }
+  return {"this material takes", "write it as several materials, or with fewer values"};
+}
+
+}  // namespace
+
+void Diagnostics::report_spent(const Span& place, Work on) {
+  if (spent_) return;
+  const auto [what, mend] = spending(on);
+  const std::size_t most = budget_.allowed();
+  report({.code = Code::program_too_large,
+          .span = place,
+          .message = fmt::format("{} more than {} operations", what, most),
+          .expected = fmt::format("at most {} operations to compile this text", most),
+          .found = "more",
+          .help = mend,
+          .facts = {{"limit", NumberWithUnit{static_cast<double>(most), ""}}}});
+  spent_ = true;
+}
+
 void Diagnostics::report(Diagnostic diagnostic) {
-  if (is_full()) return;
+  if (is_full() || spent_) return;
   const Key key(diagnostic.code, diagnostic.span.source, diagnostic.span.begin, diagnostic.span.end);
   for (auto [said, end] = said_.equal_range(key); said != end; ++said)
     if (said->second == diagnostic.message) return;

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "compiler/diagnostics/budget.hpp"
 #include "compiler/text/source.hpp"
 #include "schema/code.hpp"
 
@@ -62,7 +63,7 @@ struct Diagnostic {
   std::vector<Fix> fixes;  ///< the likeliest first
 };
 
-/// The diagnostics that stages report. Nothing is printed here.
+/// The diagnostics that stages report, and the work that they may do. Nothing is printed here.
 ///
 /// Reports are rare, and `[[gnu::cold]]` says so: the compiler then moves the code that makes a message away from the
 /// code that every file runs through.
@@ -80,12 +81,34 @@ class Diagnostics {
   bool is_full() const { return errors_ >= most_errors; }
   const std::vector<Diagnostic>& all() const { return all_; }
 
+  /// Begins a compilation with a budget of its own.
+  void renew_budget() { budget_ = {}; }
+  /// Allows the work for a text of that many bytes.
+  void allow_text(std::size_t bytes) { budget_.allow(Budget::for_each_byte * bytes); }
+  /// Takes operations from the budget before they are done. False if it is spent: the stage stops, and W0603 has been
+  /// reported, at the place of what spends it. Whatever is reported afterwards only follows from that, and is dropped.
+  bool charge(std::size_t operations, const Span& place, Work on) {
+    if (budget_.take(operations)) [[likely]]
+      return true;
+    report_spent(place, on);
+    return false;
+  }
+  /// The same, where the place is not at hand; `report_spent` must follow.
+  bool charge(std::size_t operations) { return budget_.take(operations); }
+  [[gnu::cold]] void report_spent(const Span& place, Work on);
+  /// Goes on with the budget of `other`, whose diagnostics are kept apart.
+  void continue_budget(const Diagnostics& other) { budget_ = other.budget_, spent_ = other.spent_; }
+  bool is_spent() const { return spent_; }
+  const Budget& budget() const { return budget_; }
+
  private:
   using Key = std::tuple<Code, SourceId, std::uint32_t, std::uint32_t>;
 
   std::vector<Diagnostic> all_;
   std::multimap<Key, std::string> said_;  ///< messages by code and place
   std::size_t errors_ = 0;
+  Budget budget_;
+  bool spent_ = false;  ///< which has been reported
 };
 
 }  // namespace wale

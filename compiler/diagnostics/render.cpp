@@ -123,6 +123,11 @@ class Excerpt {
     std::string out;
     for (const auto& [source, lines] : files_) {
       const bool primary = out.empty();
+      if (sources_[source].text.empty()) {  // it was not read: there is no line to show
+        out += fmt::format("{}{}{}{} {}\n", margin(), paint_.gutter, primary ? "-->" : ":::", paint_.off,
+                           sources_[source].name);
+        continue;
+      }
       const LineColumn place = sources_.place(primary ? files_.front().second.at(primary_line_).front().span
                                                       : lines.begin()->second.front().span);
       out += fmt::format("{}{}{}{} {}:{}:{}\n", margin(), paint_.gutter, primary ? "-->" : ":::", paint_.off,

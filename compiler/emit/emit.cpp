@@ -34,9 +34,10 @@ constexpr auto shapes = [] {
 
 class Emitter {
  public:
-  Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material)
-      : graph_(lowered.graph), lowered_(lowered), material_(material) {}
+  Emitter(const LoweredMaterial& lowered, const SolvedMaterial& material, Diagnostics& diagnostics)
+      : graph_(lowered.graph), lowered_(lowered), material_(material), diagnostics_(diagnostics) {}
 
+  /// The program; incomplete if it takes too much work, which is reported.
   PatchProgram emit() {
     program_.material = material_.name;
     program_.parameters = material_.parameters;
@@ -330,6 +331,8 @@ class Emitter {
       const NodeId id = graph_[root].kind == Node::Kind::component ? graph_[root].a : root;
       if (want(steps_[id])) end = std::max<std::size_t>(end, id + 1);
     }
+    constexpr std::size_t looks_of_an_operation = 4;
+    if (!diagnostics_.charge(end / looks_of_an_operation, material_.span, Work::program)) pending = 0;
     Step** next = backwards_.data();
     for (Step* step = steps_.data() + end; pending > 0;) {
       if ((--step)->wanted != section) continue;
@@ -374,6 +377,7 @@ class Emitter {
   const Graph& graph_;
   const LoweredMaterial& lowered_;
   const SolvedMaterial& material_;
+  Diagnostics& diagnostics_;
   PatchProgram program_;
 
   /// The operand of an operation without this operand: register 0, which no section sets.
@@ -393,8 +397,9 @@ class Emitter {
 
 std::optional<PatchProgram> emit(const LoweredMaterial& lowered, const SolvedMaterial& material,
                                  Diagnostics& diagnostics, const SourceLines* lines) {
-  Emitter emitter(lowered, material);
+  Emitter emitter(lowered, material, diagnostics);
   PatchProgram program = emitter.emit();
+  if (diagnostics.is_spent()) return std::nullopt;
   if (lines) program.places = emitter.places(*lines);
   if (emitter.registers_needed() > register_limit) {
     diagnostics.report({.code = Code::program_too_large,

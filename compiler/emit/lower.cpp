@@ -22,8 +22,12 @@ std::vector<TermId> roots_of(const SolvedMaterial& material) {
 }
 
 /// The terms that the roots need, in the order in which they become nodes: first the solutions in their own order, then
-/// the other terms of each root. Operands come before their users.
-std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& terms, TermId solutions_end) {
+/// the other terms of each root. Operands come before their users. Nothing if that takes too much work, which is
+/// reported.
+std::optional<std::vector<TermId>> needed_for(const std::vector<TermId>& roots, const SolvedMaterial& material,
+                                              Diagnostics& diagnostics) {
+  const Terms& terms = material.terms;
+  const TermId solutions_end = material.solutions_end;
   enum Mark : char { none, asked_for, entered };
   std::vector<char> marks(terms.size(), none);
   std::vector<TermId> others(terms.size());
@@ -41,7 +45,8 @@ std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& te
   for (const TermId root : roots) {
     const std::size_t first = count;
     ask(root);
-    for (TermId id = root; waiting > 0; --id) {
+    TermId id = root;
+    for (; waiting > 0; --id) {
       if (mark[id] != asked_for) continue;
       --waiting;
       mark[id] = entered;
@@ -49,6 +54,10 @@ std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& te
       ask_for_operands(terms[id]);
     }
     std::reverse(others.data() + first, others.data() + count);
+    constexpr std::size_t looks_of_an_operation = 8;
+    const std::size_t looked_at = root - id;
+    if (!diagnostics.charge(2 * (count - first) + looked_at / looks_of_an_operation, material.span, Work::program))
+      return std::nullopt;
   }
   // Now it is known which solutions are needed.
   std::vector<TermId> order;
@@ -65,14 +74,15 @@ std::vector<TermId> needed_for(const std::vector<TermId>& roots, const Terms& te
 
 }  // namespace
 
-LoweredMaterial lower(const SolvedMaterial& material) {
+LoweredMaterial lower(const SolvedMaterial& material, Diagnostics& diagnostics) {
   const Terms& terms = material.terms;
-  const std::vector<TermId> needed = needed_for(roots_of(material), terms, material.solutions_end);
-
   LoweredMaterial lowered;
+  const auto needed = needed_for(roots_of(material), material, diagnostics);
+  if (!needed) return lowered;
+
   Graph& graph = lowered.graph;
   // about as many nodes as terms: gradients add some, constant folding removes some
-  graph.reserve(needed.size() + needed.size() / 4);
+  graph.reserve(needed->size() + needed->size() / 4);
   graph.attribute(material.span);
   // The patch without its rim, over which peaks are evaluated.
   const NodeId rim = graph.input(Input::patch_rim);
@@ -81,7 +91,7 @@ LoweredMaterial lower(const SolvedMaterial& material) {
 
   std::vector<NodeId> nodes(terms.size(), 0);
   std::array derivative{Derivatives(graph, Derivatives::place(0)), Derivatives(graph, Derivatives::place(1))};
-  for (const TermId id : needed) {
+  for (const TermId id : *needed) {
     const Term& term = terms[id];
     graph.attribute(term.span == Span{} ? material.span : term.span);
     if (term.kind == TermKind::operation) {  // the most frequent kind
@@ -95,7 +105,12 @@ LoweredMaterial lower(const SolvedMaterial& material) {
       case TermKind::state: nodes[id] = graph.state(term.index); break;
       case TermKind::settled: nodes[id] = nodes[term.a]; break;
       case TermKind::component: nodes[id] = graph.component(nodes[term.a], term.index); break;
-      case TermKind::gradient: nodes[id] = derivative[term.index](nodes[term.a]); break;
+      case TermKind::gradient: {
+        Derivatives& derived = derivative[term.index];
+        if (!diagnostics.charge(derived.operations(nodes[term.a]), term.span, Work::gradient)) return lowered;
+        nodes[id] = derived(nodes[term.a]);
+        break;
+      }
       case TermKind::peak: nodes[id] = graph.peak(nodes[term.a], half_width, half_height); break;
       case TermKind::operation:
       case TermKind::open:

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "compiler/diagnostics/diagnostic.hpp"
 #include "compiler/graph/graph.hpp"
 #include "compiler/solve/solve.hpp"
 
@@ -31,7 +32,8 @@ struct LoweredMaterial {
   std::vector<Percept> percepts;           ///< in the order of `SolvedMaterial::percepts`
 };
 
-/// Turns terms into single-assignment values: folds constants, shares equal values and writes out gradients.
-LoweredMaterial lower(const SolvedMaterial& material);
+/// Turns terms into single-assignment values: folds constants, shares equal values and writes out gradients. The only
+/// error is that it takes too much work, which is reported; the result is fit for `emit` only without one.
+LoweredMaterial lower(const SolvedMaterial& material, Diagnostics& diagnostics);
 
 }  // namespace wale

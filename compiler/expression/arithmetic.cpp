@@ -11,14 +11,6 @@ namespace wale {
 
 namespace {
 
-std::string_view verb(BinaryOperator op) {
-  switch (op) {
-    case BinaryOperator::add: return "added";
-    case BinaryOperator::subtract: return "subtracted";
-    default: return "compared";
-  }
-}
-
 std::string_view sign(BinaryOperator op) {
   switch (op) {
     case BinaryOperator::add: return "+";
@@ -55,7 +47,8 @@ void report_mismatch(ExpressionReading& reading, const OperatorUse& use) {
                               .fact("found", of_right)
                               .because(fmt::format("both sides of `{}` must have the same dimension", sign(node.op)))
                               .about(Code::mismatched_dimensions, span,
-                                     fmt::format("{} and {} cannot be {}", of_left, of_right, verb(node.op)));
+                                     fmt::format("expected the same dimension on both sides of `{}`, found {} and {}",
+                                                 sign(node.op), of_left, of_right));
   const auto sides = names.side_by_side(left.dimension, right.dimension);
   diagnostic.expected = sides[0] + "   (left)";
   diagnostic.found = sides[1] + "   (right)";
@@ -83,8 +76,9 @@ Value added_or_compared(ExpressionReading& reading, const OperatorUse& use) {
   if (left.type != right.type)
     return reading.calls.report(
         Code::wrong_type, span,
-        fmt::format("{} and {} cannot be {}", type_words(left.type), type_words(right.type), verb(node.op)), "",
-        "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
+        fmt::format("expected two numbers or two vectors around `{}`, found {} and {}", sign(node.op),
+                    type_words(left.type), type_words(right.type)),
+        "", "make the number a vector, as in `vector(1 N, 0 N)`, or take `length(…)` of the vector");
   if (left.dimension != right.dimension) {
     report_mismatch(reading, use);
     return failed_value(span);
@@ -139,7 +133,7 @@ TermId power_by_logarithm(Terms& terms, TermId base, TermId exponent, Span span)
   return terms.apply(Operation::exp2, terms.apply(Operation::multiply, exponent, logarithm, span), span);
 }
 
-/// A power with a known exponent; nothing if that power of the base's dimension does not exist.
+/// A power with a known exponent; empty if that power of the base's dimension does not exist.
 std::optional<Value> known_power(Terms& terms, const Value& base, const Value& exponent, double value, Span span) {
   constexpr int largest_whole = 16;
   for (const int denominator : {1, 2, 3, 4, 6, 12}) {
@@ -279,10 +273,10 @@ Value chosen(ExpressionReading& reading, const Value& condition, const Value& ye
             .x = terms.apply(Operation::select, condition.x, yes.x, no.x, span),
             .span = span};
   if (yes.type != no.type || !is_measurable(yes))
-    return reading.calls.report(
-        Code::wrong_type, span,
-        fmt::format("`then` gives {} and `else` gives {}", type_words(yes.type), type_words(no.type)), "",
-        "let both give a number, or both a vector");
+    return reading.calls.report(Code::wrong_type, span,
+                                fmt::format("expected the same type after `then` and `else`, found {} and {}",
+                                            type_words(yes.type), type_words(no.type)),
+                                "", "let both give a number, or both a vector");
   if (yes.dimension != no.dimension) {
     const DimensionNames& names = reading.dimension_names();
     const auto sides = names.side_by_side(yes.dimension, no.dimension);
@@ -294,7 +288,8 @@ Value chosen(ExpressionReading& reading, const Value& condition, const Value& ye
             .because("the value must have the same dimension in both cases")
             .fact("expected", of_yes)
             .fact("found", of_no)
-            .about(Code::mismatched_dimensions, span, fmt::format("`then` gives {}, `else` gives {}", of_yes, of_no));
+            .about(Code::mismatched_dimensions, span,
+                   fmt::format("expected the same dimension after `then` and `else`, found {} and {}", of_yes, of_no));
     diagnostic.expected = sides[0] + "   (then)";
     diagnostic.found = sides[1] + "   (else)";
     reading.calls.say(std::move(diagnostic));

@@ -27,7 +27,7 @@ struct FileArgument {
   Sandbox sandbox = Sandbox::required;
 };
 
-/// The file that the first argument names, relative to the folder of the Wale file. Nothing if it cannot be read, which
+/// The file that the first argument names, relative to the folder of the Wale file. Empty if it cannot be read, which
 /// is reported.
 std::optional<FileArgument> file_argument(const BuiltinCall& call) {
   const Surroundings& surroundings = call.reading.surroundings;

@@ -33,7 +33,7 @@ Value BuiltinCall::mismatched(std::size_t a, std::size_t b) const {
   reading.calls.say(
       {.code = Code::mismatched_dimensions,
        .span = actuals[b].span,
-       .message = fmt::format("{} expected, found {}", reading.dimension_names().words(value(a).dimension),
+       .message = fmt::format("expected {}, found {}", reading.dimension_names().words(value(a).dimension),
                               reading.dimension_names().words(value(b).dimension)),
        .label = reading.dimension_names().unit_beside(value(a).dimension, value(b).dimension),
        .expected = sides[0],
@@ -57,7 +57,7 @@ std::optional<double> BuiltinCall::constant_argument(std::size_t i, const Dimens
     const auto sides = reading.dimension_names().side_by_side(dimension, value(i).dimension);
     reading.calls.say({.code = Code::wrong_dimension,
                        .span = actuals[i].span,
-                       .message = fmt::format("{} expected, found {}", reading.dimension_names().words(dimension),
+                       .message = fmt::format("expected {}, found {}", reading.dimension_names().words(dimension),
                                               reading.dimension_names().words(value(i).dimension)),
                        .label = reading.dimension_names().unit_beside(dimension, value(i).dimension),
                        .expected = sides[0],

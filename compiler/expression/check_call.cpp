@@ -50,7 +50,7 @@ std::size_t formal_of(ExpressionReading& reading, const Argument& argument, Span
   return std::min(position, formals.size());
 }
 
-/// The values of a call's arguments in the order of the formals; nothing after an error, which is reported.
+/// The values of a call's arguments in the order of the formals; empty after an error, which is reported.
 struct BoundArguments {
   std::vector<Actual> actuals;
   bool good = true;
@@ -108,9 +108,9 @@ Value call_builtin(ExpressionReading& reading, const SyntaxTree& tree, ExprId ex
   return builtin.apply(BuiltinCall{reading, actuals, span});
 }
 
-/// Whether a function may be expanded here: it does not call itself, and the terms stay within bounds. Otherwise it is
+/// Whether a function may be expanded here: it does not call itself, and the calls are not too deep. Otherwise it is
 /// reported.
-bool may_expand(ExpressionReading& reading, const Word& callee, Span span) {
+bool may_expand(ExpressionReading& reading, const Word& callee) {
   CallStack& calls = reading.calls;
   if (calls.contains(callee.text, false)) {
     calls.report(Code::recursive_definition, callee.span, fmt::format("`{}` would call itself", callee.text), "",
@@ -122,14 +122,7 @@ bool may_expand(ExpressionReading& reading, const Word& callee, Span span) {
                  fmt::format("more than {} definitions are nested here", deepest_call), "", "write some of them out");
     return false;
   }
-  if (reading.terms.size() <= most_terms) return true;
-  if (!std::exchange(reading.too_large, true))
-    reading.surroundings.diagnostics.report(
-        {.code = Code::program_too_large,
-         .span = calls.empty() ? span : calls.outermost(),
-         .message = fmt::format("this expands to more than {} operations", most_terms),
-         .help = "functions are expanded at every call; let them call each other less often"});
-  return false;
+  return true;
 }
 
 std::optional<Dimension> dimension_of(const FormalParameter& formal, const Declarations& home) {
@@ -140,8 +133,10 @@ std::optional<Dimension> dimension_of(const FormalParameter& formal, const Decla
 Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, const Call& call,
                     const Declared<FunctionDecl>& function, Scope& scope) {
   const Span span = tree.span(expr);
-  if (!may_expand(reading, call.callee, span)) return failed_value(span);
+  if (!may_expand(reading, call.callee)) return failed_value(span);
   const auto& parameters = function.node->parameters;
+  constexpr std::size_t operations_of_a_call = 8;
+  if (!reading.charge(operations_of_a_call + 4 * parameters.size(), span)) return failed_value(span);
   const FormalNames formals = names_of(parameters);
   auto [actuals, bound] = bind_arguments(reading, tree, call, formals, scope);
   bool good = bound;

@@ -27,7 +27,7 @@ class ExpressionChecker {
   /// The expression's value. After an error, which is reported, the value is `failed`.
   Value check(const SyntaxTree& tree, ExprId expr, Scope& scope);
 
-  /// The same, but reports a value of another type or dimension: "force expected, found energy".
+  /// The same, but reports a value of another type or dimension: "expected force, found energy".
   Value check_as(const SyntaxTree& tree, ExprId expr, Scope& scope, Value::Type type, const Dimension& dimension);
 
   /// The value of a name that the parser has read as a word.
@@ -49,6 +49,12 @@ class ExpressionChecker {
   void read(const Declarations& declarations) { reading_.names = &declarations; }
   const Declarations& declarations() const { return *reading_.names; }
 
+  /// Takes operations from the budget before they are done; false if it is spent, which has been reported.
+  bool charge(std::size_t operations, const Span& span) { return reading_.charge(operations, span); }
+  /// The component of a blend that spends the budget from now on; nothing outside blends.
+  void spend_on(std::optional<Span> component) { reading_.component = component; }
+  const std::optional<Span>& spender() const { return reading_.component; }
+
   CallRecord& record() { return reading_.record; }
 
  private:
@@ -61,16 +67,13 @@ Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprI
 /// In words, a quantity with which a value changes: "place", "velocity".
 std::string what_changes(const Dependence& dependence);
 
-/// The most terms of a material; far more than fit into a patch program.
-inline constexpr std::size_t most_terms = std::size_t{1} << 18;
-
 /// Whether the compiler itself defines a function of that name.
 bool is_builtin_function(std::string_view name);
 
 /// Whether the language itself defines this name on a patch: the hand's place and motion, the patch's extents, time.
 bool names_hand_or_patch(std::string_view name);
 
-/// The value of a constant term in double precision; nothing if the term is not constant. With `parameters` it may
+/// The value of a constant term in double precision; empty if the term is not constant. With `parameters` it may
 /// depend on them too, and they have their default values.
 std::optional<double> constant_value(const Terms& terms, TermId id, const std::vector<Parameter>* parameters = nullptr);
 

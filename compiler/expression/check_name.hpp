@@ -18,10 +18,10 @@ Value free_value(ExpressionReading& reading, const Word& word, Scope& scope);
 /// Whether a name has a value here. For `hand.x`, the part before the dot decides.
 bool has_value(const ExpressionReading& reading, std::string_view name, const Scope& scope);
 
-/// Reports a name that an imported file declares without `export`; nothing if there is none.
+/// Reports a name that an imported file declares without `export`, if there is one.
 std::optional<Value> private_name(ExpressionReading& reading, const Word& word);
 
-/// The import that brings a name which a module of the library exports as one of `kinds` ("unit", "map"); nothing where
+/// The import that brings a name which a module of the library exports as one of `kinds` ("unit", "map"); empty where
 /// there is none.
 [[gnu::cold]] std::optional<Advice> import_mend(const Surroundings& surroundings, std::string_view name,
                                                 std::initializer_list<std::string_view> kinds);

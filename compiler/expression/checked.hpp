@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/declarations/declarations.hpp"
+#include "compiler/expression/parameter_names.hpp"
 #include "compiler/expression/value.hpp"
 
 namespace wale {
@@ -80,6 +81,7 @@ struct CheckedMaterial {
   Terms terms;
   std::vector<HeightTable> tables;
   std::vector<Parameter> parameters;
+  ParameterNames parameter_names;
   std::vector<Span> parameter_spans;  ///< the declaration of each
   std::vector<AskedPercept> percepts;
   std::vector<Carrier> carriers;

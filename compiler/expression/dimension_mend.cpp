@@ -167,7 +167,7 @@ void report_dimension(ExpressionReading& reading, const SyntaxTree& tree, ExprId
       dimension_mend(reading, tree, expr, scope, expected, found)
           .fact("expected", of_expected)
           .fact("found", of_found)
-          .about(Code::wrong_dimension, tree.span(expr), fmt::format("{} expected, found {}", of_expected, of_found));
+          .about(Code::wrong_dimension, tree.span(expr), fmt::format("expected {}, found {}", of_expected, of_found));
   diagnostic.label = names.unit_beside(expected, found);
   diagnostic.expected = sides[0];
   diagnostic.found = sides[1];

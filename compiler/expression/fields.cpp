@@ -107,12 +107,14 @@ Value call_field(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr
     report_dimension(reading, tree, tree.arguments(call)[0].value, scope, arguments[0].dimension, field.from);
     return failed_value(span);
   }
+  constexpr std::size_t operations_of_a_knot = 8;
+  if (!reading.charge(operations_of_a_knot * field.knots.size(), span)) return failed_value(span);
   return value_at(reading.terms, field, arguments[0], span);
 }
 
 namespace {
 
-/// The values of the arguments of `curve`; nothing after an error, which is reported.
+/// The values of the arguments of `curve`; empty after an error, which is reported.
 std::optional<std::vector<Value>> curve_values(ExpressionReading& reading, const SyntaxTree& tree, const Call& call,
                                                Scope& scope) {
   std::vector<Value> values;

@@ -152,21 +152,19 @@ Result<MeasuredTable> read_measured_table(std::string_view text, const std::stri
   const auto columns = find_columns(*headings, from, to, declarations);
   if (!columns) return columns.error();
   std::vector<Point> points;
-  while (true) {
-    const auto row = reader.next();
-    if (!row) return row.error();
-    if (!*row) break;
-    const auto point = read_point(**row, *columns);
+  const auto taken = each_row(reader, [&](const CsvRow& row) -> Result<> {
+    const auto point = read_point(row, *columns);
     if (!point) return point.error();
-    const std::size_t line = (*row)->line;
     if (!points.empty() && !(point->place > points.back().place))
-      return unlike_csv(line, "places that rise from line to line",
-                        fmt::format("`{}`", (*row)->cells[columns->place.number]),
+      return unlike_csv(row.line, "places that rise from line to line",
+                        fmt::format("`{}`", row.cells[columns->place.number]),
                         "sort the lines, and keep one value for each place");
     if (points.size() == most_rows)
-      return unlike_csv(line, fmt::format("at most {} points", most_rows), "more", "keep every tenth, for example");
+      return unlike_csv(row.line, fmt::format("at most {} points", most_rows), "more", "keep every tenth, for example");
     points.push_back(*point);
-  }
+    return {};
+  });
+  if (!taken) return taken.error();
   if (points.size() < 2)
     return unlike_csv(0, "two points or more", fmt::format("{}", points.size()), "add a line for each point");
   MeasuredTable measured = sampled(points);

@@ -68,7 +68,23 @@ struct ExpressionReading {
   CallStack calls;
   CallRecord record;
   KnownNames known;
-  bool too_large = false;  ///< there are too many terms, which has been reported
+  /// The component of a blend whose statements are being read, and which therefore spends the budget.
+  std::optional<Span> component;
+
+  /// Takes operations from the budget before they are done. False if it is spent, which has been reported: at the
+  /// component of a blend, else at the call that led to `span`, else there.
+  bool charge(std::size_t operations, const Span& span) {
+    if (surroundings.diagnostics.charge(operations)) [[likely]]
+      return true;
+    report_spent(span);
+    return false;
+  }
+  [[gnu::cold]] void report_spent(const Span& span) {
+    surroundings.diagnostics.report_spent(component       ? *component
+                                          : calls.empty() ? span
+                                                          : calls.outermost(),
+                                          component ? Work::blend : Work::expansion);
+  }
 
   const DimensionNames& dimension_names() const { return names->names(); }
 };

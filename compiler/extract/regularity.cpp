@@ -83,7 +83,7 @@ double agreement_after(const BandSpectrum& spectrum, const CommonShare& common, 
   return sum / all / (common.between(samples.x) * common.between(samples.y));
 }
 
-/// The distance along a direction (of length 1) at which a texture begins to agree with its start again, m; nothing if
+/// The distance along a direction (of length 1) at which a texture begins to agree with its start again, m; empty if
 /// it never changes.
 std::optional<double> first_change(const Agreement& agreement, glm::dvec2 along, glm::dvec2 spacing, double farthest) {
   const double metres = 0.5 * std::min(spacing.x, spacing.y);

@@ -1,6 +1,7 @@
 #include "compiler/format/lines.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <optional>
 
 #include "compiler/format/format.hpp"
@@ -9,7 +10,7 @@
 namespace wale::formatting {
 namespace {
 
-/// How well a line may be broken after a token, best first; nothing if it may not be broken there.
+/// How well a line may be broken after a token, best first; empty if it may not be broken there.
 std::optional<int> bond(TokenKind kind) {
   switch (kind) {
     case TokenKind::comma: return 0;
@@ -42,6 +43,7 @@ class RowSetter {
       std::size_t end = begin + 1;
       while (end < row_.pieces.size() && row_.pieces[end].newlines == 0) ++end;
       indentation_ = indentation_at(begin);
+      if (begin == 0 || row_.pieces[begin].newlines > 0) measure(begin, end);
       while (const auto at = place_to_break(begin, end)) end = *at;
       set(begin, end);
       begin = end;
@@ -104,39 +106,64 @@ class RowSetter {
       line.description = {at, 0, kind_};
   }
 
-  /// Where a line of these pieces is broken if it is too long: in the outermost parentheses that can be broken, there
-  /// at the loosest bond, there as far to the right as fits. Returns the piece that begins the next line.
-  std::optional<std::size_t> place_to_break(std::size_t begin, std::size_t end) const {
+  /// How well a line may be broken before a piece: in the outermost parentheses, there at the loosest bond.
+  struct Break {
+    std::size_t depth = ~std::size_t{0};
+    int bond = 0;
+    auto operator<=>(const Break&) const = default;
+  };
+
+  /// Finds the widths and the breaks of the pieces `begin` .. `end`, of which several lines may be made: a long sum has
+  /// thousands.
+  void measure(std::size_t begin, std::size_t end) {
     const std::size_t code = end_of_code(begin, end);
-    const auto fits = [&](std::size_t until) { return indentation_ + width_of(text(begin, until)) <= format_columns; };
-    if (fits(code)) return std::nullopt;
-    struct Candidate {
-      std::size_t depth;
-      int bond;
-      std::size_t at;
-    };
-    std::vector<Candidate> candidates;
+    const auto& pieces = row_.pieces;
+    from_ = begin;
+    widths_.assign(1, 0);
+    spaces_.assign(1, false);
+    breaks_.assign(code - begin + 1, {});
     std::size_t depth = open_.size();
-    for (std::size_t i = begin; i + 1 < code; ++i) {
-      const Piece &piece = row_.pieces[i], &next = row_.pieces[i + 1];
-      if (piece.is(TokenKind::left_brace)) break;  // a block on one line fits
+    bool in_block = false;  // a block on one line fits
+    for (std::size_t i = begin; i < code; ++i) {
+      const Piece& piece = pieces[i];
+      widths_.push_back(widths_.back() + (spaces_.back() ? 1 : 0) + width_of(piece.text));
       if (piece.is(TokenKind::left_parenthesis)) ++depth;
       if (piece.is(TokenKind::right_parenthesis) && depth > 0) --depth;
-      if (piece.is_comment()) continue;
+      spaces_.push_back(i + 1 < code && spaced(pieces, i + 1, depth, roles_));
+      in_block = in_block || piece.is(TokenKind::left_brace);
+      if (i + 1 == code || in_block || piece.is_comment()) continue;
+      const Piece& next = pieces[i + 1];
       const bool conditional = next.is(TokenKind::word_then) || next.is(TokenKind::word_else);
       const auto found = conditional ? bond_of_conditional : bond(piece.token.kind);
       if (!found || (!conditional && depth == 0 && !continues(piece.token.kind))) continue;
-      if (is_sign(row_.pieces, i, roles_) || next.is(TokenKind::right_parenthesis)) continue;
-      if (!conditional && !spaced(row_.pieces, i + 1, depth, roles_)) continue;  // keeps N/m together
-      candidates.push_back({depth, *found, i + 1});
+      if (is_sign(pieces, i, roles_) || next.is(TokenKind::right_parenthesis)) continue;
+      if (!conditional && !spaces_.back()) continue;  // keeps N/m together
+      breaks_[i + 1 - begin] = {depth, *found};
     }
-    const auto best = std::min_element(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-      return a.depth != b.depth ? a.depth < b.depth : a.bond < b.bond;
-    });
-    if (best == candidates.end()) return std::nullopt;
-    std::size_t at = best->at;
-    for (const Candidate& each : candidates)
-      if (each.depth == best->depth && each.bond == best->bond && fits(each.at)) at = each.at;
+    best_ = breaks_;
+    for (std::size_t i = best_.size() - 1; i-- > 0;) best_[i] = std::min(best_[i], best_[i + 1]);
+  }
+
+  /// Where a line of these pieces is broken if it is too long: at the best break, there as far to the right as fits.
+  /// Returns the piece that begins the next line.
+  std::optional<std::size_t> place_to_break(std::size_t begin, std::size_t end) const {
+    const std::size_t code = end_of_code(begin, end);
+    if (begin - from_ + 1 >= best_.size()) return std::nullopt;  // only comments are left
+    const std::size_t before = widths_[begin - from_] + (spaces_[begin - from_] ? 1 : 0);
+    const auto fits = [&](std::size_t until) {
+      return indentation_ + widths_[until - from_] - before <= format_columns;
+    };
+    if (fits(code)) return std::nullopt;
+    const auto first = breaks_.begin() + static_cast<std::ptrdiff_t>(begin + 1 - from_);
+    const bool whole = code + 1 == from_ + breaks_.size();
+    const Break best = whole ? best_[begin + 1 - from_]
+                       : begin + 1 == code
+                           ? Break{}
+                           : *std::min_element(first, first + static_cast<std::ptrdiff_t>(code - begin - 1));
+    if (best == Break{}) return std::nullopt;
+    std::optional<std::size_t> at;
+    for (std::size_t i = begin + 1; i < code && (!at || fits(i)); ++i)
+      if (breaks_[i - from_] == best) at = i;
     return at;
   }
 
@@ -170,6 +197,10 @@ class RowSetter {
   std::vector<Line>& lines_;
   std::vector<std::size_t> open_;  ///< indentations of the lines with the open parentheses
   std::size_t indentation_ = 0;
+  std::size_t from_ = 0;              ///< the piece with which the measured ones begin
+  std::vector<std::size_t> widths_;   ///< of the text up to each of them, and of all
+  std::vector<bool> spaces_;          ///< whether there is a space before each
+  std::vector<Break> breaks_, best_;  ///< before each; the best before it or a later one
   std::size_t last_of_name_ = none;
   std::string name_, kind_;
 };

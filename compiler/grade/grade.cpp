@@ -347,7 +347,7 @@ class Grader {
     else if (grade_.required_damping == 0)
       grade_.standing = Standing::passive;
     else if (!grade_.damping_known)
-      grade_.standing = Standing::ungraded;
+      grade_.standing = Standing::unknown;
     else if (grade_.required_damping <= grade_.device_damping)
       grade_.standing = Standing::passive;
     else
@@ -391,7 +391,7 @@ std::string_view standing_word(Standing standing) {
     case Standing::stable_in_the_hand: return "stable in the hand";
     case Standing::unstable: return "unstable";
     case Standing::active: return "active";
-    case Standing::ungraded: return "ungraded";
+    case Standing::unknown: return "unknown";
     case Standing::not_analysed: return "not analysed";
   }
   return "unknown";

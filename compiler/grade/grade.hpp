@@ -17,7 +17,7 @@ enum class Standing {
   stable_in_the_hand,  ///< the damping of device and hand together absorbs it
   unstable,            ///< both together do not absorb it
   active,        ///< the program itself gives energy: a moving source, a force along the motion, a field with a curl
-  ungraded,      ///< the device's damping is not known, and the program is not active
+  unknown,       ///< the device's damping is not known, and the program is not active
   not_analysed,  ///< the program is too large to be derived, or only vibrates
 };
 
@@ -70,7 +70,7 @@ struct Grade {
   double step_newton = 0;  ///< the largest change of force between two neighbouring encoder counts
   bool jumps = false;      ///< that change is far more than the slope predicts
   /// Whether the handle may buzz: static friction c does not hold it against the change over one count, |step| > 2 c
-  /// (Abbott and Okamura 2005). Nothing if the friction is not known.
+  /// (Abbott and Okamura 2005). Empty if the friction is not known.
   std::optional<bool> buzzes;
   double friction = 0;  ///< N, from the profile
   bool friction_known = false;
@@ -85,7 +85,7 @@ struct Grade {
 
   Energy energy;
 
-  /// The device's damping minus the required one, N s/m; nothing if the device's is not known.
+  /// The device's damping minus the required one, N s/m; empty if the device's is not known.
   std::optional<double> margin() const;
 };
 

@@ -88,7 +88,7 @@ bool solve_states(const LinearProgram& program, Complex z, std::vector<std::arra
   return true;
 }
 
-/// The response from place to force, without the direct dependence on place; nothing if the states have no response.
+/// The response from place to force, without the direct dependence on place; empty if the states have no response.
 std::optional<Matrix2> transfer(const LinearProgram& program, const HandResponse& response, Complex z) {
   Matrix2 sum = respond(program.direct, response, false);
   if (program.states == 0) return sum;

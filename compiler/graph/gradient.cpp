@@ -111,10 +111,11 @@ NodeId Derivatives::of_component(const Node& node) {
 }
 
 /// Finds the nodes that must be derived for one node. For all other operands the derivative is known afterwards.
-void Derivatives::find_needed(NodeId of, NodeId zero) {
+/// Returns how many nodes were looked at.
+std::size_t Derivatives::find_needed(NodeId of, NodeId zero) {
   if (known_.size() <= of) known_.resize(of + 1, none);
   needed_.clear();
-  needed_.reserve(graph_.size());
+  found_for_ = of;
   NodeId* const known = known_.data();
   std::size_t waiting = 0;  // nodes marked `awaited` in `known`
   const auto ask = [&](NodeId id) {
@@ -123,7 +124,9 @@ void Derivatives::find_needed(NodeId of, NodeId zero) {
     ++waiting;
   };
   ask(of);
-  for (NodeId id = of + 1; waiting > 0;) {
+  if (waiting > 0) needed_.reserve(graph_.size());
+  NodeId id = of + 1;
+  while (waiting > 0) {
     if (known[--id] != awaited) continue;
     --waiting;
     known[id] = zero;  // unless the node changes, see below
@@ -134,10 +137,18 @@ void Derivatives::find_needed(NodeId of, NodeId zero) {
     if (node.operands > 1) ask(node.b);
     if (node.operands > 2) ask(node.c);
   }
+  return of + 1 - id;
+}
+
+std::size_t Derivatives::operations(NodeId of) {
+  constexpr std::size_t of_a_node = 8, looks_of_an_operation = 8;
+  const std::size_t looked_at = find_needed(of, graph_.constant(0));
+  return of_a_node * needed_.size() + looked_at / looks_of_an_operation;
 }
 
 NodeId Derivatives::operator()(NodeId of) {
-  find_needed(of, graph_.constant(0));
+  if (found_for_ != of) find_needed(of, graph_.constant(0));
+  found_for_ = none;
   for (auto next = needed_.rbegin(); next != needed_.rend(); ++next) {
     const NodeId id = *next;
     const Node node = graph_[id];  // a copy: the graph grows below

@@ -114,6 +114,8 @@ class Derivatives {
   Derivatives(Graph& graph, By by, std::optional<float> difference = {});
 
   NodeId operator()(NodeId of);
+  /// The operations that `operator()` needs for this node, to charge them before.
+  std::size_t operations(NodeId of);
 
   /// The hand's place along x (axis 0) or y (axis 1): the inputs for the patch and for the workspace change together.
   static By place(int axis);
@@ -122,7 +124,7 @@ class Derivatives {
   static constexpr NodeId none = ~NodeId{0}, awaited = none - 1;
 
   bool moves(const Node& node) const;
-  void find_needed(NodeId of, NodeId zero);
+  std::size_t find_needed(NodeId of, NodeId zero);
   NodeId of_component(const Node& node);
   NodeId slope_of_slope(const Node& sample, std::uint32_t slope, int coordinate);
 
@@ -131,6 +133,7 @@ class Derivatives {
   std::optional<float> difference_;
   std::vector<NodeId> known_;   ///< derivative of each node; `none` if not derived yet
   std::vector<NodeId> needed_;  ///< nodes needed for the current one, the last first
+  NodeId found_for_ = none;     ///< the node for which `needed_` has been found
 };
 
 }  // namespace wale

@@ -15,11 +15,10 @@ class Temporaries {
   static constexpr bool has_room(std::size_t) { return true; }
   /// Allocates the lowest free register.
   std::size_t take() {
-    std::size_t word = 0;  // 64 registers at a time, since hundreds may be in use
-    while (free_[word] == 0)
-      if (++word == free_.size()) add_word();
-    std::uint64_t& free = free_[word];
-    const std::size_t first = word * word_bits + static_cast<std::size_t>(std::countr_zero(free));
+    while (free_[first_word_] == 0)  // 64 registers at a time, since thousands may be in use
+      if (++first_word_ == free_.size()) add_word();
+    std::uint64_t& free = free_[first_word_];
+    const std::size_t first = first_word_ * word_bits + static_cast<std::size_t>(std::countr_zero(free));
     free &= free - 1;
     if (first >= most_) most_ = first + 1;
     return first;
@@ -28,6 +27,7 @@ class Temporaries {
   std::size_t take(std::size_t count) { return count == 1 ? take() : take_neighbours(count); }
   void give_back(std::size_t first, std::size_t count) {
     for (std::size_t i = first; i < first + count; ++i) free_[i / word_bits] |= bit(i);
+    first_word_ = std::min(first_word_, first / word_bits);
   }
   /// Frees registers if `given`; otherwise does nothing, and `first` may be any number.
   void give_back_if(bool given, std::size_t first, std::size_t count) {
@@ -45,7 +45,7 @@ class Temporaries {
   [[gnu::noinline]] void add_word() { free_.push_back(~std::uint64_t{0}); }
   [[gnu::noinline]] std::size_t take_neighbours(std::size_t count) {
     std::size_t first = 0;
-    for (std::size_t run = 0, i = 0; run < count; ++i) {
+    for (std::size_t run = 0, i = first_word_ * word_bits; run < count; ++i) {
       if (i / word_bits == free_.size()) add_word();
       run = (free_[i / word_bits] & bit(i)) != 0 ? run + 1 : 0;
       first = i + 1 - run;
@@ -56,6 +56,7 @@ class Temporaries {
   }
 
   std::vector<std::uint64_t> free_{~std::uint64_t{0}};  ///< a bit for each register
+  std::size_t first_word_ = 0;                          ///< no word before it has a free register
   std::size_t most_ = 0;
 };
 

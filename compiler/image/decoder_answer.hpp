@@ -19,7 +19,7 @@ struct DecoderArguments {
   Sandbox sandbox = Sandbox::required;
 
   std::vector<std::string> words() const;
-  /// Nothing where the words are no such arguments.
+  /// Empty where the words are no such arguments.
   static std::optional<DecoderArguments> read(std::span<const char* const> words);
 };
 
@@ -32,7 +32,7 @@ inline constexpr std::size_t largest_answer =
 std::vector<std::byte> write_answer(const Result<HeightImage>& image);
 
 /// Reads an answer. A picture may have taken over its decoder, so nothing in the bytes is believed: sizes are checked
-/// and texts are reduced to printable ASCII. Nothing where the bytes are no whole answer.
+/// and texts are reduced to printable ASCII. Empty where the bytes are no whole answer.
 std::optional<Result<HeightImage>> read_answer(std::span<const std::byte> bytes);
 
 }  // namespace wale

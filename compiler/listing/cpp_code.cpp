@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t comment_column = 84;
 
-/// The column `meaning` of schema/instruction.def as written there; nothing for special operations.
+/// The column `meaning` of schema/instruction.def as written there; empty for special operations.
 constexpr std::string_view meaning_of(Operation operation) {
   // clang-format off
   switch (operation) {

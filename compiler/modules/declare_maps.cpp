@@ -94,6 +94,7 @@ void report_law(RecordReader& reader, const Diagnostics& found, const std::strin
     }
     reader.diagnostics.report(std::move(each));
   }
+  reader.diagnostics.continue_budget(found);
 }
 
 /// Reads one map, setting by setting.
@@ -223,6 +224,7 @@ class MapReader {
       return reader_.report(Code::wrong_type, law->span, "a law must be an equation",
                             fmt::format("write `law log10(magnitude) = …` in `magnitude` and `{}`", map_.from));
     Diagnostics found;
+    found.continue_budget(reader_.diagnostics);
     std::vector<HeightTable> tables;
     ExpressionChecker checker({reader_.sources, declarations_, found}, map_.terms, tables);
     Scope scope;
@@ -233,6 +235,8 @@ class MapReader {
       map_.left = left.x;
       map_.right = right.x;
     }
+    constexpr std::size_t most_terms_of_a_law = 1024;  // it is evaluated hundreds of times
+    if (map_.terms.size() > most_terms_of_a_law) found.report_spent(law->span, Work::solving);
     report_law(reader_, found, map_.source);
     for (const auto& name : scope.spellings())
       if (!found.has_errors() && !scope.at(name).used)
@@ -284,6 +288,7 @@ class MapReader {
     const auto* valid = reader_.required("valid", map_.from + " … .. …");
     if (!valid) return;
     Diagnostics found;
+    found.continue_budget(reader_.diagnostics);
     RecordReader quiet(reader_.tree, reader_.record, reader_.sources, declarations_, found);
     for (const auto& item : valid->items) {
       map_.validity.emplace_back(reader_.sources.text(item.span));

@@ -31,7 +31,7 @@ class RecordReader {
     double value = 0;
     Dimension dimension;
   };
-  /// The value in SI of an expression of any dimension; nothing if it is not known at compile time, which is reported.
+  /// The value in SI of an expression of any dimension; empty if it is not known at compile time, which is reported.
   std::optional<Quantity> constant(ExprId expr);
   std::vector<std::string> texts(const Setting& setting);  ///< texts of a list; other items are reported
 

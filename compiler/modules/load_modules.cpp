@@ -80,6 +80,11 @@ class ModuleLoader {
   }
 
  private:
+  SyntaxTree parsed(SourceId source) {
+    diagnostics_.allow_text(sources_[source].text.size());
+    return parse(sources_, source, diagnostics_);
+  }
+
   std::shared_ptr<const Module> add(SyntaxTree tree) {
     const std::string name = sources_[tree.source].name;
     path_.push_back(name);
@@ -106,7 +111,7 @@ class ModuleLoader {
     // An empty file is ignored: an editor may be writing it at this moment.
     if (resolved && resolved->name != name && !resolved->bytes.empty()) {
       const SourceId source = sources_.add(resolved->name, std::move(resolved->bytes));
-      devices_.push_back(add(parse(sources_, source, diagnostics_)));
+      devices_.push_back(add(parsed(source)));
     }
   }
 
@@ -115,7 +120,7 @@ class ModuleLoader {
     for (ResolvedFile& file : resolver_.devices()) {
       if (const auto known = loaded_.find(file.name); known != loaded_.end()) continue;
       const SourceId source = sources_.add(file.name, std::move(file.bytes));
-      owners.push_back(add(parse(sources_, source, diagnostics_)));
+      owners.push_back(add(parsed(source)));
     }
     devices_.insert(devices_.end(), owners.begin(), owners.end());
   }
@@ -145,7 +150,7 @@ class ModuleLoader {
     if (const auto known = loaded_.find(file.name); known != loaded_.end()) return known->second;
     if (circular(module, file.name) || too_deep(module)) return nullptr;
     const SourceId source = sources_.add(file.name, std::move(file.bytes));
-    return add(parse(sources_, source, diagnostics_));
+    return add(parsed(source));
   }
 
   /// A module that is part of the binary, such as `std.friction`, unless the importing file is that module itself.
@@ -158,7 +163,7 @@ class ModuleLoader {
       if (file.common || file.name != name) continue;
       if (const auto known = loaded_.find(name); known != loaded_.end()) return known->second;
       if (circular(word, name) || too_deep(word)) return nullptr;
-      return add(parse(sources_, embedded_source(i), diagnostics_));
+      return add(parsed(embedded_source(i)));
     }
     return std::nullopt;
   }

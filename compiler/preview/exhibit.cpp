@@ -35,7 +35,7 @@ double spread(const std::vector<float>& values) {
 }
 
 /// The period of a regularly sampled signal in samples: the first lag at which its autocorrelation is above 0.7 again
-/// after falling below 0.3. Nothing if the signal does not hold three periods.
+/// after falling below 0.3. Empty if the signal does not hold three periods.
 std::optional<double> period_of(std::vector<float> signal) {
   const std::size_t count = signal.size();
   double mean = 0;

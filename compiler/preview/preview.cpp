@@ -223,7 +223,7 @@ void write_words(Canvas& canvas, const Bank& bank, const PreviewText& text) {
   canvas.write_within({margin, 957}, width, text.evidence, style::label);
 }
 
-/// The spectrum of the force under a stroking hand; nothing for a pad, and for a force that does not change on the way.
+/// The spectrum of the force under a stroking hand; empty for a pad, and for a force that does not change on the way.
 std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhibit, const HandDeclaration* hand) {
   if (bank.program().description().vibrates()) return std::nullopt;
   const FeltStroke felt = felt_along(bank, exhibit, hand);

@@ -22,7 +22,7 @@ class Occurrences {
   std::vector<std::uint8_t> counts_;
 };
 
-/// Solves the equation `left = right` for the unknown. Nothing if the unknown occurs in several places, or if an
+/// Solves the equation `left = right` for the unknown. Empty if the unknown occurs in several places, or if an
 /// operation has no known inverse. `worth(id)` gives the value of a term without the unknown (a number, or a term of
 /// another set), and `apply(operation, a, b)` the result of an operation on such values; operations with one operand
 /// ignore `b`.

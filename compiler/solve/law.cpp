@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "compiler/expression/check_expression.hpp"
 #include "compiler/solve/copy_terms.hpp"
@@ -11,24 +14,30 @@ namespace wale {
 
 namespace {
 
-/// Whether two terms are the same operation on the same operands, recursively.
-bool same_term(const Terms& terms, TermId a, TermId b) {
-  if (a == b) return true;
-  const Term &x = terms[a], &y = terms[b];
-  if (x.kind != y.kind || x.operation != y.operation || x.index != y.index) return false;
-  if (x.kind == TermKind::literal && x.value != y.value) return false;
-  const TermOperands of_x = operands(x), of_y = operands(y);
-  if (of_x.size() != of_y.size() || of_x.size() == 0) return of_x.size() == of_y.size();
-  for (std::size_t i = 0; i < of_x.size(); ++i)
-    if (!same_term(terms, of_x[i], of_y[i])) return false;
-  return true;
+/// For each term, the first term that is the same operation on the same operands, recursively.
+std::vector<TermId> first_of_same(const Terms& terms) {
+  using Shape = std::tuple<TermKind, Operation, std::uint32_t, std::uint64_t, TermId, TermId, TermId>;
+  std::map<Shape, TermId> known;
+  std::vector<TermId> first(terms.size());
+  for (TermId id = 0; id < terms.size(); ++id) {
+    const Term& term = terms[id];
+    std::array<TermId, 3> of{};
+    for (std::size_t i = 0; i < operands(term).size(); ++i) of[i] = first[operands(term)[i]];
+    const auto value = term.kind == TermKind::literal ? std::bit_cast<std::uint64_t>(term.value) : 0;
+    first[id] =
+        known.emplace(Shape{term.kind, term.operation, term.index, value, of[0], of[1], of[2]}, id).first->second;
+  }
+  return first;
 }
 
-bool speaks_of(const Terms& terms, TermId id, TermId unknown) {
-  if (id == unknown) return true;
-  for (const TermId operand : operands(terms[id]))
-    if (speaks_of(terms, operand, unknown)) return true;
-  return false;
+/// Whether each term contains the unknown.
+std::vector<bool> speaking_of(const Terms& terms, TermId unknown) {
+  std::vector<bool> speaks(terms.size());
+  for (TermId id = unknown; id < terms.size(); ++id) {
+    speaks[id] = id == unknown;
+    for (const TermId operand : operands(terms[id])) speaks[id] = speaks[id] || speaks[operand];
+  }
+  return speaks;
 }
 
 /// c0 + c1 u + c2 u^2, where u is the `atom`, a term that contains the unknown.
@@ -39,13 +48,23 @@ struct Polynomial {
   bool constant() const { return !coefficients[1] && !coefficients[2]; }
 };
 
-/// Reads an expression as a polynomial in one function of the unknown; nothing if it is not such a polynomial.
+/// Reads an expression as a polynomial in one function of the unknown; empty if it is not such a polynomial.
 class PolynomialReader {
  public:
-  PolynomialReader(Terms& terms, TermId unknown) : terms_(terms), unknown_(unknown) {}
+  PolynomialReader(Terms& terms, TermId unknown)
+      : terms_(terms), speaks_(speaking_of(terms, unknown)), first_(first_of_same(terms)) {}
 
+  bool speaks_of_unknown(TermId id) const { return speaks_[id]; }
+
+  /// Reads each term once, however many users it has.
   std::optional<Polynomial> read(TermId id) {
-    if (!speaks_of(terms_, id, unknown_)) return Polynomial{0, {id, {}, {}}};
+    if (const auto known = known_.find(id); known != known_.end()) return known->second;
+    return known_[id] = read_new(id);
+  }
+
+ private:
+  std::optional<Polynomial> read_new(TermId id) {
+    if (!speaks_[id]) return Polynomial{0, {id, {}, {}}};
     const Term term = terms_[id];
     if (term.kind == TermKind::operation) {
       switch (term.operation) {
@@ -55,7 +74,7 @@ class PolynomialReader {
           return scaled(read(term.a), [&](TermId c) { return terms_.apply(Operation::negate, c); });
         case Operation::multiply: return product(term);
         case Operation::divide:
-          if (!speaks_of(terms_, term.b, unknown_))
+          if (!speaks_[term.b])
             return scaled(read(term.a), [&](TermId c) { return terms_.apply(Operation::divide, c, term.b); });
           break;
         default: break;
@@ -64,7 +83,6 @@ class PolynomialReader {
     return Polynomial{id, {std::nullopt, terms_.literal(1), std::nullopt}};
   }
 
- private:
   template <typename Scale>
   static std::optional<Polynomial> scaled(std::optional<Polynomial> polynomial, Scale scale) {
     if (polynomial)
@@ -73,10 +91,10 @@ class PolynomialReader {
     return polynomial;
   }
 
-  /// The common atom of both; nothing if they have different ones.
+  /// The common atom of both; empty if they have different ones.
   std::optional<TermId> common_atom(const Polynomial& a, const Polynomial& b) const {
     if (a.constant()) return b.atom;
-    if (b.constant() || same_term(terms_, a.atom, b.atom)) return a.atom;
+    if (b.constant() || first_[a.atom] == first_[b.atom]) return a.atom;
     return std::nullopt;
   }
 
@@ -113,7 +131,9 @@ class PolynomialReader {
   }
 
   Terms& terms_;
-  TermId unknown_;
+  std::vector<bool> speaks_;   ///< of the unknown, for each of the terms that there were
+  std::vector<TermId> first_;  ///< for each of them, the first that is the same
+  std::map<TermId, std::optional<Polynomial>> known_;
 };
 
 /// Linear interpolation between knots, and extrapolation beyond the first and the last: the first line, plus a change
@@ -284,9 +304,10 @@ std::optional<TermId> Law::looked_up(Terms& terms, TermId value, bool inverse) c
 
 std::optional<TermId> Law::solved_quadratic(Terms& terms, TermId left, TermId right, TermId unknown) const {
   if (map_.branch == Branch::only && way_within_range() == Way::both) return std::nullopt;
-  if (speaks_of(terms, left, unknown)) std::swap(left, right);
-  if (speaks_of(terms, left, unknown)) return std::nullopt;
-  const auto polynomial = PolynomialReader(terms, unknown).read(right);
+  PolynomialReader reader(terms, unknown);
+  if (reader.speaks_of_unknown(left)) std::swap(left, right);
+  if (reader.speaks_of_unknown(left)) return std::nullopt;
+  const auto polynomial = reader.read(right);
   if (!polynomial || polynomial->constant()) return std::nullopt;
   const auto& [c0, c1, c2] = polynomial->coefficients;
   const auto apply = [&](Operation operation, TermId a, TermId b) { return terms.apply(operation, a, b); };

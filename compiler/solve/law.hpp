@@ -24,7 +24,7 @@ class Law {
   /// The level: the magnitude divided by that of the reference stimulus.
   std::optional<TermId> level(Terms& terms, TermId carrier, const Sizes& couples = {}) const;
   std::optional<TermId> level_of_magnitude(Terms& terms, TermId magnitude) const;
-  /// The carrier's size. Nothing if the law cannot be solved for its carrier. Beyond a quadratic's vertex: its value
+  /// The carrier's size. Empty if the law cannot be solved for its carrier. Beyond a quadratic's vertex: its value
   /// there.
   std::optional<TermId> carrier(Terms& terms, TermId level, const Sizes& couples = {}) const;
 

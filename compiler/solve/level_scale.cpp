@@ -84,6 +84,8 @@ void check_levels(const Declarations& declarations, SourceId source, const std::
     for (auto higher = sorted.begin(); higher != sorted.end(); ++higher) {
       const auto same = std::ranges::lower_bound(sorted, higher->value, {}, &Levels::Level::value);
       if (same == sorted.begin()) continue;
+      constexpr std::size_t operations_of_a_level = 256;
+      if (!diagnostics.charge(operations_of_a_level * (1 + map->terms.size()), levels->span, Work::solving)) return;
       const Levels::Level& lower = *std::prev(same);
       check_neighbours(scale, lower, *higher, device, diagnostics);
       const Threshold* threshold = scale.people().threshold(scale.size_of(lower.value), scale.size_of(higher->value));

@@ -26,7 +26,7 @@ class LevelScale {
   double most_size() const { return most_size_; }
 
   /// The first size on the way from `size` `towards` another one that is `apart` just noticeable differences from
-  /// `size`, SI. Nothing if the other one is nearer than that, or if there is no threshold.
+  /// `size`, SI. Empty if the other one is nearer than that, or if there is no threshold.
   std::optional<double> step(double size, double towards, double apart) const;
 
  private:

@@ -30,10 +30,7 @@ void PerceptSolver::solve_size(Told& told, std::vector<Parameter>& parameters) {
 /// Adds a parameter for a level; if the name is taken, a number is appended.
 void PerceptSolver::add_level(const std::string& name, double level, const std::string& of,
                               std::vector<Parameter>& parameters) {
-  std::string free = name;
-  for (int count = 2; std::ranges::find(parameters, free, &Parameter::name) != parameters.end(); ++count)
-    free = fmt::format("{}_{}", name, count);
-  parameters.push_back({.name = free,
+  parameters.push_back({.name = names_.free(parameters, name),
                         .unit = "",
                         .unit_in_si = 1,
                         .value = static_cast<float>(level),
@@ -109,8 +106,10 @@ void PerceptSolver::warn_of_range(const Told& told) {
       size > map.valid_high * (1 + rounding))
     report(Code::beyond_validity, asked.span,
            asked.level < percept.near_threshold
-               ? fmt::format("{} {:.3g} is near or below threshold", asked.name, asked.level)
-               : fmt::format("{} {:.3g} is outside the measured range ({})", asked.name, asked.level, map.source),
+               ? fmt::format("expected {} {:.2g} or more, found {:.3g}, which few people can feel", asked.name,
+                             percept.near_threshold, asked.level)
+               : fmt::format("expected {} from {:.2g} to {:.2g}, the measured range, found {:.3g} ({})", asked.name,
+                             law.level_of(map.valid_low), law.level_of(map.valid_high), asked.level, map.source),
            fmt::format("measured: levels {:.2g} to {:.2g}, {:.3g} to {:.3g} {}", law.level_of(map.valid_low),
                        law.level_of(map.valid_high), map.valid_low, map.valid_high, of_carrier));
   if (map.recalled())

@@ -231,11 +231,12 @@ class Solver {
     if (!declarations_.percepts.find(asked.name)->has_reference)
       return report(
           Code::untied_map, asked.span,
-          fmt::format("{} has no reference stimulus yet, so materials can be ordered by it but it has no levels",
+          fmt::format("expected a percept that has levels, found {}, which can only be compared",
                       asked.name),
           "leave it out: `wale describe` and `wale compare` report it for finished materials");
     report(Code::percept_unrealised, asked.span,
-           fmt::format("`{}` has no realisation of {} of its own", device_->profile.name, asked.name),
+           fmt::format("expected physics for {}, found none, and `{}` has no rule that makes it from a level",
+                       asked.name, device_->profile.name),
            "write the physics: `physical { force = … }`");
   }
 

@@ -30,13 +30,13 @@ std::string sources_of(const std::vector<const Map*>& maps) {
 
 }  // namespace
 
-/// Whether the carrier's force is a term of the total force, unchanged: neither scaled nor limited nor switched.
-bool PerceptSolver::is_summand(const Carrier& carrier) const {
+/// Finds the terms of the total force: what is added up, unchanged. A sum that is used twice is read once.
+void PerceptSolver::find_summands() {
   std::vector<std::array<TermId, 2>> waiting{force_};
-  while (!waiting.empty()) {
+  while (!waiting.empty() && diagnostics_.charge(1, material_.span, Work::solving)) {
     const auto [x, y] = waiting.back();
     waiting.pop_back();
-    if (x == carrier.force_x && y == carrier.force_y) return true;
+    if (!summands_.insert(std::uint64_t{x} << 32 | y).second) continue;
     const Term &of_x = (*terms_)[x], &of_y = (*terms_)[y];
     const auto is_sum = [](const Term& term) {
       return term.kind == TermKind::operation && term.operation == Operation::add;
@@ -45,7 +45,12 @@ bool PerceptSolver::is_summand(const Carrier& carrier) const {
     waiting.push_back({of_x.a, of_y.a});
     waiting.push_back({of_x.b, of_y.b});
   }
-  return false;
+}
+
+/// Whether the carrier's force is a term of the total force, unchanged: neither scaled nor limited nor switched.
+bool PerceptSolver::is_summand(const Carrier& carrier) {
+  if (summands_.empty()) find_summands();
+  return summands_.contains(std::uint64_t{carrier.force_x} << 32 | carrier.force_y);
 }
 
 const Percept& PerceptSolver::percept(const std::string& name) {
@@ -110,6 +115,7 @@ std::set<std::uint32_t> PerceptSolver::parameters_of(TermId id) const {
     const TermId current = waiting.back();
     waiting.pop_back();
     if (!seen.insert(current).second) continue;
+    if (!diagnostics_.charge(4, material_.span, Work::solving)) break;
     const Term& term = (*terms_)[current];
     if (term.kind == TermKind::parameter) found.insert(term.index);
     for (const TermId operand : operands(term)) waiting.push_back(operand);
@@ -122,6 +128,7 @@ void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const
   for (const Told& told : told_) {
     if (!told.solved) continue;
     const TermId force = (*carriers_)[told.carrier].force_x;
+    if (!diagnostics_.charge(terms_->size() / 8, material_.span, Work::solving)) return;
     for (TermId id = force + 1; id < terms_->size(); ++id) {
       const Term& term = (*terms_)[id];
       const bool product = term.operation == Operation::multiply && (term.a == force || term.b == force);
@@ -137,6 +144,7 @@ void PerceptSolver::mark_decalibrating(std::vector<Parameter>& parameters) const
 }
 
 void PerceptSolver::match(const AskedPercept& asked) {
+  if (!diagnostics_.charge(1 + candidates_.size() / 4, asked.span, Work::solving)) return;
   const Percept& percept = this->percept(asked.name);
   std::vector<std::size_t> mine;
   std::vector<const Carrier*> open;
@@ -152,12 +160,13 @@ void PerceptSolver::match(const AskedPercept& asked) {
   if (!percept.has_reference) {
     settle_all();
     return report(Code::untied_map, asked.span,
-                  fmt::format("{} has no reference stimulus yet, so it has an order and no levels", asked.name),
-                  Advice("leave it out: it is told of the finished material, and two can be compared")
+                  fmt::format("expected a percept that has levels, found {}, which can only be compared", asked.name),
+                  Advice("leave it out: `wale describe` and `wale compare` report it for finished materials")
                       .see(percept.span, "declared here"));
   }
   if (mine.empty())
-    return report(Code::percept_unrealised, asked.span, fmt::format("no part of the force carries {}", asked.name),
+    return report(Code::percept_unrealised, asked.span,
+                  fmt::format("expected a force that carries {}, found none", asked.name),
                   fmt::format("{} is carried by the {}; add such a force", asked.name, percept.carrier));
   if (open.size() > 1) {
     settle_all();
@@ -173,6 +182,10 @@ void PerceptSolver::match(const AskedPercept& asked) {
 
 /// Adds a percept. If several are told by the same carrier, the first one sets its size.
 void PerceptSolver::tell(Told told) {
+  constexpr std::size_t operations_of_a_law = 128, evaluations = 64;
+  if (!diagnostics_.charge(operations_of_a_law + evaluations * told.map->terms.size(), material_.force_span,
+                           Work::solving))
+    return;
   const auto first = std::ranges::find(told_, told.carrier, &Told::carrier);
   if (first != told_.end()) {
     told.shares = static_cast<std::size_t>(first - told_.begin());
@@ -208,10 +221,10 @@ void PerceptSolver::report_choice(const Percept& percept, const AskedPercept& as
                   std::move(advice));
   }
   if (!choice.untied.empty()) {
-    Advice advice = "remove the level, or measure a map that is tied to the reference stimulus";
+    Advice advice = "remove the level, or measure a map with the percept's reference stimulus as its anchor";
     for (const Map* map : choice.untied) advice = std::move(advice).see(map->span, map->source);
     return report(Code::untied_map, asked.span,
-                  fmt::format("the maps for {} are not tied to its reference stimulus, so they cannot set levels ({})",
+                  fmt::format("expected a map that can set a level of {}, found only maps that compare ({})",
                               asked.name, sources_of(choice.untied)),
                   std::move(advice));
   }

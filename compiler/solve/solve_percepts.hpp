@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "compiler/diagnostics/advice.hpp"
@@ -66,15 +67,15 @@ class PerceptSolver {
   /// The percept as this device carries it.
   const Percept& percept(const std::string& name);
   void find_told_carriers();
-  bool is_summand(const Carrier& carrier) const;
+  void find_summands();
+  bool is_summand(const Carrier& carrier);
   void match(const AskedPercept& asked);
   std::string chosen_by(const std::string& percept) const;  ///< the map that the device's rule names; may be empty
   const Map* map_for(const Percept& percept, const AskedPercept& asked);
   [[gnu::cold]] void report_choice(const Percept& percept, const AskedPercept& asked, const MapChoice& choice,
                                    const std::string& by);
   void solve_size(Told& told, std::vector<Parameter>& parameters);
-  static void add_level(const std::string& name, double level, const std::string& of,
-                        std::vector<Parameter>& parameters);
+  void add_level(const std::string& name, double level, const std::string& of, std::vector<Parameter>& parameters);
   TermId level_term(const Told& told, Terms& terms, TermCopier& copy) const;
   void tell(Told told);
   /// The force of a carrier of size 1; 0 if it exerts none or an earlier percept with the same carrier counts it.
@@ -128,6 +129,8 @@ class PerceptSolver {
   std::vector<Told> told_;
   std::vector<std::size_t> order_;  ///< indices into `told_`: coupled percepts before those that couple them
   std::set<std::uint32_t> settled_;
+  std::unordered_set<std::uint64_t> summands_;  ///< the x and y terms of what the force adds up, once it is needed
+  ParameterNames names_;                        ///< of the parameters
 };
 
 }  // namespace wale

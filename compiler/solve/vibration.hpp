@@ -22,7 +22,7 @@ Scope shaking_scope(Terms& terms, TermId shaking, TermId period, const DeviceDec
 /// Two percepts on one actuator: the amplitude of the sum of their energies, at the rate of the stronger.
 Shaking together(Terms& terms, const Shaking& a, const Shaking& b);
 
-/// The period of the material's texture that is within the percept's periods at the parameters' defaults; nothing if
+/// The period of the material's texture that is within the percept's periods at the parameters' defaults; empty if
 /// there is none that is the same everywhere.
 std::optional<TermId> texture_period(const CheckedMaterial& material, const Percept& percept);
 

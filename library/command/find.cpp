@@ -101,11 +101,12 @@ Run declare_find(CLI::App& verb) {
   const auto options = std::make_shared<FindOptions>();
   verb.add_option(
       "TEXT", options->texts,
-      "the beginning of a word in a material's name, title, kind, other names (`called`), the texts of its `feels`, "
-      "or its documentation; with several, all must be there (default: lists every material)");
-  verb.add_option("--kind", options->kind, "only materials of this kind, as in fabric or fabric.woven")
+      "a word, or how it begins, as in ribbed: it may be in a material's name, other names, title, kind, `feels` or "
+      "documentation; of several, a material must have all (default: lists every material)");
+  verb.add_option("--kind", options->kind,
+                  "only materials of this kind, as in fabric or fabric.woven (default: all kinds)")
       ->type_name("KIND");
-  offer_library(verb, options->folders, "a folder whose materials are listed too; may be repeated");
+  offer_library(verb, options->folders, "a folder whose materials are listed too, as in my/materials; may be repeated");
   offer_json(verb, options->json, "an array with all facts about each material");
   verb.footer("for example: wale find ribbed;  wale find --kind fabric soft");
   return [options] { return find(*options); };

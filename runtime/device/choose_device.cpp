@@ -154,20 +154,22 @@ class Chooser {
 
   Error unknown(const std::string& name, std::string_view prefix) const {
     std::vector<std::string> names;
-    for (const DeclaredDevice& each : known_) names.push_back(std::string(prefix) + each.profile.name);
-    for (const TrustedDevice& each : trusted_) names.push_back(std::string(prefix) + each.profile().name);
+    for (const DeclaredDevice& each : known_) names.push_back(each.profile.name);
+    for (const TrustedDevice& each : trusted_) names.push_back(each.profile().name);
     if (prefix.empty()) {
       for (const char* word : {"auto", "simulated", "usb"}) names.emplace_back(word);
       for (const Driver* driver : drivers_) names.emplace_back(driver->name);
     }
     const std::string wanted = std::string(prefix) + name;
     std::string mend;
-    if (const auto near = nearest_spelling(wanted, names)) {
-      mend = "did you mean `" + *near + "`?";
+    if (!prefix.empty() && (name.empty() || letters_changed(name, simulated) <= 2)) {
+      mend = "`simulated` alone is the device that the program is built for";
+    } else if (const auto near = nearest_spelling(name, names)) {  // the prefix would make all of them similar
+      mend = "did you mean `" + std::string(prefix) + *near + "`?";
     } else {
       std::ranges::sort(names);
       names.erase(std::unique(names.begin(), names.end()), names.end());
-      for (const std::string& each : names) mend += (mend.empty() ? "there are: " : ", ") + each;
+      for (const std::string& each : names) mend += (mend.empty() ? "there are: " : ", ") + std::string(prefix) + each;
       if (prefix.empty()) mend += ", vendor and product as in 1209:ffb0, and ports as in 1-2";
     }
     return error(Code::unknown_device, "there is no device `" + wanted + "`", mend);

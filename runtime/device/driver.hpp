@@ -34,7 +34,7 @@ struct PluggedIn {
   std::string port = {};               ///< "1-2.3"; the same when it is plugged in there again
   std::string name = {};               ///< as it calls itself; may be empty
   std::string can = {};                ///< what it can do, in a line; empty if that is not known
-  std::optional<Error> obstacle = {};  ///< why it cannot be used; nothing if no reason is known
+  std::optional<Error> obstacle = {};  ///< why it cannot be used; empty if no reason is known
   std::string profile = {};            ///< the name of its declaration, if its driver knows it; else empty
   std::string transport = {};          ///< how it would be driven, and why; empty if there is only one way
   /// Other programs that have it open: "steam (4711) by /dev/input/event5".

@@ -30,7 +30,7 @@ struct MotorAnswer {
 struct Identified {
   std::array<MotorAnswer, 2> motors;
   std::array<std::optional<SignedAxis>, 2> shown;  ///< the axes that the person moved: to the right, and away
-  /// Both axes and both motors; nothing if they are not known.
+  /// Both axes and both motors; empty if they are not known.
   std::optional<std::array<SignedAxis, 2>> axes_settled, motors_settled;
   std::string problem;  ///< why not; empty otherwise
 };

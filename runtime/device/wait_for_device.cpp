@@ -9,9 +9,10 @@
 
 namespace wale {
 
-Result<ChosenDevice> wait_for_device(const Connections& connections, const DeviceRequest& request,
+Result<ChosenDevice> wait_for_device(Connections& connections, const DeviceRequest& request,
                                      std::span<const DeclaredDevice> known, std::span<const TrustedDevice> trusted,
-                                     std::optional<double> seconds, const std::atomic<bool>& stop, Drivers drivers) {
+                                     std::optional<double> seconds, const std::atomic<bool>& stop, Drivers drivers,
+                                     const std::function<Connections()>& open) {
   using Clock = std::chrono::steady_clock;
   constexpr auto between_looks = std::chrono::milliseconds(100);
   constexpr int most_looks = 20;  // at a device that was just plugged in: udev gives permission a moment later
@@ -26,6 +27,7 @@ Result<ChosenDevice> wait_for_device(const Connections& connections, const Devic
       return newest;
     }
     std::this_thread::sleep_for(between_looks);
+    if (!connections.usb && round % rest == 0) connections = open();
     if (connections.usb) {
       auto now = (*connections.usb)->devices();
       if (now != seen) looks = most_looks;

@@ -16,16 +16,11 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/keeper/nanoseconds.hpp"
 #include "runtime/keeper/start_keeper.hpp"
 
 namespace wale {
 namespace {
-
-std::int64_t nanoseconds_of(clockid_t clock) noexcept {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
 
 void sleep_a_millisecond() noexcept {
   const timespec millisecond{0, 1'000'000};

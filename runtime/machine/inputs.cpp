@@ -24,7 +24,7 @@ float seconds(double time) {
   return time >= arithmetic::least_normal ? (time <= most ? static_cast<float>(time) : most) : 0.0f;
 }
 
-/// The field of a hand for an input, and its bound; nothing for time and button, which are not components of motion.
+/// The field of a hand for an input, and its bound; empty for time and button, which are not components of motion.
 struct Place {
   glm::vec2 Hand::*quantity;
   float glm::vec2::*axis;

@@ -132,7 +132,7 @@ inline std::uint32_t check_of(ChunkHeader header) noexcept {
   return check.value();
 }
 
-/// Real-time likewise.
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 inline std::uint32_t check_of(const TickEntry& entry) noexcept {
   Check check;
   check.add(std::as_bytes(std::span(&entry, 1)).first(sizeof entry - 4));
@@ -148,7 +148,7 @@ inline std::uint32_t check_of(const EventHeader& header, std::span<const std::by
   return check.value();
 }
 
-/// Real-time likewise.
+/// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
 TickEntry encode(const RecordedTick& tick, std::uint64_t number) noexcept;
 RecordedTick decode(const TickEntry& entry) noexcept;
 

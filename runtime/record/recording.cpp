@@ -102,10 +102,13 @@ class RecordingReader {
   void find_chunks() {
     std::vector<std::size_t> event_chunks;
     std::size_t offset = first_chunk;
-    for (; offset + chunk_size <= bytes_.size() && !problem_; offset += chunk_size) {
+    for (; offset < bytes_.size() && !problem_; offset += chunk_size) {
+      const auto chunk = bytes_.subspan(offset, std::min(chunk_size, bytes_.size() - offset));
+      if (all_zero(chunk)) continue;  // it was never begun
+      is_cut_ = chunk.size() < chunk_size;
+      if (is_cut_) note(sentence("the file is cut short at byte ", bytes_.size()), bytes_.size());
+      if (chunk.size() < chunk_header_size) break;
       const auto header = at<ChunkHeader>(offset);
-      if (header.kind == ChunkKind::none && all_zero(bytes_.subspan(offset, chunk_size)))
-        continue;  // it was never begun
       auto* const chunks = header.kind == ChunkKind::ticks    ? &contents_.tick_chunks
                            : header.kind == ChunkKind::events ? &event_chunks
                                                               : nullptr;
@@ -114,11 +117,10 @@ class RecordingReader {
       else
         chunks->push_back(offset);
     }
-    if (!problem_ && offset < bytes_.size() && !all_zero(bytes_.subspan(offset)))
-      note(sentence("the file is cut short within the chunk at byte ", offset), offset);
     for (const std::size_t chunk : event_chunks) {
-      const auto part = bytes_.subspan(chunk + chunk_header_size, events_per_chunk);
-      contents_.events_bytes.insert(contents_.events_bytes.end(), part.begin(), part.end());
+      const auto part = bytes_.subspan(chunk + chunk_header_size);
+      const auto end = part.begin() + static_cast<std::ptrdiff_t>(std::min(part.size(), events_per_chunk));
+      contents_.events_bytes.insert(contents_.events_bytes.end(), part.begin(), end);
     }
     event_chunks_ = std::move(event_chunks);
   }
@@ -140,24 +142,34 @@ class RecordingReader {
       std::memcpy(&header, stream.data() + at, sizeof header);
       if (header.size == 0 && header.check == 0) break;
       const std::size_t rest = stream.size() - at - sizeof header;
+      if (is_cut_ && header.size > rest) return;  // the cut is what is wrong
       if (header.size == 0 || header.size - 1 > rest) return damaged("is damaged");
       const auto payload = stream.subspan(at + sizeof header, header.size - 1);
       if (header.check != check_of(header, payload)) return damaged("is damaged");
       if (auto read = reader.read(header, payload); !read) return damaged("makes no sense: " + in_words(read.error()));
+      most_revision_ = reader.revision();
       at += aligned(sizeof header + payload.size());
     }
     if (!reader.has_header() && !problem_) note("the recording ends before its first event", bytes_.size());
-    most_revision_ = reader.revision();
+  }
+
+  /// The number of whole ticks for which the chunks have room. A cut leaves less of the last chunk.
+  std::size_t room_for_ticks() const {
+    const auto& chunks = contents_.tick_chunks;
+    if (chunks.empty()) return 0;
+    const std::size_t last = (bytes_.size() - chunks.back() - chunk_header_size) / sizeof(TickEntry);
+    return (chunks.size() - 1) * ticks_per_chunk + std::min(last, ticks_per_chunk);
   }
 
   void read_ticks() {
-    const std::size_t room = contents_.tick_chunks.size() * ticks_per_chunk;
+    const std::size_t room = room_for_ticks();
     RecordedTick before;
     for (std::size_t number = 0; number < std::min(room, most_ticks_); ++number) {
       const auto entry = contents_.entry(number);
       if (entry.sequence == 0 && (number + 1 == room || contents_.entry(number + 1).sequence == 0)) return;
       const std::string wrong = what_is_wrong(entry, number, before);
       if (!wrong.empty()) {
+        if (problem_ && entry.revision > most_revision_) return;  // the stage's changes for it are lost
         return note(sentence("tick ", number, " (byte ", contents_.offset(number), ") ", wrong),
                     contents_.offset(number));
       }
@@ -185,6 +197,7 @@ class RecordingReader {
   std::size_t most_ticks_;
   std::vector<std::size_t> event_chunks_;
   std::uint32_t most_revision_ = 0;
+  bool is_cut_ = false;  ///< the file ends within a chunk
   std::optional<Error> problem_;
 };
 

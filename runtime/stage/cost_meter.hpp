@@ -21,14 +21,16 @@ class CostMeter {
   void begin() noexcept {
     if (reads_clock_) began_ = last_ = clock_.now();
   }
-  /// Ends the current step and begins the next one. Real-time likewise.
+  /// Ends the current step and begins the next one. Real-time: allocates nothing, takes no lock, makes no system
+  /// call, does not throw.
   void end(TickCosts::Step step) noexcept {
     if (!reads_clock_) return;
     const std::int64_t now = clock_.now();
     steps_[step].add(now - last_);
     last_ = now;
   }
-  /// Ends the tick with the step ended last. Real-time likewise.
+  /// Ends the tick with the step ended last. Real-time: allocates nothing, takes no lock, makes no system
+  /// call, does not throw.
   void end_tick() noexcept {
     if (reads_clock_) whole_.add(last_ - began_);
   }

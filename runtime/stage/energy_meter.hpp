@@ -30,7 +30,7 @@ class EnergyMeter {
 
   /// Returns the part of `field` (N), the program's force, that may be given, with the handle at `position` (m from the
   /// workspace's centre), `periods` after the last call.
-  /// Real-time likewise.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force operator()(Force field, glm::dvec2 position, long periods) noexcept;
 
   double given() const noexcept { return given_; }  ///< J

@@ -17,7 +17,8 @@ namespace wale {
 /// moves no faster than the profile's slew, until it reaches the wanted one; the passivity observer takes away the
 /// energy that the sampled loop gained, within the same limits. Begins at zero force, slewing. On a pad, which gives no
 /// energy, the amplitude is clamped between 0 and the lesser of the user's limit and the greatest acceleration, and
-/// slews likewise; the frequency is clamped to the pad's range, and is its least one while the wanted amplitude is 0.
+/// moves no faster than the profile's slew; the frequency is clamped to the pad's range, and is its least one while the
+/// wanted amplitude is 0.
 class Guards {
  public:
   /// A profile without a slew (zero) does not limit the rate. `most` is the largest force that the user allows, N.
@@ -36,7 +37,7 @@ class Guards {
   /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force operator()(Force wanted, glm::dvec2 position, long periods) noexcept;
   /// Returns zero force, from which the force slews back, and counts the reason.
-  /// Real-time likewise.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   enum class Reason { overrun, stale, lost };
   Force cut(Reason reason, glm::dvec2 position, long periods) noexcept;
   void commanded(Force force) noexcept {

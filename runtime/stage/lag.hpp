@@ -27,7 +27,7 @@ class Lag {
 
   /// The mean force of the actuators, and the mean position that it answers, over the `periods` control periods that
   /// just ended. `held` was the last command throughout. A command that arrives within a period acts for the rest of
-  /// it. Real-time likewise.
+  /// it. Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Answer over(const Answer& held, long periods) noexcept;
 
   /// Periods between a command and its force, of each axis.

@@ -29,7 +29,7 @@ class MotorHeat {
   void commanded(Force force) noexcept { held_ = force; }
 
   /// `wanted` (N), each axis clamped to what its motor bears now.
-  /// Real-time likewise.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   Force held_within(Force wanted) const noexcept;
 
   glm::dvec2 heat() const noexcept { return heat_; }  ///< N^2, per axis

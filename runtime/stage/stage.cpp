@@ -205,7 +205,7 @@ struct Stage::Parts {
 
   /// With the mutex held: begins a recording, with the patches on the stage.
   Result<> begin_recording(const RunOptions& options);
-  /// Why the recording ended before the run; nothing if it did not.
+  /// Why the recording ended before the run; empty if it did not.
   std::optional<Error> end_recording();
   TickSink* sink() { return recorder.get(); }
 

@@ -181,7 +181,7 @@ TEST(Check, JsonHasEveryFieldOfADiagnostic) {
   EXPECT_EQ(only.at("file"), wrong);
   EXPECT_EQ(only.at("line"), 2);
   EXPECT_EQ(only.at("column"), 33);
-  EXPECT_EQ(only.at("message"), "force expected, found area");
+  EXPECT_EQ(only.at("message"), "expected force, found area");
   for (const char* field : {"end_line", "end_column", "expected", "found", "help"})
     EXPECT_TRUE(only.contains(field)) << field;
   EXPECT_EQ(wale({"check", "--json", corduroy}).json(), nlohmann::json::array());

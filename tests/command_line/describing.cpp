@@ -56,7 +56,7 @@ TEST(Describe, ProvesABoundAndGrades) {
   EXPECT_NEAR(spring.at("force").at("bound_newton").get<double>(), 40 * 0.2286 * std::sqrt(2.0), 0.02);
   EXPECT_NEAR(spring.at("stiffness").at("max_newton_per_metre").get<double>(), 40, 1e-3);
   EXPECT_NEAR(spring.at("grade").at("required_damping").get<double>(), 40.0 / 1800, 1e-5);
-  EXPECT_EQ(spring.at("grade").at("name"), "ungraded");
+  EXPECT_EQ(spring.at("grade").at("name"), "unknown");
   EXPECT_FALSE(spring.at("force").at("limit_matters").get<bool>());
   EXPECT_GT(spring.at("cost").get<int>(), 0);
   // Above the device's 10 N, the bound is the limit.

@@ -125,7 +125,7 @@ TEST(Set, TakesAnyUnitOfTheDimension) {
 
 TEST(Set, ErrorsSayWhatIsWrong) {
   const std::vector<std::pair<std::string, std::string>> errors{{"wale=9mm", "from 1 mm to 5 mm"},
-                                                                {"wale=2 N", "length expected, found force"},
+                                                                {"wale=2 N", "expected length, found force"},
                                                                 {"wale=2", "write `2 mm`"},
                                                                 {"wael=2mm", "no parameter `wael`"},
                                                                 {"wale", "NAME=VALUE"},

@@ -1,13 +1,12 @@
 // Recording and replaying runs, and feeling a file while it is edited.
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
 #include <chrono>
 #include <thread>
 
-#include "tests/command_line/running.hpp"
+#include "tests/command_line/child.hpp"
 
 namespace wale::command_line::recording_test {
 namespace {
@@ -127,53 +126,11 @@ TEST(Blind, AllowsALargestForce) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-/// A `wale` process that runs until it gets a signal.
-class Started {
- public:
-  Started(std::vector<std::string> words, const std::string& out, const std::string& err) {
-    child_ = fork();
-    if (child_ != 0) return;
-    const auto to = [](const std::string& path, int number) {
-      const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-      dup2(file, number);
-    };
-    to(out, 1), to(err, 2);
-    std::vector<char*> arguments;
-    words.insert(words.begin(), WALE_BINARY);
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    execv(WALE_BINARY, arguments.data());
-    _exit(127);
-  }
-  ~Started() {
-    if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
-  }
-  void tell(int signal) const { kill(child_, signal); }
-  int wait() {
-    int status = 0;
-    waitpid(std::exchange(child_, 0), &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-  }
-
- private:
-  pid_t child_ = 0;
-};
-
-/// Waits until the condition holds. Returns false after a minute.
-template <class Condition>
-bool eventually(Condition&& condition) {
-  for (int i = 0; i < 3000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
-}
-
 TEST(Watch, ActivatesEverySavedVersionUntilInterrupted) {
   const TemporaryFolder folder;
   const std::string file = folder.write("c.wale", bytes_of(corduroy)), err = folder / "err", out = folder / "out",
                     recording = folder / "a.wrec";
-  Started running({"feel", file, "--watch", "--json", "--record", recording}, out, err);
+  Child running({"feel", file, "--watch", "--json", "--record", recording}, out, err);
   ASSERT_TRUE(eventually([&] { return fs::exists(recording); })) << bytes_of(err);
   folder.write("c.wale", corduroy_with("2.5 mm in", "3.5 mm in"));
   ASSERT_TRUE(eventually([&] { return contains(bytes_of(err), "wale: the new version of `corduroy` is active\n"); }))

@@ -129,7 +129,7 @@ TEST(Values, APatchProgramKeepsItsDeviceAndMaterial) {
                   {{"feel", program, "--virtual-time", "--built-for", "falcon"}, 1, "built for `sandpaper`"},
                   {{"describe", program, "--material", "x"}, 1, "holds only `corduroy`"},
                   {{"describe", program + ":x"}, 1, "holds only `corduroy`"},
-                  {{"describe", program, "--exports"}, 1, "built for `sandpaper`"},
+                  {{"describe", program, "--exports"}, 2, "leave out --exports"},
                   {{"build", program, "-o", folder / "d.wpp"}, 1, "built for `sandpaper`"}});
   EXPECT_EQ(wale({"describe", program, "--device", "sandpaper"}).status, 0);
   const std::string recording = folder.write("a.wrec", "\x89WRC"), picture = folder.write("a.png", "\x89PNG");

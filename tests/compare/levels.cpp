@@ -136,7 +136,7 @@ TEST(Levels, OfAVibrationDeviceNeedAThreshold) {
   const auto spring = propose_levels("springiness", "touch_pad", std::nullopt, 1, common_modules()->declarations);
   ASSERT_FALSE(spring);
   EXPECT_EQ(spring.error().code, Code::percept_unrealised);
-  EXPECT_EQ(spring.error().sentence, "`touch_pad` only vibrates, and has no realisation of springiness");
+  EXPECT_EQ(spring.error().sentence, "`touch_pad` only vibrates, and has no rule that makes springiness");
 }
 
 TEST(CloseLevels, AreJudgedOnTheGivenDevice) {

@@ -26,7 +26,7 @@ std::vector<Lie> every_lie() {
 }
 
 /// A handle with rotated or mirrored axes and motors. Its axis `axes[i].axis` grows, up to the sign, when the handle moves
-/// to the right (i = 0) or away (i = 1). Motors likewise.
+/// to the right (i = 0) or away (i = 1), and its motor `motors[i].axis` pushes there.
 class TurnedHandle {
  public:
   TurnedHandle(DeviceProfile profile, HandModel hand, Lie axes, Lie motors)

@@ -31,7 +31,7 @@ TEST_P(SinesOfTheThesis, HaveTheGradeOfTheClosedForms) {
   EXPECT_NEAR(grade.step_newton, row.step, 0.001 + 0.003 * row.step);
   EXPECT_NEAR(grade.finest_period, 1e-3 * row.period_mm, 0.03e-3 * row.period_mm);
   EXPECT_NEAR(grade.force_levels, row.program_units * 4, 0.02 * row.program_units * 4);  // 512 units, 2048 counts
-  EXPECT_EQ(grade.standing, Standing::ungraded);
+  EXPECT_EQ(grade.standing, Standing::unknown);
   EXPECT_TRUE(grade.energy.conservative);
   EXPECT_FALSE(grade.jumps);
 }
@@ -49,7 +49,7 @@ TEST(Grade, KnownDampingDecidesBetweenPassiveHandAndUnstable) {
   EXPECT_EQ(standing("1.5 N s/m").standing, Standing::passive);
   EXPECT_NEAR(*standing("1.5 N s/m").margin(), 0.104, 0.01);
   EXPECT_EQ(standing("1 N s/m").standing, Standing::stable_in_the_hand);
-  EXPECT_EQ(standing("assumed 1.5 N s/m").standing, Standing::ungraded);
+  EXPECT_EQ(standing("assumed 1.5 N s/m").standing, Standing::unknown);
   EXPECT_FALSE(standing("assumed 1.5 N s/m").margin());
   const Grade steep =
       graded("    force = vector(8 N * sin(2 pi * x / 2.5 mm), 0 N)", device("  damping 1 N s/m"), "bench");
@@ -85,7 +85,7 @@ TEST(Grade, SpringsOilAndPotentialsAreNotActive) {
                                "    force = lateral(h, amplitude: 2 N)",
                                "    force = -200 N/m * hand * exp(-(length(hand) / 20 mm)^2) - 1 N s/m * velocity"}) {
     const Grade grade = graded(physical);
-    EXPECT_EQ(grade.standing, Standing::ungraded) << physical;
+    EXPECT_EQ(grade.standing, Standing::unknown) << physical;
     EXPECT_EQ(grade.energy.watt(), 0) << physical;
   }
 }
@@ -127,10 +127,10 @@ TEST(Grade, MotionByItselfIsActiveAndMotionDrivenByTheHandIsNot) {
                    "    let pull = 120 N/m * (hand - p)\n    v' = (pull - 0.8 N s/m * v) / 0.3 kg\n    p' = v\n"
                    "    force = -pull")
                 .standing,
-            Standing::ungraded);
+            Standing::unknown);
   // A state that stays at the place where the hand entered.
   EXPECT_EQ(graded("    state p : position = hand\n    next p = p\n    force = -50 N/m * (hand - p)").standing,
-            Standing::ungraded);
+            Standing::unknown);
 }
 
 TEST(Grade, AStateThatGivesMoreEnergyThanItTakesIsActive) {

@@ -1,6 +1,6 @@
 // Every case under tests/language/diagnostics/Wnnnn/ states the expected diagnostics on its own lines:
 //
-//     force = k * hand * wale       // error W0301: force expected, found energy; drop `* wale`
+//     force = k * hand * wale       // error W0301: expected force, found energy; drop `* wale`
 //
 //     roughness = 0.6               // error W0103: a percept's level has no `=`   // fix: roughness 0.6
 //     let b = (a + 1                // error W0103: expected `)`   // unsafe fix: let b = (a + 1)   // also: opened

@@ -16,7 +16,7 @@ struct Rendering {
     const std::size_t at = text.find(part);
     diagnostic.code = Code::wrong_dimension;
     diagnostic.span = {0, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at + part.size())};
-    diagnostic.message = "force expected, found energy";
+    diagnostic.message = "expected force, found energy";
     sources.add("library/fabric/corduroy.wale", std::move(text));
   }
   std::string text() const { return render_text(diagnostic, sources, false); }
@@ -29,7 +29,7 @@ TEST(Rendering, HasAPlaceALabelAndNotes) {
   rendering.diagnostic.found = "N m  = kg m^2 s^-2";
   rendering.diagnostic.help = "one length too many; divide by a length, or drop `* wale` (a length, line 7)";
   EXPECT_EQ(rendering.text(),
-            "error[W0301]: force expected, found energy\n"
+            "error[W0301]: expected force, found energy\n"
             "  --> library/fabric/corduroy.wale:9:13\n"
             "   |\n"
             " 9 |     force = k * hand * wale\n"
@@ -43,7 +43,7 @@ TEST(Rendering, HasAPlaceALabelAndNotes) {
 TEST(Rendering, TheMarginIsAsWideAsTheLineNumber) {
   const Rendering rendering(std::string(122, '\n') + "a b\r\n", "b");
   EXPECT_EQ(rendering.text(),
-            "error[W0301]: force expected, found energy\n"
+            "error[W0301]: expected force, found energy\n"
             "    --> library/fabric/corduroy.wale:123:3\n"
             "     |\n"
             " 123 | a b\n"
@@ -109,7 +109,7 @@ TEST(Rendering, JsonForPrograms) {
   EXPECT_EQ(json[0]["column"], 3);
   EXPECT_EQ(json[0]["end_line"], 2);
   EXPECT_EQ(json[0]["end_column"], 8);
-  EXPECT_EQ(json[0]["message"], "force expected, found energy");
+  EXPECT_EQ(json[0]["message"], "expected force, found energy");
   EXPECT_EQ(json[0]["help"], "\uFFFD");
   EXPECT_FALSE(json[0].contains("expected"));
   EXPECT_EQ(json[1]["severity"], "warning");
@@ -126,7 +126,7 @@ TEST(Rendering, SecondarySpansAreUnderlinedOnTheirOwnLinesInOrder) {
   rendering.diagnostic.label = "no sum";
   rendering.diagnostic.secondary = {{at("2 mm"), "a length"}, {at("3 N"), "a force"}, {at("let sum"), ""}};
   EXPECT_EQ(rendering.text(),
-            "error[W0301]: force expected, found energy\n"
+            "error[W0301]: expected force, found energy\n"
             "   --> library/fabric/corduroy.wale:10:11\n"
             "    |\n"
             "  1 | let k = 3 N\n"
@@ -143,7 +143,7 @@ TEST(Rendering, SecondarySpansInOtherFilesNameThem) {
   const SourceId other = rendering.sources.add("library/levels.wale", "\n\nlet k = 3 mm\n");
   rendering.diagnostic.secondary = {{{other, 6, 7}, "declared here"}, {{9, 0, 1}, "in no file that is known"}};
   EXPECT_EQ(rendering.text(),
-            "error[W0301]: force expected, found energy\n"
+            "error[W0301]: expected force, found energy\n"
             "  --> library/fabric/corduroy.wale:1:9\n"
             "   |\n"
             " 1 | force = k\n"

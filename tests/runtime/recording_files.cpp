@@ -161,15 +161,81 @@ TEST(RecordingFile, TicksBeforeADamageCanBeRead) {
   expect_same(*before);
 }
 
-TEST(RecordingFile, ACutFileIsRefused) {
+/// The whole ticks among the first `size` bytes of a file, found by their sequence numbers without its chunks.
+std::size_t whole_ticks(const std::vector<std::byte>& bytes, std::size_t size) {
+  std::size_t found = 0;
+  for (std::size_t at = first_chunk; at + sizeof(TickEntry) <= size; at += 8) {
+    TickEntry entry;
+    std::memcpy(&entry, bytes.data() + at, sizeof entry);
+    if (entry.sequence == found + 1 && entry.check == check_of(entry)) ++found;
+  }
+  return found;
+}
+
+TEST(RecordingFile, OfACutFileAllWholeTicksBeforeTheCutCanBeRead) {
   const std::vector<std::byte> bytes = some_recording();
   const Recording whole = *Recording::read(bytes, "whole");
-  for (std::size_t size = 0; size < bytes.size(); size += 4999) {
-    const auto read = Recording::read({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}, "cut");
-    EXPECT_FALSE(read) << size;
+  std::vector<std::size_t> sizes{bytes.size() - 1, bytes.size() - 5, 500'000};
+  for (std::size_t size = 0; size < bytes.size(); size += 14'999) sizes.push_back(size);
+  for (const std::size_t size : sizes) {
+    const std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    const auto read = Recording::read(cut, "cut");
+    ASSERT_FALSE(read) << size;
+    if (size < first_chunk) continue;
+    const std::size_t ticks = whole_ticks(bytes, size);
+    const std::string left = ticks == 0
+                                 ? "no tick of it can be read; record again"
+                                 : "the " + std::to_string(ticks) +
+                                       " ticks before it are intact: read them with --ticks " + std::to_string(ticks);
+    const bool at_a_chunk = (size - first_chunk) % chunk_size == 0;
+    if (!at_a_chunk) EXPECT_EQ(refused(read), "the file is cut short at byte " + std::to_string(size) + "; " + left);
+    if (ticks == 0) continue;
+    const auto before = Recording::read(cut, "cut", ticks);
+    ASSERT_TRUE(before) << refused(before);
+    ASSERT_EQ(before->ticks(), ticks);
+    EXPECT_TRUE(equal(*before, whole, ticks));
   }
-  const auto cut = Recording::read({bytes.begin(), bytes.end() - 5}, "cut");
-  EXPECT_TRUE(refused(cut).starts_with("the file is cut short within the chunk at byte")) << refused(cut);
+  EXPECT_EQ(whole_ticks(bytes, bytes.size() - 1), 3600u);
+  EXPECT_EQ(whole_ticks(bytes, 500'000), (500'000 - first_chunk - chunk_size - chunk_header_size) / sizeof(TickEntry));
+}
+
+TEST(RecordingFile, TicksBeforeADamagedChangeOfTheStageCanBeRead) {
+  const TemporaryFolder folder;
+  Puppet device(roaming);
+  Stage stage(device);
+  stage.place(corduroy(1.934f));
+  const auto turn = [&](const Progress& now) {
+    EXPECT_TRUE(stage.set("wale", 0.001f + 0.001f * static_cast<float>(now.ticks_run % 4)));
+  };
+  run(stage, {.seconds = 4, .virtual_time = true, .progress = turn, .record_to = RecordTo{folder / "a.wrec", {}}});
+  std::vector<std::byte> bytes = bytes_of(folder / "a.wrec");
+  const Recording whole = *Recording::read(bytes, "whole");
+  // The places of the changes of the parameter: the payload of their events is patch, number and value.
+  std::vector<std::size_t> places;
+  for (std::size_t at = first_chunk + chunk_header_size; at + 36 <= first_chunk + chunk_size; at += event_alignment) {
+    EventHeader header;
+    std::memcpy(&header, bytes.data() + at, sizeof header);
+    if (header.size == 13 && header.kind == static_cast<std::uint32_t>(EventCode::set)) places.push_back(at);
+  }
+  ASSERT_GT(places.size(), 10u);
+  const std::size_t change = places.size() / 2;
+  bytes[places[change] + sizeof(EventHeader) + 8] ^= std::byte{1};
+  // The changes before it were published in revisions up to `intact`, whose ticks can be run.
+  std::size_t changes = 0;
+  std::uint32_t intact = 0;
+  for (const RecordedEvent& event : whole.events()) {
+    if (event.kind == RecordedEvent::Kind::set && changes++ == change) break;
+    if (event.kind == RecordedEvent::Kind::publish) intact = event.revision;
+  }
+  std::size_t ticks = 0;
+  while (whole.tick(ticks).revision <= intact) ++ticks;
+  ASSERT_GT(ticks, 1000u);
+  EXPECT_EQ(refused(Recording::read(bytes, "damaged")),
+            "the event at byte " + std::to_string(places[change]) + " is damaged; the " + std::to_string(ticks) +
+                " ticks before it are intact: read them with --ticks " + std::to_string(ticks));
+  const auto before = Recording::read(bytes, "damaged", ticks);
+  ASSERT_TRUE(before) << refused(before);
+  expect_same(*before);
 }
 
 TEST(RecordingFile, OtherFilesAreRefusedWithAReason) {

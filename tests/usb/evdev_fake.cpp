@@ -57,6 +57,12 @@ void EvdevFake::move_unheard(std::int32_t x, std::int32_t y) {
   tell({event(EV_SYN, SYN_DROPPED, 0), event(EV_ABS, ABS_X, -1), event(EV_SYN, SYN_REPORT, 0)});
 }
 
+void EvdevFake::move_while_grabbed(std::int32_t x, std::int32_t y) {
+  const std::lock_guard lock(mutex_);
+  axes_[0].value = x;
+  axes_[1].value = y;
+}
+
 void EvdevFake::erase_through_the_same_file(int effect) {
   const std::lock_guard lock(mutex_);
   effects_.erase(effect);

@@ -35,6 +35,8 @@ class EvdevFake final : public NodeFake {
   void move_to(std::int32_t x, std::int32_t y);
   /// Moves the stick, and reports only that events were dropped.
   void move_unheard(std::int32_t x, std::int32_t y);
+  /// Moves the stick while another program has grabbed the node: no event tells of it.
+  void move_while_grabbed(std::int32_t x, std::int32_t y);
   /// As a program does that shares the open file, such as the portal that opened it.
   void erase_through_the_same_file(int effect);
   std::map<int, Effect> effects();

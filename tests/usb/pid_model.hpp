@@ -18,7 +18,7 @@ namespace wale::test {
 /// The faults of a model of a device.
 struct Faults {
   long stall_outputs_after = -1;   ///< number of good interrupt OUT transfers before all others stall; -1: never
-  long silent_outputs_after = -1;  ///< as above, but the transfers never end
+  long silent_outputs_after = -1;  ///< number of good interrupt OUT transfers before all others never end
   long bad_inputs_after = -1;      ///< number of good input reports before all others are nonsense; -1: never
   long short_inputs_after = -1;
   long no_inputs_after = -1;

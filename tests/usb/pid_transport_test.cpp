@@ -372,6 +372,20 @@ TEST(EvdevTransport, EventsThatTheKernelDroppedAreAskedFor) {
   until([&] { return device->sample().counts == glm::ivec2(10000, -20000); });
 }
 
+TEST(EvdevTransport, WhileAnotherProgramHasGrabbedTheNodeThePlaceIsAskedFor) {
+  EvdevFake fake;
+  const auto device = opened(fake);
+  for (const int x : {10000, -5000, 300}) {
+    fake.move_while_grabbed(x, 2 * x);
+    until([&] { return device->sample().counts == glm::ivec2(x, -2 * x); });
+  }
+  fake.move_to(700, 800);  // the other program has let it go
+  until([&] { return device->sample().counts == glm::ivec2(700, -800); });
+  fake.move_while_grabbed(-700, 0);
+  until([&] { return device->sample().counts == glm::ivec2(-700, 0); });
+  EXPECT_FALSE(device->was_lost());
+}
+
 TEST(EvdevTransport, AnErasedEffectIsNoticedAlsoWhileTheForceStaysTheSame) {
   EvdevFake fake;
   auto device = opened(fake);

@@ -24,6 +24,16 @@ constexpr char pushing[] = "wale 1\n\nmaterial push {\n  physical {\n    force =
 
 constexpr long most_frames = 250;
 
+/// How a process may end, by a signal to it.
+const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGXCPU, SIGSEGV, SIGBUS,
+                       SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS,  SIGKILL, SIGSTOP, SIGTSTP};
+
+/// How a process that felt ended by a signal.
+struct End {
+  int signal = 0;
+  Outcome outcome;
+};
+
 class Dying : public testing::Test {
  protected:
   Dying() : connections_(Connections::open()) { mock_.waits_for_drivers = false; }
@@ -60,42 +70,41 @@ class Dying : public testing::Test {
     return ended - began;
   }
 
+  /// Feels until the device pushes with more than `felt` N, then sends each signal at a random moment of 20 ms, and
+  /// checks that the force ends in time. `check` gets each end.
+  template <class Force, class Check>
+  void die_of_each(Force force, double felt, Check check) {
+    std::minstd_rand random(1995);
+    for (const int signal : signals) {
+      Running feeling(feel());
+      await([&] { return force() > felt; });
+      std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
+      feeling.tell(signal);
+      const long frames = frames_until_slack(force);
+      EXPECT_LE(frames, most_frames) << signal;
+      RecordProperty("ms_after_signal_" + std::to_string(signal), static_cast<int>(frames));
+      std::fprintf(stderr, "signal %d: %ld ms\n", signal, frames);
+      if (signal == SIGSTOP || signal == SIGTSTP) {
+        feeling.tell(SIGCONT);  // it is set up again from no force, and felt again
+        await([&] { return force() > felt; });
+        feeling.tell(SIGTERM);
+      }
+      check(End{signal, feeling.outcome()});
+    }
+  }
+
   UsbMock mock_;
   Connections connections_;
   TemporaryFolder folder_;
 };
 
-/// How a process may end, by a signal to it.
-const int signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGXCPU, SIGSEGV,
-                       SIGBUS, SIGFPE, SIGILL,  SIGABRT, SIGTRAP, SIGSYS,  SIGKILL, SIGSTOP, SIGTSTP};
-
-template <class Push>
-void die_of_each(Push push) {
-  std::minstd_rand random(1995);
-  for (const int signal : signals) push(signal, static_cast<int>(random() % 20));
-}
-
 TEST_F(Dying, OfEachSignalAJoystickIsLetGo) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   await_plugged();
   const auto force = [&] { return stick->with_model([](PidModel& model) { return glm::length(model.force()); }); };
-  die_of_each([&](int signal, int milliseconds) {
-    Running feeling(feel());
-    await([&] { return force() > 0.1; });
-    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    feeling.tell(signal);
-    const long frames = frames_until_slack(force);
-    EXPECT_LE(frames, most_frames) << signal;
-    RecordProperty("ms_after_signal_" + std::to_string(signal), static_cast<int>(frames));
-    std::fprintf(stderr, "signal %d: %ld ms\n", signal, frames);
-    if (signal == SIGSTOP || signal == SIGTSTP) {
-      feeling.tell(SIGCONT);  // it is set up again from no force, and felt again
-      await([&] { return force() > 0.1; });
-      feeling.tell(SIGTERM);
-    }
-    const Outcome outcome = feeling.outcome();
-    const bool ends_by_it = signal != SIGINT && signal != SIGSTOP && signal != SIGTSTP;
-    EXPECT_EQ(outcome.signal, ends_by_it ? signal : signal == SIGINT ? 0 : SIGTERM) << outcome.err;
+  die_of_each(force, 0.1, [&](const End& end) {
+    const bool ends_by_it = end.signal != SIGINT && end.signal != SIGSTOP && end.signal != SIGTSTP;
+    EXPECT_EQ(end.outcome.signal, ends_by_it ? end.signal : end.signal == SIGINT ? 0 : SIGTERM) << end.outcome.err;
     stick->close_all();
     EXPECT_EQ(stick->with_model([](PidModel& model) { return model.wrong_reports; }), 0);
   });
@@ -107,23 +116,7 @@ TEST_F(Dying, OfEachSignalAFalconIsLetGo) {
   const auto falcon = mock_.plug(std::move(model), 1);
   await_plugged();
   const auto force = [&] { return falcon->with_model([](FalconModel& each) { return glm::length(each.force()); }); };
-  die_of_each([&](int signal, int milliseconds) {
-    Running feeling(feel());
-    await([&] { return force() > 1; });
-    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    feeling.tell(signal);
-    const long frames = frames_until_slack(force);
-    EXPECT_LE(frames, most_frames) << signal;
-    RecordProperty("ms_after_signal_" + std::to_string(signal), static_cast<int>(frames));
-    std::fprintf(stderr, "signal %d: %ld ms\n", signal, frames);
-    if (signal == SIGSTOP || signal == SIGTSTP) {
-      feeling.tell(SIGCONT);
-      await([&] { return force() > 1; });
-      feeling.tell(SIGTERM);
-    }
-    feeling.outcome();
-    falcon->close_all();
-  });
+  die_of_each(force, 1, [&](const End&) { falcon->close_all(); });
 }
 
 TEST_F(Dying, WithoutItsKeeperNothingPushesUntilThereIsAnother) {

@@ -22,7 +22,7 @@ namespace {
 
 using namespace wale;
 
-/// Standard input as bytes; nothing where it is no file that holds any.
+/// Standard input as bytes; empty where it is no file that holds any.
 std::optional<std::span<const std::byte>> mapped_input() {
   struct stat status;
   if (fstat(STDIN_FILENO, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size <= 0) return std::nullopt;

@@ -28,19 +28,19 @@ glm::dvec3 angles_of(const Encoders& encoders) noexcept;
 /// Rounded to the nearest count, and limited to 16 bits.
 Encoders encoders_of(const glm::dvec3& angles) noexcept;
 
-/// The angles of the arms (rad) while the handle is at `place` (m); nothing if the arms do not reach it.
+/// The angles of the arms (rad) while the handle is at `place` (m); empty if the arms do not reach it.
 std::optional<glm::dvec3> inverse(const glm::dvec3& place) noexcept;
 
-/// The place of the handle (m) at these angles (rad), to a nanometre; nothing if the shins cannot meet with all knees
+/// The place of the handle (m) at these angles (rad), to a nanometre; empty if the shins cannot meet with all knees
 /// outwards.
 std::optional<glm::dvec3> forward(const glm::dvec3& angles) noexcept;
 
 /// The derivative of the arms' angles by the handle's place, rad/m: column i is the change of the three angles by a
-/// movement along axis i. `angles` must be those of `place`. Nothing if an arm is stretched out and cannot turn.
+/// movement along axis i. `angles` must be those of `place`. Empty if an arm is stretched out and cannot turn.
 std::optional<glm::dmat3> turning(const glm::dvec3& place, const glm::dvec3& angles) noexcept;
 
 /// The torques of the arms (N m) that push the handle with `force` (N), and the reverse. No power is lost between the
-/// two, so force = transposed(turning) * torque. Nothing if the arms cannot push in every direction.
+/// two, so force = transposed(turning) * torque. Empty if the arms cannot push in every direction.
 std::optional<glm::dvec3> torques_for(const glm::dmat3& turning, const glm::dvec3& force) noexcept;
 glm::dvec3 force_by(const glm::dmat3& turning, const glm::dvec3& torques) noexcept;
 

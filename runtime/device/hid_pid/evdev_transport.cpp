@@ -150,7 +150,8 @@ Result<> EvdevTransport::set_up_positions() {
   ranges_.x_maximum = positions_[0].maximum;
   ranges_.y_minimum = positions_[1].minimum;
   ranges_.y_maximum = positions_[1].maximum;
-  read_state();
+  learn_state();
+  show(place_[0], place_[1], button_);
   return {};
 }
 
@@ -342,14 +343,27 @@ void EvdevTransport::lose(std::string reason) {
   show_lost();
 }
 
-/// The reader's thread.
+/// The reader's thread. While another program has grabbed the node (EVIOCGRAB), the kernel gives all events to that
+/// program, but tells the state to everybody who asks. A changed state without an event shows such a grab, and then
+/// the state is asked for as often as the device reports, until events come again.
 void EvdevTransport::read_positions() {
+  constexpr int usual_patience = 20, patience_while_grabbed = 1;  // ms
   std::array<input_event, 64> events{};
+  bool is_grabbed = false;
   while (true) {
     pollfd waits[2] = {{node_.descriptor(), POLLIN, 0}, {ends_reading_.get(), POLLIN, 0}};
-    if (poll(waits, 2, -1) < 0 && errno != EINTR) return lose("its position cannot be read");
+    const int ready = poll(waits, 2, is_grabbed ? patience_while_grabbed : usual_patience);
+    if (ready < 0 && errno != EINTR) return lose("its position cannot be read");
+    if (ready == 0 && learn_state()) {
+      is_grabbed = true;
+      show(place_[0], place_[1], button_);
+      const std::lock_guard lock(mutex_);
+      ++counts_.inputs;
+    }
+    if (ready <= 0) continue;
     if (waits[1].revents != 0) return;
     if (waits[0].revents == 0) continue;
+    is_grabbed = false;
     const ssize_t got = read(node_.descriptor(), events.data(), sizeof events);
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return lose("it was unplugged");
     for (std::size_t i = 0; got > 0 && i < static_cast<std::size_t>(got) / sizeof(input_event); ++i) take(events[i]);
@@ -362,7 +376,7 @@ void EvdevTransport::take(const input_event& event) {
     return;
   }
   if (event.type == EV_SYN && event.code == SYN_REPORT) {
-    if (is_dropping_) read_state();
+    if (is_dropping_) learn_state();
     is_dropping_ = false;
     show(place_[0], place_[1], button_);
     const std::lock_guard lock(mutex_);
@@ -370,19 +384,26 @@ void EvdevTransport::take(const input_event& event) {
     return;
   }
   if (is_dropping_) return;
-  if (event.type == EV_ABS && event.code == ABS_X) place_[0] = event.value;
-  if (event.type == EV_ABS && event.code == ABS_Y) place_[1] = event.value;
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (event.type == EV_ABS && event.code == (i == 0 ? ABS_X : ABS_Y))
+      place_[i] = std::clamp(event.value, positions_[i].minimum, positions_[i].maximum);
   if (event.type == EV_KEY && event.code == BTN_JOYSTICK) button_ = event.value != 0;
 }
 
-/// Asks for the present positions, because the kernel reports them only when they change.
-void EvdevTransport::read_state() {
-  for (std::size_t i = 0; i < place_.size(); ++i) {
+/// Asks for the present state, because the kernel reports it only when it changes. Returns whether it is a new one.
+bool EvdevTransport::learn_state() {
+  auto place = place_;
+  bool button = button_;
+  for (std::size_t i = 0; i < place.size(); ++i) {
     input_absinfo now{};
-    if (node_.call(EVIOCGABS(static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y)), &now) < 0) return;
-    place_[i] = std::clamp(now.value, now.minimum, now.maximum);
+    if (node_.call(EVIOCGABS(static_cast<unsigned>(i == 0 ? ABS_X : ABS_Y)), &now) < 0) return false;
+    place[i] = std::clamp(now.value, positions_[i].minimum, positions_[i].maximum);
   }
-  show(place_[0], place_[1], button_);
+  BitSet<KEY_MAX> keys{};
+  if (node_.call(EVIOCGKEY(keys.size()), keys.data()) >= 0) button = has(keys, BTN_JOYSTICK);
+  const bool is_new = place != place_ || button != button_;
+  place_ = place, button_ = button;
+  return is_new;
 }
 
 std::string EvdevTransport::reason() const {

@@ -57,6 +57,9 @@ class EvdevNode {
 /// - Programs that have opened the node themselves cannot change or erase our effects. The kernel lets them stop an
 ///   effect, which the next refresh starts again, and set the gain and the centring spring, about which it tells
 ///   nobody.
+/// - A program that grabs the node (EVIOCGRAB) gets all events, and the others none, but the kernel still tells them the
+///   state when they ask, and still plays their effects (drivers/input/evdev.c, Linux 6.12). Within 20 ms after the
+///   hand moves the transport notices that, and asks for the state each millisecond until events come again.
 /// - A reset through hidraw does not go through the kernel's force-feedback driver. The driver continues to accept
 ///   updates, and no event, ioctl or file of sysfs shows that the effects are gone (Linux 6.1 and 6.12, tests/qemu).
 ///   The stick gives no force until it is opened again. If another program has created an effect meanwhile, that effect
@@ -100,7 +103,7 @@ class EvdevTransport final : public PidTransport {
   bool is_level() const noexcept;
   void read_positions();
   void take(const input_event& event);
-  void read_state();
+  bool learn_state();
   void lose(std::string reason);
 
   std::size_t effects() const noexcept { return arrangement_ == hid::Arrangement::combined ? 1 : 2; }

@@ -77,7 +77,7 @@ class ForceGate {
     double direction = 0;  ///< degrees, as in `ConstantEffect`, of an effect that is turned
   };
 
-  /// The next part of a command to send; nothing if all is sent, or if the rest has to wait for packets on their way.
+  /// The next part of a command to send; empty if all is sent, or if the rest has to wait for packets on their way.
   /// The part counts as on its way until `arrived`.
   std::optional<Change> next(glm::dvec2 wanted) noexcept;
   /// The oldest change of an effect has reached the device.

@@ -48,7 +48,7 @@ bool has_reports(const ReportDescriptor& descriptor);
 
 /// Real-time, as the other packets are.
 Packet encode(const Message& message) noexcept;
-/// Nothing for a packet that is too short or of another report.
+/// Empty for a packet that is too short or of another report.
 std::optional<Message> decode(std::span<const std::uint8_t> bytes) noexcept;
 
 }  // namespace openffboard

@@ -29,7 +29,7 @@ void put(Packet& packet, const Number& number, std::int64_t value) noexcept {
 
 void put(Packet& packet, const Order& order) noexcept { put(packet, order.number, order.value); }
 
-/// Reads a number, signed if its range has negative values. Nothing if it lies beyond the end.
+/// Reads a number, signed if its range has negative values. Empty if it lies beyond the end.
 std::optional<std::int64_t> get(std::span<const std::uint8_t> bytes, const Number& number) noexcept {
   if (!number || (number.bit + number.bits + 7u) / 8 > bytes.size()) return std::nullopt;
   std::uint64_t value = 0;

@@ -129,7 +129,7 @@ class PidSession {
   Arrangement arrangement() const noexcept { return arrangement_; }
   const PidSessionCounts& counts() const noexcept { return counts_; }
   const std::optional<InputState>& input() const noexcept { return input_; }
-  /// Nothing if the device has no report for it.
+  /// Empty if the device has no report for it.
   const std::optional<Telemetry>& telemetry() const noexcept { return telemetry_; }
 
   /// The transfer to make now, if any; each is given to `finish` once it has ended.

@@ -79,7 +79,7 @@ class PidTransport {
   /// Why it was lost; empty otherwise. This and all functions below are not real-time, and for any thread.
   virtual std::string reason() const = 0;
   virtual hid::PidSessionCounts counts() const = 0;
-  /// Nothing if the device or the transport has no such report.
+  /// Empty if the device or the transport has no such report.
   virtual std::optional<hid::Telemetry> telemetry() const { return std::nullopt; }
   virtual hid::Arrangement arrangement() const = 0;
 

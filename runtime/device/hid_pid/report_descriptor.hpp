@@ -51,7 +51,7 @@ struct Field {
   std::vector<UsageRange> usages;
 
   /// The usage of element `index` of a variable field, or of the value `logical_minimum + index` of an array. The last
-  /// usage of a variable field also counts for all elements after it. Nothing if there is no such usage.
+  /// usage of a variable field also counts for all elements after it. Empty if there is no such usage.
   std::optional<Usage> usage_at(std::uint32_t index) const;
   /// The first `index` at which `usage_at` is `wanted`, among the elements of a variable field or the values of an
   /// array.

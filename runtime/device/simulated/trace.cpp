@@ -61,7 +61,7 @@ struct Heading {
   std::string_view unit;
 };
 
-/// The quantity and unit of a column named "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx"; nothing for a column to ignore,
+/// The quantity and unit of a column named "vx (m/s)", "vx [m/s]", "vx_m/s" or "vx"; empty for a column to ignore,
 /// such as "x_target".
 std::optional<Heading> read_heading(std::string_view text) {
   const auto underscore = text.find('_');
@@ -155,18 +155,17 @@ Result<Trace> read_trace(std::string_view text) {
   if (!columns) return columns.error();
   Trace trace;
   trace.velocities_given = (*columns)[vx].has_value();
-  while (true) {
-    const auto row = reader.next();
-    if (!row) return row.error();
-    if (!*row) break;
-    const auto point = read_point(**row, *columns);
+  const auto taken = each_row(reader, [&](const CsvRow& row) -> Result<> {
+    const auto point = read_point(row, *columns);
     if (!point) return point.error();
     if (!trace.points.empty() && point->time <= trace.points.back().time) {
-      return unlike_csv((*row)->line, "a time after " + shortest(trace.points.back().time) + " s",
+      return unlike_csv(row.line, "a time after " + shortest(trace.points.back().time) + " s",
                         shortest(point->time) + " s");
     }
     trace.points.push_back(*point);
-  }
+    return {};
+  });
+  if (!taken) return taken.error();
   if (trace.points.empty()) return unlike_csv(0, "at least one line of numbers after the header", "none");
   if (!trace.velocities_given) derive_velocities(trace.points);
   // Programs compute in single precision, where a faster hand would have an infinite velocity.

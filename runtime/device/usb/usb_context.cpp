@@ -96,7 +96,8 @@ Error why_not_usable(int error, const UsbDeviceInfo& info) {
 Result<std::shared_ptr<UsbContext>> UsbContext::open() {
   libusb_context* context = nullptr;
   if (const int error = libusb_init(&context); error != 0) {
-    return Error{Code::unusable_device, "USB cannot be used: " + std::string(libusb_strerror(error))};
+    return Error{Code::unusable_device, "USB cannot be used: " + std::string(libusb_strerror(error)),
+                 "see that /dev/bus/usb is there; a container or a virtual machine must be given it"};
   }
   return std::shared_ptr<UsbContext>(new UsbContext(context));
 }

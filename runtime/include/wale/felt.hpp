@@ -38,7 +38,7 @@ struct Felt {
   long ticks_rubbing = 0;                        ///< of them, those within the patch with the hand not stuck
   ForceSize force;                               ///< the actuator's, over all measured ticks
   ForceSize force_rubbing;                       ///< the actuator's, while rubbing
-  std::optional<ForceSize> interaction;          ///< between hand and handle; nothing if the device does not measure it
+  std::optional<ForceSize> interaction;          ///< between hand and handle; empty if the device does not measure it
   std::optional<ForceSize> interaction_rubbing;  ///< the same while rubbing
   /// All swings of the force from more than half the amplitude on one side to more than half on the other, along the
   /// axis with more force.

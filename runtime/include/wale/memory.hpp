@@ -30,7 +30,8 @@ class Memory {
   /// `with_states` (the hand stayed on the patch), the states. Call it after `enter`, so that new states begin as on
   /// entering. Calls after the first do nothing. Real-time: allocates nothing, takes no lock, makes no system call.
   void succeed(bool with_states) noexcept;
-  /// Whether `other` is a direct or earlier predecessor that has not been succeeded. Real-time likewise.
+  /// Whether `other` is a direct or earlier predecessor that has not been succeeded.
+  /// Real-time: allocates nothing, takes no lock, makes no system call, does not throw.
   bool follows(const Memory* other) const noexcept;
   /// Releases the predecessor if it has been succeeded. For the control side: it frees memory.
   void forget_predecessor();

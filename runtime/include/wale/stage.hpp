@@ -102,7 +102,7 @@ struct RunResult {
   GuardCounts guards;
   std::string scheduling;  ///< one line: the priority that the loop got, and whether memory and processors were held
   Record record;
-  std::optional<Error> record_problem;  ///< why the recording ended before the run; nothing if it did not
+  std::optional<Error> record_problem;  ///< why the recording ended before the run; empty if it did not
 };
 
 /// Patches on a device's workspace, and the loop that lets the hand feel the front-most one under it.

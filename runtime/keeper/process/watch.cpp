@@ -1,8 +1,9 @@
 #include "runtime/keeper/process/watch.hpp"
 
 #include <poll.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "runtime/keeper/nanoseconds.hpp"
 
 namespace wale::keeper {
 namespace {
@@ -11,12 +12,6 @@ constexpr int between_looks = 5;  // ms
 /// While the device is held, all steps are made again, because a packet that the owner had checked before the latch was
 /// set may still come: soon at first, then seldom.
 constexpr int soon = 5, rounds_soon = 10, seldom = 100;  // ms
-
-std::int64_t nanoseconds_now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
 
 /// What a look at the owner tells.
 struct Owner {
@@ -30,7 +25,7 @@ Owner look_at(KeeperBoard& board, int owner, int wake, int milliseconds) {
     std::uint64_t calls = 0;
     [[maybe_unused]] const ssize_t got = read(wake, &calls, sizeof calls);
   }
-  board.look.store(nanoseconds_now(), std::memory_order_release);
+  board.look.store(nanoseconds_of(CLOCK_MONOTONIC), std::memory_order_release);
   return {ready > 0 && waits[0].revents != 0, board.is_over.load(std::memory_order_acquire) != 0};
 }
 
@@ -40,7 +35,7 @@ Latch reason_to_take(const KeeperBoard& board, const Owner& owner) {
   if (asked != Latch::open) return asked;
   if (owner.is_dead) return Latch::owner_died;
   if (board.pushes.load(std::memory_order_seq_cst) == 0) return Latch::open;
-  const std::int64_t silent = nanoseconds_now() - board.beat.load(std::memory_order_acquire);
+  const std::int64_t silent = nanoseconds_of(CLOCK_MONOTONIC) - board.beat.load(std::memory_order_acquire);
   return silent > most_nanoseconds_without_beat ? Latch::no_beat : Latch::open;
 }
 

@@ -105,7 +105,7 @@ struct Desk {
 /// From a checked material to its patch program, which is still to be verified.
 inline PatchProgram emitted(const CheckedMaterial& material, const CheckedModule& module, Desk& desk) {
   const SolvedMaterial solved = solve(material, module, default_device, desk.sources, desk.resolver, desk.diagnostics);
-  auto program = emit(lower(solved), solved, desk.diagnostics);
+  auto program = emit(lower(solved, desk.diagnostics), solved, desk.diagnostics);
   desk.expect_no_errors();
   return std::move(*program);
 }

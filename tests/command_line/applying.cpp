@@ -1,0 +1,93 @@
+// Options that cannot apply to what they are given with: each is refused as wrong usage, and says what to do.
+#include <gtest/gtest.h>
+
+#include "tests/command_line/running.hpp"
+
+namespace wale::command_line::applying_test {
+namespace {
+
+struct Inapplicable {
+  std::vector<std::string> words;
+  std::string said;
+};
+
+void expect_misuse(const std::vector<Inapplicable>& commands) {
+  for (const auto& [words, said] : commands) {
+    const Outcome outcome = wale(words);
+    std::string command;
+    for (const std::string& word : words) command += word + " ";
+    EXPECT_EQ(outcome.status, 2) << command << outcome.err;
+    EXPECT_EQ(outcome.out, "") << command;
+    EXPECT_TRUE(contains(outcome.err, said)) << command << "expected: " << said << "\n" << outcome.err;
+  }
+}
+
+TEST(Applying, OptionsOfARealDeviceNeedOne) {
+  expect_misuse({{{"feel", corduroy, "--virtual-time", "--transport", "hidraw"}, "leave out --transport"},
+                 {{"feel", corduroy, "--device", "simulated", "--transport", "evdev"}, "found a simulated one"},
+                 {{"devices", "--transport", "hidraw"}, "--identify"},
+                 {{"devices", "--save"}, "--identify"},
+                 {{"devices", "--max-force", "1 N"}, "--identify"}});
+}
+
+TEST(Applying, OptionsOfASimulationNeedOne) {
+  expect_misuse({{{"feel", corduroy, "--device", "usb", "--virtual-time"}, "leave out --virtual-time"},
+                 {{"feel", corduroy, "--device", "1-2", "--hand", "rest"}, "leave out --virtual-time and --hand"}});
+}
+
+TEST(Applying, WatchingNeedsAFileOnDisk) {
+  const TemporaryFolder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder / ".");  // in a checkout the shipped materials are files
+  expect_misuse({{{"feel", "brick", "--watch", "--device", "simulated", "--seconds", "0.1"}, "leave out --watch"},
+                 {{"feel", corduroy, "--watch", "--virtual-time"}, "--watch"}});
+  fs::current_path(before);
+  const std::string program = folder / "corduroy.wpp";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  EXPECT_EQ(wale({"feel", program, "--watch", "--device", "simulated", "--seconds", "0.1"}).status, 0);
+}
+
+TEST(Applying, APadHasNoForceToLimit) {
+  expect_misuse({{{"feel", corduroy, "--device", "simulated:touch_pad", "--virtual-time", "--max-force", "1 N"},
+                  "leave out --max-force"}});
+}
+
+TEST(Applying, WhatAPatchProgramLacksIsNamed) {
+  const TemporaryFolder folder;
+  const std::string program = folder / "corduroy.wpp";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  expect_misuse({{{"build", program, "--all", "-o", folder / "all"}, "leave out --all"},
+                 {{"build", program, "--emit", "ir"}, "the stages listing and cpp"},
+                 {{"describe", program, "--device", "all"}, "leave out --device"},
+                 {{"describe", program, "--exports"}, "leave out --exports"}});
+}
+
+TEST(Applying, OptionsOfOneMaterialAreRefusedWithTheWholeFile) {
+  const TemporaryFolder folder;
+  const std::string exports = folder.write("f.wale", "wale 1\nexport function twice(x) = 2 * x\n");
+  EXPECT_EQ(wale({"describe", exports}).status, 0);
+  expect_misuse({{{"describe", exports, "--device", "falcon"}, "leave out --device"},
+                 {{"describe", exports, "--set", "a=1"}, "leave out --set"},
+                 {{"describe", corduroy, "--exports", "--device", "all"}, "--exports"},
+                 {{"describe", corduroy, "--exports", "--set", "wale=3mm"}, "--exports"},
+                 {{"build", corduroy, "--emit", "tree", "--material", "corduroy"}, "leave out --material"},
+                 {{"build", corduroy, "--emit", "tree", "--device", "falcon"}, "leave out --device"},
+                 {{"build", corduroy, "--emit", "checked", "--device", "falcon"}, "leave out --device"}});
+}
+
+TEST(Applying, EndingsMayBeInCapitalLetters) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "R.WREC";
+  EXPECT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", recording}).status, 0);
+  EXPECT_EQ(wale({"replay", recording, "--wav", folder / "R.WAV"}).status, 0);
+}
+
+TEST(Applying, SimulatedIsNoNameOfADevice) {
+  const Outcome outcome = wale({"feel", corduroy, "--device", "simulated:simulated", "--virtual-time"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(contains(outcome.err, "`simulated` alone is the device that the program is built for")) << outcome.err;
+  EXPECT_TRUE(!contains(wale({"feel", corduroy, "--device", "simulatd", "--virtual-time"}).err, "simulated:simulated"));
+}
+
+}  // namespace
+}  // namespace wale::command_line::applying_test
