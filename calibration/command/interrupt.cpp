@@ -123,7 +123,8 @@ void when_stopped(int) {
     std::strcpy(why.data(), "an exception of unknown kind");
   }
   if (let_all_go()) {
-    tell({"wale: ended by an error that nothing handles: ", why.data(), "; no device is pushed any more\n"});
+    tell({"wale: ended by an error that nothing handles: ", why.data(),
+          "; no device is pushed any more; please report it (schema/SECURITY.md)\n"});
   }
   std::abort();
 }

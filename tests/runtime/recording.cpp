@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 
 #include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
@@ -283,6 +284,32 @@ TEST(Recording, ADifferenceIsReportedWithItsTick) {
   EXPECT_EQ(replayed.first->recorded, right + 0.25f);
   EXPECT_EQ(replayed.first->replayed, right);
   EXPECT_NEAR(replayed.largest_force, 0.25, 1e-6);
+}
+
+// Mapped memory of a file that became shorter would end the process.
+TEST(Recording, OfAFileThatIsShortenedMeanwhileStaysWhole) {
+  const TemporaryFolder folder;
+  SimulatedJoystick joystick(sandpaper(), normal_hand(), Circular{0.075, 1, {0.03, 0}});
+  Stage stage(joystick);
+  stage.place(corduroy(1.934f), {0.001f, 0});
+  run(stage, {.seconds = 1, .virtual_time = true, .record_to = RecordTo{folder / "a.wrec", "circular"}});
+  const Recording recording = opened(folder / "a.wrec");
+  std::filesystem::resize_file(folder / "a.wrec", 0);
+  const auto replayed = replay(recording);
+  ASSERT_TRUE(replayed) << replayed.error().sentence;
+  EXPECT_EQ(replayed->ticks, 900u);
+  EXPECT_FALSE(replayed->first);
+}
+
+TEST(Recording, OfAFileThatIsTooLargeIsRefusedUnread) {
+  const TemporaryFolder folder;
+  folder.write("large.wrec", "");
+  std::filesystem::resize_file(folder / "large.wrec", (std::uintmax_t{1} << 31) + 1);  // a hole: it takes no room
+  const auto recording = Recording::open(folder / "large.wrec");
+  ASSERT_FALSE(recording);
+  EXPECT_EQ(recording.error().code, Code::unreadable_file);
+  EXPECT_NE(recording.error().sentence.find("Wale reads up to 2048 MB"), std::string::npos)
+      << recording.error().sentence;
 }
 
 TEST(Recording, ARunMayKeepOnlyItsEnd) {

@@ -369,6 +369,27 @@ TEST_F(Feeling, DevicesListsPluggedInDevicesAndObstacles) {
   EXPECT_TRUE(contains(felt.err, "cannot be used: another program has claimed it")) << felt.err;
 }
 
+// What it calls itself is a stranger's text: nothing in it acts on the terminal, and it forges no line.
+TEST_F(Feeling, ADevicesOwnNameIsShownAndNotObeyed) {
+  PidFamily family = arduino();
+  family.vendor = 0x1234;
+  family.product = 0x5678;
+  family.name = R"(Stick\nforged: line\033[2J\302\23331m\342\200\256\377)";  // as the mock reads it
+  mock_.plug(PidModel(family), 3);
+  found(1);
+  const std::string shown = R"(Stick\u000aforged: line\u001b[2J\u009b31m\u202e)"
+                            "\uFFFD";
+  const Outcome listed = run_wale("devices"), json = run_wale("devices --json");
+  EXPECT_TRUE(contains(listed.out, shown)) << listed.out;
+  EXPECT_EQ(nlohmann::json::parse(json.out).back().at("name"), shown);
+  const Outcome felt = run_wale("feel " + corduroy + " --seconds 0.2 --device usb");
+  EXPECT_TRUE(contains(felt.err, shown)) << felt.err;
+  for (const Outcome* each : {&listed, &json, &felt})
+    for (const std::string& text : {each->out, each->err}) {
+      EXPECT_FALSE(contains(text, "\033") || contains(text, "\u202e") || contains(text, "\nforged")) << text;
+    }
+}
+
 TEST_F(Feeling, IdentifyFindsTheAxesAndLeavesNoForce) {
   const auto stick = mock_.plug(PidModel(openffboard()), 1);
   stick->with_model([](PidModel& model) { model.let_go(); });
