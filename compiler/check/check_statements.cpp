@@ -23,7 +23,8 @@ void StatementChecker::check(const std::vector<AssembledStatement>& statements) 
   const auto parameters = static_cast<std::size_t>(std::ranges::count_if(statements, is_parameter));
   if (material_.parameters.empty()) material_.parameters.reserve(parameters);
   for (const auto& assembled : statements) {
-    if (!checker_.charge(operations_of_a_statement, assembled.statement->span)) return;
+    const Span& span = assembled.statement->span;
+    if (!checker_.charge(operations_of_a_statement + operations_of_text(span), span)) return;
     statement_ = &assembled;
     checker_.read(*assembled.home);
     std::visit(*this, assembled.statement->what);

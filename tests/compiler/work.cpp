@@ -114,7 +114,7 @@ TEST(Work, OfASharedSumIsThatOfTheSum) {
 }
 
 /// No material that somebody would write comes near.
-TEST(Work, OfTwelveTexturesIsAFiftieth) {
+TEST(Work, OfTwelveTexturesIsAFortieth) {
   std::string lines;
   for (int i = 0; i < 12; ++i) {
     const std::string n = std::to_string(i);
@@ -123,7 +123,7 @@ TEST(Work, OfTwelveTexturesIsAFiftieth) {
   }
   const Outcome outcome = outcome_of(material("m", "", lines).insert(0, "wale 1\n"));
   EXPECT_TRUE(outcome.good) << outcome.error;
-  EXPECT_LT(outcome.operations, Budget::for_any_text / 50);
+  EXPECT_LT(outcome.operations, Budget::for_any_text / 40);
 }
 
 }  // namespace
