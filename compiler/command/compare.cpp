@@ -8,6 +8,7 @@
 #include "compiler/command/options.hpp"
 #include "compiler/command/recalled.hpp"
 #include "compiler/compare/compare_files.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
@@ -45,6 +46,8 @@ int compare(const CompareOptions& options) {
   if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
+  for (const Cues& cues : materials)
+    if (cues.coarseness > 1) fmt::print(stderr, "wale: {}\n", coarseness_note(cues.material, cues.coarseness));
   const ComparisonMatrix matrix(std::move(materials), common->declarations);
   print_recalled(matrix.recalled());
   fmt::print("{}", options.json ? comparison_json(matrix) : comparison_text(matrix, options.with_table));

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "compiler/command/options.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
@@ -28,6 +29,14 @@ int preview(const PreviewOptions& options) {
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     fmt::print(stderr, "wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  const PatchProgram& program = programs.front().description();
+  if (const std::size_t coarseness = coarseness_of(program); coarseness > 1)
+    fmt::print(stderr, "wale: {}\n", coarseness_note(program.material, coarseness));
+  if (drawing->coarseness > 1)
+    fmt::print(stderr,
+               "wale: this program is so large that its surface is drawn in squares of {0} x {0} pixels, each of one "
+               "sample\n",
+               drawing->coarseness);
   const auto bytes = encode_drawing(*drawing, options.out);
   if (!bytes) return refuse(bytes.error());
   const auto written =
