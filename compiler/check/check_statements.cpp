@@ -235,6 +235,8 @@ std::string StatementChecker::free_name(const std::string& name,
 std::optional<double> StatementChecker::parameter_value(const ParamStatement& node, const Value& own_value) {
   if (!statement_->value) return checker_.constant(own_value);
   double sum = 0;
+  constexpr std::size_t operations_of_a_part = 8;
+  if (!checker_.charge(operations_of_a_part * statement_->value->parts.size(), node.name.span)) return std::nullopt;
   for (const auto& part : statement_->value->parts) {
     Scope outside;
     checker_.read(*part.home);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/compiler/compiling.hpp"
 #include "tests/compiler/growing.hpp"
 #include "tests/usb/allocations.hpp"
@@ -90,6 +92,18 @@ TEST(Work, OfBlendsOfBlendsIsRefusedBeforeItIsDone) {
     EXPECT_LT(outcome.operations, 1u << 20) << levels;
     EXPECT_LT(outcome.allocations, 1 << 20) << levels;
   }
+}
+
+/// Each parameter of `between` has the parts of both materials.
+TEST(Work, OfMixturesOfMixturesIsRefusedBeforeItIsDone) {
+  const auto all = materials();
+  const auto between = std::ranges::find(all, std::string("`between`"), &Materials::name);
+  ASSERT_NE(between, all.end());
+  const Outcome outcome =
+      outcome_of(between->grow(40, "", "", "param j = 1 in 0 .. 9\nforce = spring(j * k * 1 N/m)\n"));
+  EXPECT_EQ(outcome.error, "W0603");
+  EXPECT_LT(outcome.operations, 2u << 20);
+  EXPECT_LT(outcome.allocations, 1 << 21);
 }
 
 TEST(Work, OfSmallBlendsOfBlendsIsDone) {
