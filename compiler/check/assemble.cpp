@@ -102,6 +102,8 @@ class Assembler {
   static void measure(AssembledMaterial& material) {
     std::size_t levels = 1;
     material.size = material.work = material.statements.size();
+    for (const auto& assembled : material.statements)
+      if (assembled.value) material.work += assembled.value->parts.size();  // which `between` adds up
     for (const auto& component : material.components) {
       material.size += 1 + component.material->size;
       material.work += 1 + component.material->work;
@@ -391,6 +393,7 @@ class Assembler {
       component.material = copy;
       component.weight += way * (b.components[i].weight - component.weight);
     }
+    measure(a);
     blend_levels(a);
   }
 

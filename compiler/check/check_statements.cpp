@@ -23,7 +23,8 @@ void StatementChecker::check(const std::vector<AssembledStatement>& statements) 
   const auto parameters = static_cast<std::size_t>(std::ranges::count_if(statements, is_parameter));
   if (material_.parameters.empty()) material_.parameters.reserve(parameters);
   for (const auto& assembled : statements) {
-    if (!checker_.charge(operations_of_a_statement, assembled.statement->span)) return;
+    const Span& span = assembled.statement->span;
+    if (!checker_.charge(operations_of_a_statement + operations_of_text(span), span)) return;
     statement_ = &assembled;
     checker_.read(*assembled.home);
     std::visit(*this, assembled.statement->what);
@@ -234,6 +235,8 @@ std::string StatementChecker::free_name(const std::string& name,
 std::optional<double> StatementChecker::parameter_value(const ParamStatement& node, const Value& own_value) {
   if (!statement_->value) return checker_.constant(own_value);
   double sum = 0;
+  constexpr std::size_t operations_of_a_part = 8;
+  if (!checker_.charge(operations_of_a_part * statement_->value->parts.size(), node.name.span)) return std::nullopt;
   for (const auto& part : statement_->value->parts) {
     Scope outside;
     checker_.read(*part.home);

@@ -10,6 +10,7 @@
 #include "compiler/command/print.hpp"
 #include "compiler/command/recalled.hpp"
 #include "compiler/compare/compare_files.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "schema/visible_text.hpp"
 
@@ -47,6 +48,8 @@ int compare(const CompareOptions& options) {
   if (const auto fit = comparable(files); !fit) return refuse(fit.error());
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
+  for (const Cues& cues : materials)
+    if (cues.coarseness > 1) fmt::print(stderr, "wale: {}\n", coarseness_note(cues.material, cues.coarseness));
   const ComparisonMatrix matrix(std::move(materials), common->declarations);
   print_recalled(matrix.recalled());
   print_out(options.json ? comparison_json(matrix) : comparison_text(matrix, options.with_table));

@@ -12,6 +12,7 @@
 #include "compiler/command/print.hpp"
 #include "compiler/describe/describe_module.hpp"
 #include "compiler/describe/fates.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
@@ -125,6 +126,8 @@ int describe(const DescribeOptions& options) {
     const auto parameters = chosen_parameters(program, options.settings);
     if (!parameters) return refuse(parameters.error());
     descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
+    if (const Description& last = descriptions.back(); last.coarseness > 1)
+      fmt::print(stderr, "wale: {}\n", coarseness_note(last.material, last.coarseness));
   }
   if (options.json) {
     print_out(descriptions_json(descriptions));

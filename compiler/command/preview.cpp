@@ -7,6 +7,7 @@
 
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/modules/load_modules.hpp"
 
 namespace wale::command {
@@ -30,6 +31,13 @@ int preview(const PreviewOptions& options) {
   if (!drawing) return refuse(drawing.error());
   if (!drawing->has_text)
     print_error("wale: no font is installed, so the picture has no words (Debian: fonts-dejavu-core)\n");
+  const PatchProgram& described = program.description();
+  if (const std::size_t coarseness = coarseness_of(described); coarseness > 1)
+    print_error("wale: {}\n", coarseness_note(described.material, coarseness));
+  if (drawing->coarseness > 1)
+    print_error("wale: this program is so large that its surface is drawn in squares of {0} x {0} pixels, each of one "
+                "sample\n",
+                drawing->coarseness);
   const auto bytes = encode_drawing(*drawing, options.out);
   if (!bytes) return refuse(bytes.error());
   const auto written =

@@ -184,6 +184,7 @@ std::string comparison_json(const ComparisonMatrix& matrix) {
   Json materials = Json::array(), pairs = Json::array();
   for (const Cues& cues : all) {
     Json& material = materials.emplace_back(Json{{"name", cues.material}});
+    if (cues.coarseness > 1) material["coarseness"] = cues.coarseness;
     for (const CueFacts& facts : cue_table())
       if (cues[facts.kind]) material["cues"][facts.name] = {{"value", *cues[facts.kind]}, {"unit", facts.unit}};
   }

@@ -14,6 +14,7 @@
 #include "compiler/describe/describe_extracted.hpp"
 #include "compiler/extract/cues.hpp"
 #include "compiler/extract/dependence.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/rehearsal.hpp"
 #include "runtime/machine/parallel.hpp"
 
@@ -224,6 +225,7 @@ Description describe(const Bank& bank, const Declarations& declarations, Texture
     code.peaks += peak.code.size();
     code.peak_cost += cost_of(peak.code) * peak.points;
   }
+  description.coarseness = coarseness_of(program);
   description.bytes = write_patch_program(program).size();
   return description;
 }

@@ -79,7 +79,8 @@ struct Description {
     /// In units of one addition: peaks over all points, the picture for one point.
     long setup_cost = 0, peak_cost = 0, enter_cost = 0, tick_cost = 0, picture_cost = 0, frame_cost = 0;
   } code;
-  std::size_t bytes = 0;  ///< of the `.wpp` file
+  std::size_t bytes = 0;       ///< of the `.wpp` file
+  std::size_t coarseness = 1;  ///< of how many places one was sampled
 };
 
 /// Whether percepts and a texture that the author did not ask for are read from the force, which takes longer.

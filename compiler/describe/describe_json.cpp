@@ -162,6 +162,7 @@ void add_code(nlohmann::ordered_json& json, const Description& description) {
   section("picture", code.picture, code.picture_cost);
   section("frame", code.frame, code.frame_cost);
   json["cost"] = description.code.tick_cost;
+  if (description.coarseness > 1) json["coarseness"] = description.coarseness;
   json["bytes"] = description.bytes;
 }
 

@@ -216,6 +216,11 @@ std::string description_text(const Description& description) {
   text += fmt::format(", picture {} ({})", code.picture, code.picture_cost);
   if (code.frame > 0) text += fmt::format(", frame {} ({})", code.frame, code.frame_cost);
   text += fmt::format("; {} bytes\n", description.bytes);
+  if (description.coarseness > 1)
+    text += fmt::format("  its tick costs so much that only one of {} places was sampled{}\n", description.coarseness,
+                        description.states.empty() && description.memories.empty()
+                            ? ""
+                            : ", and its answer to motion was not measured");
   return text;
 }
 

@@ -135,8 +135,6 @@ Value call_function(ExpressionReading& reading, const SyntaxTree& tree, ExprId e
   const Span span = tree.span(expr);
   if (!may_expand(reading, call.callee)) return failed_value(span);
   const auto& parameters = function.node->parameters;
-  constexpr std::size_t operations_of_a_call = 8;
-  if (!reading.charge(operations_of_a_call + 4 * parameters.size(), span)) return failed_value(span);
   const FormalNames formals = names_of(parameters);
   auto [actuals, bound] = bind_arguments(reading, tree, call, formals, scope);
   bool good = bound;
@@ -240,6 +238,7 @@ bool fill_in(ExpressionReading& reading, const Declared<FunctionDecl>& function,
     if (!actuals[i].given) {
       Scope defaults;
       defaults.hand = hand;
+      if (!reading.charge(operations_of_text(function.tree->span(*formal.default_value)), span)) return false;
       value = check_expression(reading, *function.tree, *formal.default_value, defaults);
       value.span = span;
     }
@@ -270,7 +269,10 @@ Value expanded(ExpressionReading& reading, const Declared<FunctionDecl>& functio
   const FunctionDecl& declaration = *function.node;
   const auto* outside_names = std::exchange(reading.names, function.home);
   Value result = failed_value(span);
-  if (fill_in(reading, function, actuals, scope.hand, span)) {
+  constexpr std::size_t operations_of_a_call = 8, of_an_argument = 4;
+  const std::size_t operations = operations_of_a_call + of_an_argument * actuals.size() +
+                                 operations_of_text(function.tree->span(declaration.body));
+  if (reading.charge(operations, span) && fill_in(reading, function, actuals, scope.hand, span)) {
     reading.calls.enter(declaration.name.text, false, span);
     result = body(reading, function, actuals, scope.hand);
     reading.calls.leave();

@@ -124,8 +124,6 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 
 Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope) {
   const Span span = tree.span(expr);
-  if (!reading.charge(1, span)) [[unlikely]]
-    return failed_value(span);
   Value value =
       std::visit(Overloaded{
                      [&](const NumberLiteral& literal) { return number(reading, tree, expr, literal, scope); },

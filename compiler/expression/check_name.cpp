@@ -81,6 +81,8 @@ std::optional<Value> constant_named(ExpressionReading& reading, const Word& word
       return calls.report(Code::nested_too_deep, word.span,
                           fmt::format("more than {} definitions are nested here", deepest_call), "",
                           "write some of them out");
+    if (!reading.charge(operations_of_text(found->tree->span(found->node->value)), word.span))
+      return failed_value(word.span);
     calls.enter(word.text, true, word.span);
     const auto* outside_names = std::exchange(reading.names, found->home);
     Scope outside;

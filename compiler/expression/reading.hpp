@@ -52,6 +52,10 @@ struct KnownNames {
   std::vector<Span> ambiguous;                            ///< declarations of names that are units too
 };
 
+/// The operations that an expression takes, without those of the functions that it calls: one for each of its operators
+/// and names, of which a text has about one in two bytes.
+inline std::size_t operations_of_text(const Span& span) { return 1 + (span.end - span.begin) / 2; }
+
 /// The state that the parts of the expression checker share while they read the expressions of one material.
 struct ExpressionReading {
   ExpressionReading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)

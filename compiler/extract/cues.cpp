@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "compiler/extract/tolerances.hpp"
+#include "compiler/measure/coarseness.hpp"
 
 namespace wale {
 namespace {
@@ -62,7 +63,7 @@ Cues cues_of(const Bank& bank, const Declarations& declarations) { return cues_o
 
 Cues cues_of(const Bank& bank, const Extraction& found) {
   const PatchProgram& program = bank.program().description();
-  Cues cues{program.material, program.device.name, {}};
+  Cues cues{program.material, program.device.name, {}, coarseness_of(program)};
   const TextureForce &texture = found.texture, &bumps = found.bumps;
   cues[CueKind::amplitude] =
       unless_little(texture.amplitude, std::max(least_force, least_of_texture * bumps.amplitude));

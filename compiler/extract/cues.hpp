@@ -44,6 +44,7 @@ struct Cues {
   std::string material;
   std::string device;
   std::array<std::optional<double>, cue_count> values;
+  std::size_t coarseness = 1;  ///< of how many places one was sampled
 
   std::optional<double>& operator[](CueKind kind) { return values[static_cast<std::size_t>(kind)]; }
   const std::optional<double>& operator[](CueKind kind) const { return values[static_cast<std::size_t>(kind)]; }

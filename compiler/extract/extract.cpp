@@ -5,6 +5,7 @@
 
 #include "compiler/extract/dependence.hpp"
 #include "compiler/extract/tolerances.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -52,10 +53,11 @@ Extraction extract(const Bank& bank, const PeriodBand& textures, const PeriodBan
     for (std::size_t part = begin; part < end; ++part) part == 0 ? read_still() : read_moving();
   };
   // Strokes that run tick by tick take as long as all static measurements together.
+  const std::size_t parts = leaves_out_motion(bank.program().description()) ? 1 : 2;
   if (remembers)
-    in_parallel(2, read);
+    in_parallel(parts, read);
   else
-    read(0, 2);
+    read(0, parts);
   if (!found.wall) found.stiffness = even_stiffness(*still);
   // A hill that does not fit twice into the patch cannot be distinguished from a spring that weakens.
   if (found.bumps.period > longest_bump * still->whole.extent().x) found.bumps = {};

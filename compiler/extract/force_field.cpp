@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "compiler/measure/coarseness.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -28,7 +29,8 @@ ForceField sample_force_field(const Bank& bank, glm::dvec2 centre, glm::dvec2 si
           Hand& hand = hands[row * side + column];
           hand.position = hand.workspace = glm::vec2(field.place(column, first + row));
         }
-      tick_all(bank, std::span(hands).first(count * side), std::span(field.forces).subspan(first * side, count * side));
+      tick_coarsely(bank, std::span(hands).first(count * side),
+                    std::span(field.forces).subspan(first * side, count * side));
     }
   };
   const PatchProgram& program = bank.program().description();

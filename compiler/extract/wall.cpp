@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/extract/dependence.hpp"
+#include "compiler/measure/coarseness.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
@@ -57,7 +58,7 @@ std::vector<Force> forces_along(const Bank& bank, const std::vector<Scan>& scans
     hands.reserve(forces.size());
     for (const Scan& scan : scans)
       for (std::size_t i = 0; i < scan.count; ++i) hands.push_back(scan.hand(static_cast<double>(i)));
-    tick_all(bank, hands, forces);
+    tick_coarsely(bank, hands, forces);
     return forces;
   }
   Batch batch(bank, scans.size());

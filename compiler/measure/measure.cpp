@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/hands.hpp"
 
 namespace wale {
@@ -38,10 +39,10 @@ Measured measure(const Bank& bank) {
 
   std::vector<Force> forces(hands);
   Measured measured;
-  tick_all(bank, moving, forces);
+  tick_coarsely(bank, moving, forces);
   for (const auto& force : std::span(forces).first(moving.size()))
     measured.max_newton = std::max(measured.max_newton, glm::length(force));
-  tick_all(bank, at_rest, forces);
+  tick_coarsely(bank, at_rest, forces);
   std::vector<float> sizes;
   double squares = 0;
   for (const auto& force : forces) {

@@ -238,6 +238,17 @@ void Canvas::place(const PageBox& box, std::span<const Colour> pixels) {
   }
 }
 
+void Canvas::place_squares(const PageBox& box, std::span<const Colour> squares, int side) {
+  const int left = static_cast<int>(std::lround(box.left * fineness)),
+            top = static_cast<int>(std::lround(box.top * fineness));
+  const int shown = static_cast<int>(std::lround(box.width() * fineness));
+  for (int y = 0; y < shown; ++y)
+    for (int x = 0; x < shown; ++x) {
+      const int row = y * side / shown, column = x * side / shown;
+      blend(left + x, top + y, squares[static_cast<std::size_t>(row * side + column)], 1);
+    }
+}
+
 Drawing Canvas::finish(const ImageLibrary& images) const {
   const int width = width_ / fineness, height = height_ / fineness;
   return {width, height, images.shrunk(pixels_, width_, height_, width, height), static_cast<bool>(sans_)};

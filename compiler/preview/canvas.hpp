@@ -71,6 +71,8 @@ class Canvas {
   double width_of(std::string_view text, const Type& type) const;
   /// The pixels of `box`, rows from the top, `fineness` to a page pixel each way.
   void place(const PageBox& box, std::span<const Colour> pixels);
+  /// The same for a square box, of `side` * `side` squares, each of one colour.
+  void place_squares(const PageBox& box, std::span<const Colour> squares, int side);
 
   /// The page as a drawing, reduced by `images`.
   Drawing finish(const ImageLibrary& images) const;

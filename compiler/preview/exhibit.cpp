@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wale/picture.hpp"
+#include "compiler/measure/coarseness.hpp"
 
 namespace wale {
 namespace {
@@ -16,7 +16,7 @@ constexpr int periods_shown = 8;
 
 std::vector<float> reliefs(const Bank& bank, const Memory* memory, const std::vector<glm::vec2>& positions) {
   std::vector<float> heights(positions.size());
-  surface_all(bank, memory, positions, heights);
+  surface_coarsely(bank, memory, positions, heights);
   for (float& height : heights) {
     if (!std::isfinite(height)) height = 0;
   }
@@ -25,7 +25,7 @@ std::vector<float> reliefs(const Bank& bank, const Memory* memory, const std::ve
 
 std::vector<Force> forces_on(const Bank& bank, const std::vector<Hand>& hands) {
   std::vector<Force> forces(hands.size());
-  tick_all(bank, hands, forces);
+  tick_coarsely(bank, hands, forces);
   return forces;
 }
 

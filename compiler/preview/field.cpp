@@ -38,8 +38,9 @@ void draw_arrow(Canvas& canvas, PagePoint middle, PagePoint reach) {
 
 }  // namespace
 
-double draw_field(Canvas& canvas, const PageBox& box, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
-  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness));
+double draw_field(Canvas& canvas, const PageBox& box, const Bank& bank, const Exhibit& exhibit, bool of_velocity,
+                  int square) {
+  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness)) / square;
   const auto size_of = [](Force force) { return std::hypot(double{force.x}, double{force.y}); };
 
   const auto ground = forces_over(bank, exhibit, of_velocity, shown);
@@ -51,7 +52,7 @@ double draw_field(Canvas& canvas, const PageBox& box, const Bank& bank, const Ex
     const double part = strongest > 0 ? size_of(force) / strongest : 0;
     pixels.push_back(mixed(style::field_weak, style::field_strong, static_cast<float>(part)));
   }
-  canvas.place(box, pixels);
+  canvas.place_squares(box, pixels, shown);
 
   const double cell = box.width() / arrows;
   const auto coarse = forces_over(bank, exhibit, of_velocity, arrows);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/rehearsal.hpp"
 #include "compiler/preview/axis.hpp"
 #include "compiler/preview/canvas.hpp"
@@ -155,13 +156,28 @@ Plot felt_plot(const Rehearsal& rehearsal) {
   return plot;
 }
 
+/// The side, in pixels, of the squares in which the picture is drawn: of the surface, or of the force.
+int square_of(const Bank& bank, bool of_surface) {
+  const PatchProgram& program = bank.program().description();
+  const long cost = of_surface ? cost_of(program.picture.code) : cost_of(program.enter) + cost_of(program.tick);
+  return pixels_of_a_sample(static_cast<double>(cost),
+                            static_cast<int>(std::lround(picture.width() * Canvas::fineness)));
+}
+
+/// Whether the left half of the page is the surface; otherwise it is the field of the force.
+bool shows_surface(const Bank& bank, const Exhibit& exhibit) {
+  const PatchProgram& program = bank.program().description();
+  return exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() || remembers(program) ||
+         program.vibrates();
+}
+
 /// Whether the force is shown against velocity: the program only resists motion.
 bool is_of_velocity(const Exhibit& exhibit) { return !exhibit.pushes_at_rest && exhibit.resists_motion; }
 
 void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
                   const ImageLibrary& images) {
   const bool in_time = remembers(bank.program().description());
-  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit, images);
+  draw_relief(canvas, picture, bank, &rehearsal.memory, exhibit, images, square_of(bank, true));
   if (exhibit.has_relief) mark_section(canvas, exhibit);
   draw_marks(canvas, picture, exhibit, rehearsal);
   const Notation length = length_notation(exhibit.side);
@@ -177,7 +193,7 @@ void draw_surface(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, cons
 }
 
 void draw_field_and_scale(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, bool of_velocity) {
-  const double strongest = draw_field(canvas, picture, bank, exhibit, of_velocity);
+  const double strongest = draw_field(canvas, picture, bank, exhibit, of_velocity, square_of(bank, false));
   if (of_velocity) {
     draw_scale_bar(canvas, 2 * exhibit.speed, speed_notation(exhibit.speed));
   } else {
@@ -237,10 +253,7 @@ std::optional<FeltSpectrum> felt_spectrum(const Bank& bank, const Exhibit& exhib
 /// The left half of the page: the surface, or the field of a force without one.
 void draw_picture(Canvas& canvas, const Bank& bank, const Exhibit& exhibit, const Rehearsal& rehearsal,
                   const ImageLibrary& images) {
-  const PatchProgram& program = bank.program().description();
-  const bool has_surface = exhibit.has_relief || program.picture.colour || !program.picture.marks.empty() ||
-                           remembers(program) || program.vibrates();
-  if (has_surface)
+  if (shows_surface(bank, exhibit))
     draw_surface(canvas, bank, exhibit, rehearsal, images);
   else
     draw_field_and_scale(canvas, bank, exhibit, is_of_velocity(exhibit));
@@ -296,7 +309,9 @@ Result<Drawing> draw_preview(const Bank& bank, const PreviewText& text, const De
     draw_spectrum(canvas, spectrum_plot, *spectrum);
     draw_spectrogram(canvas, spectrogram_plot, *spectrum);
   }
-  return canvas.finish(**images);
+  Drawing drawing = canvas.finish(**images);
+  drawing.coarseness = square_of(bank, shows_surface(bank, exhibit));
+  return drawing;
 }
 
 }  // namespace wale

@@ -59,8 +59,8 @@ std::vector<float> hollowness(const Heights& heights, double reach, const ImageL
 }  // namespace
 
 void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Memory* memory, const Exhibit& exhibit,
-                 const ImageLibrary& images) {
-  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness));
+                 const ImageLibrary& images, int square) {
+  const int shown = static_cast<int>(std::lround(box.width() * Canvas::fineness)) / square;
   const Heights heights = heights_of(bank, memory, exhibit, shown);
 
   std::vector<float> slopes;
@@ -102,7 +102,7 @@ void draw_relief(Canvas& canvas, const PageBox& box, const Bank& bank, const Mem
                                                : lit_by(lamp, heights.colours[heights.index(column + 1, row + 1)]));
     }
   }
-  canvas.place(box, pixels);
+  canvas.place_squares(box, pixels, shown);
 }
 
 }  // namespace wale

@@ -22,8 +22,9 @@ constexpr double near_enough = 0.9;       ///< of the force that is looked for
 constexpr double budget = 1.6e7;          ///< units of cost over all points of peaks and all hands, some milliseconds
 constexpr double single = 4;              ///< a single hand costs this much more than one of many
 constexpr std::size_t most_choices = 32;  ///< choices of parameters
-constexpr std::size_t strokes = 16, stroke_ticks = 256;
-constexpr double longest = 60;  ///< s; the latest time of a hand
+constexpr std::size_t strokes = 16, stroke_ticks = 256, fewest_stroke_ticks = 8;
+constexpr double stroking = 1e9;  ///< units of cost of all strokes, about a second; only the largest programs take less
+constexpr double longest = 60;    ///< s; the latest time of a hand
 
 /// Random numbers in [0, 1) that are the same everywhere.
 class Dice {
@@ -299,7 +300,9 @@ class Search {
   /// Moves the hand from position to position while the program remembers, at steady speeds and in jumps. At each
   /// position one of the banks, all with one patch size, takes over.
   LargestForce stroked(std::vector<Bank> banks) {
-    left_ -= strokes * stroke_ticks * single * cost_of_hand();
+    const std::size_t ticks = static_cast<std::size_t>(
+        std::clamp<double>(stroking / (strokes * cost_of_hand()), fewest_stroke_ticks, stroke_ticks));
+    left_ -= static_cast<double>(strokes * ticks) * single * cost_of_hand();
     const PatchSize size = banks.front().size();
     LargestForce best{0, {}, {}, size, true};
     Dice dice(17);
@@ -320,7 +323,7 @@ class Search {
       std::size_t leg = 0;
       std::size_t length = 1 + static_cast<std::size_t>(dice.next() * 60);
       double time = 0;
-      for (std::size_t i = 0; i < stroke_ticks; ++i, time += 1 / description_.device.rate) {
+      for (std::size_t i = 0; i < ticks; ++i, time += 1 / description_.device.rate) {
         if (++leg > length) {
           from = to, to = place();
           leg = 1, length = 1 + static_cast<std::size_t>(dice.next() * 60);

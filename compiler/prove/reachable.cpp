@@ -11,6 +11,9 @@ namespace {
 /// After `patient_ticks` ticks, moving ends of ranges jump to their bounds. After `most_ticks` ticks all other ranges
 /// do too. Then the ranges are shrunk at most `most_shrinkings` times.
 constexpr int patient_ticks = 4, most_ticks = 16, most_shrinkings = 24;
+/// Instructions of all those ticks, about two seconds of work. Only a program far larger than any shipped one meets it,
+/// and its ranges are then those that it declares, or less shrunk ones; both hold.
+constexpr double most_instructions = 0x1p21;
 
 /// The memory of a program: ranges of states, then of memories' cells.
 using Remembered = std::vector<Interval>;
@@ -34,7 +37,7 @@ class Reaching {
     begin_ = begin();
     Remembered now = begin_;
     for (int tick = 0;; ++tick) {
-      if (tick == most_ticks) return whole_;
+      if (tick == most_ticks || left_ <= 0) return whole_;
       Remembered next = after(now);
       if (std::ranges::equal(now, next, contains)) break;
       for (std::size_t i = 0; i < next.size(); ++i) next[i] = grown(now[i], next[i], bounds_[i], tick >= patient_ticks);
@@ -43,7 +46,7 @@ class Reaching {
     // If a tick does not leave a set of ranges, the image of these ranges is also such a set, provided that a tick does
     // not leave it either.
     Remembered next = after(now);
-    for (int i = 0; i < most_shrinkings && next != now; ++i) {
+    for (int i = 0; i < most_shrinkings && left_ > 0 && next != now; ++i) {
       Remembered beyond = after(next);
       if (!std::ranges::equal(next, beyond, contains)) break;
       now = std::move(next);
@@ -92,6 +95,7 @@ class Reaching {
 
   /// Their values after any tick from `remembered` on, or after starting again.
   Remembered after(const Remembered& remembered) {
+    left_ -= static_cast<double>(description_.setup.size() + description_.tick.size());
     machine_.start(domain(remembered), quantities_);
     machine_.run(description_.setup, relations_, 0);
     machine_.run(description_.tick, relations_, description_.setup.size());
@@ -113,6 +117,7 @@ class Reaching {
   const Relations relations_;
   RangeMachine machine_;
   Remembered bounds_, begin_;
+  double left_ = most_instructions;
 };
 
 }  // namespace
