@@ -49,7 +49,7 @@ int compare(const CompareOptions& options) {
   std::vector<Cues> materials;
   for (ComparedFile& file : files) materials.insert(materials.end(), file.cues.begin(), file.cues.end());
   for (const Cues& cues : materials)
-    if (cues.coarseness > 1) fmt::print(stderr, "wale: {}\n", coarseness_note(cues.material, cues.coarseness));
+    if (cues.coarseness > 1) print_error("wale: {}\n", coarseness_note(cues.material, cues.coarseness));
   const ComparisonMatrix matrix(std::move(materials), common->declarations);
   print_recalled(matrix.recalled());
   print_out(options.json ? comparison_json(matrix) : comparison_text(matrix, options.with_table));

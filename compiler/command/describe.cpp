@@ -55,7 +55,7 @@ Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& reques
 int describe_fates(const DescribeOptions& options) {
   Choice choice = options.choice;
   choice.device = default_device, choice.device_option.clear();  // `all` is no device
-  const auto opened = open(choice);
+  auto opened = open(choice);
   if (!opened) return opened.status();
   if (opened->program)
     return refuse(Error{.code = Code::malformed_value,
@@ -64,6 +64,11 @@ int describe_fates(const DescribeOptions& options) {
                         .mend = "leave out --device, or name the Wale file that it was built from",
                         .place = {.name = "--device"}});
   const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
+  for (const std::string& name : names)
+    if (!chosen_material(*opened->module, name, opened->source, opened->diagnostics)) {
+      print_diagnostics(stderr, opened->diagnostics, opened->sources);
+      return refused;
+    }
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
   std::vector<DeviceFates> all;
   std::set<std::string> used;
@@ -127,7 +132,7 @@ int describe(const DescribeOptions& options) {
     if (!parameters) return refuse(parameters.error());
     descriptions.push_back(wale::describe(Bank(program, *parameters, program.default_size()), common->declarations));
     if (const Description& last = descriptions.back(); last.coarseness > 1)
-      fmt::print(stderr, "wale: {}\n", coarseness_note(last.material, last.coarseness));
+      print_error("wale: {}\n", coarseness_note(last.material, last.coarseness));
   }
   if (options.json) {
     print_out(descriptions_json(descriptions));

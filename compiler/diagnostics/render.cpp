@@ -116,6 +116,11 @@ class Excerpt {
     number_width_ = std::to_string(last_line).size();
   }
 
+  /// Whether there is a line to show, so that a bar sets the notes apart from it.
+  bool shows_lines() const {
+    return std::ranges::any_of(files_, [&](const auto& file) { return !sources_[file.first].text.empty(); });
+  }
+
   std::string margin() const { return std::string(number_width_ + 1, ' '); }
 
   /// The file of the primary span first, then the others in the order in which they are named.
@@ -125,7 +130,7 @@ class Excerpt {
       const bool primary = out.empty();
       if (sources_[source].text.empty()) {  // it was not read: there is no line to show
         out += fmt::format("{}{}{}{} {}\n", margin(), paint_.gutter, primary ? "-->" : ":::", paint_.off,
-                           sources_[source].name);
+                           visible_text(sources_[source].name));
         continue;
       }
       const LineColumn place = sources_.place(primary ? files_.front().second.at(primary_line_).front().span
@@ -214,7 +219,8 @@ std::string render_text(const Diagnostic& diagnostic, const SourceSet& sources, 
   note(sign, "cause: ", diagnostic.cause);
   note(sign, "rule: ", diagnostic.rule);
   note(sign, "help: ", diagnostic.help);
-  return notes.empty() ? out : out + fmt::format("{}{} |{}\n", margin, paint.gutter, paint.off) + notes;
+  if (!notes.empty() && excerpt.shows_lines()) out += fmt::format("{}{} |{}\n", margin, paint.gutter, paint.off);
+  return out + notes;
 }
 
 }  // namespace wale

@@ -218,7 +218,7 @@ TEST(Pads, DeclarationsThatDoNotFitAreReported) {
   EXPECT_TRUE(contains(complaint("device p { class force_plane\n" + row + pad + "}"), "`p` vibrates"));
   EXPECT_TRUE(contains(complaint("device p { acceleration 60 Hz, 50 % = 5 m/s^2, 100 % = 4 m/s^2\n" + pad + "}"),
                        "all rising"));
-  EXPECT_TRUE(contains(complaint("device p { acceleration 60 Hz, 100 % = 5 N\n" + pad + "}"), "acceleration expected"));
+  EXPECT_TRUE(contains(complaint("device p { acceleration 60 Hz, 100 % = 5 N\n" + pad + "}"), "expected acceleration"));
   EXPECT_TRUE(contains(complaint("device p { force 3 N, 100 counts\n" + row + pad + "}"), "no setting `force`"));
   EXPECT_EQ(complaint("device p { realise roughness = shaking, rate = speed\n" + row + pad +
                       "}\nmaterial m { perceptual { roughness 0.5 } }"),
@@ -241,8 +241,8 @@ TEST(Pads, TheDimensionsOfARealisationAreChecked) {
     return std::string("fine");
   };
   EXPECT_EQ(said("  realise roughness = shaking, rate = speed / period, period 2 mm\n"), "fine");
-  EXPECT_NE(said("  realise roughness = shaking, rate = speed\n").find("frequency expected"), std::string::npos);
-  EXPECT_NE(said("  realise roughness = 2 N, rate = 100 Hz\n").find("acceleration expected"), std::string::npos);
+  EXPECT_NE(said("  realise roughness = shaking, rate = speed\n").find("expected frequency"), std::string::npos);
+  EXPECT_NE(said("  realise roughness = 2 N, rate = 100 Hz\n").find("expected acceleration"), std::string::npos);
   // A realisation that needs the hand's place is lost on a device without a position.
   Declared blind(device + "  realise roughness = shaking * (0.5 + x / 1 m), rate = 100 Hz\n" + material);
   EXPECT_EQ(fate(blind.program("m", "p"), "roughness", true).fate, Fate::lost);

@@ -55,7 +55,7 @@ TEST(BuildAll, RefusesAFileAsFolderAndFilesWithoutMaterials) {
   EXPECT_EQ(wale({"build", "--all", folder.write("none.wale", "wale 1\n"), "-o", folder / "out"}).status, 1);
   EXPECT_FALSE(fs::exists(folder / "out"));
   ASSERT_EQ(wale({"build", file, "-o", folder / "a.wpp"}).status, 0);
-  EXPECT_EQ(wale({"build", "--all", folder / "a.wpp", "-o", folder / "out"}).status, 1);
+  EXPECT_EQ(wale({"build", "--all", folder / "a.wpp", "-o", folder / "out"}).status, 2);
   EXPECT_EQ(wale({"build", "--all", file, "--material", "a", "-o", folder / "out"}).status, 2);
 }
 

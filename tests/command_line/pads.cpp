@@ -53,8 +53,7 @@ TEST(Pads, EveryVerbTakesTheirPrograms) {
     EXPECT_TRUE(contains(sample.out, "amplitude (m/s^2),frequency (Hz)")) << sample.out;
     for (const std::string stage : {"listing", "cpp"})
       EXPECT_EQ(wale({"build", program, "--emit", stage}).status, 0) << stage;
-    for (const std::string stage : {"tree", "checked", "ir"})
-      EXPECT_EQ(wale({"build", corduroy, "--device", device, "--emit", stage}).status, 0) << stage;
+    EXPECT_EQ(wale({"build", corduroy, "--device", device, "--emit", "ir"}).status, 0);
     const Outcome compared = wale({"compare", program, corduroy});
     EXPECT_EQ(compared.status, 1);
     EXPECT_TRUE(contains(compared.err, "only vibrates")) << compared.err;

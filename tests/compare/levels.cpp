@@ -101,7 +101,7 @@ TEST(Levels, ThatCannotBeProposedAreExplained) {
   EXPECT_TRUE(contains(reason(propose("rougness", 3)), "did you mean `roughness`?"));
   EXPECT_TRUE(contains(reason(propose("roughness", 3, 1, "sandpapr")), "did you mean `sandpaper`?"));
   EXPECT_TRUE(contains(reason(propose("vibration", 3)), "unknown: no published threshold"));
-  EXPECT_TRUE(contains(reason(propose("sharpness", 3)), "can be ordered but has no levels"));
+  EXPECT_TRUE(contains(reason(propose("sharpness", 3)), "found sharpness, which can only be compared"));
   EXPECT_TRUE(contains(reason(propose("springiness", 13)), "ask for 12 levels at most"));
   EXPECT_TRUE(contains(reason(propose("springiness", 4, 5)),
                        "less than 5 just noticeable differences apart; ask for 3 levels"));
