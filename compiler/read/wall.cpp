@@ -1,4 +1,4 @@
-#include "compiler/extract/wall.hpp"
+#include "compiler/read/wall.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "compiler/extract/dependence.hpp"
+#include "compiler/read/dependence.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
