@@ -1,0 +1,96 @@
+// Causes that must be separated before they are measured.
+
+#include "tests/truth/families.hpp"
+
+namespace wale::truth {
+namespace {
+
+void add_any_texture(Composition& made, Chance& chance, double longest = 0.025) {
+  add_texture(made, chance, any_waveform(chance), 0.3e-3, std::min(made.longest_period(), longest), 1.5);
+}
+
+Composition texture_on_trend(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_any_texture(made, chance);
+  switch (static_cast<int>(chance.between(0, 3))) {
+    case 0: add_spring(made, chance, 40); break;
+    case 1: add_constant(made, chance, 2); break;
+    default: add_hill(made, chance, 2);
+  }
+  made.truth[Cue::constant] = open;  // whether it is a cue beside others
+  return made;
+}
+
+/// The wall stands at the side; the relief is felt everywhere, and repeats often enough in front of it.
+Composition texture_and_wall(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_any_texture(made, chance, 8e-3);
+  add_wall(made, chance);
+  // The device's limit takes some of the relief where the wall is hard.
+  for (const Cue cue : {Cue::amplitude, Cue::roughness, Cue::bumpiness}) made.truth[cue] = open;
+  return made;
+}
+
+Composition texture_in_motion(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_any_texture(made, chance);
+  if (chance.happens(0.6))
+    add_viscosity(made, chance, 4);
+  else
+    add_friction(made, chance, 1.5);
+  if (chance.happens(0.3)) add_mass(made, chance);
+  return made;
+}
+
+Composition texture_in_time(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_any_texture(made, chance);
+  chance.happens(0.5) ? add_sway(made, chance, 1) : add_vibration(made, chance, 1);
+  return made;
+}
+
+Composition spring_in_motion(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_spring(made, chance, 60);
+  add_viscosity(made, chance, 4);
+  if (chance.happens(0.5)) add_friction(made, chance, 1.5);
+  if (chance.happens(0.5)) add_mass(made, chance);
+  if (chance.happens(0.4)) add_sway(made, chance, 1);
+  return made;
+}
+
+Composition everything(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_any_texture(made, chance);
+  add_spring(made, chance, 30);
+  add_viscosity(made, chance, 3);
+  add_friction(made, chance, 0.8);
+  add_mass(made, chance);
+  add_vibration(made, chance, 0.8);
+  return made;
+}
+
+}  // namespace
+
+std::vector<Family> mixture_families() {
+  return {{"texture on trend", texture_on_trend},   {"texture and wall", texture_and_wall},
+          {"texture in motion", texture_in_motion}, {"texture in time", texture_in_time},
+          {"spring in motion", spring_in_motion},   {"everything", everything}};
+}
+
+std::vector<Family> families() {
+  std::vector<Family> all;
+  for (const auto& part : {texture_families(), sum_families(), aperiodic_families(), trend_families(),
+                           motion_families(), time_families(), memory_families(), mixture_families()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Case generated(const Family& family, std::size_t index) {
+  Chance chance(family.name, index);
+  Case made = family.make(chance).finished();
+  made.name = std::string(family.name) + "/" + std::to_string(index);
+  return made;
+}
+
+}  // namespace wale::truth

@@ -1,0 +1,94 @@
+#include "tests/truth/reading_of.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "compiler/compare/compare.hpp"
+#include "compiler/compile.hpp"
+#include "compiler/describe/describe.hpp"
+#include "compiler/extract/cues.hpp"
+#include "compiler/modules/load_modules.hpp"
+
+namespace wale::truth {
+namespace {
+
+const Declarations& declarations() {
+  static const auto common = common_modules();
+  return common->declarations;
+}
+
+/// The cues of both vocabularies. The reader has an amplitude and a period in each of two bands, and knows no sway.
+constexpr std::pair<Cue, CueKind> words[] = {
+    {Cue::amplitude, CueKind::amplitude},
+    {Cue::amplitude, CueKind::bump_amplitude},
+    {Cue::period, CueKind::period},
+    {Cue::period, CueKind::bump_period},
+    {Cue::orientation, CueKind::orientation},
+    {Cue::roughness, CueKind::amplitude},
+    {Cue::bumpiness, CueKind::bump_amplitude},
+    {Cue::stiffness, CueKind::stiffness},
+    {Cue::wall_stiffness, CueKind::wall_stiffness},
+    {Cue::viscosity, CueKind::viscosity},
+    {Cue::friction, CueKind::friction},
+    {Cue::mass, CueKind::mass},
+    {Cue::vibration, CueKind::vibration},
+    {Cue::vibration_rate, CueKind::vibration_frequency},
+    {Cue::constant, CueKind::other_force},
+};
+
+/// Each wave once: both bands have one that lies between them.
+void add_waves(Reading& reading, const TextureForce& texture) {
+  for (const TextureWave& wave : texture.waves) {
+    const WaveTruth found{wave.period, wave.orientation};
+    if (std::ranges::none_of(reading.waves, [&](const WaveTruth& other) { return alike(other, found); }))
+      reading.waves.push_back(found);
+  }
+}
+
+}  // namespace
+
+Reading reading_of(const Program& program) {
+  const Bank bank(program);
+  const Extraction found = extract(bank, declarations());
+  const Cues cues = cues_of(bank, found);
+  Reading reading;
+  for (const auto& [cue, kind] : words) reading[cue] = cues[kind];
+  // Of texture and bumps the stronger.
+  const bool bumpy = cues[CueKind::bump_amplitude].value_or(0) > cues[CueKind::amplitude].value_or(0);
+  reading[Cue::amplitude] = cues[bumpy ? CueKind::bump_amplitude : CueKind::amplitude];
+  reading[Cue::period] = cues[bumpy ? CueKind::bump_period : CueKind::period];
+  if (bumpy && found.bumps.oriented()) reading[Cue::orientation] = found.bumps.orientation;
+  if (cues[CueKind::amplitude] && found.texture.regular()) add_waves(reading, found.texture);
+  if (cues[CueKind::bump_amplitude] && found.bumps.regular()) add_waves(reading, found.bumps);
+  return reading;
+}
+
+std::array<std::optional<double>, cue_count> differences_of(const Program& a, const Program& b) {
+  const Cues first = cues_of(Bank(a), declarations()), second = cues_of(Bank(b), declarations());
+  std::array<std::optional<double>, cue_count> differences;
+  for (const CueDifference& each : Comparer(declarations(), first.device).compare(first, second).cues)
+    for (const auto& [cue, kind] : words)
+      if (kind == each.kind && each.noticeable) {
+        auto& difference = differences[static_cast<std::size_t>(cue)];
+        difference = std::max(difference.value_or(0), std::abs(*each.noticeable));
+      }
+  return differences;
+}
+
+std::optional<double> difference_of(Cue cue, double a, double b) {
+  const auto* word = std::ranges::find(words, cue, &std::pair<Cue, CueKind>::first);
+  if (word == std::end(words)) return std::nullopt;
+  Cues first{"a", default_device, {}}, second = first;
+  first[word->second] = a, second[word->second] = b;
+  for (const CueDifference& each : Comparer(declarations(), default_device).compare(first, second).cues)
+    if (each.kind == word->second && each.noticeable) return std::abs(*each.noticeable);
+  return std::nullopt;
+}
+
+bool says_outside(const Program& program) {
+  return description_text(describe(Bank(program), declarations())).find("outside what was measured") !=
+         std::string::npos;
+}
+
+}  // namespace wale::truth

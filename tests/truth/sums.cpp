@@ -1,0 +1,92 @@
+// Several waves at once.
+
+#include <numbers>
+
+#include "tests/truth/families.hpp"
+
+namespace wale::truth {
+namespace {
+
+using std::numbers::pi;
+
+Wave wave_of(Chance& chance, const Waveform& form, double period, double orientation, double amplitude) {
+  return {form, period, orientation, rounded(chance.between(0, 1), 3), rounded(amplitude, 3)};
+}
+
+/// The waves as forces, or as one height whose slopes are in the same proportions.
+void add_waves(Composition& made, Chance& chance, std::vector<Wave> waves) {
+  if (chance.happens(0.5)) {
+    for (const Wave& wave : waves) made.push_wave(wave);
+    return;
+  }
+  const double size = rounded(chance.octaves(0.1, 4), 3);
+  for (Wave& wave : waves) {
+    double steepest = 0;
+    for (int i = 0; i < 1000; ++i) steepest = std::max(steepest, std::abs(wave.form.slope(i / 1000.0)));
+    wave.amplitude = rounded(1e3 * wave.amplitude * wave.period / steepest, 5);
+  }
+  made.push_height(waves, size);
+}
+
+/// Two sines along one direction whose periods go p and q times into their common multiple, which is the period of
+/// both.
+Composition collinear(Chance& chance) {
+  Composition made = any_patch(chance);
+  const auto [p, q] = chance.one_of({std::pair(2, 3), {3, 4}, {2, 5}, {3, 5}, {4, 5}});
+  const double multiple = rounded(chance.octaves(1e-3, made.longest_period()), 3);
+  const double orientation = any_orientation(chance), size = chance.octaves(0.05, 2);
+  made.truth[Cue::period] = valued(multiple);
+  add_waves(made, chance,
+            {wave_of(chance, sine(), multiple / p, orientation, size),
+             wave_of(chance, sine(), multiple / q, orientation, size * chance.between(0.6, 1.4))});
+  return made;
+}
+
+/// Two sines along one direction without a small common multiple: the period of the stronger.
+Composition incommensurate(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double longer = rounded(chance.octaves(0.5e-3, made.longest_period()), 4);
+  const double ratio = chance.one_of({1.4142, 1.618, 2.7183, 3.3166, 4.2361});
+  const double orientation = any_orientation(chance), size = chance.octaves(0.05, 2);
+  const double other = size * chance.between(0.4, 0.75);
+  const bool first = chance.happens(0.5);
+  add_waves(made, chance,
+            {wave_of(chance, sine(), longer, orientation, first ? size : other),
+             wave_of(chance, sine(), rounded(longer / ratio, 4), orientation, first ? other : size)});
+  return made;
+}
+
+/// Two waves of any form across each other.
+Composition crossed(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double orientation = any_orientation(chance), size = chance.octaves(0.05, 2);
+  const double turned = std::fmod(orientation + (chance.happens(0.5) ? pi / 2 : chance.between(0.5, 2.6)), pi);
+  const auto period = [&] { return rounded(chance.octaves(0.3e-3, made.longest_period()), 4); };
+  const double first = period(), second = chance.happens(0.3) ? first : period();
+  add_waves(made, chance,
+            {wave_of(chance, any_waveform(chance), first, orientation, size),
+             wave_of(chance, any_waveform(chance), second, rounded(turned, 6), size * chance.between(0.4, 0.7))});
+  return made;
+}
+
+/// Three sines in directions and scales of their own.
+Composition three_waves(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double orientation = any_orientation(chance), size = chance.octaves(0.05, 1.5);
+  std::vector<Wave> waves;
+  for (int i = 0; i < 3; ++i)
+    waves.push_back(wave_of(chance, sine(), rounded(chance.octaves(0.5e-3, made.longest_period()), 4),
+                            rounded(std::fmod(orientation + i * pi / 3 + chance.between(-0.25, 0.25) + pi, pi), 6),
+                            i == 0 ? size : size * chance.between(0.5, 0.75)));
+  add_waves(made, chance, waves);
+  return made;
+}
+
+}  // namespace
+
+std::vector<Family> sum_families() {
+  return {
+      {"collinear", collinear}, {"incommensurate", incommensurate}, {"crossed", crossed}, {"three waves", three_waves}};
+}
+
+}  // namespace wale::truth

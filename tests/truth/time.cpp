@@ -1,0 +1,98 @@
+// Forces by time.
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "tests/truth/families.hpp"
+
+namespace wale::truth {
+namespace {
+
+using std::numbers::pi;
+
+void add_shaking(Composition& made, Chance& chance, double size, double rate) {
+  const double angle = any_orientation(chance);
+  const glm::dvec2 way{std::cos(angle), std::sin(angle)};
+  const ForceLaw law = [=](const Sample& hand) { return size * std::sin(2 * pi * rate * hand.time) * way; };
+  made.statement("active 20 W");
+  if (chance.happens(0.3))  // the phase begins when the hand comes
+    made.push(fmt::format("{} N * sin(2 * pi * phase({} Hz)) * {}", number(size), number(rate), unit_vector(angle)));
+  else
+    made.push(fmt::format("{} N * sin(2 * pi * {} Hz * time) * {}", number(size), number(rate), unit_vector(angle)),
+              law);
+}
+
+Composition sways(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_sway(made, chance, 3);
+  return made;
+}
+
+Composition vibrations(Chance& chance) {
+  Composition made = any_patch(chance);
+  add_vibration(made, chance, 3);
+  return made;
+}
+
+/// Two rates that come and go together: their size is not defined, but a vibration it is.
+Composition beats(Chance& chance) {
+  Composition made = any_patch(chance);
+  const double size = rounded(chance.octaves(0.05, 1.5), 3), rate = rounded(chance.octaves(25, 300), 3);
+  const double apart = rounded(chance.between(2, 8), 2), angle = any_orientation(chance);
+  const glm::dvec2 way{std::cos(angle), std::sin(angle)};
+  made.statement("active 20 W");
+  made.push(fmt::format("{} N * (sin(2 * pi * {} Hz * time) + sin(2 * pi * {} Hz * time)) * {}", number(size),
+                        number(rate), number(rate + apart), unit_vector(angle)),
+            [=](const Sample& hand) {
+              return size * (std::sin(2 * pi * rate * hand.time) + std::sin(2 * pi * (rate + apart) * hand.time)) * way;
+            });
+  made.allow(2e-4 * size);  // each of the two sines is rounded by itself
+  made.truth[Cue::vibration] = some;
+  made.truth[Cue::vibration_rate] = open;
+  return made;
+}
+
+/// One soft push after another: a sway by its rate, with a force in the mean.
+Composition heartbeats(Chance& chance) {
+  Composition made = any_patch(chance);
+  // Slow and weak enough that its harmonics above 10 Hz are below 0.01 N.
+  const double size = rounded(chance.octaves(0.1, 0.8), 3), rate = rounded(chance.between(0.8, 1.6), 3);
+  const double share = rounded(chance.between(0.4, 0.6), 2), angle = any_orientation(chance);
+  const glm::dvec2 way{std::cos(angle), std::sin(angle)};
+  made.statement("active 20 W");
+  made.statement(fmt::format("let turn = {} Hz * time", number(rate)));
+  made.push(
+      fmt::format("(if turn - floor(turn) < {0} then {1} N * sin(pi * (turn - floor(turn)) / {0})^2 else 0 N) * {2}",
+                  number(share), number(size), unit_vector(angle)),
+      [=](const Sample& hand) {
+        const double turn = rate * hand.time - std::floor(rate * hand.time);
+        return turn < share ? size * std::pow(std::sin(pi * turn / share), 2) * way : glm::dvec2{0};
+      });
+  made.truth[Cue::sway] = some;
+  made.truth[Cue::sway_rate] = valued(rate);
+  made.truth[Cue::constant] = open;
+  return made;
+}
+
+}  // namespace
+
+void add_sway(Composition& made, Chance& chance, double strongest) {
+  const double size = rounded(chance.octaves(0.05, strongest), 3), rate = rounded(chance.octaves(0.5, 9), 3);
+  add_shaking(made, chance, size, rate);
+  made.truth[Cue::sway] = valued(size);
+  made.truth[Cue::sway_rate] = valued(rate);
+}
+
+void add_vibration(Composition& made, Chance& chance, double strongest) {
+  const double size = rounded(chance.octaves(0.05, strongest), 3), rate = rounded(chance.octaves(15, 350), 3);
+  add_shaking(made, chance, size, rate);
+  made.truth[Cue::vibration] = valued(size);
+  made.truth[Cue::vibration_rate] = valued(rate);
+}
+
+std::vector<Family> time_families() {
+  return {{"sway", sways}, {"vibration", vibrations}, {"beat", beats}, {"heartbeat", heartbeats}};
+}
+
+}  // namespace wale::truth

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wale::truth {
+
+/// What a reader is asked about a program. All sizes are SI.
+enum class Cue {
+  amplitude,       ///< N: the 99th percentile of the static relief, at whatever scale
+  period,          ///< m: the fundamental of the dominant wave
+  orientation,     ///< rad in [0, pi): the direction in which it changes
+  roughness,       ///< N: the carrier of roughness, the share of the relief with fundamentals of 0.7 to 10 mm
+  bumpiness,       ///< N: the carrier of bumpiness, likewise of 10 to 100 mm
+  stiffness,       ///< N/m: of a spring about a place
+  wall_stiffness,  ///< N/m
+  viscosity,       ///< N s/m
+  friction,        ///< N: while it slides
+  breakaway,       ///< N: what makes it slide
+  mass,            ///< kg
+  vibration,       ///< N: amplitude at 10 Hz and above
+  vibration_rate,  ///< Hz
+  sway,            ///< N: amplitude below 10 Hz
+  sway_rate,       ///< Hz
+  constant,        ///< N: size of a force that is the same everywhere
+};
+inline constexpr std::size_t cue_count = 16;
+
+struct CueRule {
+  Cue cue;
+  const char* name;
+  const char* unit;
+  double scale;     ///< from SI to `unit`
+  double relative;  ///< allowed relative error
+  double least;     ///< allowed error, and the largest value that counts as none; SI
+};
+/// In the order of `Cue`: the bars of the reading.
+const std::array<CueRule, cue_count>& cue_rules();
+
+/// Whether a cue changes with another by definition: the carriers of percepts with the relief's amplitude and period.
+bool follows(Cue cue, Cue from);
+
+/// What is known of one cue of a program.
+struct Expected {
+  enum class Kind { none, value, some, open } kind = Kind::none;
+  double value = 0;
+};
+inline Expected valued(double value) { return {Expected::Kind::value, value}; }
+inline constexpr Expected some{Expected::Kind::some, 0};  ///< more than the least, without a size
+inline constexpr Expected open{Expected::Kind::open, 0};  ///< the definition of the cue leaves it open: not judged
+
+struct WaveTruth {
+  double period = 0;       ///< m
+  double orientation = 0;  ///< rad
+};
+/// Whether they count as one: periods within 2 %, directions within 2 degrees.
+bool alike(const WaveTruth& a, const WaveTruth& b);
+
+/// All that is known of a program. Without a word a cue is none.
+struct Truth {
+  std::array<Expected, cue_count> cues;
+  /// The waves of the relief; nothing if that is open.
+  std::optional<std::vector<WaveTruth>> waves = std::vector<WaveTruth>{};
+
+  Expected& operator[](Cue cue) { return cues[static_cast<std::size_t>(cue)]; }
+  const Expected& operator[](Cue cue) const { return cues[static_cast<std::size_t>(cue)]; }
+};
+
+/// What a reader says of a program, in the same words.
+struct Reading {
+  std::array<std::optional<double>, cue_count> cues;
+  std::vector<WaveTruth> waves;
+
+  std::optional<double>& operator[](Cue cue) { return cues[static_cast<std::size_t>(cue)]; }
+  const std::optional<double>& operator[](Cue cue) const { return cues[static_cast<std::size_t>(cue)]; }
+};
+
+enum class Verdict { open, right, wrong };
+
+/// Of each cue, then of the waves.
+inline constexpr std::size_t judged_count = cue_count + 1;
+struct Judgement {
+  std::array<Verdict, judged_count> verdicts{};
+  std::array<std::string, judged_count> faults;  ///< "expected 2.5 mm, read 7.5 mm"; empty where right or open
+  std::array<double, judged_count> errors{};     ///< how wrong, to find the worst; 1 is the bar
+  /// Whether a cue is read that the program does not have.
+  bool invents = false;
+
+  bool right() const;
+};
+Judgement judge(const Truth& truth, const Reading& reading);
+/// "period" or "waves".
+const char* judged_name(std::size_t judged);
+
+}  // namespace wale::truth
