@@ -106,7 +106,7 @@ struct Fundamental {
 
 /// The fundamental of the wave whose strongest harmonic is at a peak: the shortest multiple of its period that explains
 /// nearly as much as any.
-Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak) {
+Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside = true) {
   const double period = 1 / glm::length(peak), length = length_along(thin.size, peak);
   const auto explained = [&](std::size_t multiple) {
     return explained_by(thin.places, thin.forces, peak / static_cast<double>(multiple),
@@ -135,9 +135,9 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak) {
   std::size_t step = 0;
   for (std::size_t i = 0; i < powers.size(); ++i)
     if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
-  if (step > 1) {
+  if (step > 1 && may_lie_beside) {
     const glm::dvec2 finer = static_cast<double>(step) * found.waves;
-    return fundamental_of(thin, better_fitting(thin.places, thin.forces, finer, parts_of_a_wave));
+    return fundamental_of(thin, better_fitting(thin.places, thin.forces, finer, parts_of_a_wave), false);
   }
   std::vector<std::size_t> strong;
   double in_strong = 0;
