@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t coarse_bins = 40, fine_bins = 72, finest_bins = 288;
 constexpr std::size_t most_features = 2;
 constexpr int directions_tried = 12;
-constexpr double nearly_all = 0.93;      // of the mean square
+constexpr double nearly_all = 0.9;       // of the mean square
 constexpr double exactly = 0.003;        // of the mean square, left by features that are all there is
 constexpr double worth_a_feature = 0.3;  // of what is left
 constexpr double plainly = 0.06;         // of a profile's range: a turn that counts
@@ -52,15 +52,18 @@ double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::sp
   }
   double used = 0;
   for (std::size_t i = 0; i < bins; ++i) {
-    if (!(counts[i] > 0)) {
-      if (i > 0) feature.profile[i] = feature.profile[i - 1];
-      continue;
-    }
+    if (!(counts[i] > 0)) continue;
     kept += glm::dot(feature.profile[i], feature.profile[i]) / counts[i];
     feature.profile[i] /= counts[i];
     used += 1;
   }
   const auto count = static_cast<double>(places.size());
+  // Where a direction ends in a corner there are too few places for a mean.
+  const double few = 0.15 * count / static_cast<double>(bins);
+  for (std::size_t i = bins / 2; i < bins; ++i)
+    if (counts[i] < few) feature.profile[i] = feature.profile[i - 1];
+  for (std::size_t i = bins / 2; i-- > 0;)
+    if (counts[i] < few && !feature.radial) feature.profile[i] = feature.profile[i + 1];
   return whole > 0 && count > used ? 1 - (whole - kept) / whole * count / (count - used) : 0;
 }
 

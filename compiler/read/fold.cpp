@@ -124,6 +124,46 @@ glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const gl
   return area > 0 ? waves + glm::dvec2(yy * sums.x - xy * sums.y, xx * sums.y - xy * sums.x) / area : waves;
 }
 
+LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                          std::span<const glm::dvec2> waves) {
+  constexpr std::size_t harmonics = 4;
+  constexpr double metre = 0.05;  // so that all columns are about 1
+  const std::size_t columns = 3 + 2 * harmonics * waves.size();
+  // The normal equations, with two right sides; every third place is enough.
+  std::vector<double> row(columns), matrix(columns * columns, 0.0);
+  std::vector<glm::dvec2> right(columns, glm::dvec2(0));
+  for (std::size_t i = 0; i < places.size(); i += 3) {
+    row[0] = 1, row[1] = places[i].x / metre, row[2] = places[i].y / metre;
+    for (std::size_t wave = 0, at = 3; wave < waves.size(); ++wave) {
+      const auto once = std::polar(1.0, 2 * std::numbers::pi * glm::dot(waves[wave], places[i]));
+      auto turned = once;
+      for (std::size_t harmonic = 0; harmonic < harmonics; ++harmonic, turned *= once)
+        row[at++] = turned.real(), row[at++] = turned.imag();
+    }
+    for (std::size_t a = 0; a < columns; ++a) {
+      right[a] += row[a] * forces[i];
+      for (std::size_t b = 0; b <= a; ++b) matrix[a * columns + b] += row[a] * row[b];
+    }
+  }
+  // Cholesky's factors.
+  for (std::size_t a = 0; a < columns; ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = matrix[a * columns + b];
+      for (std::size_t k = 0; k < b; ++k) sum -= matrix[a * columns + k] * matrix[b * columns + k];
+      if (a == b && !(sum > 0)) return linear_force(places, forces);
+      matrix[a * columns + b] = a == b ? std::sqrt(sum) : sum / matrix[b * columns + b];
+    }
+  for (std::size_t a = 0; a < columns; ++a) {
+    for (std::size_t k = 0; k < a; ++k) right[a] -= matrix[a * columns + k] * right[k];
+    right[a] /= matrix[a * columns + a];
+  }
+  for (std::size_t a = columns; a-- > 0;) {
+    for (std::size_t k = a + 1; k < columns; ++k) right[a] -= matrix[k * columns + a] * right[k];
+    right[a] /= matrix[a * columns + a];
+  }
+  return {right[0], right[1] / metre, right[2] / metre};
+}
+
 double explained_by_lattice(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 one,
                             glm::dvec2 other, std::size_t count) {
   Bins bins(count * count);

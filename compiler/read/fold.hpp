@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "compiler/read/still_forces.hpp"
+
 namespace wale {
 
 /// A force that depends on one coordinate and repeats along it, with any waveform.
@@ -37,6 +39,11 @@ glm::dvec2 in_phase(std::span<const glm::dvec2> places, std::span<const glm::dve
 /// third of a period over the places, or less for a waveform with steps.
 glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
                           std::size_t bins);
+
+/// The linear part of some forces beside waves of these periods, by least squares of it and their first harmonics
+/// together.
+LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                          std::span<const glm::dvec2> waves);
 
 /// The share of the mean square that two waves explain together with all that repeats with both: a lattice.
 double explained_by_lattice(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 one,

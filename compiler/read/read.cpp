@@ -66,7 +66,9 @@ ForceReading read(const Bank& bank, const Declarations&) {
   else
     part(0, 2);
   // A face bends the force, unless the program has memory and yielded to the hands that were placed behind the face.
-  if (remembers || !found.still.features.empty()) found.wall = wall_face(bank);
+  if (remembers) found.wall = wall_face(bank);
+  if (!found.wall && !found.still.features.empty()) found.wall = wall_face(bank, found.still.features);
+  if (!found.wall && !remembers && !found.still.features.empty()) found.wall = wall_face(bank);
   if (!found.wall || !found.still.features.empty()) found.stiffness = even_stiffness(found.still, bank.size());
   if (found.wall && std::abs(found.stiffness - found.wall->stiffness) < alike * found.wall->stiffness)
     found.stiffness = 0;

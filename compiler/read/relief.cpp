@@ -16,14 +16,16 @@ namespace {
 constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
 constexpr double ratio = 0.99;              // the percentile that is an amplitude
 constexpr std::size_t change_places = 1024;
-constexpr double difference = 1e-5;       // m: half the step for the change of the force
-constexpr double little = 0.02;           // of the mean square: not worth its own spectrum
-constexpr double curved = 0.02;           // of the mean square without waves, beyond a line
-constexpr double much_better = 0.3;       // of what a line leaves, left by features
-constexpr double misfit = 0.03;           // of the largest force: what a trend may leave as if it were relief
-constexpr double no_direction = 0.05;     // below this anisotropy the direction is chance
-constexpr double weak = 0.02;             // of the mean square: a wave that is not told
-constexpr std::size_t octave_parts = 12;  // in which the periods of irregular parts are counted
+constexpr double difference = 1e-5;  // m: half the step for the change of the force
+constexpr std::size_t cells_a_mean = 5;
+constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
+constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
+constexpr double curved = 0.02;             // of the mean square without waves, beyond a line
+constexpr double much_better = 0.3;         // of what a line leaves, left by features
+constexpr double misfit = 0.03;             // of the largest force: what a trend may leave as if it were relief
+constexpr double no_direction = 0.05;       // below this anisotropy the direction is chance
+constexpr double weak = 0.02;               // of the mean square: a wave that is not told
+constexpr std::size_t octave_parts = 12;    // in which the periods of irregular parts are counted
 
 /// The patch without its rim, m.
 glm::dvec2 inside_of(const Bank& bank) {
@@ -91,7 +93,13 @@ class ReliefReader {
     const double half = 0.25 * (whole_.size.x + whole_.size.y);
     found_.pushes_away = -line.stiffness() * half > 0.1 * found_.largest;
     if (std::sqrt(most) < std::max(least_amplitude, 1e-5 * found_.largest)) return found_;
-    waves_ = find_waves(bank_, whole_);
+    find_plain_trend(beyond);
+    waves_ = find_waves(bank_, whole_, found_.features);
+    if (!found_.features.empty() && !waves_.waves.empty() && !waves_.local) {
+      // What the features took of the waves goes back to them.
+      refine_features(found_.features, whole_.places, without_waves_and_with(found_.features));
+      waves_ = find_waves(bank_, whole_, found_.features);
+    }
     relief_ = whole_.forces;
     take_trend_off();
     tell_size();
@@ -118,6 +126,41 @@ class ReliefReader {
     drop_small_trend();
   }
 
+  /// Adds the means over small cells, which are nearly free of texture.
+  void add_means(const std::vector<glm::dvec2>& forces, std::vector<glm::dvec2>& places,
+                 std::vector<glm::dvec2>& means) const {
+    for (std::size_t top = 0; top < whole_.side; top += cells_a_mean)
+      for (std::size_t left = 0; left < whole_.side; left += cells_a_mean) {
+        glm::dvec2 place{0}, force{0};
+        for (std::size_t row = top; row < top + cells_a_mean; ++row)
+          for (std::size_t column = left; column < left + cells_a_mean; ++column)
+            place += whole_.places[row * whole_.side + column], force += forces[row * whole_.side + column];
+        places.push_back(place / (1.0 * cells_a_mean * cells_a_mean));
+        means.push_back(force / (1.0 * cells_a_mean * cells_a_mean));
+      }
+  }
+
+  /// Looks for a trend that bends before any wave: a spring that saturates looks like a slow square wave.
+  void find_plain_trend(const std::vector<glm::dvec2>& beyond) {
+    std::vector<glm::dvec2> places, means, bent;
+    add_means(beyond, places, bent);
+    if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
+    places.clear();
+    add_means(whole_.forces, places, means);
+    std::vector<Feature> features = find_features(places, means);
+    if (features.empty()) return;
+    double left = 0, all = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      glm::dvec2 rest = means[i];
+      for (const Feature& each : features) rest -= each.at(places[i]);
+      left += glm::dot(rest, rest), all += glm::dot(means[i], means[i]);
+    }
+    if (left > plainly_explained * all) return;
+    refine_features(features, whole_.places, whole_.forces);
+    if (!std::ranges::all_of(features, &Feature::monotone)) return;
+    found_.features = std::move(features);
+  }
+
   /// Adds places where a small feature would be: about what is busiest, if little lies elsewhere.
   void add_closer_places(std::vector<glm::dvec2>& places, std::vector<glm::dvec2>& forces) const {
     const glm::dvec2 size = whole_.size / 4.0, room = 0.5 * (whole_.size - size);
@@ -138,11 +181,11 @@ class ReliefReader {
   void find_trend() {
     const std::vector<glm::dvec2> forces = without_waves();
     const double left = mean_square(waves_.rest);
-    if (waves_.local || waves_.lattice || left < curved * mean_square(forces) ||
+    if (!found_.features.empty() || waves_.local || waves_.lattice || left < curved * mean_square(forces) ||
         left < little * mean_square(whole_.forces))
       return;
     std::vector<glm::dvec2> places, some;
-    for (std::size_t i = 0; i < forces.size(); i += 7) places.push_back(whole_.places[i]), some.push_back(forces[i]);
+    add_means(forces, places, some);
     add_closer_places(places, some);
     std::vector<Feature> features = find_features(places, some);
     if (!features.empty()) refine_features(features, whole_.places, forces);

@@ -15,7 +15,7 @@ namespace wale {
 namespace {
 
 constexpr std::size_t most_waves_found = 3;
-constexpr std::array<double, 3> closer = {4, 16, 64};  // windows are so many times smaller than the patch
+constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
 constexpr std::size_t closer_side = 128;
 constexpr std::size_t candidates = 5;
 constexpr std::size_t parts_of_a_wave = 32;     // of the shortest wave that a fold should show
@@ -27,11 +27,12 @@ constexpr double wholly = 0.985;                // explained: no longer period c
 constexpr double least_explained = 0.3;         // of what is left, by a wave ...
 constexpr double least_explained_by_few = 0.7;  // ... and by one with few periods
 constexpr double few_periods = 6;
+constexpr double slow_periods = 12;  // over the patch
 constexpr double least_explained_locally = 0.5;
 constexpr double coherent = 0.7;      // of the share in a small window, also in the whole
 constexpr double negligible = 0.004;  // of the whole mean square
-constexpr std::size_t small_common_multiple = 6;
-constexpr double strong_part = 0.03;  // of a wave's mean square, in one of its harmonics
+constexpr std::size_t small_common_multiple = 5;
+constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
 constexpr double weak_part = 0.004;
 constexpr double slowest_lattice = 4;  // periods over the patch
 constexpr double too_fine = 0.97;      // of the mean square: nothing is left to search in this window
@@ -130,25 +131,28 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   // A few waves whose common multiple is long repeat only by chance.
   const FoldedWave wave =
       folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
-  const std::vector<double> powers = harmonics_of(wave, 2 * found.multiple + 2);
+  const std::vector<double> powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
   // A peak may lie beside the wave, at an even part of a multiple: then only every so many-th harmonic is there.
   std::size_t step = 0;
   for (std::size_t i = 0; i < powers.size(); ++i)
     if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
   if (step > 1 && may_lie_beside) {
-    const glm::dvec2 finer = static_cast<double>(step) * found.waves;
-    return fundamental_of(thin, better_fitting(thin.places, thin.forces, finer, parts_of_a_wave), false);
+    glm::dvec2 finer = static_cast<double>(step) * found.waves;
+    for (int turn = 0; turn < 3; ++turn) finer = better_fitting(thin.places, thin.forces, finer, parts_of_a_wave);
+    return fundamental_of(thin, finer, false);
   }
-  std::vector<std::size_t> strong;
+  // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
+  std::vector<std::size_t> strong, own;
   double in_strong = 0;
   for (std::size_t i = 0; i < powers.size(); ++i) {
     if (powers[i] < strong_part) continue;
     in_strong += powers[i];
-    if (std::ranges::none_of(strong, [&](std::size_t other) { return (i + 1) % other == 0; })) strong.push_back(i + 1);
+    strong.push_back(i + 1);
+    if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
   }
-  if (strong.size() >= 2 && strong.size() <= most_waves_found && in_strong > 0.9) {
-    if (found.multiple > small_common_multiple) return {peak, 1, all.front(), {1}};
-    found.parts = strong;
+  if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
+    if (own.back() > small_common_multiple) return {peak, 1, all.front(), {1}};
+    if (strong.size() == own.size()) found.parts = own;
   }
   return found;
 }
@@ -168,6 +172,7 @@ class WaveSearch {
     if (!(all_ > 0)) return std::move(found_);
     StillForces window = whole_;
     std::vector<glm::dvec2> forces = found_.rest;
+    bool again = false;
     for (std::size_t level = 0;; ++level) {
       WindowSpectrum spectrum(window, forces);
       while (found_.waves.size() < most_waves_found && mean_square(forces) > 0 &&
@@ -176,6 +181,17 @@ class WaveSearch {
         if (mean_square(found_.rest) < negligible * all_) return finished();
         forces = level == 0 ? found_.rest : rest_at(window.places, window.forces);
         spectrum = WindowSpectrum(window, forces);
+        again |= level > 0;
+      }
+      // Without its fine waves the whole may show slow ones that were too small a part of it.
+      if (again && found_.waves.size() < most_waves_found) {
+        again = false, level = 0, window = whole_, forces = found_.rest;
+        spectrum = WindowSpectrum(window, forces);
+        while (found_.waves.size() < most_waves_found && next_wave(window, forces, spectrum, level)) {
+          forces = found_.rest;
+          spectrum = WindowSpectrum(window, forces);
+        }
+        if (mean_square(found_.rest) < negligible * all_) return finished();
       }
       if (level == 0 && find_lattice(spectrum)) return finished();
       const bool finer = spectrum.finer() * mean_square(forces) > 0.5 * negligible * all_;
@@ -226,7 +242,7 @@ class WaveSearch {
       if (level == 0) return take_off(fundamental.waves, fundamental);
       const auto wider = widened(window, fundamental);
       if (wider) return take_off(*wider, fundamental);
-      if (!found_.waves.empty()) return false;
+      if (!found_.waves.empty() || !holds_where_it_is(window, fundamental)) return false;
       keep_local(window, forces, fundamental);
       return true;
     }
@@ -256,14 +272,34 @@ class WaveSearch {
     return waves;
   }
 
+  /// Whether the same wave is found beside the window, in any phase, wherever the force is nearly as strong there. The
+  /// period of a chirp is that of one place only.
+  bool holds_where_it_is(const StillForces& window, const Fundamental& fundamental) const {
+    const double here = mean_square(rest_at(window.places, window.forces));
+    const glm::dvec2 room = 0.5 * (whole_.size - window.size);
+    int strong = 0, held = 0;
+    for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      const glm::dvec2 centre =
+          glm::clamp(window.centre + 0.8 * way * window.size, whole_.centre - room, whole_.centre + room);
+      const StillForces beside = still_forces(bank_, centre, window.size, 56);
+      const std::vector<glm::dvec2> forces = rest_at(beside.places, beside.forces);
+      if (mean_square(forces) < 0.3 * here) continue;
+      strong += 1;
+      held +=
+          explained_by(beside.places, forces, fundamental.waves,
+                       most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >= least_explained_locally;
+    }
+    return 2 * held >= strong;
+  }
+
   bool take_off(glm::dvec2 waves, const Fundamental& fundamental) {
     const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
     FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
     if (wave.explained < 0.02) return false;
     found_.waves.push_back({std::move(wave), 0, fundamental.parts});
-    // A wave with few periods looks a little like a slope.
-    const bool slow = glm::length(waves * whole_.size) < 8;
-    for (int turn = 0; turn < (slow ? 8 : 2); ++turn) {
+    const bool slow = glm::length(waves * whole_.size) < slow_periods;
+    for (int turn = 0; turn < (slow ? 4 : 3); ++turn) {
+      if (turn == 2 && !slow && mean_square(found_.rest) < negligible * all_) break;
       fit_trend();
       for (FoundWave& each : found_.waves) {
         for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += each.wave.at(whole_.places[i]);
@@ -278,11 +314,22 @@ class WaveSearch {
     return true;
   }
 
-  /// The linear part of what the waves leave.
+  /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.
   void fit_trend() {
     found_.trend = {};
+    std::vector<glm::dvec2> slow;
+    for (const FoundWave& each : found_.waves)
+      if (glm::length(each.wave.waves * whole_.size) < slow_periods) slow.push_back(each.wave.waves);
     update_rest();
-    found_.trend = linear_force(whole_.places, found_.rest);
+    if (!slow.empty()) {
+      std::vector<glm::dvec2> forces = found_.rest;
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        for (const FoundWave& each : found_.waves)
+          if (glm::length(each.wave.waves * whole_.size) < slow_periods) forces[i] += each.wave.at(whole_.places[i]);
+      found_.trend = linear_beside(whole_.places, forces, slow);
+    } else {
+      found_.trend = linear_force(whole_.places, found_.rest);
+    }
     update_rest();
   }
 
