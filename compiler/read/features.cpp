@@ -11,11 +11,12 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t coarse_bins = 40, fine_bins = 72, finest_bins = 288;
+constexpr std::size_t coarse_bins = 32, fine_bins = 72, finest_bins = 288;
+constexpr std::size_t few_places = 2500;  // too few for fine bins: means over a lattice
 constexpr std::size_t most_features = 2;
 constexpr int directions_tried = 12;
 constexpr double nearly_all = 0.9;       // of the mean square
-constexpr double exactly = 0.003;        // of the mean square, left by features that are all there is
+constexpr double exactly = 0.015;        // of the mean square, left by features that are all there is
 constexpr double worth_a_feature = 0.3;  // of what is left
 constexpr double plainly = 0.06;         // of a profile's range: a turn that counts
 constexpr double jump = 0.2;             // of a profile's range, between the second next values
@@ -31,6 +32,7 @@ glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
 /// explains.
 double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                    std::size_t bins) {
+  if (places.size() < few_places) bins = std::min(bins, coarse_bins);
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const glm::dvec2& place : places) {
     const double at = feature.coordinate(place);
@@ -73,7 +75,8 @@ int turns_of(const Feature& feature) {
   glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
   for (const glm::dvec2& force : feature.profile) low = glm::min(low, force), high = glm::max(high, force);
   const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
-  const double least = plainly * (high[axis] - low[axis]);
+  // A force that is nearly the same everywhere does not turn.
+  const double least = plainly * std::max(high[axis] - low[axis], 0.5 * std::max(std::abs(low[axis]), high[axis]));
   double top = feature.profile.front()[axis], bottom = top;
   int turns = 0, going = 0;
   for (const glm::dvec2& force : feature.profile) {
@@ -168,14 +171,14 @@ double fit_together(std::vector<Feature>& features, std::span<const glm::dvec2> 
 
 /// Turns the directions of two features to where they explain most together; alone, one leans towards the other.
 double turn_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
-                     std::span<const glm::dvec2> forces, double left) {
-  for (double step = 0.1; step > 1e-3; step *= 0.5)
+                     std::span<const glm::dvec2> forces, double left, double step, double finest, std::size_t bins) {
+  for (; step > finest; step *= 0.5)
     for (std::size_t i = 0; i < features.size(); ++i)
       for (const double turn : {step, -step}) {
         if (features[i].radial) continue;
         std::vector<Feature> other = features;
         other[i] = along(std::atan2(other[i].direction.y, other[i].direction.x) + turn);
-        const double here = fit_together(other, places, forces, fine_bins);
+        const double here = fit_together(other, places, forces, bins);
         if (here < left) left = here, features = std::move(other);
       }
   return left;
@@ -221,7 +224,7 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
     if (!next) break;
     found.push_back(*next);
     left = fit_together(found, places, forces, fine_bins);
-    if (found.size() > 1) left = turn_together(found, places, forces, left);
+    if (found.size() > 1) left = turn_together(found, places, forces, left, 0.1, 1e-3, fine_bins);
   }
   // A device limits each axis by itself, so what saturates is often the sum of a part along x and one along y.
   if (left > exactly * all) {
@@ -235,6 +238,11 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
 
 void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2> places,
                      std::span<const glm::dvec2> forces) {
+  // Over the whole length a small turn of the direction matters.
+  std::vector<glm::dvec2> some_places, some;
+  for (std::size_t i = 0; i < places.size(); i += 5) some_places.push_back(places[i]), some.push_back(forces[i]);
+  double left = fit_together(features, some_places, some, finest_bins / 2);
+  turn_together(features, some_places, some, left, 8e-3, 4e-4, finest_bins / 2);
   fit_together(features, places, forces, finest_bins);
   for (Feature& each : features) {
     const int turns = turns_of(each);

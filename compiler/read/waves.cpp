@@ -18,15 +18,17 @@ constexpr std::size_t most_waves_found = 3;
 constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
 constexpr std::size_t closer_side = 128;
 constexpr std::size_t candidates = 5;
-constexpr std::size_t parts_of_a_wave = 32;     // of the shortest wave that a fold should show
-constexpr std::size_t most_multiples = 40;      // of a peak's period, for its fundamental
-constexpr std::size_t few_multiples = 12;       // after which ...
-constexpr double hopeless = 0.12;               // ... so little explained means that there is no wave
-constexpr double hardly_less = 0.015;           // of the mean square: as well explained
-constexpr double wholly = 0.985;                // explained: no longer period can be better
-constexpr double least_explained = 0.3;         // of what is left, by a wave ...
-constexpr double least_explained_by_few = 0.7;  // ... and by one with few periods
-constexpr double few_periods = 6;
+constexpr std::size_t parts_of_a_wave = 32;       // of the shortest wave that a fold should show
+constexpr std::size_t most_multiples = 40;        // of a peak's period, for its fundamental
+constexpr std::size_t few_multiples = 12;         // after which ...
+constexpr double hopeless = 0.12;                 // ... so little explained means that there is no wave
+constexpr double hardly_less = 0.015;             // of the mean square: as well explained
+constexpr double nearly_wholly = 0.95;            // explained, by waves that are told as one with a common multiple
+constexpr double wholly = 0.985;                  // explained: no longer period can be better
+constexpr double least_explained = 0.3;           // of what is left, by a wave ...
+constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
+constexpr double least_explained_by_many = 0.12;  // ... and by one with many
+constexpr double few_periods = 6, many_periods = 25;
 constexpr double slow_periods = 12;  // over the patch
 constexpr double least_explained_locally = 0.5;
 constexpr double coherent = 0.7;      // of the share in a small window, also in the whole
@@ -151,7 +153,7 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
   }
   if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
-    if (own.back() > small_common_multiple) return {peak, 1, all.front(), {1}};
+    if (own.back() > small_common_multiple || found.explained < nearly_wholly) return {peak, 1, all.front(), {1}};
     if (strong.size() == own.size()) found.parts = own;
   }
   return found;
@@ -235,14 +237,17 @@ class WaveSearch {
         for (int turn = 0; turn < 2; ++turn) peak = better_fitting(thin.places, thin.forces, peak, 16);
       const Fundamental fundamental = fundamental_of(thin, peak);
       const double held = glm::length(fundamental.waves) * length_along(window.size, fundamental.waves);
-      const double least = level > 0            ? least_explained_locally
-                           : held < few_periods ? least_explained_by_few
-                                                : least_explained;
+      // In noise a wave explains the less the more of its periods there are.
+      const double least = level > 0 || held > many_periods ? least_explained_by_many
+                           : held < few_periods             ? least_explained_by_few
+                                                            : least_explained;
       if (held < (level > 0 ? 4 : 1.9) || fundamental.explained < least) continue;
       if (level == 0) return take_off(fundamental.waves, fundamental);
       const auto wider = widened(window, fundamental);
       if (wider) return take_off(*wider, fundamental);
-      if (!found_.waves.empty() || !holds_where_it_is(window, fundamental)) return false;
+      if (fundamental.explained < least_explained_locally || !found_.waves.empty() ||
+          !holds_where_it_is(window, fundamental))
+        continue;
       keep_local(window, forces, fundamental);
       return true;
     }
@@ -272,15 +277,15 @@ class WaveSearch {
     return waves;
   }
 
-  /// Whether the same wave is found beside the window, in any phase, wherever the force is nearly as strong there. The
-  /// period of a chirp is that of one place only.
+  /// Whether the same wave is found far from the window, in any phase, wherever the force is nearly as strong there.
+  /// The period of a chirp is that of one place only.
   bool holds_where_it_is(const StillForces& window, const Fundamental& fundamental) const {
     const double here = mean_square(rest_at(window.places, window.forces));
     const glm::dvec2 room = 0.5 * (whole_.size - window.size);
     int strong = 0, held = 0;
     for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
       const glm::dvec2 centre =
-          glm::clamp(window.centre + 0.8 * way * window.size, whole_.centre - room, whole_.centre + room);
+          glm::clamp(window.centre + 0.25 * way * whole_.size, whole_.centre - room, whole_.centre + room);
       const StillForces beside = still_forces(bank_, centre, window.size, 56);
       const std::vector<glm::dvec2> forces = rest_at(beside.places, beside.forces);
       if (mean_square(forces) < 0.3 * here) continue;
@@ -289,7 +294,7 @@ class WaveSearch {
           explained_by(beside.places, forces, fundamental.waves,
                        most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >= least_explained_locally;
     }
-    return 2 * held >= strong;
+    return 4 * held >= 3 * strong;
   }
 
   bool take_off(glm::dvec2 waves, const Fundamental& fundamental) {
