@@ -11,7 +11,8 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t coarse_bins = 32, fine_bins = 72, finest_bins = 288;
+constexpr std::size_t coarse_bins = 64, fine_bins = 96, finest_bins = 288;
+constexpr std::size_t bins_of_means = 32;
 constexpr std::size_t few_places = 2500;  // too few for fine bins: means over a lattice
 constexpr std::size_t most_features = 2;
 constexpr int directions_tried = 12;
@@ -32,7 +33,7 @@ glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
 /// explains.
 double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                    std::size_t bins) {
-  if (places.size() < few_places) bins = std::min(bins, coarse_bins);
+  if (places.size() < few_places) bins = std::min(bins, bins_of_means);
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const glm::dvec2& place : places) {
     const double at = feature.coordinate(place);
@@ -227,7 +228,7 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
     if (found.size() > 1) left = turn_together(found, places, forces, left, 0.1, 1e-3, fine_bins);
   }
   // A device limits each axis by itself, so what saturates is often the sum of a part along x and one along y.
-  if (left > exactly * all) {
+  if (left > 1e-4 * all) {
     std::vector<Feature> axes = {along(0), along(0.5 * std::numbers::pi)};
     const double here = fit_together(axes, places, forces, fine_bins);
     if (here < 0.5 * left) left = here, found = std::move(axes);
@@ -244,12 +245,11 @@ void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2>
   double left = fit_together(features, some_places, some, finest_bins / 2);
   turn_together(features, some_places, some, left, 8e-3, 4e-4, finest_bins / 2);
   fit_together(features, places, forces, finest_bins);
+  // What turns often is no feature; the others are fitted without it.
+  if (std::erase_if(features, [](const Feature& each) { return turns_of(each) > most_turns; }) > 0)
+    fit_together(features, places, forces, finest_bins);
   for (Feature& each : features) {
     const int turns = turns_of(each);
-    if (turns > most_turns) {
-      features.clear();
-      return;
-    }
     each.monotone = turns == 0;
     glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
     for (const glm::dvec2& force : each.profile) low = glm::min(low, force), high = glm::max(high, force);

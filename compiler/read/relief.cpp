@@ -188,6 +188,12 @@ class ReliefReader {
     add_means(forces, places, some);
     add_closer_places(places, some);
     std::vector<Feature> features = find_features(places, some);
+    if (features.empty() && waves_.waves.empty()) {
+      // Without a texture to be free of, single places show more.
+      places.clear(), some.clear();
+      for (std::size_t i = 0; i < forces.size(); i += 7) places.push_back(whole_.places[i]), some.push_back(forces[i]);
+      features = find_features(places, some);
+    }
     if (!features.empty()) refine_features(features, whole_.places, forces);
     if (features.empty()) return;
     double after = 0;

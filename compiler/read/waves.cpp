@@ -212,7 +212,8 @@ class WaveSearch {
  private:
   std::vector<glm::dvec2> rest_at(const std::vector<glm::dvec2>& places, std::vector<glm::dvec2> forces) const {
     for (std::size_t i = 0; i < places.size(); ++i) {
-      forces[i] = beside(features_, places[i], forces[i] - found_.trend.at(places[i]));
+      forces[i] -= found_.trend.at(places[i]);
+      if (!features_.empty()) forces[i] = beside(features_, places[i], forces[i]);
       for (const FoundWave& each : found_.waves) forces[i] -= each.wave.at(places[i]);
     }
     return forces;
@@ -223,7 +224,7 @@ class WaveSearch {
   bool next_wave(const StillForces& window, const std::vector<glm::dvec2>& forces, const WindowSpectrum& spectrum,
                  std::size_t level) {
     if (spectrum.finer() > too_fine) return false;
-    const StillForces thin = thinned_by_chance(window, forces, 6400);
+    const StillForces thin = thinned_by_chance(window, forces, 5000);
     for (glm::dvec2 peak : spectrum.peaks(candidates, level == 0 ? 1.4 : 4)) {
       const glm::dvec2 rough = peak;
       const double periods = glm::length(peak) * length_along(window.size, peak);
@@ -301,42 +302,56 @@ class WaveSearch {
     const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
     FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
     if (wave.explained < 0.02) return false;
+    add_to_rest(wave, -1);
     found_.waves.push_back({std::move(wave), 0, fundamental.parts});
-    const bool slow = glm::length(waves * whole_.size) < slow_periods;
+    const bool slow = is_slow(waves);
     for (int turn = 0; turn < (slow ? 4 : 3); ++turn) {
-      if (turn == 2 && !slow && mean_square(found_.rest) < negligible * all_) break;
       fit_trend();
       for (FoundWave& each : found_.waves) {
-        for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += each.wave.at(whole_.places[i]);
+        add_to_rest(each.wave, 1);
         const std::size_t bins = each.wave.profile.size();
-        const glm::dvec2 better = better_fitting(whole_.places, found_.rest, each.wave.waves, bins / 4);
-        each.wave = folded(whole_.places, found_.rest, better, bins);
-        for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] -= each.wave.at(whole_.places[i]);
+        const auto [places, forces] = some_of_rest();
+        each.wave = folded(whole_.places, found_.rest, better_fitting(places, forces, each.wave.waves, bins / 4), bins);
+        add_to_rest(each.wave, -1);
       }
+      const double left = mean_square(found_.rest);
+      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
     }
     fit_trend();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
     return true;
   }
 
+  void add_to_rest(const FoldedWave& wave, double times) {
+    for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += times * wave.at(whole_.places[i]);
+  }
+  /// Every third place and the rest there: enough to move a wave by.
+  std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some_of_rest() const {
+    std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some;
+    for (std::size_t i = 0; i < whole_.places.size(); i += 3)
+      some.first.push_back(whole_.places[i]), some.second.push_back(found_.rest[i]);
+    return some;
+  }
+
   /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.
   void fit_trend() {
-    found_.trend = {};
     std::vector<glm::dvec2> slow;
     for (const FoundWave& each : found_.waves)
-      if (glm::length(each.wave.waves * whole_.size) < slow_periods) slow.push_back(each.wave.waves);
-    update_rest();
-    if (!slow.empty()) {
-      std::vector<glm::dvec2> forces = found_.rest;
-      for (std::size_t i = 0; i < forces.size(); ++i)
-        for (const FoundWave& each : found_.waves)
-          if (glm::length(each.wave.waves * whole_.size) < slow_periods) forces[i] += each.wave.at(whole_.places[i]);
-      found_.trend = linear_beside(whole_.places, forces, slow);
-    } else {
-      found_.trend = linear_force(whole_.places, found_.rest);
+      if (is_slow(each.wave.waves)) slow.push_back(each.wave.waves);
+    std::vector<glm::dvec2> forces = found_.rest;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      forces[i] += found_.trend.at(whole_.places[i]);
+      if (slow.empty()) continue;
+      for (const FoundWave& each : found_.waves)
+        if (is_slow(each.wave.waves)) forces[i] += each.wave.at(whole_.places[i]);
     }
-    update_rest();
+    const LinearForce before = found_.trend;
+    found_.trend = slow.empty() ? linear_force(whole_.places, forces) : linear_beside(whole_.places, forces, slow);
+    const LinearForce more{before.mean - found_.trend.mean, before.by_x - found_.trend.by_x,
+                           before.by_y - found_.trend.by_y};
+    for (std::size_t i = 0; i < forces.size(); ++i) found_.rest[i] += more.at(whole_.places[i]);
   }
+  bool is_slow(glm::dvec2 waves) const { return glm::length(waves * whole_.size) < slow_periods; }
 
   void keep_local(const StillForces& window, const std::vector<glm::dvec2>& forces, const Fundamental& fundamental) {
     FoldedWave wave = folded(window.places, forces, fundamental.waves,

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double cells_a_period = 2.5;  // at least, for a wave that a window's cells resolve
 
+constexpr double least_peak = 0.012;  // of the mean square: less is no harmonic of a wave that counts
+
 /// The share of an amplitude that is left when places lie anywhere in their cells.
 double left_by_chance(double periods_a_cell) {
   const double angle = std::numbers::pi * periods_a_cell;
@@ -111,6 +113,7 @@ std::vector<glm::dvec2> WindowSpectrum::peaks(std::size_t most, double fewest_pe
         if (r == 0) left[static_cast<std::size_t>((side - c) % side)] = 0;
       }
     const glm::dvec2 periods{periods_over(side_, static_cast<std::size_t>(column)), static_cast<double>(row)};
+    if (sum < least_peak) break;
     found.push_back((periods + centre / sum) / size_);
   }
   return found;
