@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
@@ -172,17 +173,53 @@ double fit_together(std::vector<Feature>& features, std::span<const glm::dvec2> 
 
 /// Turns the directions of two features to where they explain most together; alone, one leans towards the other.
 double turn_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
-                     std::span<const glm::dvec2> forces, double left, double step, double finest, std::size_t bins) {
-  for (; step > finest; step *= 0.5)
+                     std::span<const glm::dvec2> forces, double left) {
+  for (double step = 0.1; step > 1e-3; step *= 0.5)
     for (std::size_t i = 0; i < features.size(); ++i)
       for (const double turn : {step, -step}) {
         if (features[i].radial) continue;
         std::vector<Feature> other = features;
         other[i] = along(std::atan2(other[i].direction.y, other[i].direction.x) + turn);
-        const double here = fit_together(other, places, forces, bins);
+        const double here = fit_together(other, places, forces, fine_bins);
         if (here < left) left = here, features = std::move(other);
       }
   return left;
+}
+
+/// Turns or moves a feature, whose profile is fitted, by one step of Gauss and Newton.
+void place_better(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  const auto slope_at = [&](glm::dvec2 place) {
+    const double at = std::round((feature.coordinate(place) - feature.low) / feature.step);
+    const auto last = static_cast<double>(feature.profile.size() - 2);
+    const auto bin = static_cast<std::size_t>(std::clamp(at, 1.0, last));
+    return (feature.profile[bin + 1] - feature.profile[bin - 1]) / (2 * feature.step);
+  };
+  double xx = 0, xy = 0, yy = 0;
+  glm::dvec2 sums{0};
+  const glm::dvec2 across(-feature.direction.y, feature.direction.x);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec2 off = forces[i] - feature.at(places[i]), slope = slope_at(places[i]);
+    if (!feature.radial) {
+      const double aside = glm::dot(places[i], across);
+      xx += glm::dot(slope, slope) * aside * aside, sums.x += glm::dot(slope, off) * aside;
+      continue;
+    }
+    const double far = glm::length(places[i] - feature.origin);
+    if (far < 2 * feature.step) continue;
+    const glm::dvec2 out = outward(places[i], feature.origin), way(-out.y, out.x);
+    // Moving the origin changes the distance, and the direction of the push.
+    const double push = glm::dot(feature.at(places[i]), out) / far;
+    const glm::dvec2 by_x = -slope.x * out.x * out - push * way.x * way;
+    const glm::dvec2 by_y = -slope.x * out.y * out - push * way.y * way;
+    xx += glm::dot(by_x, by_x), xy += glm::dot(by_x, by_y), yy += glm::dot(by_y, by_y);
+    sums += glm::dvec2(glm::dot(by_x, off), glm::dot(by_y, off));
+  }
+  const double area = xx * yy - xy * xy;
+  if (!feature.radial && xx > 0) {
+    feature.direction = glm::normalize(feature.direction + std::clamp(sums.x / xx, -0.05, 0.05) * across);
+  } else if (feature.radial && area > 0) {
+    feature.origin += glm::clamp(glm::dvec2(yy * sums.x - xy * sums.y, xx * sums.y - xy * sums.x) / area, -2e-3, 2e-3);
+  }
 }
 
 }  // namespace
@@ -225,7 +262,7 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
     if (!next) break;
     found.push_back(*next);
     left = fit_together(found, places, forces, fine_bins);
-    if (found.size() > 1) left = turn_together(found, places, forces, left, 0.1, 1e-3, fine_bins);
+    if (found.size() > 1) left = turn_together(found, places, forces, left);
   }
   // A device limits each axis by itself, so what saturates is often the sum of a part along x and one along y.
   if (left > 1e-4 * all) {
@@ -239,15 +276,22 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
 
 void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2> places,
                      std::span<const glm::dvec2> forces) {
-  // Over the whole length a small turn of the direction matters.
-  std::vector<glm::dvec2> some_places, some;
-  for (std::size_t i = 0; i < places.size(); i += 5) some_places.push_back(places[i]), some.push_back(forces[i]);
-  double left = fit_together(features, some_places, some, finest_bins / 2);
-  turn_together(features, some_places, some, left, 8e-3, 4e-4, finest_bins / 2);
   fit_together(features, places, forces, finest_bins);
-  // What turns often is no feature; the others are fitted without it.
-  if (std::erase_if(features, [](const Feature& each) { return turns_of(each) > most_turns; }) > 0)
+  for (int turn = 0; turn < 3; ++turn) {
+    for (Feature& each : features) {
+      std::vector<glm::dvec2> own = without_features(features, places, forces);
+      for (std::size_t i = 0; i < places.size(); ++i) own[i] += each.at(places[i]);
+      place_better(each, places, own);
+    }
     fit_together(features, places, forces, finest_bins);
+  }
+  const auto turns_often = [](const Feature& each) { return turns_of(each) > most_turns; };
+  if (std::ranges::any_of(features, turns_often)) {
+    // A texture along the same direction shows in a fine profile; coarse parts are means over it. What turns often even
+    // so is no feature.
+    fit_together(features, places, forces, bins_of_means);
+    if (std::erase_if(features, turns_often) > 0) fit_together(features, places, forces, finest_bins);
+  }
   for (Feature& each : features) {
     const int turns = turns_of(each);
     each.monotone = turns == 0;

@@ -31,6 +31,8 @@ constexpr double push = 1;             // m/s^2
 constexpr std::size_t still_places = 8;
 constexpr double still_seconds = 8;
 constexpr std::size_t fewest_swings = 3;  // over that time; slower changes are a drift
+constexpr std::size_t most_harmonic = 8;
+constexpr double of_the_strongest = 0.2;  // line's power, in a fundamental
 constexpr double stands_out = 0.25;       // of a peak's power, at most this is three lines before it
 constexpr double nothing = 1e-5;          // N
 
@@ -316,16 +318,27 @@ Swing swing_in(const std::vector<double>& powers, std::size_t first, std::size_t
   if (first >= end) return {};
   const auto peak = std::max_element(powers.begin() + static_cast<std::ptrdiff_t>(first),
                                      powers.begin() + static_cast<std::ptrdiff_t>(end));
-  const auto at = static_cast<std::size_t>(peak - powers.begin());
+  auto at = static_cast<std::size_t>(peak - powers.begin());
+  // A beat's strongest line may be a harmonic. Its fundamental is the slowest of the lines below of which it is a
+  // multiple.
+  for (std::size_t times = most_harmonic; times >= 2; --times) {
+    const std::size_t slow = (at + times / 2) / times;
+    if (slow < first + 1) continue;
+    const auto line = std::max_element(powers.begin() + static_cast<std::ptrdiff_t>(slow - 1),
+                                       powers.begin() + static_cast<std::ptrdiff_t>(slow + 2));
+    if (*line < of_the_strongest * *peak) continue;
+    at = static_cast<std::size_t>(line - powers.begin());
+    break;
+  }
   double sum = 0;
   for (std::size_t i = first; i < end; ++i) sum += powers[i];
   const double before = at > 0 ? powers[at - 1] : 0, after = at + 1 < powers.size() ? powers[at + 1] : 0;
   const double slower = at >= 3 ? powers[at - 3] : HUGE_VAL;
   // A neighbour in a slower band may be the foot of a stronger peak there.
-  if (*peak <= 0 || slower > stands_out * *peak || before > *peak || after > *peak) return {};
+  if (powers[at] <= 0 || slower > stands_out * powers[at] || before > powers[at] || after > powers[at]) return {};
   // Under Hann's window, let r be the ratio in amplitude of the larger neighbour to the strongest line. The swing then
   // lies (2 r - 1) / (1 + r) lines further on: Grandke 1983, IEEE Trans. Instrum. Meas. 32(2).
-  const double ratio = std::sqrt(std::max(before, after) / *peak);
+  const double ratio = std::sqrt(std::max(before, after) / powers[at]);
   const double off = std::clamp((2 * ratio - 1) / (1 + ratio), 0.0, 0.5) * (after > before ? 1 : -1);
   return {std::sqrt(2 * sum), (static_cast<double>(at) + off) / seconds};
 }

@@ -281,6 +281,8 @@ class ReliefReader {
     }
     for (const Relief::Part& each : relief.parts) relief.regularity += each.share;
     relief.regularity = std::min(1.0, relief.regularity);
+    // A hill is no part of the texture that it carries.
+    if (hilly && of_waves > 0) relief.regularity = of_waves / (of_waves + mean_square(waves_.rest));
     if (rest > 0 && hilly)
       relief.parts.push_back({0.5 * std::min(whole_.size.x, whole_.size.y), rest / all});
     else if (rest > 0)

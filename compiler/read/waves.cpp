@@ -153,8 +153,10 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
     if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
   }
   if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
-    if (own.back() > small_common_multiple || found.explained < nearly_wholly) return {peak, 1, all.front(), {1}};
-    if (strong.size() == own.size()) found.parts = own;
+    const bool sines = strong.size() == own.size();
+    if (own.back() > small_common_multiple || (sines && found.explained < nearly_wholly))
+      return {peak, 1, all.front(), {1}};
+    if (sines) found.parts = own;
   }
   return found;
 }
@@ -316,6 +318,18 @@ class WaveSearch {
       }
       const double left = mean_square(found_.rest);
       if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
+    }
+    // Over the whole patch the harmonics are clean: if only every so many-th is there, the wave is that much shorter.
+    FoundWave& last = found_.waves.back();
+    const std::vector<double> powers = harmonics_of(last.wave, std::min<std::size_t>(60, last.wave.profile.size() / 3));
+    std::size_t step = 0;
+    for (std::size_t i = 0; i < powers.size(); ++i)
+      if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
+    if (step > 1 && last.parts.size() == 1) {
+      add_to_rest(last.wave, 1);
+      last.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * last.wave.waves,
+                         std::max<std::size_t>(last.wave.profile.size() / step, 64));
+      add_to_rest(last.wave, -1);
     }
     fit_trend();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
