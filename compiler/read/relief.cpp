@@ -9,6 +9,7 @@
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "compiler/read/window_spectrum.hpp"
+#include "wale/picture.hpp"
 
 namespace wale {
 namespace {
@@ -22,15 +23,16 @@ constexpr double plainly_explained = 0.03;  // of the mean square, left by a tre
 constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
 constexpr double curved = 0.02;             // of the mean square without waves, beyond a line
 constexpr double much_better = 0.3;         // of what a line leaves, left by features
+constexpr double a_micrometre = 1e-6;       // m: heights are read in these, since the least that counts is for newtons
 constexpr double misfit = 0.03;             // of the largest force: what a trend may leave as if it were relief
 constexpr double no_direction = 0.05;       // below this anisotropy the direction is chance
 constexpr double weak = 0.02;               // of the mean square: a wave that is not told
 constexpr std::size_t octave_parts = 12;    // in which the periods of irregular parts are counted
 
 /// The patch without its rim, m.
-glm::dvec2 inside_of(const Bank& bank) {
-  const glm::dvec2 size(bank.size().width, bank.size().height);
-  return glm::max(size - 2.0 * bank.size().rim, 0.25 * size);
+glm::dvec2 inside_of(PatchSize patch) {
+  const glm::dvec2 size(patch.width, patch.height);
+  return glm::max(size - 2.0 * patch.rim, 0.25 * size);
 }
 
 /// The direction in [0, pi). Hardly less than half a turn is none.
@@ -77,8 +79,8 @@ struct Distribution {
 /// Reads the relief of one program.
 class ReliefReader {
  public:
-  explicit ReliefReader(const Bank& bank)
-      : bank_(bank), whole_(still_forces(bank, {0, 0}, inside_of(bank), side_of_whole)) {}
+  ReliefReader(const StillField& field, PatchSize patch)
+      : field_(field), whole_(still_forces(field, {0, 0}, inside_of(patch), side_of_whole)) {}
 
   StaticForce read() {
     std::vector<double> sizes;
@@ -94,11 +96,11 @@ class ReliefReader {
     found_.pushes_away = -line.stiffness() * half > 0.1 * found_.largest;
     if (std::sqrt(most) < std::max(least_amplitude, 1e-5 * found_.largest)) return found_;
     find_plain_trend(beyond);
-    waves_ = find_waves(bank_, whole_, found_.features);
+    waves_ = find_waves(field_, whole_, found_.features);
     if (!found_.features.empty() && !waves_.waves.empty() && !waves_.local) {
       // What the features took of the waves goes back to them.
       refine_features(found_.features, whole_.places, without_waves_and_with(found_.features));
-      waves_ = find_waves(bank_, whole_, found_.features);
+      waves_ = find_waves(field_, whole_, found_.features);
     }
     relief_ = whole_.forces;
     take_trend_off();
@@ -172,7 +174,7 @@ class ReliefReader {
       all += power, inside += off.x < 0.5 * size.x && off.y < 0.5 * size.y ? power : 0;
     }
     if (inside < 0.6 * all || !waves_.waves.empty()) return;
-    const StillForces close = still_forces(bank_, centre, size, 64);
+    const StillForces close = still_forces(field_, centre, size, 64);
     places.insert(places.end(), close.places.begin(), close.places.end());
     forces.insert(forces.end(), close.forces.begin(), close.forces.end());
   }
@@ -205,11 +207,11 @@ class ReliefReader {
     if (after > much_better * left) return;
     found_.features = std::move(features);
     const bool waved = !waves_.waves.empty();
-    waves_ = find_waves(bank_, whole_, found_.features);
+    waves_ = find_waves(field_, whole_, found_.features);
     if (waved || waves_.waves.empty() || waves_.local) return;
     // What the features took of the waves goes back to them.
     refine_features(found_.features, whole_.places, without_waves_and_with(found_.features));
-    waves_ = find_waves(bank_, whole_, found_.features);
+    waves_ = find_waves(field_, whole_, found_.features);
   }
   /// The forces without waves, with the features.
   std::vector<glm::dvec2> without_waves_and_with(const std::vector<Feature>& features) const {
@@ -353,7 +355,7 @@ class ReliefReader {
       }
       coarser = spectrum.finest();
       const glm::dvec2 size = glm::min(glm::dvec2(longest / closer), whole_.size), room = 0.5 * (whole_.size - size);
-      window = still_forces(bank_, glm::clamp(busiest_place(whole_, relief_), -room, room), size, 128);
+      window = still_forces(field_, glm::clamp(busiest_place(whole_, relief_), -room, room), size, 128);
       forces = window.forces;
       for (std::size_t i = 0; i < forces.size(); ++i) {
         forces[i] -= found_.trend.at(window.places[i]);
@@ -389,7 +391,7 @@ class ReliefReader {
     for (std::size_t i = every / 2; i < whole_.places.size(); i += every)
       for (const glm::dvec2 aside : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
         places.push_back(whole_.places[i] + difference * aside);
-    const std::vector<glm::dvec2> forces = forces_at(bank_, places);
+    const std::vector<glm::dvec2> forces = field_(places);
     std::vector<double> changes;
     for (std::size_t i = 0; i < forces.size(); i += 4) {
       const glm::dvec2 x = (forces[i] - forces[i + 1]) / (2 * difference) - found_.trend.by_x;
@@ -399,7 +401,7 @@ class ReliefReader {
     found_.relief.steepness = percentile(std::move(changes), ratio) / found_.relief.amplitude;
   }
 
-  const Bank& bank_;
+  const StillField& field_;
   StillForces whole_;
   StaticForce found_;
   FoundWaves waves_;
@@ -416,12 +418,25 @@ double Relief::within(const PeriodBand& band) const {
 }
 
 StaticForce static_force(const Bank& bank) {
-  if (depends_on_place(bank.program().description())) return ReliefReader(bank).read();
+  const StillField field = [&](std::span<const glm::dvec2> places) { return forces_at(bank, places); };
+  if (depends_on_place(bank.program().description())) return ReliefReader(field, bank.size()).read();
   StaticForce found;
   const glm::dvec2 middle{0};
   found.trend.mean = forces_at(bank, {&middle, 1}).front();
   found.largest = glm::length(found.trend.mean);
   return found;
+}
+
+Relief picture_relief(const Bank& bank, const Memory* memory) {
+  const StillField field = [&](std::span<const glm::dvec2> places) {
+    std::vector<glm::vec2> positions(places.begin(), places.end());
+    std::vector<float> heights(positions.size());
+    surface_all(bank, memory, positions, heights);
+    std::vector<glm::dvec2> found;
+    for (const float height : heights) found.emplace_back(std::isfinite(height) ? height / a_micrometre : 0, 0);
+    return found;
+  };
+  return ReliefReader(field, bank.size()).read().relief;
 }
 
 }  // namespace wale

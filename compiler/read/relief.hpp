@@ -5,6 +5,7 @@
 #include "compiler/read/features.hpp"
 #include "compiler/read/period_band.hpp"
 #include "compiler/read/waves.hpp"
+#include "wale/memory.hpp"
 
 namespace wale {
 
@@ -60,5 +61,9 @@ struct StaticForce {
 
 /// Runs the program at this bank's parameters, at as many places as its detail needs. Deterministic.
 StaticForce static_force(const Bank& bank);
+
+/// The same of the surface that the program shows, with heights in place of forces: in micrometres, or
+/// millionths of a plain number.
+Relief picture_relief(const Bank& bank, const Memory* memory = nullptr);
 
 }  // namespace wale

@@ -46,7 +46,7 @@ std::vector<glm::dvec2> forces_at(const Bank& bank, std::span<const glm::dvec2> 
   return forces;
 }
 
-StillForces still_forces(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, std::size_t side) {
+StillForces still_forces(const StillField& field, glm::dvec2 centre, glm::dvec2 size, std::size_t side) {
   StillForces still{side, centre, size, {}, {}};
   still.places.reserve(side * side);
   const glm::dvec2 cell = still.cell();
@@ -56,7 +56,7 @@ StillForces still_forces(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, s
       const glm::dvec2 inside{scattered(number), scattered(number + 1)};
       still.places.push_back(centre - 0.5 * size + cell * (glm::dvec2(column, row) + inside));
     }
-  still.forces = forces_at(bank, still.places);
+  still.forces = field(still.places);
   return still;
 }
 

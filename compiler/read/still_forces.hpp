@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -20,8 +21,11 @@ struct StillForces {
   glm::dvec2 cell() const { return size / static_cast<double>(side); }
 };
 
-/// Runs the program in `side` * `side` cells of a window. Deterministic.
-StillForces still_forces(const Bank& bank, glm::dvec2 centre, glm::dvec2 size, std::size_t side);
+/// A field over the patch: its values at some places, m from the patch's centre.
+using StillField = std::function<std::vector<glm::dvec2>(std::span<const glm::dvec2> places)>;
+
+/// Samples a field in `side` * `side` cells of a window. Deterministic.
+StillForces still_forces(const StillField& field, glm::dvec2 centre, glm::dvec2 size, std::size_t side);
 
 /// The forces at these places.
 std::vector<glm::dvec2> forces_at(const Bank& bank, std::span<const glm::dvec2> places);

@@ -23,7 +23,7 @@ constexpr std::size_t most_multiples = 40;        // of a peak's period, for its
 constexpr std::size_t few_multiples = 12;         // after which ...
 constexpr double hopeless = 0.12;                 // ... so little explained means that there is no wave
 constexpr double hardly_less = 0.015;             // of the mean square: as well explained
-constexpr double nearly_wholly = 0.95;            // explained, by waves that are told as one with a common multiple
+constexpr double out_of_place = 0.25;             // periods over the window
 constexpr double wholly = 0.985;                  // explained: no longer period can be better
 constexpr double least_explained = 0.3;           // of what is left, by a wave ...
 constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
@@ -154,8 +154,13 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
   }
   if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
     const bool sines = strong.size() == own.size();
-    if (own.back() > small_common_multiple || (sines && found.explained < nearly_wholly))
-      return {peak, 1, all.front(), {1}};
+    // Waves that do not quite fit a common multiple are elsewhere when looked for by themselves.
+    const bool elsewhere = sines && std::ranges::any_of(own, [&](std::size_t part) {
+                             const glm::dvec2 waves = static_cast<double>(part) * found.waves;
+                             const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
+                             return glm::length((there - waves) * thin.size) > out_of_place;
+                           });
+    if (own.back() > small_common_multiple || elsewhere) return {peak, 1, all.front(), {1}};
     if (sines) found.parts = own;
   }
   return found;
@@ -164,8 +169,8 @@ Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_li
 /// Searches the waves of one program.
 class WaveSearch {
  public:
-  WaveSearch(const Bank& bank, const StillForces& whole, const std::vector<Feature>& features)
-      : bank_(bank), whole_(whole), features_(features) {
+  WaveSearch(const StillField& field, const StillForces& whole, const std::vector<Feature>& features)
+      : field_(field), whole_(whole), features_(features) {
     update_rest();
     found_.trend = linear_force(whole.places, found_.rest);
     update_rest();
@@ -206,7 +211,7 @@ class WaveSearch {
                        room = 0.5 * (whole_.size - size);
       glm::dvec2 centre = level == 0 ? busiest_place(whole_, found_.rest) : window.centre;
       centre = glm::clamp(centre, whole_.centre - room, whole_.centre + room);
-      window = still_forces(bank_, centre, size, closer_side);
+      window = still_forces(field_, centre, size, closer_side);
       forces = rest_at(window.places, window.forces);
     }
   }
@@ -267,7 +272,7 @@ class WaveSearch {
       size = glm::min(3.0 * glm::dvec2(std::max(size.x, size.y)), whole_.size);
       const glm::dvec2 room = 0.5 * (whole_.size - size);
       const glm::dvec2 centre = glm::clamp(window.centre, whole_.centre - room, whole_.centre + room);
-      const StillForces wide = still_forces(bank_, centre, size, 56);
+      const StillForces wide = still_forces(field_, centre, size, 56);
       const std::vector<glm::dvec2> forces = rest_at(wide.places, wide.forces);
       waves = in_phase(wide.places, forces, centre, size, waves * multiple) / multiple;
       const double here = explained_by(wide.places, forces, waves,
@@ -289,7 +294,7 @@ class WaveSearch {
     for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
       const glm::dvec2 centre =
           glm::clamp(window.centre + 0.25 * way * whole_.size, whole_.centre - room, whole_.centre + room);
-      const StillForces beside = still_forces(bank_, centre, window.size, 56);
+      const StillForces beside = still_forces(field_, centre, window.size, 56);
       const std::vector<glm::dvec2> forces = rest_at(beside.places, beside.forces);
       if (mean_square(forces) < 0.3 * here) continue;
       strong += 1;
@@ -429,7 +434,7 @@ class WaveSearch {
     return std::move(found_);
   }
 
-  const Bank& bank_;
+  const StillField& field_;
   const StillForces& whole_;
   const std::vector<Feature>& features_;
   FoundWaves found_;
@@ -473,8 +478,8 @@ glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2
   return found;
 }
 
-FoundWaves find_waves(const Bank& bank, const StillForces& whole, const std::vector<Feature>& features) {
-  return WaveSearch(bank, whole, features).search();
+FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features) {
+  return WaveSearch(field, whole, features).search();
 }
 
 }  // namespace wale

@@ -39,7 +39,7 @@ struct FoundWaves {
 
 /// Finds the waves of the force in the patch without its rim, sampled as `whole`, beside the features that are known.
 /// Finer windows are sampled where the whole has waves that are too fine for it.
-FoundWaves find_waves(const Bank& bank, const StillForces& whole, const std::vector<Feature>& features = {});
+FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features = {});
 
 /// Where the forces of a window change most.
 glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2>& forces);
