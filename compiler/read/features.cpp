@@ -162,7 +162,7 @@ std::vector<glm::dvec2> without_features(const std::vector<Feature>& features, s
 double fit_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
                     std::span<const glm::dvec2> forces, std::size_t bins) {
   for (Feature& each : features) each.profile.assign(2, glm::dvec2(0)), each.step = 1;
-  for (int turn = 0; turn < (features.size() > 1 ? 3 : 1); ++turn)
+  for (int turn = 0; turn < (features.size() > 1 ? 2 : 1); ++turn)
     for (Feature& each : features) {
       std::vector<glm::dvec2> own = without_features(features, places, forces);
       for (std::size_t i = 0; i < places.size(); ++i) own[i] += each.at(places[i]);
@@ -276,15 +276,20 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
 
 void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2> places,
                      std::span<const glm::dvec2> forces) {
-  fit_together(features, places, forces, finest_bins);
+  // Every fourth place is enough to turn a long face by; a hill may be small.
+  const bool all_long = std::ranges::none_of(features, &Feature::radial);
+  const std::size_t every = all_long ? 4 : 1;
+  std::vector<glm::dvec2> some_places, some;
+  for (std::size_t i = 0; i < places.size(); i += every) some_places.push_back(places[i]), some.push_back(forces[i]);
   for (int turn = 0; turn < 3; ++turn) {
+    fit_together(features, some_places, some, all_long ? finest_bins / 2 : finest_bins);
     for (Feature& each : features) {
-      std::vector<glm::dvec2> own = without_features(features, places, forces);
-      for (std::size_t i = 0; i < places.size(); ++i) own[i] += each.at(places[i]);
-      place_better(each, places, own);
+      std::vector<glm::dvec2> own = without_features(features, some_places, some);
+      for (std::size_t i = 0; i < own.size(); ++i) own[i] += each.at(some_places[i]);
+      place_better(each, some_places, own);
     }
-    fit_together(features, places, forces, finest_bins);
   }
+  fit_together(features, places, forces, finest_bins);
   const auto turns_often = [](const Feature& each) { return turns_of(each) > most_turns; };
   if (std::ranges::any_of(features, turns_often)) {
     // A texture along the same direction shows in a fine profile; coarse parts are means over it. What turns often even
