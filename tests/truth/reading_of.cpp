@@ -7,8 +7,8 @@
 #include "compiler/compare/compare.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/describe/describe.hpp"
-#include "compiler/read/cues.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/read/cues.hpp"
 
 namespace wale::truth {
 namespace {
