@@ -30,7 +30,7 @@ Result<ResolvedFile> standard_input() {
   ResolvedFile text{"-", {}};
   std::vector<char> block(1 << 16);
   while (true) {
-    const ssize_t count = read(STDIN_FILENO, block.data(), block.size());
+    const ssize_t count = ::read(STDIN_FILENO, block.data(), block.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return unreadable(std::strerror(errno));
     if (count == 0) return text;

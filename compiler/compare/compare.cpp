@@ -11,27 +11,16 @@ namespace {
 
 constexpr double same = 1e-3;  // relative: two extractions of the same force may differ by this much
 
-/// The percept whose carrier is this cue. It says what force a carrier of a given size exerts.
-const char* percept_of(CueKind kind) {
-  switch (kind) {
-    case CueKind::stiffness: return "springiness";
-    case CueKind::wall_stiffness: return "hardness";
-    case CueKind::viscosity: return "viscosity";
-    case CueKind::mass: return "heaviness";
-    default: return "";
-  }
-}
-
-/// Whether a difference of this cue is a difference of force, so that its threshold has a floor in newtons.
-bool exerts_force(CueKind kind) {
-  switch (kind) {
-    case CueKind::period:
-    case CueKind::orientation:
-    case CueKind::regularity:
-    case CueKind::bump_period:
-    case CueKind::vibration_frequency: return false;
-    default: return true;
-  }
+/// The force that a unit of this cue exerts, by the percept whose carrier it is, in N per unit; 1 for a force, 0 for
+/// what is none.
+double exerts(const CueFacts& facts, const Declarations& declarations) {
+  if (!facts.exerts) return 0;
+  double found = 1;
+  declarations.percepts.each([&](const std::string&, const Percept& percept) {
+    if (facts.extractor != Extractor::none && percept.extractor == facts.extractor && percept.exerts > 0)
+      found = percept.exerts;
+  });
+  return found;
 }
 
 Verdict verdict_of(const std::optional<double>& plainest, bool unknown) {
@@ -50,9 +39,7 @@ const CueDifference* Comparison::plainest() const {
 
 Comparer::Comparer(const Declarations& declarations, const std::string& device) {
   for (const CueFacts& facts : cue_table()) {
-    const Percept* percept = declarations.percepts.find(percept_of(facts.kind));
-    const double exerts = !exerts_force(facts.kind) ? 0 : percept ? percept->exerts : 1;
-    people_.emplace_back(declarations, facts.threshold, device, exerts);
+    people_.emplace_back(declarations, facts.threshold, device, exerts(facts, declarations));
   }
 }
 
@@ -60,7 +47,7 @@ Comparer::Comparer(const Declarations& declarations, const std::string& device) 
 std::optional<double> Comparer::noticeable(const CueFacts& facts, std::optional<double> a,
                                            std::optional<double> b) const {
   // If only one material has a period or an orientation, the other cues of that texture tell the two apart.
-  if (!exerts_force(facts.kind) && (!a || !b)) return 0;
+  if (!facts.exerts && (!a || !b)) return 0;
   const double x = a.value_or(0), y = b.value_or(0);
   if (facts.kind == CueKind::orientation) {
     const double turned = std::remainder(x - y, std::numbers::pi);

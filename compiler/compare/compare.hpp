@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/declarations/discrimination.hpp"
-#include "compiler/extract/cues.hpp"
+#include "compiler/read/cues.hpp"
 
 namespace wale {
 

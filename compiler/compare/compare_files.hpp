@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "compiler/extract/cues.hpp"
+#include "compiler/read/cues.hpp"
 #include "compiler/open_file.hpp"
 #include "schema/result.hpp"
 

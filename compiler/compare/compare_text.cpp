@@ -21,7 +21,7 @@ const CueFacts& facts_of(CueKind kind) { return cue_table()[static_cast<std::siz
 /// "2.5 mm", "1.93 N", "45 degrees", "none": three significant digits, and `more`.
 std::string cue_text(CueKind kind, const std::optional<double>& value, int more = 0) {
   if (!value) return "none";
-  if (kind == CueKind::period || kind == CueKind::bump_period) return fmt::format("{:.{}g} mm", 1e3 * *value, 3 + more);
+  if (kind == CueKind::period) return fmt::format("{:.{}g} mm", 1e3 * *value, 3 + more);
   if (kind == CueKind::orientation) {
     // 180 degrees is the same as 0: a texture has no front.
     const double unit = std::pow(10, -more);

@@ -12,10 +12,10 @@
 #include <string_view>
 
 #include "compiler/describe/describe_extracted.hpp"
-#include "compiler/extract/cues.hpp"
-#include "compiler/extract/dependence.hpp"
 #include "compiler/measure/coarseness.hpp"
 #include "compiler/measure/rehearsal.hpp"
+#include "compiler/read/cues.hpp"
+#include "compiler/read/dependence.hpp"
 #include "runtime/machine/parallel.hpp"
 
 namespace wale {
@@ -127,11 +127,11 @@ void describe_bounds(Description& description, const Program& program) {
 /// The force, the stability of the loop, and the percepts and the texture that the force shows.
 void describe_force(Description& description, const Bank& bank, const Declarations& declarations, Texture texture) {
   const PatchProgram& program = bank.program().description();
-  Extraction found;
+  ForceReading found;
   // The tasks are independent; the longest come first.
   const std::array<std::function<void()>, 4> tasks = {
       [&] {
-        if (texture == Texture::extracted) found = extract(bank, declarations);
+        if (texture == Texture::extracted) found = read(bank, declarations);
       },
       [&] { description.grade = grade(bank, normal_hand(declarations)); },
       [&] { describe_bounds(description, bank.program()); },

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compiler/describe/fates_at.hpp"
-#include "compiler/extract/texture.hpp"
+#include "compiler/read/relief.hpp"
 #include "compiler/grade/grade.hpp"
 #include "compiler/measure/measure.hpp"
 #include "compiler/prove/force_bound.hpp"
@@ -43,8 +43,11 @@ struct DescribedPercept {
 
 /// The texture of a program's force, and its name by the `rule`s that classify textures.
 struct DescribedTexture {
-  TextureForce force;  ///< with amplitude 0 there is no texture
+  Relief force;       ///< with amplitude 0 there is no relief
   std::string kind;    ///< in the words of the rules: "grating", "perlin", "spring", "viscous", "nothing", …
+  /// what its strongest wave counts as, by its period: "roughness", "bumpiness"; empty without one, and if it
+  /// is too fine for any
+  std::string counts_as;
   std::string texture_class, size_class;  ///< "flat texture", "moguls"; empty without a texture or a rule
   /// how sure people are that it is a texture: "high", "low", or the stimulus that they rated
   std::string confidence;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compiler/extract/cues.hpp"
-#include "compiler/extract/tolerances.hpp"
+#include "compiler/read/cues.hpp"
+#include "compiler/read/tolerances.hpp"
 #include "compiler/solve/choose_map.hpp"
 #include "compiler/solve/law.hpp"
 
@@ -14,22 +14,6 @@ namespace wale {
 namespace {
 
 constexpr double normal_95 = 1.96;  // 95 % of a normal distribution lie within so many standard deviations of its mean
-
-/// The cue that an extractor reads for a percept with this band of periods.
-std::optional<CueKind> cue_of(const Percept& percept, const Declarations& declarations) {
-  const Percept* roughness = declarations.percepts.find("roughness");
-  switch (percept.extractor) {
-    case Extractor::lateral_force:
-      return roughness && percept.period.low >= roughness->period.high ? CueKind::bump_amplitude : CueKind::amplitude;
-    case Extractor::opposing_force: return CueKind::friction;
-    case Extractor::damping: return CueKind::viscosity;
-    case Extractor::stiffness: return CueKind::stiffness;
-    case Extractor::wall_stiffness: return CueKind::wall_stiffness;
-    case Extractor::inertia: return CueKind::mass;
-    case Extractor::vibration: return CueKind::vibration;
-    default: return std::nullopt;
-  }
-}
 
 DescribedPercept told_by(const Percept& percept, const Map& map, double size, const Description& description,
                          const Declarations& declarations) {
@@ -64,8 +48,8 @@ double as_well_as_read(double size) {
 
 /// The kind of surface in the words of the rules, which name the stimuli of chapter 4; each stimulus was one thing
 /// alone.
-std::string kind_of(const Cues& cues, const Extraction& found, double largest_newton) {
-  if (cues[CueKind::amplitude]) return found.texture.regular() ? "grating" : "perlin";
+std::string kind_of(const Cues& cues, const ForceReading& found, double largest_newton) {
+  if (cues[CueKind::amplitude]) return found.relief().regular() ? "grating" : "perlin";
   const auto things = std::ranges::count_if(cues.values, [](const auto& value) { return value.has_value(); });
   if (things == 0 && largest_newton < least_force) return "nothing";
   if (things != 1) return {};
@@ -74,11 +58,26 @@ std::string kind_of(const Cues& cues, const Extraction& found, double largest_ne
   return {};
 }
 
-DescribedTexture texture_of(const Cues& cues, const Extraction& found, double largest_newton,
+/// What a relief counts as: the percept whose band holds most of it.
+std::string counting_as(const Relief& relief, const Declarations& declarations) {
+  if (!(relief.amplitude > 0)) return {};
+  double most = 0;
+  std::string found;
+  declarations.percepts.each([&](const std::string& name, const Percept& percept) {
+    if (percept.extractor != Extractor::lateral_force) return;
+    const double size = relief.within({percept.period.low, percept.period.high});
+    if (size > most) most = size, found = name;
+  });
+  return found;
+}
+
+DescribedTexture texture_of(const Cues& cues, const ForceReading& found, double largest_newton,
                             const Declarations& declarations) {
-  DescribedTexture texture{.force = found.texture, .kind = kind_of(cues, found, largest_newton)};
+  DescribedTexture texture{.force = found.relief(), .kind = kind_of(cues, found, largest_newton)};
   if (!cues[CueKind::amplitude]) texture.force = {};
-  const bool has_texture = texture.force.amplitude > 0;
+  texture.counts_as = counting_as(found.relief(), declarations);
+  // The rules name textures, and what they name has a period.
+  const bool has_texture = texture.force.amplitude > 0 && texture.force.period > 0;
   std::map<std::string, double> sizes;
   if (has_texture) sizes = {{"amplitude", texture.force.amplitude}, {"period", as_well_as_read(texture.force.period)}};
   for (const Rule* rule : declarations.rules()) {
@@ -112,7 +111,7 @@ void tell_intervals(DescribedPercept& percept, double scatter, double spread, do
   percept.near_threshold = percept.level < near_threshold;
 }
 
-void describe_extracted(Description& description, const Bank& bank, const Extraction& found,
+void describe_extracted(Description& description, const Bank& bank, const ForceReading& found,
                         const Declarations& declarations) {
   const Cues cues = cues_of(bank, found);
   description.texture = texture_of(cues, found, description.force.max_newton, declarations);
@@ -120,10 +119,10 @@ void describe_extracted(Description& description, const Bank& bank, const Extrac
   if (!device) return;
   declarations.percepts.each([&](const std::string& name, const Percept& percept) {
     if (std::ranges::find(description.percepts, name, &DescribedPercept::name) != description.percepts.end()) return;
-    const auto kind = cue_of(percept, declarations);
-    if (!kind || !cues[*kind] || !(*cues[*kind] > 0) || !percept.has_reference) return;
+    const auto size = carrier_of(found, percept, declarations);
+    if (!size || !(*size > 0) || !percept.has_reference) return;
     if (const Map* map = choose_map(percept, *device, declarations).map)
-      description.percepts.push_back(told_by(percept, *map, *cues[*kind], description, declarations));
+      description.percepts.push_back(told_by(percept, *map, *size, description, declarations));
   });
   if (description.texture->force.amplitude > 0) description.no_percept.clear();
 }

@@ -2,7 +2,7 @@
 
 #include "compiler/declarations/declarations.hpp"
 #include "compiler/describe/describe.hpp"
-#include "compiler/extract/extract.hpp"
+#include "compiler/read/read.hpp"
 
 namespace wale {
 
@@ -12,9 +12,9 @@ namespace wale {
 void tell_intervals(DescribedPercept& percept, double scatter, double spread, double size_over_one,
                     double near_threshold);
 
-/// Adds what the force alone shows, as `found` by an extraction: the percepts that the program has no record of, by the
+/// Adds what the force alone shows, as `found` by a reading: the percepts that the program has no record of, by the
 /// maps for its device, and the texture with the rules that classify it.
-void describe_extracted(Description& description, const Bank& bank, const Extraction& found,
+void describe_extracted(Description& description, const Bank& bank, const ForceReading& found,
                         const Declarations& declarations);
 
 }  // namespace wale

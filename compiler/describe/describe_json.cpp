@@ -61,21 +61,23 @@ nlohmann::ordered_json to_json(const DescribedTexture& texture) {
   if (texture.confidence_mean) json["confidence_mean"] = figure(*texture.confidence_mean);
   if (texture.confidence_spread) json["confidence_spread"] = figure(*texture.confidence_spread);
   if (!texture.source.empty()) json["source"] = texture.source;
-  const TextureForce& force = texture.force;
+  const Relief& force = texture.force;
   json["amplitude_newton"] = figure(force.amplitude);
   if (!(force.amplitude > 0)) return json;
   json["maximum_newton"] = figure(force.maximum);
   json["rms_newton"] = figure(force.rms);
   json["mean_newton"] = figure(force.mean);
+  json["counts_as"] = texture.counts_as;
   json["period_m"] = figure(force.period);
   json["orientation_rad"] = figure(force.orientation);
   json["anisotropy"] = figure(force.anisotropy);
   json["regularity"] = figure(force.regularity);
   auto& waves = json["waves"] = nlohmann::ordered_json::array();
-  for (const TextureWave& wave : force.waves)
+  for (const ReliefWave& wave : force.waves)
     waves.push_back({{"period_m", figure(wave.period)},
                      {"orientation_rad", figure(wave.orientation)},
                      {"share", figure(wave.share)}});
+  if (force.crest > 0) json["crest"] = figure(force.crest);
   json["steepness_per_m"] = figure(force.steepness);
   json["transitions_per_m"] = figure(force.transitions);
   return json;

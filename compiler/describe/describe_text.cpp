@@ -105,7 +105,7 @@ void write_shaking(std::string& text, const MeasuredShaking& shaking) {
 void write_texture(std::string& text, const Description& description) {
   if (!description.texture) return;
   const DescribedTexture& texture = *description.texture;
-  const TextureForce& force = texture.force;
+  const Relief& force = texture.force;
   text += "\ntexture\n";
   if (force.amplitude > 0) {
     text += fmt::format("  {:.3g} N (the thesis's maximum {:.3g} N, RMS {:.3g} N, mean {:.3g} N)\n", force.amplitude,
@@ -113,6 +113,8 @@ void write_texture(std::string& text, const Description& description) {
     if (force.regular())
       text += fmt::format("  period {:.3g} mm, {:.0f} % regular, {:.2g} sign changes per millimetre\n",
                           1e3 * force.period, 100 * force.regularity, 1e-3 * force.transitions);
+    else if (force.period == 0)
+      text += fmt::format("  single features, no period\n");
     else
       text += fmt::format("  irregular, about {:.2g} mm; {:.2g} sign changes per millimetre\n", 1e3 * force.period,
                           1e-3 * force.transitions);
@@ -121,7 +123,7 @@ void write_texture(std::string& text, const Description& description) {
                             ? fmt::format(", changes along the direction {} degrees from x", degrees(force.orientation))
                             : "");
     if (force.waves.size() > 1)
-      for (const TextureWave& wave : force.waves)
+      for (const ReliefWave& wave : force.waves)
         text += fmt::format("  {:.0f} % of it has a period of {:.2g} mm along {} degrees\n", 100 * wave.share,
                             1e3 * wave.period, degrees(wave.orientation));
     if (!texture.texture_class.empty()) text += fmt::format("  people would call it {}\n", texture.texture_class);

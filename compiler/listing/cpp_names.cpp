@@ -14,7 +14,9 @@ constexpr std::string_view keywords =
     "false float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr "
     "operator or or_eq private protected public register requires return short signed sizeof static "
     "static_assert static_cast struct switch template this thread_local throw true try typedef typeid "
-    "typename union unsigned using virtual void volatile wchar_t while xor xor_eq reinterpret_cast ";
+    "typename union unsigned using virtual void volatile wchar_t while xor xor_eq reinterpret_cast "
+    // macros of the standard headers that are not in capitals
+    "errno assert stdin stdout stderr offsetof setjmp va_start va_arg va_end va_copy linux unix ";
 
 // C++ allows only ASCII letters in the names that people write.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -24,6 +26,11 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_numbered(std::string_view name) {
   const auto digit = std::ranges::find_if(name, is_digit);
   return digit != name.end() && std::all_of(digit, name.end(), is_digit);
+}
+
+/// Whether it has no lower-case letter, as macros have none: NAN, EOF, M_PI.
+bool may_be_macro(std::string_view name) {
+  return std::ranges::none_of(name, [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
 }  // namespace
@@ -57,7 +64,7 @@ std::string CppNames::sanitised(std::string_view wanted) {
 
 std::string CppNames::take(std::string_view wanted) {
   std::string name = sanitised(wanted);
-  if (is_numbered(name)) name += "_value";
+  if (is_numbered(name) || may_be_macro(name)) name += name.ends_with('_') ? "value" : "_value";
   std::string free = name;
   for (int i = 2; !taken_.emplace(free).second; ++i) free = name + (name.ends_with('_') ? "" : "_") + std::to_string(i);
   return free;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "compiler/measure/coarseness.hpp"
+#include "compiler/read/relief.hpp"
+#include "wale/picture.hpp"
 
 namespace wale {
 namespace {
@@ -32,53 +34,6 @@ std::vector<Force> forces_on(const Bank& bank, const std::vector<Hand>& hands) {
 double spread(const std::vector<float>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return static_cast<double>(*most) - *least;
-}
-
-/// The period of a regularly sampled signal in samples: the first lag at which its autocorrelation is above 0.7 again
-/// after falling below 0.3. Empty if the signal does not hold three periods.
-std::optional<double> period_of(std::vector<float> signal) {
-  const std::size_t count = signal.size();
-  double mean = 0;
-  for (float value : signal) mean += value;
-  mean /= static_cast<double>(count);
-  for (float& value : signal) value -= static_cast<float>(mean);
-
-  const auto correlation = [&](std::size_t lag) {
-    double product = 0, early = 0, late = 0;
-    for (std::size_t i = 0; i + lag < count; ++i) {
-      product += double{signal[i]} * signal[i + lag];
-      early += double{signal[i]} * signal[i];
-      late += double{signal[i + lag]} * signal[i + lag];
-    }
-    return early > 0 && late > 0 ? product / std::sqrt(early * late) : 0.0;
-  };
-  bool fell = false;
-  double before = 1, here = correlation(1);
-  for (std::size_t lag = 1; lag < count / 3; ++lag) {
-    const double after = correlation(lag + 1);
-    fell = fell || here < 0.3;
-    if (fell && here > 0.7 && here >= before && here >= after) {
-      // The vertex of the parabola through three lags gives the position between samples.
-      const double bend = before - 2 * here + after;
-      return static_cast<double>(lag) + (bend < 0 ? 0.5 * (before - after) / bend : 0.0);
-    }
-    before = here;
-    here = after;
-  }
-  return std::nullopt;
-}
-
-/// The period of the texture along an axis, in m, on the line at a distance of `aside` from the centre.
-std::optional<double> relief_period(const Bank& bank, const Memory* memory, int axis, double length, float aside) {
-  constexpr int count = 3072;
-  std::vector<glm::vec2> line(count, glm::vec2(aside));
-  for (int i = 0; i < count; ++i)
-    line[static_cast<std::size_t>(i)][axis] = static_cast<float>(((i + 0.5) / count - 0.5) * length);
-  std::vector<float> heights = reliefs(bank, memory, line);
-  if (!(spread(heights) > 0)) return std::nullopt;
-  const auto samples = period_of(std::move(heights));
-  if (!samples) return std::nullopt;
-  return *samples * length / count;
 }
 
 double in_three_digits(double value) {
@@ -141,15 +96,12 @@ Exhibit exhibit_of(const Bank& bank, const Memory* memory) {
   }
 
   if (exhibit.has_relief) {
-    for (int axis : {0, 1}) {
-      // The fade at the rim is not part of the texture.
-      const double length = (axis == 0 ? size.width : size.height) - 2.0 * size.rim;
-      for (double aside : {0.0, 0.137}) {
-        const auto period = relief_period(bank, memory, axis, length, static_cast<float>(aside * length));
-        if (period) exhibit.period = std::max(exhibit.period.value_or(0.0), *period);
-      }
-    }
-    // The period comes from samples, so its last digits are random: 19.9973 mm is shown as 20.
+    Relief relief;
+    if (!bank.program().description().vibrates()) relief = static_force(bank).relief;
+    // A surface may be shown and not be felt.
+    if (!relief.regular()) relief = picture_relief(bank, memory);
+    if (relief.regular()) exhibit.period = relief.period;
+    // The period is read from samples, so its last digits are random: 19.9973 mm is shown as 20.
     // With marks the whole patch is shown: they may be anywhere on it.
     const bool marked = !bank.program().description().picture.marks.empty();
     if (exhibit.period && !marked)

@@ -17,7 +17,7 @@ struct Exhibit {
   double side = 0;               ///< m; side of the square that is shown, around the patch's centre
   int axis = 0;                  ///< of the section: 0 is x, 1 is y
   double aside = 0;              ///< m; distance of the section from the centre
-  std::optional<double> period;  ///< m; the longer of the texture's periods along x and y, if it has one
+  std::optional<double> period;  ///< m; of the force's relief as it is read, or else of the picture's
   double speed = 0;              ///< m/s; forces against velocity are shown up to this speed
 };
 

@@ -6,8 +6,8 @@
 #include <complex>
 #include <numeric>
 
-#include "compiler/extract/band_spectrum.hpp"
-#include "compiler/extract/fourier.hpp"
+#include "compiler/read/window_spectrum.hpp"
+#include "compiler/read/fourier.hpp"
 #include "compiler/measure/strokes.hpp"
 
 namespace wale {

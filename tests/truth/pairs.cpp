@@ -118,12 +118,12 @@ PairScore pair_score(const Size& size, std::size_t each) {
 const std::map<std::string, std::size_t>& pair_floors() {
   static const std::map<std::string, std::size_t> table{
       {"amplitude of a sine", 4},
-      {"amplitude of a square", 0},
+      {"amplitude of a square", 4},
       {"period of a sine", 4},
-      {"period of ridges", 0},
-      {"period of a grating", 1},
+      {"period of ridges", 4},
+      {"period of a grating", 4},
       {"stiffness", 4},
-      {"wall", 2},
+      {"wall", 4},
       {"viscosity", 4},
       {"friction", 4},
       {"mass", 5},

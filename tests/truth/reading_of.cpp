@@ -7,8 +7,8 @@
 #include "compiler/compare/compare.hpp"
 #include "compiler/compile.hpp"
 #include "compiler/describe/describe.hpp"
-#include "compiler/extract/cues.hpp"
 #include "compiler/modules/load_modules.hpp"
+#include "compiler/read/cues.hpp"
 
 namespace wale::truth {
 namespace {
@@ -18,15 +18,11 @@ const Declarations& declarations() {
   return common->declarations;
 }
 
-/// The cues of both vocabularies. The reader has an amplitude and a period in each of two bands, and knows no sway.
+/// The cues of both vocabularies.
 constexpr std::pair<Cue, CueKind> words[] = {
     {Cue::amplitude, CueKind::amplitude},
-    {Cue::amplitude, CueKind::bump_amplitude},
     {Cue::period, CueKind::period},
-    {Cue::period, CueKind::bump_period},
     {Cue::orientation, CueKind::orientation},
-    {Cue::roughness, CueKind::amplitude},
-    {Cue::bumpiness, CueKind::bump_amplitude},
     {Cue::stiffness, CueKind::stiffness},
     {Cue::wall_stiffness, CueKind::wall_stiffness},
     {Cue::viscosity, CueKind::viscosity},
@@ -34,33 +30,23 @@ constexpr std::pair<Cue, CueKind> words[] = {
     {Cue::mass, CueKind::mass},
     {Cue::vibration, CueKind::vibration},
     {Cue::vibration_rate, CueKind::vibration_frequency},
+    {Cue::sway, CueKind::sway},
+    {Cue::sway_rate, CueKind::sway_frequency},
     {Cue::constant, CueKind::other_force},
 };
-
-/// Each wave once: both bands have one that lies between them.
-void add_waves(Reading& reading, const TextureForce& texture) {
-  for (const TextureWave& wave : texture.waves) {
-    const WaveTruth found{wave.period, wave.orientation};
-    if (std::ranges::none_of(reading.waves, [&](const WaveTruth& other) { return alike(other, found); }))
-      reading.waves.push_back(found);
-  }
-}
 
 }  // namespace
 
 Reading reading_of(const Program& program) {
   const Bank bank(program);
-  const Extraction found = extract(bank, declarations());
+  const ForceReading found = read(bank, declarations());
   const Cues cues = cues_of(bank, found);
   Reading reading;
   for (const auto& [cue, kind] : words) reading[cue] = cues[kind];
-  // Of texture and bumps the stronger.
-  const bool bumpy = cues[CueKind::bump_amplitude].value_or(0) > cues[CueKind::amplitude].value_or(0);
-  reading[Cue::amplitude] = cues[bumpy ? CueKind::bump_amplitude : CueKind::amplitude];
-  reading[Cue::period] = cues[bumpy ? CueKind::bump_period : CueKind::period];
-  if (bumpy && found.bumps.oriented()) reading[Cue::orientation] = found.bumps.orientation;
-  if (cues[CueKind::amplitude] && found.texture.regular()) add_waves(reading, found.texture);
-  if (cues[CueKind::bump_amplitude] && found.bumps.regular()) add_waves(reading, found.bumps);
+  reading[Cue::roughness] = carrier_of(found, *declarations().percepts.find("roughness"), declarations());
+  reading[Cue::bumpiness] = carrier_of(found, *declarations().percepts.find("bumpiness"), declarations());
+  if (cues[CueKind::amplitude] && found.relief().regular())
+    for (const ReliefWave& wave : found.relief().waves) reading.waves.push_back({wave.period, wave.orientation});
   return reading;
 }
 

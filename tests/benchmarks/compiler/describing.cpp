@@ -10,7 +10,7 @@
 
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_extracted.hpp"
-#include "compiler/extract/cues.hpp"
+#include "compiler/read/cues.hpp"
 #include "compiler/modules/load_modules.hpp"
 #include "tests/benchmarks/compiler/materials.hpp"
 
@@ -54,7 +54,7 @@ Program friction() {
 /// The carriers of everything that is felt.
 void Extract(benchmark::State& state, Program (*make)()) {
   const Bank bank(make());
-  for (auto _ : state) benchmark::DoNotOptimize(extract(bank, declarations()));
+  for (auto _ : state) benchmark::DoNotOptimize(read(bank, declarations()));
 }
 /// And what follows from them.
 void DescribeExtracted(benchmark::State& state, Program (*make)()) {
@@ -62,7 +62,7 @@ void DescribeExtracted(benchmark::State& state, Program (*make)()) {
   const Description plain = describe(bank, declarations(), Texture::left_out);
   for (auto _ : state) {
     Description description = plain;
-    describe_extracted(description, bank, extract(bank, declarations()), declarations());
+    describe_extracted(description, bank, read(bank, declarations()), declarations());
     benchmark::DoNotOptimize(description);
   }
 }

@@ -71,7 +71,7 @@ double ribs(double x, double y, double period, double degrees) {
 TEST(Photographs, ACorduroyHasItsPeriodItsAngleAndOneDirection) {
   const Description description =
       described(picture([](double x, double y) { return 0.5 + 0.4 * ribs(x, y, 3.2, 30); }));
-  const TextureForce& force = description.texture->force;
+  const Relief& force = description.texture->force;
   EXPECT_NEAR(force.amplitude, 1, 0.04);
   EXPECT_NEAR(force.period, 3.2e-3, 0.05e-3);
   EXPECT_NEAR(force.orientation, 30 * pi / 180, 0.03);
@@ -100,7 +100,7 @@ TEST(Photographs, ANoiseHasNoDirectionAndDoesNotComeBack) {
     }
     return std::clamp(0.5 + 0.012 * sum, 0.0, 1.0);
   }));
-  const TextureForce& force = description.texture->force;
+  const Relief& force = description.texture->force;
   EXPECT_LT(force.anisotropy, 0.3);
   EXPECT_LT(force.regularity, 0.5);
   EXPECT_GT(force.period, 1.5e-3);
@@ -112,7 +112,7 @@ TEST(Photographs, OfTwoPeriodsHaveBothWithTheirShares) {
   // Slopes are proportional to height over period, 0.3 / 6 and 0.05 / 2: the coarse waves are twice as steep.
   const Description description =
       described(picture([](double x, double y) { return 0.5 + 0.3 * ribs(x, y, 6, 0) + 0.05 * ribs(x, y, 2, 90); }));
-  const TextureForce& force = description.texture->force;
+  const Relief& force = description.texture->force;
   ASSERT_EQ(force.waves.size(), 2u);
   EXPECT_NEAR(force.waves[0].period, 6e-3, 0.12e-3);
   EXPECT_NEAR(std::sin(force.waves[0].orientation), 0, 0.03);

@@ -2,7 +2,9 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <vector>
 
+#include "compiler/read/features.hpp"
 #include "wale/program.hpp"
 
 namespace wale {
@@ -19,5 +21,9 @@ struct WallFace {
 /// The stiffest face of the patch, if it has one: no force over some millimetres, then a force against the motion that
 /// grows in proportion to depth over some more. Textures, springs and hills are not walls.
 std::optional<WallFace> wall_face(const Bank& bank);
+
+/// The stiffest face among the features of a static force: a profile that is flat up to some place and pushes back in
+/// proportion to the depth from there on. A texture may lie over it.
+std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& features);
 
 }  // namespace wale

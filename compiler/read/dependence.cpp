@@ -1,4 +1,4 @@
-#include "compiler/extract/dependence.hpp"
+#include "compiler/read/dependence.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "compiler/extract/fourier.hpp"
+#include "compiler/read/fourier.hpp"
 
 #include <kiss_fft.h>
 

@@ -1,6 +1,6 @@
-// Figures that are extracted from programs, against materials with known figures.
+// Figures that are read from programs, against materials with known figures.
 
-#include "compiler/extract/extract.hpp"
+#include "compiler/read/read.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,11 @@
 #include <numbers>
 #include <span>
 
-#include "compiler/extract/fourier.hpp"
+#include "compiler/modules/load_modules.hpp"
+#include "compiler/read/fourier.hpp"
 #include "tests/standard/standard.hpp"
 
-namespace wale::extract_test {
+namespace wale::read_test {
 namespace {
 
 using standard::material;
@@ -24,8 +25,17 @@ Bank pushing(const std::string& statements, const std::string& declarations = ""
   return Bank(material(declarations + "\nmaterial m { physical {\n" + statements + "\n} }", "m"));
 }
 
-TextureForce texture_of(const Bank& bank, const PeriodBand& band = textures) {
-  return texture_force(bank, StaticForce(bank), band);
+Relief relief_of(const Bank& bank) { return static_force(bank).relief; }
+
+Swing vibration_of(const Bank& bank) {
+  Swing sway, vibration;
+  tell_swings(bank, sway, vibration);
+  return vibration;
+}
+
+ForceReading reading_of(const Bank& bank) {
+  static const auto common = common_modules();
+  return read(bank, common->declarations);
 }
 
 /// `count` irregular values.
@@ -65,10 +75,10 @@ TEST(Fourier, OfManyLinesIsThatOfEach) {
   }
 }
 
-TEST(Extract, EveryFigureOfASineIsItsClosedForm) {
+TEST(Reading, EveryFigureOfASineIsItsClosedForm) {
   for (const double period : {0.9, 2.5, 7.0}) {
-    const TextureForce texture =
-        texture_of(pushing("force = vector(-1.2 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)"));
+    const Relief texture =
+        relief_of(pushing("force = vector(-1.2 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)"));
     const double metres = period * 1e-3;
     EXPECT_NEAR(texture.amplitude, 1.2, 0.03) << period;
     EXPECT_NEAR(texture.maximum, 1.2, 0.06) << period;
@@ -83,63 +93,62 @@ TEST(Extract, EveryFigureOfASineIsItsClosedForm) {
   }
 }
 
-TEST(Extract, TheOrientationIsTheDirectionInWhichATextureChanges) {
+TEST(Reading, TheOrientationIsTheDirectionInWhichATextureChanges) {
   for (const double degrees : {30.0, 90.0, 135.0}) {
     const double angle = degrees * pi / 180;
     const std::string along =
         "(" + std::to_string(std::cos(angle)) + " * x + " + std::to_string(std::sin(angle)) + " * y)";
-    const TextureForce texture = texture_of(
-        pushing("height h = 1 mm * cos(2 * pi * " + along + " / 3 mm)\n force = lateral(h, amplitude: 1 N)"));
+    const Relief texture =
+        relief_of(pushing("height h = 1 mm * cos(2 * pi * " + along + " / 3 mm)\n force = lateral(h, amplitude: 1 N)"));
     EXPECT_NEAR(texture.orientation, angle, 0.02) << degrees;
     EXPECT_NEAR(texture.period, 3e-3, 0.06e-3) << degrees;
     EXPECT_NEAR(texture.amplitude, 1, 0.03) << degrees;
   }
 }
 
-TEST(Extract, ACheckIsTheSameInEveryDirectionAndARuleIsNot) {
-  const TextureForce check =
-      texture_of(pushing("force = vector(1 N * sin(2 * pi * x / 4 mm), 1 N * sin(2 * pi * y / 4 mm))"));
+TEST(Reading, ACheckIsTheSameInEveryDirectionAndARuleIsNot) {
+  const Relief check = relief_of(pushing("force = vector(1 N * sin(2 * pi * x / 4 mm), 1 N * sin(2 * pi * y / 4 mm))"));
   EXPECT_LT(check.anisotropy, 0.1);
   EXPECT_GT(check.regularity, 0.9);
   EXPECT_NEAR(check.amplitude, std::sqrt(2), 0.06);
 }
 
-TEST(Extract, NoiseDoesNotComeBackAfterAPeriod) {
-  const TextureForce noise =
-      texture_of(pushing("height h = 1 mm * noise2(x / 2 mm, y / 2 mm)\n force = lateral(h, amplitude: 1 N)"));
+TEST(Reading, NoiseDoesNotComeBackAfterAPeriod) {
+  const Relief noise =
+      relief_of(pushing("height h = 1 mm * noise2(x / 2 mm, y / 2 mm)\n force = lateral(h, amplitude: 1 N)"));
   EXPECT_LT(noise.regularity, 0.5);
   EXPECT_LT(noise.anisotropy, 0.3);
   EXPECT_GT(noise.period, 2e-3);  // noise on a lattice of 2 mm has no strong component below 2 mm
 }
 
-TEST(Extract, APeriodicTextureIsRegularWhateverItsHarmonics) {
+TEST(Reading, APeriodicTextureIsRegularWhateverItsHarmonics) {
   // Periodic derivatives of a Gaussian bar. Of the five strong harmonics, the second is the strongest.
   const std::string declared =
       "function bar(along: length, spacing: length) = 1 N * (along - spacing * round(along / spacing)) / 0.45 mm *\n"
       "  exp(0.5 - 0.5 * ((along - spacing * round(along / spacing)) / 0.45 mm)^2)";
-  const TextureForce ribs = texture_of(pushing("force = vector(bar(x, 5 mm), 0 N)", declared));
+  const Relief ribs = relief_of(pushing("force = vector(bar(x, 5 mm), 0 N)", declared));
   EXPECT_GT(ribs.regularity, 0.95);
   EXPECT_NEAR(ribs.period, 5e-3, 0.1e-3);
   EXPECT_NEAR(ribs.anisotropy, 1, 0.05);
   // A square mesh of such bars, along the axes and rotated.
-  const TextureForce mesh = texture_of(pushing("force = vector(bar(x, 5 mm), bar(y, 5 mm))", declared));
+  const Relief mesh = relief_of(pushing("force = vector(bar(x, 5 mm), bar(y, 5 mm))", declared));
   EXPECT_GT(mesh.regularity, 0.95);
   EXPECT_NEAR(mesh.period, 5e-3, 0.1e-3);
   EXPECT_LT(mesh.anisotropy, 0.1);
-  const TextureForce turned =
-      texture_of(pushing("let u = (x + 2 * y) / sqrt(5)\nlet v = (y - 2 * x) / sqrt(5)\n"
-                         "force = bar(u, 3 mm) * vector(1, 2) / sqrt(5) + bar(v, 3 mm) * vector(-2, 1) / sqrt(5)",
-                         declared));
+  const Relief turned =
+      relief_of(pushing("let u = (x + 2 * y) / sqrt(5)\nlet v = (y - 2 * x) / sqrt(5)\n"
+                        "force = bar(u, 3 mm) * vector(1, 2) / sqrt(5) + bar(v, 3 mm) * vector(-2, 1) / sqrt(5)",
+                        declared));
   EXPECT_GT(turned.regularity, 0.95);
   EXPECT_NEAR(turned.period, 3e-3, 0.1e-3);
 }
 
-TEST(Extract, ALongPatchIsReadAsASquareOne) {
+TEST(Reading, ALongPatchIsReadAsASquareOne) {
   for (const char* size : {"160 mm, 40 mm", "40 mm, 160 mm", "60 mm, 60 mm", "40 mm, 30 mm"})
     for (const char* along : {"x", "y"}) {
       const std::string wave = "1 N * sin(2 * pi * " + std::string(along) + " / 2.2 mm)";
-      const TextureForce texture = texture_of(pushing("patch " + std::string(size) + "\nforce = vector(" +
-                                                      (*along == 'x' ? wave + ", 0 N" : "0 N, " + wave) + ")"));
+      const Relief texture = relief_of(pushing("patch " + std::string(size) + "\nforce = vector(" +
+                                               (*along == 'x' ? wave + ", 0 N" : "0 N, " + wave) + ")"));
       EXPECT_NEAR(texture.amplitude, 1, 0.03) << size << along;
       EXPECT_NEAR(texture.period, 2.2e-3, 0.05e-3) << size << along;
       EXPECT_GT(texture.regularity, 0.95) << size << along;
@@ -147,20 +156,20 @@ TEST(Extract, ALongPatchIsReadAsASquareOne) {
     }
 }
 
-TEST(Extract, TheShippedMeshesAreRegular) {
+TEST(Reading, TheShippedMeshesAreRegular) {
   for (const char* name : {"wire_mesh", "perforated_sheet"}) {
-    const TextureForce texture = texture_of(Bank(standard::made("std.mesh", name)));
+    const Relief texture = relief_of(Bank(standard::made("std.mesh", name)));
     EXPECT_GT(texture.regularity, 0.9) << name;
     EXPECT_LT(texture.anisotropy, 0.1) << name;
   }
   // By default, holes are 6 mm and wires 5 mm apart. Rows of holes are closer than holes.
-  EXPECT_NEAR(texture_of(Bank(standard::made("std.mesh", "perforated_sheet"))).period, 6e-3, 0.15e-3);
-  EXPECT_NEAR(texture_of(Bank(standard::made("std.mesh", "wire_mesh"))).period, 5e-3, 0.15e-3);
+  EXPECT_NEAR(relief_of(Bank(standard::made("std.mesh", "perforated_sheet"))).period, 6e-3, 0.15e-3);
+  EXPECT_NEAR(relief_of(Bank(standard::made("std.mesh", "wire_mesh"))).period, 5e-3, 0.15e-3);
 }
 
-TEST(Extract, IncommensurableWavesAreNotNoise) {
+TEST(Reading, IncommensurableWavesAreNotNoise) {
   // The sum of two incommensurable periods repeats approximately, and better at longer distances.
-  const TextureForce texture = texture_of(
+  const Relief texture = relief_of(
       pushing("force = vector(1 N * sin(2 * pi * x / 2.5 mm) + 1 N * sin(2 * pi * x / (2.5 mm * sqrt(2))), 0 N)"));
   EXPECT_GT(texture.regularity, 0.8);
   ASSERT_EQ(texture.waves.size(), 2u);
@@ -172,49 +181,54 @@ TEST(Extract, IncommensurableWavesAreNotNoise) {
   EXPECT_EQ(texture.period, one);
 }
 
-TEST(Extract, NoiseOfAnyGrainIsIrregular) {
+TEST(Reading, NoiseOfAnyGrainIsIrregular) {
   for (const double grain : {0.8, 1.5, 2.5, 4.0, 6.0})
     for (const char* noise : {"noise2(x / g, y / g)", "noise2(x / g, y / (3 * g))", "gradient_noise(x / g, y / g)"}) {
-      const TextureForce texture = texture_of(pushing("let g = " + std::to_string(grain) + " mm\nheight h = 1 mm * " +
-                                                      noise + "\nforce = lateral(h, amplitude: 1 N)"));
+      const Relief texture = relief_of(pushing("let g = " + std::to_string(grain) + " mm\nheight h = 1 mm * " + noise +
+                                               "\nforce = lateral(h, amplitude: 1 N)"));
       EXPECT_LT(texture.regularity, 0.5) << noise << ' ' << grain;
       EXPECT_FALSE(texture.regular());
     }
 }
 
-TEST(Extract, ASpringAndAHillAreNoTexture) {
+TEST(Reading, ASpringAndAHillAreNoTexture) {
   const Bank spring = pushing("force = -120 N/m * hand\n patch 160 mm, 160 mm");
-  EXPECT_EQ(texture_of(spring).amplitude, 0);
-  EXPECT_NEAR(StaticForce(spring).slope.stiffness(), 120, 0.1);
+  EXPECT_EQ(relief_of(spring).amplitude, 0);
+  EXPECT_NEAR(static_force(spring).trend.stiffness(), 120, 0.1);
   const Bank hill = pushing("force = vector(2 N * sin(2 * pi * x / 40 mm), 0 N)");
-  EXPECT_LT(texture_of(hill).amplitude, 0.1);  // at most a twentieth, from its end at the patch's edge
-  EXPECT_NEAR(texture_of(hill, bumps).amplitude, 2, 0.16);
-  EXPECT_NEAR(texture_of(hill, bumps).period, 40e-3, 2e-3);
+  EXPECT_EQ(relief_of(hill).within(textures), 0);
+  EXPECT_NEAR(relief_of(hill).within(bumps), 2, 0.02);
+  EXPECT_NEAR(relief_of(hill).period, 40e-3, 0.4e-3);
 }
 
-TEST(Extract, ATextureIsTheSameOnASpringAndOnAHill) {
-  const TextureForce texture =
-      texture_of(pushing("let ridges = vector(0.8 N * sin(2 * pi * x / 2.5 mm), 0 N)\n"
-                         "force = ridges - 20 N/m * hand + vector(0 N, 1 N * sin(2 * pi * y / 50 mm))"));
-  EXPECT_NEAR(texture.amplitude, 0.8, 0.05);
-  EXPECT_NEAR(texture.period, 2.5e-3, 0.05e-3);
+TEST(Reading, ATextureIsTheSameOnASpringAndOnAHill) {
+  const Relief texture =
+      relief_of(pushing("let ridges = vector(0.8 N * sin(2 * pi * x / 2.5 mm), 0 N)\n"
+                        "force = ridges - 20 N/m * hand + vector(0 N, 1 N * sin(2 * pi * y / 50 mm))"));
+  // The hill is the larger part, and the size of each is by its share of the mean square.
+  EXPECT_NEAR(texture.within(textures), texture.amplitude * std::sqrt(0.64 / 1.64), 0.02);
+  EXPECT_NEAR(texture.within(bumps), texture.amplitude * std::sqrt(1 / 1.64), 0.02);
+  ASSERT_EQ(texture.waves.size(), 2u);
+  EXPECT_NEAR(texture.waves[0].period, 50e-3, 0.5e-3);
+  EXPECT_NEAR(texture.waves[1].period, 2.5e-3, 0.02e-3);
+  EXPECT_NEAR(texture.period, 50e-3, 0.5e-3);
 }
 
-TEST(Extract, FineRibsAreNoBumpsAtAnySampling) {
+TEST(Reading, FineRibsAreNoBumpsAtAnySampling) {
   for (const double period : {0.75, 0.78, 0.8, 0.9, 1.17, 1.27, 1.4, 2.4}) {
     const Bank ribs = pushing("force = vector(1 N * sin(2 * pi * x / " + std::to_string(period) + " mm), 0 N)");
-    EXPECT_LT(texture_of(ribs, bumps).amplitude, 0.05) << period;
+    EXPECT_LT(relief_of(ribs).within(bumps), 0.05) << period;
   }
 }
 
-TEST(Extract, ATextureInOneCornerIsFoundThere) {
-  const TextureForce texture = texture_of(pushing(
+TEST(Reading, ATextureInOneCornerIsFoundThere) {
+  const Relief texture = relief_of(pushing(
       "patch 160 mm, 160 mm\n"
       "force = if x > 30 mm and y > 30 mm then vector(1 N * sin(2 * pi * x / 1.5 mm), 0 N) else vector(0 N, 0 N)"));
   EXPECT_NEAR(texture.period, 1.5e-3, 0.05e-3);
 }
 
-TEST(Extract, DampingFrictionAndMassAreTheirCoefficients) {
+TEST(Reading, DampingFrictionAndMassAreTheirCoefficients) {
   EXPECT_NEAR(opposing_force(pushing("force = -7 N s/m * velocity")).damping, 7, 0.02);
   EXPECT_NEAR(opposing_force(pushing("force = -7 N s/m * velocity")).friction, 0, 0.02);
   EXPECT_NEAR(inertia(pushing("force = -0.3 kg * acceleration")), 0.3, 1e-3);
@@ -226,7 +240,7 @@ TEST(Extract, DampingFrictionAndMassAreTheirCoefficients) {
   EXPECT_NEAR(none.damping, 0, 0.1);
 }
 
-TEST(Extract, FrictionIsReadWithAndWithoutStates) {
+TEST(Reading, FrictionIsReadWithAndWithoutStates) {
   const OpposingForce coulomb =
       opposing_force(pushing("force = coulomb(0.8 N, rise: 200 N s/m) - 2 N s/m * velocity", "import std.friction"));
   EXPECT_NEAR(coulomb.friction, 0.8, 0.02);
@@ -235,19 +249,25 @@ TEST(Extract, FrictionIsReadWithAndWithoutStates) {
   EXPECT_NEAR(dahl.friction, 1.1, 0.11);
 }
 
-TEST(Extract, AVibrationHasItsAmplitudeAndFrequency) {
-  const Vibration shaking = vibration(pushing("active 2 W\nforce = vector(0.5 N * sin(2 * pi * phase(40 Hz)), 0 N)"));
+TEST(Reading, AVibrationHasItsAmplitudeAndFrequency) {
+  const Swing shaking = vibration_of(pushing("active 2 W\nforce = vector(0.5 N * sin(2 * pi * phase(40 Hz)), 0 N)"));
   EXPECT_NEAR(shaking.amplitude, 0.5, 0.005);
-  EXPECT_EQ(shaking.frequency, 40);
-  EXPECT_EQ(vibration(pushing("force = -120 N/m * hand")).amplitude, 0);
+  EXPECT_NEAR(shaking.frequency, 40, 0.01);
+  EXPECT_EQ(vibration_of(pushing("force = -120 N/m * hand")).amplitude, 0);
+  const ForceReading slow = reading_of(pushing("active 2 W\nforce = vector(2 N * sin(2 * pi * phase(1.3 Hz)), 0 N)"));
+  EXPECT_NEAR(slow.sway.amplitude, 2, 0.03);
+  EXPECT_NEAR(slow.sway.frequency, 1.3, 0.01);
+  EXPECT_EQ(slow.vibration.amplitude, 0);
+  EXPECT_EQ(slow.opposing.friction, 0);
+  EXPECT_EQ(slow.opposing.damping, 0);
 }
 
-TEST(Extract, ASumHasTheFiguresOfItsParts) {
+TEST(Reading, ASumHasTheFiguresOfItsParts) {
   const Bank bank =
       pushing("force = vector(-0.8 N * sin(2 * pi * x / 2.5 mm), 0 N) - 40 N/m * hand - 3 N s/m * velocity");
-  const Extraction found = extract(bank, textures, bumps);
-  EXPECT_NEAR(found.texture.amplitude, 0.8, 0.05);
-  EXPECT_LT(found.bumps.amplitude, 0.1);
+  const ForceReading found = reading_of(bank);
+  EXPECT_NEAR(found.relief().amplitude, 0.8, 0.01);
+  EXPECT_EQ(found.relief().within(bumps), 0);
   EXPECT_NEAR(found.stiffness, 40, 0.5);
   EXPECT_NEAR(found.opposing.damping, 3, 0.05);
   EXPECT_NEAR(found.opposing.friction, 0, 0.02);
@@ -256,16 +276,93 @@ TEST(Extract, ASumHasTheFiguresOfItsParts) {
   EXPECT_FALSE(found.wall);
 }
 
-TEST(Extract, ALimitedSpringHasNoStiffnessAndIsNoHill) {
+TEST(Reading, ALimitedSpringHasNoStiffnessAndIsNoHill) {
   for (const char* statements : {"force = -300 N/m * hand limit 3 N", "force = -300 N/m * hand"}) {
-    const Extraction found = extract(pushing(statements), textures, bumps);
+    const ForceReading found = reading_of(pushing(statements));
     EXPECT_EQ(found.stiffness, 0) << statements;
-    EXPECT_EQ(found.bumps.amplitude, 0) << statements;
-    EXPECT_EQ(found.texture.amplitude, 0) << statements;
+    EXPECT_EQ(found.relief().amplitude, 0) << statements;
   }
 }
 
-TEST(Extract, AWallHasAFaceAndNothingElseHas) {
+/// A force along a direction, as a formula of `u` (m along it).
+std::string along(double degrees, const std::string& force) {
+  const double angle = degrees * pi / 180;
+  return "let u = " + std::to_string(std::cos(angle)) + " * x + " + std::to_string(std::sin(angle)) +
+         " * y\nforce = " + "vector(" + force + ", 0 N)";
+}
+
+TEST(Reading, APeriodIsTheFundamentalWhateverTheWaveformAndScale) {
+  for (const double period : {0.12, 0.3, 0.55, 2.5, 12.0, 40.0}) {
+    const std::string p = std::to_string(period) + " mm";
+    for (const std::string& force :
+         {"1.5 N * sin(2 * pi * u / (" + p + "))", "(if modulo(u, " + p + ") < " + p + " / 2 then 1.5 N else -1.5 N)",
+          "1.5 N * (2 * modulo(u, " + p + ") / (" + p + ") - 1)",
+          // Without its fundamental: the second and the third harmonic.
+          "0.8 N * (sin(4 * pi * u / (" + p + ")) + sin(6 * pi * u / (" + p + ")))"})
+      for (const double degrees : {0.0, 67.0}) {
+        const Relief relief = relief_of(pushing(along(degrees, force)));
+        EXPECT_NEAR(relief.period, period * 1e-3, 0.01e-3 * period) << force << ' ' << degrees;
+        EXPECT_NEAR(relief.amplitude, 1.5, 0.05) << force << ' ' << degrees;
+        EXPECT_NEAR(relief.orientation, degrees * pi / 180, 0.02) << force;
+        EXPECT_GT(relief.regularity, 0.95) << force;
+      }
+  }
+}
+
+TEST(Reading, NarrowRidgesRepeatAfterTheirDistance) {
+  for (const double period : {0.5, 2.5, 40.0}) {
+    const Relief relief = relief_of(
+        pushing("force = lateral(grating(x, period: " + std::to_string(period) + " mm, duty: 0.05), amplitude: 1 N)"));
+    EXPECT_NEAR(relief.period, period * 1e-3, 0.01e-3 * period);
+    EXPECT_NEAR(relief.amplitude, 1, 0.03);
+  }
+}
+
+TEST(Reading, WavesThatCrossAreWavesOfTheirOwn) {
+  const Relief relief =
+      relief_of(pushing("force = vector(1 N * sin(2 * pi * x / 2 mm), 0.5 N * sin(2 * pi * y / 17 mm)) + "
+                        "vector(0.35 N * sin(2 * pi * (x + y) / 0.6 mm), 0 N)"));
+  ASSERT_EQ(relief.waves.size(), 3u);
+  EXPECT_NEAR(relief.waves[0].period, 2e-3, 0.01e-3);
+  EXPECT_NEAR(relief.waves[1].period, 17e-3, 0.1e-3);
+  EXPECT_NEAR(relief.waves[2].period, 0.6e-3 / std::sqrt(2.0), 0.003e-3);
+  EXPECT_NEAR(relief.waves[2].orientation, pi / 4, 0.01);
+  EXPECT_NEAR(relief.within(bumps), relief.amplitude * std::sqrt(0.25 / (1 + 0.25 + 0.1225)), 0.02);
+}
+
+TEST(Reading, WhatDoesNotRepeatLeavesNoTexture) {
+  for (const char* force : {"force = vector(-700 N/m * max(x - 12.3 mm, 0 mm), 0 N)", "force = -50000 N/m * hand",
+                            "force = -300 N/m * hand limit 3 N", "force = vector(if x > 5 mm then 1 N else 0 N, 0 N)",
+                            "force = vector(-300 N/m * max(x - 30 mm, 0 mm), 0 N) - 40 N/m * hand"})
+    EXPECT_EQ(relief_of(pushing(force)).amplitude, 0) << force;
+  for (const char* at : {"x^2 + y^2", "(x - 20 mm)^2 + (y + 13 mm)^2"}) {
+    const Relief hill = relief_of(
+        pushing("height h = 10 mm * exp(-((" + std::string(at) + ") / (6 mm)^2))\nforce = lateral(h, amplitude: 1 N)"));
+    EXPECT_EQ(hill.within(textures), 0) << at;
+    EXPECT_GT(hill.within(bumps), 0.9) << at;
+    EXPECT_EQ(hill.period, 0) << at;
+  }
+}
+
+TEST(Reading, FrictionOnASlopeThatStartsAtRestIsNoViscosity) {
+  for (const double newton : {0.5, 2.0}) {
+    const OpposingForce found = opposing_force(
+        pushing("force = coulomb(" + std::to_string(newton) + " N, rise: 8 N s/m)", "import std.friction"));
+    EXPECT_NEAR(found.friction, newton, 0.03 * newton);
+    EXPECT_EQ(found.damping, 0);
+    EXPECT_NEAR(found.breakaway, newton / 8, 0.05 * newton / 8);
+  }
+}
+
+TEST(Reading, AHeartbeatHasNoViscosity) {
+  const ForceReading beat =
+      reading_of(pushing("active 2 W\nforce = vector(1 N * exp(-30 * phase(1.2 Hz)), 0 N) - 20 N/m * hand"));
+  EXPECT_EQ(beat.opposing.damping, 0);
+  EXPECT_EQ(beat.opposing.friction, 0);
+  EXPECT_NEAR(beat.sway.frequency, 1.2, 0.02);
+}
+
+TEST(Reading, AWallHasAFaceAndNothingElseHas) {
   const auto face = wall_face(pushing(
       "let depth = max(x - 12.3 mm, 0 mm)\n"
       "force = vector(-900 N/m * depth - (if depth > 0 mm then 6 N s/m * max(velocity.x, 0 m/s) else 0 N), 0 N)"));
@@ -280,10 +377,10 @@ TEST(Extract, AWallHasAFaceAndNothingElseHas) {
   EXPECT_FALSE(wall_face(pushing("force = vector(0 N, 0 N)")));
 }
 
-TEST(Extract, AWallWithStatesIsFoundByAHandThatMovesIntoIt) {
+TEST(Reading, AWallWithStatesIsFoundByAHandThatMovesIntoIt) {
   // std.wall: stiffness 900 N/m, damping 4 N s/m on the way in, face 20 mm right of the centre; it has states.
   const Bank wall(standard::made("std.wall", "wall"));
-  EXPECT_EQ(StaticForce(wall).bent, 0);  // a hand that enters behind the face feels no force
+  EXPECT_EQ(static_force(wall).largest, 0);  // a hand that enters behind the face feels no force
   const auto face = wall_face(wall);
   ASSERT_TRUE(face.has_value());
   EXPECT_NEAR(face->stiffness, 900, 5);
@@ -301,11 +398,11 @@ TEST(Extract, AWallWithStatesIsFoundByAHandThatMovesIntoIt) {
   const auto post = wall_face(Bank(standard::made("std.wall", "post", "stiffness: 700 N/m")));
   ASSERT_TRUE(post.has_value());
   EXPECT_NEAR(post->stiffness, 700, 20);  // the face is curved
-  EXPECT_NEAR(extract(wall, textures, bumps).wall->stiffness, 900, 5);
+  EXPECT_NEAR(reading_of(wall).wall->stiffness, 900, 5);
   // Frictions have states too, but are no walls.
   for (const char* name : {"coulomb_friction", "karnopp_friction", "dahl_friction"})
     EXPECT_FALSE(wall_face(Bank(standard::made("std.friction", name)))) << name;
 }
 
 }  // namespace
-}  // namespace wale::extract_test
+}  // namespace wale::read_test

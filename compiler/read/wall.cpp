@@ -1,4 +1,4 @@
-#include "compiler/extract/wall.hpp"
+#include "compiler/read/wall.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "compiler/extract/dependence.hpp"
 #include "compiler/measure/coarseness.hpp"
+#include "compiler/read/dependence.hpp"
 #include "wale/batch.hpp"
 
 namespace wale {
@@ -96,6 +96,47 @@ std::array<Force, 3> forces_at(const Bank& bank, const Scan& scan, double steps,
   return forces;
 }
 
+/// The face of a feature whose profile is flat at its low or its high end.
+std::optional<WallFace> face_of(const Feature& feature, bool from_low) {
+  const std::size_t count = feature.profile.size();
+  const auto place = [&](std::size_t i) { return from_low ? i : count - 1 - i; };
+  const glm::dvec2 inward = from_low ? feature.direction : -feature.direction;
+  const glm::dvec2 flat = feature.profile[place(count / 40)];
+  // Against a hand that goes in, N at each step from the flat end.
+  std::vector<double> against;
+  double most = 0, aside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 push = feature.profile[place(i)] - flat;
+    against.push_back(-glm::dot(push, inward));
+    most = std::max(most, against.back());
+    aside = std::max(aside, std::abs(push.x * inward.y - push.y * inward.x));
+  }
+  if (most < least_push || aside > 0.3 * most) return std::nullopt;
+  // The first straight part, between a tenth and six tenths of the largest push.
+  std::size_t first = 0;
+  while (first < count && against[first] < 0.1 * most) ++first;
+  std::size_t last = first;
+  while (last + 1 < count && against[last + 1] < 0.6 * most && against[last + 1] >= against[last] - 0.03 * most) ++last;
+  if (last < first + 3) return std::nullopt;
+  double n = 0, x = 0, f = 0, xx = 0, xf = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double at = feature.step * static_cast<double>(i);
+    n += 1, x += at, f += against[i], xx += at * at, xf += at * against[i];
+  }
+  const double slope = (n * xf - x * f) / (n * xx - x * x), onset = x / n - f / n / slope;
+  double off = 0;
+  for (std::size_t i = first; i <= last; ++i)
+    off = std::max(off, std::abs(against[i] - slope * (feature.step * static_cast<double>(i) - onset)));
+  // A spring is as steep at the flat end; a bend is no face.
+  if (!(slope > 0) || off > proportional * 0.6 * most || onset < steps_free * step) return std::nullopt;
+  const auto before = static_cast<std::size_t>(0.7 * onset / feature.step);
+  for (std::size_t i = 0; i < before; ++i)
+    if (std::abs(against[i]) > 0.1 * most) return std::nullopt;
+  const double along =
+      from_low ? feature.low + onset : feature.low + feature.step * static_cast<double>(count - 1) - onset;
+  return WallFace{along * feature.direction, inward, slope, 0, 0};
+}
+
 }  // namespace
 
 std::optional<WallFace> wall_face(const Bank& bank) {
@@ -105,7 +146,11 @@ std::optional<WallFace> wall_face(const Bank& bank) {
   const Scan* met = nullptr;
   double depth_met = 0;  // steps from the start of the line
   for (const Scan& scan : scans) {
-    const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(forces[scan.first + i]), scan.direction); };
+    // The size of a push that has a part against the scan: a face may be oblique.
+    const auto against = [&](std::size_t i) {
+      const glm::dvec2 force(forces[scan.first + i]);
+      return glm::dot(force, scan.direction) < 0 ? glm::length(force) : 0.0;
+    };
     std::size_t free = 0;
     for (std::size_t i = 0; i + steps_deep + 1 < scan.count; ++i) {
       const bool touched = glm::length(forces[scan.first + i]) > 1e-4f;
@@ -115,10 +160,14 @@ std::optional<WallFace> wall_face(const Bank& bank) {
         const double middle = against(i + 1), expected = near + slope * step;
         const bool straight = std::abs(middle - expected) <= proportional * far;
         const double depth = slope > 0 ? near / slope : -1;
-        if (far > least_push && straight && depth >= 0 && depth <= 1.05 * step &&
-            (!stiffest || slope > stiffest->stiffness)) {
+        const glm::dvec2 push(forces[scan.first + i + steps_deep]);
+        const glm::dvec2 inward = far > 0 ? -push / glm::length(push) : scan.direction;
+        // Along an oblique line the depth grows with the cosine of the angle.
+        const double cosine = glm::dot(inward, scan.direction), stiffness = slope / cosine;
+        if (far > least_push && straight && depth >= 0 && depth <= 1.05 * step && cosine > 0.3 &&
+            (!stiffest || stiffness > 1.001 * stiffest->stiffness)) {
           const double steps = static_cast<double>(i) - depth / step;
-          stiffest = WallFace{scan.from + steps * step * scan.direction, scan.direction, slope, 0, 0};
+          stiffest = WallFace{scan.from + steps * step * scan.direction, inward, stiffness, 0, 0};
           met = &scan, depth_met = steps + 2;
         }
       }
@@ -129,6 +178,31 @@ std::optional<WallFace> wall_face(const Bank& bank) {
   const glm::dvec2 in = slow * stiffest->inward;
   const auto felt = forces_at(bank, *met, depth_met, {glm::dvec2(0), in, -in});
   const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(felt[i]), stiffest->inward); };
+  stiffest->damping = (against(1) - against(0)) / slow;
+  stiffest->release = (against(0) - against(2)) / slow;
+  return stiffest;
+}
+
+std::optional<WallFace> wall_face(const Bank& bank, const std::vector<Feature>& features) {
+  std::optional<WallFace> stiffest;
+  for (const Feature& each : features) {
+    if (each.radial || !each.monotone) continue;
+    for (const bool from_low : {true, false}) {
+      const auto face = face_of(each, from_low);
+      if (face && (!stiffest || face->stiffness > stiffest->stiffness)) stiffest = face;
+    }
+  }
+  if (!stiffest) return stiffest;
+  // Both hands are at one place, so that only the speed makes a difference.
+  const glm::dvec2 in = slow * stiffest->inward, at = stiffest->place + 2e-3 * stiffest->inward;
+  std::array<Hand, 3> hands{};
+  std::array<Force, 3> forces{};
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    hands[i].position = hands[i].workspace = glm::vec2(at);
+    hands[i].velocity = hands[i].raw_velocity = glm::vec2(i == 0 ? glm::dvec2(0) : i == 1 ? in : -in);
+  }
+  tick_coarsely(bank, hands, forces);
+  const auto against = [&](std::size_t i) { return -glm::dot(glm::dvec2(forces[i]), stiffest->inward); };
   stiffest->damping = (against(1) - against(0)) / slow;
   stiffest->release = (against(0) - against(2)) / slow;
   return stiffest;

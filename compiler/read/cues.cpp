@@ -1,0 +1,110 @@
+#include "compiler/read/cues.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compiler/measure/coarseness.hpp"
+#include "compiler/read/tolerances.hpp"
+
+namespace wale {
+namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double none_is_little = -1;  // 0 is a value
+
+/// N: the force that none of the other cues reads, on a hand at rest, or on a moving hand that is held back along one
+/// axis and pushed along the other; the larger of the two. Negative if it mostly pushes away from the middle.
+double unread_force(const ForceReading& found) {
+  const bool pushed = found.relief().amplitude >= least_force || std::abs(found.stiffness) >= least_stiffness ||
+                      found.wall || std::abs(found.opposing.friction) >= least_force;
+  const bool resisted = pushed || std::abs(found.opposing.damping) >= least_damping ||
+                        std::abs(found.inertia) >= least_mass || found.vibration.amplitude >= least_force ||
+                        found.sway.amplitude >= least_force;
+  const double still = pushed ? 0 : found.still.pushes_away ? -found.still.largest : found.still.largest;
+  const double moving = resisted ? 0 : found.opposing.scatter;
+  return std::abs(still) < moving ? moving : still;
+}
+
+double value_of(CueKind kind, const ForceReading& found) {
+  switch (kind) {
+#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) \
+  case CueKind::kind:                                                     \
+    return value;
+#include "compiler/read/cue.def"
+#undef CUE
+  }
+  return 0;
+}
+
+double least_of(CueKind kind) {
+  switch (kind) {
+#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) \
+  case CueKind::kind:                                                     \
+    return least;
+#include "compiler/read/cue.def"
+#undef CUE
+  }
+  return 0;
+}
+
+std::optional<double> cue_of(CueKind kind, const ForceReading& found) {
+  const double value = value_of(kind, found), least = least_of(kind);
+  if (std::isnan(value) || std::abs(value) < least || (least == 0 && value == 0)) return std::nullopt;
+  return value;
+}
+
+/// The band of a percept's periods. What lies on the border of two percepts' bands belongs to the finer one, as well as
+/// a period is read.
+PeriodBand band_of(const Percept& percept, const Declarations& declarations) {
+  constexpr double border = 1 + reading;
+  PeriodBand band{percept.period.low / border, percept.period.high * border};
+  declarations.percepts.each([&](const std::string&, const Percept& other) {
+    if (other.extractor == percept.extractor && other.period.high == percept.period.low)
+      band.low = percept.period.low * border;
+  });
+  return band;
+}
+
+}  // namespace
+
+const std::array<CueFacts, cue_count>& cue_table() {
+  static constexpr std::array<CueFacts, cue_count> table{{
+#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) \
+  {CueKind::kind, name, unit, Extractor::extractor, threshold, exerts},
+#include "compiler/read/cue.def"
+#undef CUE
+  }};
+  return table;
+}
+
+std::optional<double> carrier_of(const ForceReading& found, const Percept& percept, const Declarations& declarations) {
+  switch (percept.extractor) {
+    case Extractor::lateral_force: {
+      const double size = found.relief().within(band_of(percept, declarations));
+      const bool counts = size >= std::max(least_force, least_of_relief * found.relief().amplitude);
+      return counts ? std::optional(size) : std::nullopt;
+    }
+    case Extractor::steepness:
+      return found.relief().amplitude >= least_force ? std::optional(found.relief().steepness) : std::nullopt;
+    case Extractor::wall_damping:
+      return found.wall && found.wall->damping >= least_damping ? std::optional(found.wall->damping) : std::nullopt;
+    default: break;
+  }
+  for (const CueFacts& facts : cue_table())
+    if (facts.extractor == percept.extractor && facts.extractor != Extractor::none) return cue_of(facts.kind, found);
+  return std::nullopt;
+}
+
+Cues cues_of(const Bank& bank, const ForceReading& reading) {
+  const PatchProgram& program = bank.program().description();
+  Cues cues{program.material, program.device.name, {}, coarseness_of(program)};
+  for (const CueFacts& facts : cue_table()) cues[facts.kind] = cue_of(facts.kind, reading);
+  if (cues[CueKind::amplitude]) return cues;
+  for (const CueKind kind : {CueKind::period, CueKind::orientation, CueKind::regularity}) cues[kind] = std::nullopt;
+  return cues;
+}
+
+Cues cues_of(const Bank& bank, const Declarations& declarations) { return cues_of(bank, read(bank, declarations)); }
+
+}  // namespace wale

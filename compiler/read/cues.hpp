@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "compiler/read/read.hpp"
+
+namespace wale {
+
+/// The cues by which two materials may be told apart (read/cue.def).
+enum class CueKind {
+#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) kind,
+#include "compiler/read/cue.def"
+#undef CUE
+};
+
+struct CueFacts {
+  CueKind kind;
+  const char* name;       ///< "wall stiffness"
+  const char* unit;       ///< SI; empty for a plain number
+  Extractor extractor;    ///< of the percepts whose carrier it is
+  const char* threshold;  ///< the cue of the `threshold` declarations for it; empty if nothing is published
+  bool exerts;            ///< a difference of this cue is a difference of force
+};
+
+#define CUE(kind, name, unit, extractor, threshold, exerts, least, value) +1
+inline constexpr std::size_t cue_count = 0
+#include "compiler/read/cue.def"
+    ;
+#undef CUE
+
+/// In the order of `CueKind`.
+const std::array<CueFacts, cue_count>& cue_table();
+
+/// The cues of one material on one device; no value for those that it does not have, such as a period without a relief.
+struct Cues {
+  std::string material;
+  std::string device;
+  std::array<std::optional<double>, cue_count> values;
+  std::size_t coarseness = 1;  ///< of how many places one was sampled
+
+  std::optional<double>& operator[](CueKind kind) { return values[static_cast<std::size_t>(kind)]; }
+  const std::optional<double>& operator[](CueKind kind) const { return values[static_cast<std::size_t>(kind)]; }
+};
+
+/// The cues of a reading, without those that are below the least that counts.
+Cues cues_of(const Bank& bank, const ForceReading& reading);
+Cues cues_of(const Bank& bank, const Declarations& declarations);
+
+}  // namespace wale

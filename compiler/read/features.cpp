@@ -1,0 +1,309 @@
+#include "compiler/read/features.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "compiler/read/still_forces.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t coarse_bins = 64, fine_bins = 96, finest_bins = 288;
+constexpr std::size_t bins_of_means = 32;
+constexpr std::size_t few_places = 2500;  // too few for fine bins: means over a lattice
+constexpr std::size_t most_features = 2;
+constexpr int directions_tried = 12;
+constexpr double nearly_all = 0.9;       // of the mean square
+constexpr double exactly = 0.015;        // of the mean square, left by features that are all there is
+constexpr double worth_a_feature = 0.3;  // of what is left
+constexpr double plainly = 0.06;         // of a profile's range: a turn that counts
+constexpr double jump = 0.2;             // of a profile's range, between the second next values
+constexpr int most_turns = 4;            // of a profile; a texture has more
+
+glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
+  const glm::dvec2 off = place - origin;
+  const double far = glm::length(off);
+  return far > 0 ? off / far : glm::dvec2(0);
+}
+
+/// Fits a profile of so many values along a feature's coordinate, and returns what share of the mean square it
+/// explains.
+double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                   std::size_t bins) {
+  if (places.size() < few_places) bins = std::min(bins, bins_of_means);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const glm::dvec2& place : places) {
+    const double at = feature.coordinate(place);
+    low = std::min(low, at), high = std::max(high, at);
+  }
+  if (!(high > low)) return 0;
+  feature.step = (high - low) / static_cast<double>(bins);
+  feature.low = low + 0.5 * feature.step;
+  feature.profile.assign(bins, glm::dvec2(0));
+  std::vector<double> counts(bins, 0);
+  double whole = 0, kept = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double share = (feature.coordinate(places[i]) - low) / (high - low) * static_cast<double>(bins);
+    const std::size_t bin = std::min(static_cast<std::size_t>(share), bins - 1);
+    whole += glm::dot(forces[i], forces[i]);
+    feature.profile[bin] +=
+        feature.radial ? glm::dvec2(glm::dot(forces[i], outward(places[i], feature.origin)), 0) : forces[i];
+    counts[bin] += 1;
+  }
+  double used = 0;
+  for (std::size_t i = 0; i < bins; ++i) {
+    if (!(counts[i] > 0)) continue;
+    kept += glm::dot(feature.profile[i], feature.profile[i]) / counts[i];
+    feature.profile[i] /= counts[i];
+    used += 1;
+  }
+  const auto count = static_cast<double>(places.size());
+  // Where a direction ends in a corner there are too few places for a mean.
+  const double few = 0.15 * count / static_cast<double>(bins);
+  for (std::size_t i = bins / 2; i < bins; ++i)
+    if (counts[i] < few) feature.profile[i] = feature.profile[i - 1];
+  for (std::size_t i = bins / 2; i-- > 0;)
+    if (counts[i] < few && !feature.radial) feature.profile[i] = feature.profile[i + 1];
+  return whole > 0 && count > used ? 1 - (whole - kept) / whole * count / (count - used) : 0;
+}
+
+/// How often a profile turns, where a turn is more than a small part of its range.
+int turns_of(const Feature& feature) {
+  // Along the component with the larger range.
+  glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+  for (const glm::dvec2& force : feature.profile) low = glm::min(low, force), high = glm::max(high, force);
+  const int axis = high.x - low.x >= high.y - low.y ? 0 : 1;
+  // A force that is nearly the same everywhere does not turn.
+  const double least = plainly * std::max(high[axis] - low[axis], 0.5 * std::max(std::abs(low[axis]), high[axis]));
+  double top = feature.profile.front()[axis], bottom = top;
+  int turns = 0, going = 0;
+  for (const glm::dvec2& force : feature.profile) {
+    const double here = force[axis];
+    if (going >= 0) top = std::max(top, here);
+    if (going <= 0) bottom = std::min(bottom, here);
+    if (going >= 0 && here < top - least) {
+      turns += going > 0, going = -1, bottom = here;
+    } else if (going <= 0 && here > bottom + least) {
+      turns += going < 0, going = 1, top = here;
+    }
+  }
+  return turns;
+}
+
+/// The direction, or the origin, about the given one with which a profile explains most.
+template <typename Vary>
+double improve(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, double step,
+               double finest, int ways, const Vary& vary) {
+  double best = fit_profile(feature, places, forces, coarse_bins);
+  while (step > finest) {
+    bool better = false;
+    for (int way = 0; way < ways; ++way) {
+      Feature other = vary(feature, way, step);
+      const double here = fit_profile(other, places, forces, coarse_bins);
+      if (here > best) best = here, feature = other, better = true;
+    }
+    if (!better) step *= 0.5;
+  }
+  return best;
+}
+
+Feature along(double angle) { return {.direction = {std::cos(angle), std::sin(angle)}}; }
+
+/// The feature that explains most; nothing if it explains too little.
+std::optional<Feature> next_feature(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  Feature best;
+  double explained = 0;
+  for (int i = 0; i < directions_tried; ++i) {
+    Feature planar = along(i * std::numbers::pi / directions_tried);
+    const double here = fit_profile(planar, places, forces, coarse_bins);
+    if (here > explained) explained = here, best = planar;
+  }
+  Feature radial{.radial = true};
+  const double round = fit_profile(radial, places, forces, coarse_bins);
+  const auto moved = [](Feature feature, int way, double step) {
+    feature.origin += step * glm::dvec2(way == 0 ? 1 : way == 1 ? -1 : 0, way == 2 ? 1 : way == 3 ? -1 : 0);
+    return feature;
+  };
+  const auto turned = [](const Feature& feature, int way, double step) {
+    return along(std::atan2(feature.direction.y, feature.direction.x) + (way == 0 ? step : -step));
+  };
+  if (explained > 0.2 * worth_a_feature)
+    explained = improve(best, places, forces, 0.5 * std::numbers::pi / directions_tried, 2e-3, 2, turned);
+  if (explained < nearly_all) {
+    // A radial force may be about any place: first where the forces are strongest.
+    glm::dvec2 centre{0};
+    double weight = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double power = glm::dot(forces[i], forces[i]);
+      centre += power * places[i], weight += power;
+    }
+    Feature aside{.radial = true, .origin = weight > 0 ? centre / weight : glm::dvec2(0)};
+    if (fit_profile(aside, places, forces, coarse_bins) > round) radial = aside;
+    const double about = improve(radial, places, forces, 8e-3, 0.2e-3, 4, moved);
+    if (about > explained) explained = about, best = radial;
+  }
+  if (explained < worth_a_feature) return std::nullopt;
+  return best;
+}
+
+std::vector<glm::dvec2> without_features(const std::vector<Feature>& features, std::span<const glm::dvec2> places,
+                                         std::span<const glm::dvec2> forces) {
+  std::vector<glm::dvec2> rest(forces.begin(), forces.end());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (const Feature& each : features) rest[i] -= each.at(places[i]);
+  return rest;
+}
+
+/// Fits the profiles of all features in turn, and returns the mean square of what they leave.
+double fit_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
+                    std::span<const glm::dvec2> forces, std::size_t bins) {
+  for (Feature& each : features) each.profile.assign(2, glm::dvec2(0)), each.step = 1;
+  for (int turn = 0; turn < (features.size() > 1 ? 2 : 1); ++turn)
+    for (Feature& each : features) {
+      std::vector<glm::dvec2> own = without_features(features, places, forces);
+      for (std::size_t i = 0; i < places.size(); ++i) own[i] += each.at(places[i]);
+      fit_profile(each, places, own, bins);
+    }
+  return mean_square(without_features(features, places, forces));
+}
+
+/// Turns the directions of two features to where they explain most together; alone, one leans towards the other.
+double turn_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
+                     std::span<const glm::dvec2> forces, double left) {
+  for (double step = 0.1; step > 1e-3; step *= 0.5)
+    for (std::size_t i = 0; i < features.size(); ++i)
+      for (const double turn : {step, -step}) {
+        if (features[i].radial) continue;
+        std::vector<Feature> other = features;
+        other[i] = along(std::atan2(other[i].direction.y, other[i].direction.x) + turn);
+        const double here = fit_together(other, places, forces, fine_bins);
+        if (here < left) left = here, features = std::move(other);
+      }
+  return left;
+}
+
+/// Turns or moves a feature, whose profile is fitted, by one step of Gauss and Newton.
+void place_better(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  const auto slope_at = [&](glm::dvec2 place) {
+    const double at = std::round((feature.coordinate(place) - feature.low) / feature.step);
+    const auto last = static_cast<double>(feature.profile.size() - 2);
+    const auto bin = static_cast<std::size_t>(std::clamp(at, 1.0, last));
+    return (feature.profile[bin + 1] - feature.profile[bin - 1]) / (2 * feature.step);
+  };
+  double xx = 0, xy = 0, yy = 0;
+  glm::dvec2 sums{0};
+  const glm::dvec2 across(-feature.direction.y, feature.direction.x);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const glm::dvec2 off = forces[i] - feature.at(places[i]), slope = slope_at(places[i]);
+    if (!feature.radial) {
+      const double aside = glm::dot(places[i], across);
+      xx += glm::dot(slope, slope) * aside * aside, sums.x += glm::dot(slope, off) * aside;
+      continue;
+    }
+    const double far = glm::length(places[i] - feature.origin);
+    if (far < 2 * feature.step) continue;
+    const glm::dvec2 out = outward(places[i], feature.origin), way(-out.y, out.x);
+    // Moving the origin changes the distance, and the direction of the push.
+    const double push = glm::dot(feature.at(places[i]), out) / far;
+    const glm::dvec2 by_x = -slope.x * out.x * out - push * way.x * way;
+    const glm::dvec2 by_y = -slope.x * out.y * out - push * way.y * way;
+    xx += glm::dot(by_x, by_x), xy += glm::dot(by_x, by_y), yy += glm::dot(by_y, by_y);
+    sums += glm::dvec2(glm::dot(by_x, off), glm::dot(by_y, off));
+  }
+  const double area = xx * yy - xy * xy;
+  if (!feature.radial && xx > 0) {
+    feature.direction = glm::normalize(feature.direction + std::clamp(sums.x / xx, -0.05, 0.05) * across);
+  } else if (feature.radial && area > 0) {
+    feature.origin += glm::clamp(glm::dvec2(yy * sums.x - xy * sums.y, xx * sums.y - xy * sums.x) / area, -2e-3, 2e-3);
+  }
+}
+
+}  // namespace
+
+double Feature::coordinate(glm::dvec2 place) const {
+  return radial ? glm::length(place - origin) : glm::dot(place, direction);
+}
+
+glm::dvec2 Feature::at(glm::dvec2 place) const {
+  const double at = std::clamp((coordinate(place) - low) / step, 0.0, static_cast<double>(profile.size() - 1));
+  const auto first = std::min(static_cast<std::size_t>(at), profile.size() - 2);
+  const double part = at - static_cast<double>(first);
+  const glm::dvec2 force = (1 - part) * profile[first] + part * profile[first + 1];
+  return radial ? force.x * outward(place, origin) : force;
+}
+
+bool Feature::jumps_at(glm::dvec2 place) const {
+  const double at = std::round((coordinate(place) - low) / step);
+  const auto last = static_cast<double>(profile.size() - 1);
+  const auto index = static_cast<std::size_t>(std::clamp(at, 0.0, last));
+  const glm::dvec2 change = profile[std::min(index + 1, profile.size() - 1)] - profile[index == 0 ? 0 : index - 1];
+  return glm::length(change) > jump * range;
+}
+
+glm::dvec2 beside(const std::vector<Feature>& features, glm::dvec2 place, glm::dvec2 force) {
+  for (const Feature& each : features) {
+    if (each.jumps_at(place)) return glm::dvec2(0);
+    force -= each.at(place);
+  }
+  return force;
+}
+
+std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+  const double all = mean_square(forces);
+  if (!(all > 0)) return {};
+  std::vector<Feature> found;
+  double left = all;
+  while (found.size() < most_features && left > exactly * all) {
+    const auto next = next_feature(places, without_features(found, places, forces));
+    if (!next) break;
+    found.push_back(*next);
+    left = fit_together(found, places, forces, fine_bins);
+    if (found.size() > 1) left = turn_together(found, places, forces, left);
+  }
+  // A device limits each axis by itself, so what saturates is often the sum of a part along x and one along y.
+  if (left > 1e-4 * all) {
+    std::vector<Feature> axes = {along(0), along(0.5 * std::numbers::pi)};
+    const double here = fit_together(axes, places, forces, fine_bins);
+    if (here < 0.5 * left) left = here, found = std::move(axes);
+  }
+  if (left > (1 - nearly_all) * all) return {};
+  return found;
+}
+
+void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2> places,
+                     std::span<const glm::dvec2> forces) {
+  // Every fourth place is enough to turn a long face by; a hill may be small.
+  const bool all_long = std::ranges::none_of(features, &Feature::radial);
+  const std::size_t every = all_long ? 4 : 1;
+  std::vector<glm::dvec2> some_places, some;
+  for (std::size_t i = 0; i < places.size(); i += every) some_places.push_back(places[i]), some.push_back(forces[i]);
+  for (int turn = 0; turn < 3; ++turn) {
+    fit_together(features, some_places, some, all_long ? finest_bins / 2 : finest_bins);
+    for (Feature& each : features) {
+      std::vector<glm::dvec2> own = without_features(features, some_places, some);
+      for (std::size_t i = 0; i < own.size(); ++i) own[i] += each.at(some_places[i]);
+      place_better(each, some_places, own);
+    }
+  }
+  fit_together(features, places, forces, finest_bins);
+  const auto turns_often = [](const Feature& each) { return turns_of(each) > most_turns; };
+  if (std::ranges::any_of(features, turns_often)) {
+    // A texture along the same direction shows in a fine profile; coarse parts are means over it. What turns often even
+    // so is no feature.
+    fit_together(features, places, forces, bins_of_means);
+    if (std::erase_if(features, turns_often) > 0) fit_together(features, places, forces, finest_bins);
+  }
+  for (Feature& each : features) {
+    const int turns = turns_of(each);
+    each.monotone = turns == 0;
+    glm::dvec2 low(HUGE_VAL), high(-HUGE_VAL);
+    for (const glm::dvec2& force : each.profile) low = glm::min(low, force), high = glm::max(high, force);
+    each.range = glm::length(high - low);
+  }
+}
+
+}  // namespace wale

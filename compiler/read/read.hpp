@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "compiler/declarations/declarations.hpp"
+#include "compiler/read/motion.hpp"
+#include "compiler/read/relief.hpp"
+#include "compiler/read/wall.hpp"
+
+namespace wale {
+
+/// What a finished program does to a hand, read from its forces, whatever its text says. Each carrier is read from its
+/// own part of the force, so that none is mistaken for another.
+struct ForceReading {
+  StaticForce still;
+  /// N/m: of the force that draws the hand back, if it is alike over the patch. A spring that saturates before, or a
+  /// wall, has no single stiffness: 0.
+  double stiffness = 0;
+  std::optional<WallFace> wall;
+  OpposingForce opposing;
+  double inertia = 0;  ///< kg
+  Swing sway;          ///< slower than 10 Hz
+  Swing vibration;
+
+  const Relief& relief() const { return still.relief; }
+};
+
+/// Reads a program at this bank's parameters. The only place where a figure of feel is computed; `declarations` has the
+/// bands of periods of the percepts. Deterministic.
+ForceReading read(const Bank& bank, const Declarations& declarations);
+
+/// The size of a percept's carrier by the percept's extractor, in SI units; nothing if the program has no such carrier,
+/// or less of it than the least that counts (read/cue.def).
+std::optional<double> carrier_of(const ForceReading& reading, const Percept& percept, const Declarations& declarations);
+
+}  // namespace wale

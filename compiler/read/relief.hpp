@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "compiler/read/features.hpp"
+#include "compiler/read/period_band.hpp"
+#include "compiler/read/waves.hpp"
+#include "wale/memory.hpp"
+
+namespace wale {
+
+/// One wave of a relief.
+struct ReliefWave {
+  double period = 0;       ///< m
+  double orientation = 0;  ///< rad from the x axis, in [0, pi): the direction in which it changes
+  double share = 0;        ///< 0 .. 1: of the mean square of the force
+};
+
+/// A program's static force over the patch without its rim, less its trends: springs, walls and edges.
+struct Relief {
+  double amplitude = 0;    ///< N: the 99th percentile of its size, as the amplitude of a lateral force is defined
+  double maximum = 0;      ///< N: the definition of Minsky 1995, the largest force found
+  double rms = 0;          ///< N
+  double mean = 0;         ///< N: the mean of its size
+  double transitions = 0;  ///< 1/m: sign changes along the strongest wave
+  /// m: after which it repeats, whatever the waveform: the period of the strongest wave, or the shortest step of a
+  /// lattice. If it does not repeat, the size of its grain; 0 without relief, and for a single hill.
+  double period = 0;
+  double orientation = 0;  ///< rad from the x axis, in [0, pi): the direction in which it changes
+  double anisotropy = 0;   ///< 0: the same in every direction; 1: in one direction only
+  double regularity = 0;   ///< 0 .. 1: the share of its mean square that repeats
+  double steepness = 0;    ///< 1/m: the 99th percentile of its change with position, over its amplitude
+  double crest = 0;        ///< the maximum of the strongest waveform over its root mean square; 0 without a wave
+  /// The waves, strongest first. A wave whose parts have a small common multiple is listed by its parts.
+  std::vector<ReliefWave> waves;
+
+  /// What the mean square consists of, by the period of the fundamental: harmonics count with their wave, irregular
+  /// parts by themselves, and a single hill as a wave as long as half of the patch.
+  struct Part {
+    double period = 0;  ///< m
+    double share = 0;   ///< 0 .. 1
+  };
+  std::vector<Part> parts;
+
+  /// The size within a band, N: the amplitude times the root of the band's share of the mean square.
+  double within(const PeriodBand& band) const;
+  /// Whether it repeats, so that it has a period.
+  bool regular() const { return amplitude > 0 && regularity >= 0.5; }
+  /// Whether it changes mostly in one direction, so that this direction has a meaning.
+  bool oriented() const { return amplitude > 0 && anisotropy >= 0.5; }
+};
+
+/// The static force in parts.
+struct StaticForce {
+  double largest = 0;             ///< N: the 99th percentile of the whole force on hands at rest
+  LinearForce trend;              ///< the linear part, without the relief's; zero if features take its place
+  bool pushes_away = false;       ///< the linear part points outward
+  std::vector<Feature> features;  ///< walls, edges, springs that saturate, single hills
+  Relief relief;
+};
+
+/// Runs the program at this bank's parameters, at as many places as its detail needs. Deterministic.
+StaticForce static_force(const Bank& bank);
+
+/// The same of the surface that the program shows, with heights in place of forces: in micrometres, or
+/// millionths of a plain number.
+Relief picture_relief(const Bank& bank, const Memory* memory = nullptr);
+
+}  // namespace wale

@@ -1,0 +1,485 @@
+#include "compiler/read/waves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "compiler/read/window_spectrum.hpp"
+
+namespace wale {
+namespace {
+
+constexpr std::size_t most_waves_found = 3;
+constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
+constexpr std::size_t closer_side = 128;
+constexpr std::size_t candidates = 5;
+constexpr std::size_t parts_of_a_wave = 32;       // of the shortest wave that a fold should show
+constexpr std::size_t most_multiples = 40;        // of a peak's period, for its fundamental
+constexpr std::size_t few_multiples = 12;         // after which ...
+constexpr double hopeless = 0.12;                 // ... so little explained means that there is no wave
+constexpr double hardly_less = 0.015;             // of the mean square: as well explained
+constexpr double out_of_place = 0.25;             // periods over the window
+constexpr double wholly = 0.985;                  // explained: no longer period can be better
+constexpr double least_explained = 0.3;           // of what is left, by a wave ...
+constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
+constexpr double least_explained_by_many = 0.12;  // ... and by one with many
+constexpr double few_periods = 6, many_periods = 25;
+constexpr double slow_periods = 12;  // over the patch
+constexpr double least_explained_locally = 0.5;
+constexpr double coherent = 0.7;      // of the share in a small window, also in the whole
+constexpr double negligible = 0.004;  // of the whole mean square
+constexpr std::size_t small_common_multiple = 5;
+constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
+constexpr double weak_part = 0.004;
+constexpr double slowest_lattice = 4;  // periods over the patch
+constexpr double too_fine = 0.97;      // of the mean square: nothing is left to search in this window
+constexpr std::size_t lattice_parts = 20;
+constexpr std::size_t finer_lattice_parts = 40;
+constexpr double least_lattice = 0.6;
+constexpr double least_turn = 0.2;  // rad between two directions
+
+/// The longest line in a direction across a window.
+double length_along(glm::dvec2 size, glm::dvec2 direction) {
+  const glm::dvec2 way = glm::abs(glm::normalize(direction));
+  return std::min(way.x > 0 ? size.x / way.x : HUGE_VAL, way.y > 0 ? size.y / way.y : HUGE_VAL);
+}
+
+/// Every fourth place or so, chosen as if by chance: a regular choice would alias.
+StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::dvec2>& forces, std::size_t about) {
+  StillForces thin{window.side, window.centre, window.size, {}, {}};
+  std::uint64_t random = 88172645463325252u;  // Marsaglia's xorshift
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    random ^= random << 13, random ^= random >> 7, random ^= random << 17;
+    if (random % forces.size() >= about) continue;
+    thin.places.push_back(window.places[i]), thin.forces.push_back(forces[i]);
+  }
+  return thin;
+}
+
+std::size_t most_bins(std::size_t wanted, std::size_t places) {
+  return std::clamp<std::size_t>(wanted, 16, places / 5);
+}
+
+/// Moves waves so slow that quarters of the window hold too little of them to where they explain most.
+glm::dvec2 best_explained(const StillForces& thin, glm::dvec2 waves) {
+  constexpr std::size_t bins = 24;
+  double step = 0.25;  // periods over the window
+  double best = explained_by(thin.places, thin.forces, waves, bins);
+  while (step > 0.01) {
+    bool moved = false;
+    for (const glm::dvec2 aside : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      const glm::dvec2 other = waves + step * aside / thin.size;
+      const double here = explained_by(thin.places, thin.forces, other, bins);
+      if (here > best) best = here, waves = other, moved = true;
+    }
+    if (!moved) step *= 0.5;
+  }
+  return waves;
+}
+
+/// The mean squares of a profile's harmonics, from the first on, as shares of all.
+std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most) {
+  std::vector<double> powers(most);
+  const auto count = static_cast<double>(wave.profile.size());
+  double all = 0;
+  for (const glm::dvec2& force : wave.profile) all += glm::dot(force, force) / count;
+  for (std::size_t harmonic = 1; harmonic <= most; ++harmonic) {
+    std::complex<double> x = 0, y = 0;
+    for (std::size_t i = 0; i < wave.profile.size(); ++i) {
+      const auto turned = std::polar(1 / count, -2 * std::numbers::pi * static_cast<double>(harmonic * i) / count);
+      x += wave.profile[i].x * turned, y += wave.profile[i].y * turned;
+    }
+    powers[harmonic - 1] = all > 0 ? 2 * (std::norm(x) + std::norm(y)) / all : 0;
+  }
+  return powers;
+}
+
+/// A wave in a window: what `multiple` times the period of a peak explains.
+struct Fundamental {
+  glm::dvec2 waves{0};
+  std::size_t multiple = 1;
+  double explained = 0;
+  std::vector<std::size_t> parts{1};
+};
+
+/// The fundamental of the wave whose strongest harmonic is at a peak: the shortest multiple of its period that explains
+/// nearly as much as any.
+Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside = true) {
+  const double period = 1 / glm::length(peak), length = length_along(thin.size, peak);
+  const auto explained = [&](std::size_t multiple) {
+    return explained_by(thin.places, thin.forces, peak / static_cast<double>(multiple),
+                        most_bins(parts_of_a_wave * multiple, thin.places.size()));
+  };
+  Fundamental found{peak, 1, explained(1), {1}};
+  if (found.explained >= wholly) return found;
+  const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
+  std::vector<double> all{found.explained};
+  for (std::size_t multiple = 2; multiple <= most; ++multiple) {
+    all.push_back(explained(multiple));
+    if (multiple == few_multiples && std::ranges::max(all) < hopeless) break;
+  }
+  const double best = std::ranges::max(all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] >= best - hardly_less) {
+      found = {peak / static_cast<double>(i + 1), i + 1, all[i], {1}};
+      break;
+    }
+  if (found.multiple == 1) return found;
+  // A few waves whose common multiple is long repeat only by chance.
+  const FoldedWave wave =
+      folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
+  const std::vector<double> powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
+  // A peak may lie beside the wave, at an even part of a multiple: then only every so many-th harmonic is there.
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
+  if (step > 1 && may_lie_beside) {
+    glm::dvec2 finer = static_cast<double>(step) * found.waves;
+    for (int turn = 0; turn < 3; ++turn) finer = better_fitting(thin.places, thin.forces, finer, parts_of_a_wave);
+    return fundamental_of(thin, finer, false);
+  }
+  // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
+  std::vector<std::size_t> strong, own;
+  double in_strong = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    if (powers[i] < strong_part) continue;
+    in_strong += powers[i];
+    strong.push_back(i + 1);
+    if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
+  }
+  if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
+    const bool sines = strong.size() == own.size();
+    // Waves that do not quite fit a common multiple are elsewhere when looked for by themselves.
+    const bool elsewhere = sines && std::ranges::any_of(own, [&](std::size_t part) {
+                             const glm::dvec2 waves = static_cast<double>(part) * found.waves;
+                             const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
+                             return glm::length((there - waves) * thin.size) > out_of_place;
+                           });
+    if (own.back() > small_common_multiple || elsewhere) return {peak, 1, all.front(), {1}};
+    if (sines) found.parts = own;
+  }
+  return found;
+}
+
+/// Searches the waves of one program.
+class WaveSearch {
+ public:
+  WaveSearch(const StillField& field, const StillForces& whole, const std::vector<Feature>& features)
+      : field_(field), whole_(whole), features_(features) {
+    update_rest();
+    found_.trend = linear_force(whole.places, found_.rest);
+    update_rest();
+    all_ = mean_square(found_.rest);
+  }
+
+  FoundWaves search() {
+    if (!(all_ > 0)) return std::move(found_);
+    StillForces window = whole_;
+    std::vector<glm::dvec2> forces = found_.rest;
+    bool again = false;
+    for (std::size_t level = 0;; ++level) {
+      WindowSpectrum spectrum(window, forces);
+      while (found_.waves.size() < most_waves_found && mean_square(forces) > 0 &&
+             next_wave(window, forces, spectrum, level)) {
+        if (found_.local) return finished();
+        if (mean_square(found_.rest) < negligible * all_) return finished();
+        forces = level == 0 ? found_.rest : rest_at(window.places, window.forces);
+        spectrum = WindowSpectrum(window, forces);
+        again |= level > 0;
+      }
+      // Without its fine waves the whole may show slow ones that were too small a part of it.
+      if (again && found_.waves.size() < most_waves_found) {
+        again = false, level = 0, window = whole_, forces = found_.rest;
+        spectrum = WindowSpectrum(window, forces);
+        while (found_.waves.size() < most_waves_found && next_wave(window, forces, spectrum, level)) {
+          forces = found_.rest;
+          spectrum = WindowSpectrum(window, forces);
+        }
+        if (mean_square(found_.rest) < negligible * all_) return finished();
+      }
+      if (level == 0 && find_lattice(spectrum)) return finished();
+      const bool finer = spectrum.finer() * mean_square(forces) > 0.5 * negligible * all_;
+      const bool enough = level == 0 ? !finer && !found_.waves.empty() : !finer;
+      if (enough || level == closer.size() || found_.waves.size() == most_waves_found) return finished();
+      const double longest = std::max(whole_.size.x, whole_.size.y);
+      const glm::dvec2 size = glm::min(glm::dvec2(longest / closer[level]), whole_.size),
+                       room = 0.5 * (whole_.size - size);
+      glm::dvec2 centre = level == 0 ? busiest_place(whole_, found_.rest) : window.centre;
+      centre = glm::clamp(centre, whole_.centre - room, whole_.centre + room);
+      window = still_forces(field_, centre, size, closer_side);
+      forces = rest_at(window.places, window.forces);
+    }
+  }
+
+ private:
+  std::vector<glm::dvec2> rest_at(const std::vector<glm::dvec2>& places, std::vector<glm::dvec2> forces) const {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      forces[i] -= found_.trend.at(places[i]);
+      if (!features_.empty()) forces[i] = beside(features_, places[i], forces[i]);
+      for (const FoundWave& each : found_.waves) forces[i] -= each.wave.at(places[i]);
+    }
+    return forces;
+  }
+  void update_rest() { found_.rest = rest_at(whole_.places, whole_.forces); }
+
+  /// Finds one more wave in a window and takes it off. False if there is none.
+  bool next_wave(const StillForces& window, const std::vector<glm::dvec2>& forces, const WindowSpectrum& spectrum,
+                 std::size_t level) {
+    if (spectrum.finer() > too_fine) return false;
+    const StillForces thin = thinned_by_chance(window, forces, 5000);
+    for (glm::dvec2 peak : spectrum.peaks(candidates, level == 0 ? 1.4 : 4)) {
+      const glm::dvec2 rough = peak;
+      const double periods = glm::length(peak) * length_along(window.size, peak);
+      if (periods > 5)
+        peak = in_phase(thin.places, thin.forces, window.centre, window.size, peak);
+      else
+        peak = best_explained(thin, peak);
+      const double moved = glm::length((peak - rough) * window.size);
+      if (!(moved < 2)) continue;
+      if (periods > 5)
+        for (int turn = 0; turn < 2; ++turn) peak = better_fitting(thin.places, thin.forces, peak, 16);
+      const Fundamental fundamental = fundamental_of(thin, peak);
+      const double held = glm::length(fundamental.waves) * length_along(window.size, fundamental.waves);
+      // In noise a wave explains the less the more of its periods there are.
+      const double least = level > 0 || held > many_periods ? least_explained_by_many
+                           : held < few_periods             ? least_explained_by_few
+                                                            : least_explained;
+      if (held < (level > 0 ? 4 : 1.9) || fundamental.explained < least) continue;
+      if (level == 0) return take_off(fundamental.waves, fundamental);
+      const auto wider = widened(window, fundamental);
+      if (wider) return take_off(*wider, fundamental);
+      if (fundamental.explained < least_explained_locally || !found_.waves.empty() ||
+          !holds_where_it_is(window, fundamental))
+        continue;
+      keep_local(window, forces, fundamental);
+      return true;
+    }
+    return false;
+  }
+
+  /// The waves of a fundamental that was found in a small window, made exact over the whole patch; nothing if they do
+  /// not hold there.
+  std::optional<glm::dvec2> widened(const StillForces& window, const Fundamental& fundamental) const {
+    glm::dvec2 waves = fundamental.waves, size = window.size;
+    // The strongest harmonic has the finest phase.
+    const auto multiple = static_cast<double>(fundamental.multiple);
+    while (size.x < whole_.size.x * 0.99 || size.y < whole_.size.y * 0.99) {
+      size = glm::min(3.0 * glm::dvec2(std::max(size.x, size.y)), whole_.size);
+      const glm::dvec2 room = 0.5 * (whole_.size - size);
+      const glm::dvec2 centre = glm::clamp(window.centre, whole_.centre - room, whole_.centre + room);
+      const StillForces wide = still_forces(field_, centre, size, 56);
+      const std::vector<glm::dvec2> forces = rest_at(wide.places, wide.forces);
+      waves = in_phase(wide.places, forces, centre, size, waves * multiple) / multiple;
+      const double here = explained_by(wide.places, forces, waves,
+                                       most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size()));
+      // Slower waves that a small window does not show share the whole patch with these.
+      if (here < 0.05 || (here < coherent * fundamental.explained && size == whole_.size &&
+                          here * mean_square(forces) < 0.2 * mean_square(found_.rest)))
+        return std::nullopt;
+    }
+    return waves;
+  }
+
+  /// Whether the same wave is found far from the window, in any phase, wherever the force is nearly as strong there.
+  /// The period of a chirp is that of one place only.
+  bool holds_where_it_is(const StillForces& window, const Fundamental& fundamental) const {
+    const double here = mean_square(rest_at(window.places, window.forces));
+    const glm::dvec2 room = 0.5 * (whole_.size - window.size);
+    int strong = 0, held = 0;
+    for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      const glm::dvec2 centre =
+          glm::clamp(window.centre + 0.25 * way * whole_.size, whole_.centre - room, whole_.centre + room);
+      const StillForces beside = still_forces(field_, centre, window.size, 56);
+      const std::vector<glm::dvec2> forces = rest_at(beside.places, beside.forces);
+      if (mean_square(forces) < 0.3 * here) continue;
+      strong += 1;
+      held +=
+          explained_by(beside.places, forces, fundamental.waves,
+                       most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >= least_explained_locally;
+    }
+    return 4 * held >= 3 * strong;
+  }
+
+  bool take_off(glm::dvec2 waves, const Fundamental& fundamental) {
+    const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
+    FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
+    if (wave.explained < 0.02) return false;
+    add_to_rest(wave, -1);
+    found_.waves.push_back({std::move(wave), 0, fundamental.parts});
+    const bool slow = is_slow(waves);
+    for (int turn = 0; turn < (slow ? 4 : 3); ++turn) {
+      fit_trend();
+      for (FoundWave& each : found_.waves) {
+        add_to_rest(each.wave, 1);
+        const std::size_t bins = each.wave.profile.size();
+        const auto [places, forces] = some_of_rest();
+        each.wave = folded(whole_.places, found_.rest, better_fitting(places, forces, each.wave.waves, bins / 4), bins);
+        add_to_rest(each.wave, -1);
+      }
+      const double left = mean_square(found_.rest);
+      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
+    }
+    // Over the whole patch the harmonics are clean: if only every so many-th is there, the wave is that much shorter.
+    FoundWave& last = found_.waves.back();
+    const std::vector<double> powers = harmonics_of(last.wave, std::min<std::size_t>(60, last.wave.profile.size() / 3));
+    std::size_t step = 0;
+    for (std::size_t i = 0; i < powers.size(); ++i)
+      if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
+    if (step > 1 && last.parts.size() == 1) {
+      add_to_rest(last.wave, 1);
+      last.wave = folded(whole_.places, found_.rest, static_cast<double>(step) * last.wave.waves,
+                         std::max<std::size_t>(last.wave.profile.size() / step, 64));
+      add_to_rest(last.wave, -1);
+    }
+    fit_trend();
+    for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
+    return true;
+  }
+
+  void add_to_rest(const FoldedWave& wave, double times) {
+    for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += times * wave.at(whole_.places[i]);
+  }
+  /// Every third place and the rest there: enough to move a wave by.
+  std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some_of_rest() const {
+    std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some;
+    for (std::size_t i = 0; i < whole_.places.size(); i += 3)
+      some.first.push_back(whole_.places[i]), some.second.push_back(found_.rest[i]);
+    return some;
+  }
+
+  /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.
+  void fit_trend() {
+    std::vector<glm::dvec2> slow;
+    for (const FoundWave& each : found_.waves)
+      if (is_slow(each.wave.waves)) slow.push_back(each.wave.waves);
+    std::vector<glm::dvec2> forces = found_.rest;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      forces[i] += found_.trend.at(whole_.places[i]);
+      if (slow.empty()) continue;
+      for (const FoundWave& each : found_.waves)
+        if (is_slow(each.wave.waves)) forces[i] += each.wave.at(whole_.places[i]);
+    }
+    const LinearForce before = found_.trend;
+    found_.trend = slow.empty() ? linear_force(whole_.places, forces) : linear_beside(whole_.places, forces, slow);
+    const LinearForce more{before.mean - found_.trend.mean, before.by_x - found_.trend.by_x,
+                           before.by_y - found_.trend.by_y};
+    for (std::size_t i = 0; i < forces.size(); ++i) found_.rest[i] += more.at(whole_.places[i]);
+  }
+  bool is_slow(glm::dvec2 waves) const { return glm::length(waves * whole_.size) < slow_periods; }
+
+  void keep_local(const StillForces& window, const std::vector<glm::dvec2>& forces, const Fundamental& fundamental) {
+    FoldedWave wave = folded(window.places, forces, fundamental.waves,
+                             most_bins(2 * parts_of_a_wave * fundamental.multiple, forces.size() / 4));
+    found_.share = wave.explained;
+    const double power = mean_square(wave.profile);
+    found_.waves.push_back({std::move(wave), power, fundamental.parts});
+    found_.local = true;
+  }
+
+  bool find_lattice(const WindowSpectrum& spectrum) {
+    if (mean_square(found_.rest) < 0.1 * all_) return false;
+    std::vector<glm::dvec2> peaks;
+    for (const FoundWave& each : found_.waves) peaks.push_back(each.wave.waves);
+    const StillForces left = thinned_by_chance(whole_, rest_at(whole_.places, whole_.forces), 9000);
+    if (peaks.size() < 2)
+      for (const glm::dvec2 peak : spectrum.peaks(6, 5))
+        peaks.push_back(in_phase(left.places, left.forces, whole_.centre, whole_.size, peak));
+    StillForces all = left;
+    for (std::size_t i = 0; i < all.places.size(); ++i)
+      for (const FoundWave& each : found_.waves) all.forces[i] += each.wave.at(all.places[i]);
+    Lattice best;
+    double fewest = HUGE_VAL;
+    for (std::size_t i = 0; i < std::min<std::size_t>(peaks.size(), 2); ++i)
+      for (std::size_t j = i + 1; j < peaks.size(); ++j) {
+        const double turn = std::abs(peaks[i].x * peaks[j].y - peaks[i].y * peaks[j].x);
+        if (turn < least_turn * glm::length(peaks[i]) * glm::length(peaks[j])) continue;
+        for (const double a : {1.0, 2.0, 3.0})
+          for (const double b : {1.0, 2.0, 3.0}) {
+            if (glm::length(peaks[i] / a * whole_.size) < slowest_lattice ||
+                glm::length(peaks[j] / b * whole_.size) < slowest_lattice)
+              continue;
+            const double share =
+                explained_by_lattice(all.places, all.forces, peaks[i] / a, peaks[j] / b, lattice_parts);
+            const double cell = a * b / turn;
+            if (share > best.share + 0.03 || (share > best.share - 0.03 && cell < 0.9 * fewest))
+              best = {peaks[i] / a, peaks[j] / b, share}, fewest = cell;
+          }
+      }
+    if (best.share < least_lattice || best.share < 1 - mean_square(found_.rest) / all_ + 0.01) return false;
+    // Narrow wires need finer parts than the search does.
+    std::vector<glm::dvec2> forces = found_.rest;
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      for (const FoundWave& each : found_.waves) forces[i] += each.wave.at(whole_.places[i]);
+    for (int turn = 0; turn < 2; ++turn)
+      for (glm::dvec2* each : {&best.one, &best.other}) *each = better_fitting(whole_.places, forces, *each, 24);
+    best.share =
+        std::max(best.share, explained_by_lattice(whole_.places, forces, best.one, best.other, finer_lattice_parts));
+    found_.lattice = best;
+    return true;
+  }
+
+  FoundWaves finished() {
+    if (found_.local) return std::move(found_);
+    const double rest = mean_square(found_.rest);
+    double waves = 0;
+    for (const FoundWave& each : found_.waves) waves += each.power;
+    found_.share = waves + rest > 0 ? waves / (waves + rest) : 0;
+    if (found_.lattice) found_.share = std::max(found_.share, found_.lattice->share);
+    std::ranges::stable_sort(found_.waves, std::greater(), &FoundWave::power);
+    return std::move(found_);
+  }
+
+  const StillField& field_;
+  const StillForces& whole_;
+  const std::vector<Feature>& features_;
+  FoundWaves found_;
+  double all_ = 0;  // N^2, without the first trend
+};
+
+}  // namespace
+
+double Lattice::period() const {
+  // The steps from crest to crest of one wave along the crests of the other, and shorter ones made of both.
+  const double area = one.x * other.y - one.y * other.x;
+  glm::dvec2 a = glm::dvec2(other.y, -other.x) / area, b = glm::dvec2(-one.y, one.x) / area;
+  if (glm::length(a) > glm::length(b)) std::swap(a, b);
+  for (int turn = 0; turn < 8; ++turn) {  // Gauss's reduction
+    b -= std::round(glm::dot(a, b) / glm::dot(a, a)) * a;
+    if (glm::length(a) <= glm::length(b)) break;
+    std::swap(a, b);
+  }
+  return glm::length(a);
+}
+
+glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2>& forces) {
+  constexpr std::size_t blocks = 8;
+  const std::size_t block = window.side / blocks;
+  double most = -1;
+  glm::dvec2 found = window.centre;
+  for (std::size_t top = 0; top + block <= window.side; top += block)
+    for (std::size_t left = 0; left + block <= window.side; left += block) {
+      double change = 0;
+      for (std::size_t row = top; row < top + block; ++row)
+        for (std::size_t column = left; column + 1 < left + block; ++column) {
+          const glm::dvec2 step = forces[row * window.side + column + 1] - forces[row * window.side + column];
+          change += glm::dot(step, step);
+        }
+      const glm::dvec2 middle = window.centre - 0.5 * window.size +
+                                window.cell() * (glm::dvec2(left, top) + 0.5 * static_cast<double>(block));
+      // The middle is preferred to blocks that are hardly stronger.
+      const double aside = glm::length((middle - window.centre) / (0.5 * window.size)) / std::numbers::sqrt2;
+      if (change * (1 - 0.1 * aside) > most) most = change * (1 - 0.1 * aside), found = middle;
+    }
+  return found;
+}
+
+FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features) {
+  return WaveSearch(field, whole, features).search();
+}
+
+}  // namespace wale

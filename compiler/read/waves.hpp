@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "compiler/read/features.hpp"
+#include "compiler/read/fold.hpp"
+#include "compiler/read/still_forces.hpp"
+
+namespace wale {
+
+/// A wave of a static force and where it was found.
+struct FoundWave {
+  FoldedWave wave;
+  double power = 0;  ///< N^2: its mean square, over the patch or, for a local wave, where it was found
+  /// The waves of which it is the sum if these have a small common multiple: their numbers of periods in one of its
+  /// own. Otherwise 1 alone.
+  std::vector<std::size_t> parts;
+};
+
+/// Two directions in which a force repeats that is no sum of waves.
+struct Lattice {
+  glm::dvec2 one{0}, other{0};  ///< periods over a metre
+  double share = 0;             ///< 0 .. 1: of the mean square, all that repeats
+
+  double period() const;  ///< m: the shortest step after which it repeats
+};
+
+/// The repeating part of a static force: up to three waves of any waveform and period, or a lattice.
+struct FoundWaves {
+  std::vector<FoundWave> waves;  ///< strongest first
+  std::optional<Lattice> lattice;
+  /// The waves only hold in a part of the patch: they bend, or lie in a corner. Then `rest` contains them.
+  bool local = false;
+  double share = 0;              ///< 0 .. 1: the share of the mean square that repeats, where it was found
+  std::vector<glm::dvec2> rest;  ///< N, at the places of the whole: what neither a wave nor the trend explains
+  LinearForce trend;             ///< of the whole, beside the waves
+};
+
+/// Finds the waves of the force in the patch without its rim, sampled as `whole`, beside the features that are known.
+/// Finer windows are sampled where the whole has waves that are too fine for it.
+FoundWaves find_waves(const StillField& field, const StillForces& whole, const std::vector<Feature>& features = {});
+
+/// Where the forces of a window change most.
+glm::dvec2 busiest_place(const StillForces& window, const std::vector<glm::dvec2>& forces);
+
+}  // namespace wale
