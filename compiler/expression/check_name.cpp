@@ -96,10 +96,17 @@ std::optional<Value> constant_named(ExpressionReading& reading, const Word& word
   return value;
 }
 
+/// Each part of a name is a call deeper.
+constexpr int most_parts = 64;
+
 /// The value of `hand.x` or `p.y`: one part of a vector.
 std::optional<Value> part_of_vector(ExpressionReading& reading, const Word& word, Scope& scope) {
   const auto dot = word.text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
+  if (std::ranges::count(word.text, '.') >= most_parts)
+    return reading.calls.report(Code::nested_too_deep, word.span,
+                                fmt::format("a name of more than {} parts", most_parts), "",
+                                "a vector has the parts `.x` and `.y`, which have none");
   const std::string_view whole = word.text.substr(0, dot), part = word.text.substr(dot + 1);
   if (!has_value(reading, whole, scope)) return std::nullopt;
   const Value value = value_of_name(reading, {whole, word.span}, scope);

@@ -87,6 +87,18 @@ TEST(Bounds, NestingThousandsDeepIsOneDiagnostic) {
   }
 }
 
+TEST(Bounds, NamesOfThousandsOfPartsAreOneDiagnostic) {
+  for (const char* name : {"hand", "nothing", "fabric.x"})
+    for (const std::size_t parts : {100, 20'000, 1'000'000}) {
+      const std::string words = name + repeated(".x", 2 * parts);
+      for (const std::string& text : {"let q = " + words, "let q = " + words + "(1)", "import " + words}) {
+        const Outcome outcome = check_text("wale 1\n" + text + "\n");
+        EXPECT_EQ(outcome.status, 1) << name << ", " << parts << " parts";
+        EXPECT_TRUE(contains(outcome.out, "1 file: 1 error, ")) << outcome.out.substr(0, 1000);
+      }
+    }
+}
+
 TEST(Bounds, FourMegabytesOfMistakesAreCutShort) {
   constexpr std::size_t many = 150000;
   const std::string in_material = "wale 1\nmaterial m { physical {\n";
