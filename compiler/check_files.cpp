@@ -82,7 +82,7 @@ CheckedFiles check_files(const std::vector<std::string>& files, const std::vecto
                           .message = fmt::format("`{}` cannot be read: {}", file, read.error().sentence),
                           .help = mend_of_path(file)});
     } else if (const auto other = other_file(file, read->bytes)) {
-      diagnostics.report({.code = Code::malformed_value,
+      diagnostics.report({.code = Code::damaged_file,
                           .span = {result.sources.add(file, ""), 0, 0},
                           .message = fmt::format("expected a Wale file, found {}: `{}`", other->what, file),
                           .help = std::string(other->mend)});

@@ -16,7 +16,7 @@ struct CheckedFiles {
 };
 
 /// Reads and checks files; a file that cannot be read gives a diagnostic (W0501), and so does a file of another kind,
-/// such as a picture or a patch program (W0801). Errors in a file that several of them import are reported once.
+/// such as a picture or a patch program (W0506). Errors in a file that several of them import are reported once.
 /// `roots` are the last folders that are searched for imports.
 CheckedFiles check_files(const std::vector<std::string>& files, const std::vector<std::string>& roots = {},
                          Sandbox sandbox = Sandbox::required);

@@ -59,7 +59,7 @@ Result<NamedFile> read_named(const std::string& path, const std::string& materia
   if (read) {
     const auto other = is_patch_program(path, read->bytes) ? std::nullopt : other_file(path, read->bytes);
     if (other)
-      return Error{.code = Code::malformed_value,
+      return Error{.code = Code::damaged_file,
                    .sentence = fmt::format("this is {}, not a Wale file or a patch program", other->what),
                    .mend = std::string(other->mend),
                    .place = {.name = path}};

@@ -31,7 +31,7 @@ struct NamedFile {
 ///
 /// A text with a `/` or the extension of a file is never used as a name. Errors: W0501 for a file that cannot be read,
 /// W0201 for an unknown name, with the nearest three, W0217 for a name of several materials, W0801 for nothing after
-/// the colon, and for a file of another kind, such as a recording or a picture.
+/// the colon, W0506 for a file of another kind, such as a recording or a picture.
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots);
 
 /// Whether a file is a patch program, by its name or by its first bytes.

@@ -83,18 +83,21 @@ Result<ChosenDevice> device_to_identify(const DevicesOptions& options, const Con
   const std::string& asked = options.device;
   const auto trusted = trusted_here(options.trusted);
   if (!trusted) return trusted.error();
-  auto chosen =
-      choose_device({.spelling = asked.empty() ? "auto" : asked}, {}, trusted->devices, plugged_in(connections, asked));
+  auto chosen = choose_device({.spelling = asked.empty() ? "auto" : asked, .transport = options.transport}, {},
+                              trusted->devices, plugged_in(connections, asked));
   if (!chosen) {
     if (chosen.error().place.name == "--device") chosen.error().place.name = "--identify";
     if (chosen.error().code == Code::absent_device) chosen.error().mend = "`wale devices` lists what is plugged in";
     return chosen;
   }
+  const bool is_named = !asked.empty() && asked != "auto";
+  if (!chosen->plugged && is_named)
+    return Error{Code::malformed_value,
+                 fmt::format("expected a real device, found `{}`, which is only simulated", asked),
+                 "`wale devices` lists what is plugged in",
+                 {.name = "--identify", .text = asked}};
   if (!chosen->plugged)
-    return Error{Code::absent_device,
-                 chosen->is_worth_saying            ? chosen->said
-                 : asked.empty() || asked == "auto" ? "no force-feedback device is plugged in"
-                                                    : fmt::format("`{}` is not a real device", asked),
+    return Error{Code::absent_device, chosen->is_worth_saying ? chosen->said : "no force-feedback device is plugged in",
                  "`wale devices` lists what is plugged in"};
   if (chosen->declared->profile.shaker)
     return Error{Code::unusable_device,

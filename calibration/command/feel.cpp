@@ -105,22 +105,19 @@ Result<> apply_to_file(const FeelOptions& options, const OpenedFile& opened) {
 
 /// Checks that options about the device apply to the chosen one.
 Result<> apply_to_device(const FeelOptions& options, const ChosenDevice& chosen) {
-  const auto knows = [&](const Driver& driver) {
-    return std::ranges::find(driver.transports, options.transport) != driver.transports.end();
-  };
   return all_apply(
       {{"--transport", !options.transport.empty() && !chosen.plugged, "expected a real device, found a simulated one",
-        "leave out --transport, or name a real device with --device"},
-       {"--transport", !options.transport.empty() && chosen.plugged && !knows(*chosen.plugged->driver),
-        fmt::format("the {} is not driven by `{}`", chosen.plugged ? in_words(*chosen.plugged) : "", options.transport),
-        "leave out --transport; `wale devices` says how each device is driven"}});
+        "leave out --transport, or name a real device with --device"}});
 }
 
-/// Checks that options about forces apply to the program.
+/// Checks that options about forces and hands apply to the program.
 Result<> apply_to_program(const FeelOptions& options, const PatchProgram& program) {
   return all_apply(
       {{"--max-force", options.max_force && program.vibrates(),
-        fmt::format("`{}` only vibrates: it has no force to limit", program.device.name), "leave out --max-force"}});
+        fmt::format("`{}` only vibrates: it has no force to limit", program.device.name), "leave out --max-force"},
+       {"--hand", options.hand && !program.device.has_position(),
+        fmt::format("`{}` does not measure the hand's position, so no hand moves on it", program.device.name),
+        "leave out --hand"}});
 }
 
 /// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it.
@@ -128,11 +125,13 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   auto trusted = trusted_here(options.trusted);
   if (!trusted) return refuse(trusted.error());
   Choice built = options.choice;
-  built.device.clear();  // it is not known yet
+  built.device.clear(), built.device_option.clear();  // it is not known yet
   built.devices = trusted->files;
   auto opened = open(built);
   if (!opened) return opened.status();
   if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
+  if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
+  if (options.hand) options.choice.inputs->push_back(*options.hand);
   const std::vector<DeclaredDevice> known =
       opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
@@ -140,6 +139,7 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
   auto device =
       device_to_feel({.spelling = asks ? options.device : "auto",
                       .built_for = opened->program ? opened->program->description().device.name : options.built_for,
+                      .transport = options.transport,
                       .only_simulated = options.virtual_time || options.hand},
                      known, trusted->devices, options.seconds, say, stop);
   if (!device) return refuse(device.error());
@@ -162,7 +162,7 @@ OrStatus<FeltDevice> open_prepared(const FeelOptions& options, const PreparedRun
   FeltOptions how{.virtual_time = options.virtual_time,
                   .transport = options.transport,
                   .most_newton = options.max_force.value_or(HUGE_VAL)};
-  if (options.hand) how.hand = *options.hand, options.choice.inputs->push_back(*options.hand);
+  if (options.hand) how.hand = *options.hand;
   auto device = open_to_feel(run.device, run.material.program.description(), *person, how, say, stop);
   if (!device) return refuse(device.error());
   return *std::move(device);
@@ -184,19 +184,31 @@ RunOptions run_options(const FeelOptions& options, const RunManner& manner, cons
           .kept_seconds = !is_table && (is_recording || options.watch) ? measured_seconds : HUGE_VAL};
 }
 
-/// Writes the table and the report of a finished run. Returns the exit status.
-int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt) {
-  if (!options.record.empty() && !has_ending(options.record, ".wrec")) {
-    auto table = OutputFile::open(options.record, *options.choice.inputs);
-    if (!table) return refuse(table.error());
+/// Opens the table of a run before it, so that no run is lost to a table that cannot be written. Nothing if the person
+/// asked for none.
+Result<std::optional<OutputFile>> table_of(const FeelOptions& options) {
+  std::optional<OutputFile> table;
+  if (options.record.empty() || has_ending(options.record, ".wrec")) return table;
+  auto opened = OutputFile::open(options.record, *options.choice.inputs);
+  if (!opened) return opened.error();
+  table = *std::move(opened);
+  return table;
+}
+
+/// Writes the table and the report of a finished run, the report also where the table fails. Returns the exit status.
+int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt,
+               std::optional<OutputFile> table) {
+  Result<> tabled;
+  if (table) {
     write_csv(table->stream(), result.record);
-    if (const auto written = table->finish(); !written) return refuse(written.error());
+    tabled = table->finish();
   }
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));
   const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
   felt.device.reset();  // the pointer restores the terminal
   print_out(options.json ? felt_json(report) : felt_text(report));
+  if (!tabled) return refuse(tabled.error());
   return result.record_problem ? refuse(*result.record_problem) : done;
 }
 
@@ -205,6 +217,8 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
   if (!prepared_run) return prepared_run.status();
   const auto& [device, built, material] = *prepared_run;
   const PatchProgram& program = material.program.description();
+  auto table = table_of(options);
+  if (!table) return refuse(table.error());
   auto felt = open_prepared(options, *prepared_run, stop);
   if (!felt) return felt.status();
   Stage stage(*felt->device);
@@ -231,7 +245,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     if (error.place.name == "seconds") error.place.name = "--seconds";
     return refuse(error);
   }
-  return report_run(options, *result, *stage.bank(), *std::move(felt));
+  return report_run(options, *result, *stage.bank(), *std::move(felt), *std::move(table));
 }
 
 /// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608.

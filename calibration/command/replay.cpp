@@ -131,6 +131,11 @@ int replay(const ReplayOptions& options) {
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected a file NAME.wav, found `{}`", options.wav),
                         .place = {.name = "--wav", .text = options.wav}});
+  if (!options.csv.empty() && !options.wav.empty() && is_same_output(options.csv, options.wav))
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected another file than that of --csv, found `{}`", options.wav),
+                        .mend = "the table and the sound are two files: give each a name of its own",
+                        .place = {.name = "--wav", .text = options.wav}});
   const auto opened = Recording::open(options.file, options.ticks.value_or(SIZE_MAX));
   if (!opened) return refuse(with_kind(opened.error(), options.file));
   const auto& recording = *opened;
@@ -140,7 +145,7 @@ int replay(const ReplayOptions& options) {
   });
   if (!table) return refuse(table.error());
   const auto sound =
-      exported(options.wav, {options.file, options.csv}, [&](std::ostream& out) { return write_wav(out, recording); });
+      exported(options.wav, {options.file}, [&](std::ostream& out) { return write_wav(out, recording); });
   if (!sound) return refuse(sound.error());
   const auto replayed = wale::replay(recording);
   if (!replayed) return refuse(replayed.error());

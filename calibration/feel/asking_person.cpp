@@ -17,16 +17,16 @@ void AskingPerson::begin(int trial, int interval) {
   out_ << std::flush;
 }
 
-std::optional<int> AskingPerson::answer(int) {
+Result<int> AskingPerson::answer(int) {
   for (std::string line;;) {
     out_ << fmt::format("which of the two was A ({})? 1 or 2, q to stop: ", a_) << std::flush;
     const bool read = static_cast<bool>(std::getline(in_, line));
     if (!read || !typed_) out_ << '\n';
-    if (!read) return std::nullopt;
+    if (!read) return Error{Code::stopped, "the input ended"};
     const auto begin = line.find_first_not_of(" \t\r"), end = line.find_last_not_of(" \t\r");
     const std::string word = begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
     if (word == "1" || word == "2") return word[0] - '0';
-    if (word == "q" || word == "Q") return std::nullopt;
+    if (word == "q" || word == "Q") return Error{Code::stopped, "you ended it with q"};
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace wale {
 
-/// Asks in lines of text. Answers are 1 or 2; `q` and the end of the input end the session. After any other line it
-/// asks again.
+/// Asks in lines of text. Answers are 1 or 2; `q` and the end of the input end the session: W0706. After any other line
+/// it asks again.
 class AskingPerson final : public BlindPerson {
  public:
   /// `typed`: a person types the answers, so the screen already shows the line ends; otherwise `out` gets line ends.
@@ -17,7 +17,7 @@ class AskingPerson final : public BlindPerson {
 
   void introduce(bool is_a) override;
   void begin(int trial, int interval) override;
-  std::optional<int> answer(int trial) override;
+  Result<int> answer(int trial) override;
   void learn(int trial, bool right) override;
 
  private:

@@ -64,9 +64,9 @@ BlindSession feel_blind(Device& device, const BlindMaterial& a, const BlindMater
         return session;
       }
     }
-    const std::optional<int> answer = person.answer(trial);
+    const Result<int> answer = person.answer(trial);
     if (!answer) {
-      session.ended = Error{Code::stopped, "no further answer"};
+      session.ended = answer.error();
       return session;
     }
     session.trials.push_back({a_first, *answer});

@@ -44,8 +44,8 @@ class BlindPerson {
   virtual void introduce(bool is_a) = 0;
   /// Interval 1 or 2 of a trial comes next; trials are counted from 1.
   virtual void begin(int trial, int interval) = 0;
-  /// The interval in which A was, 1 or 2; nothing: the person ends the session.
-  virtual std::optional<int> answer(int trial) = 0;
+  /// The interval in which A was, 1 or 2. An error ends the session, and says why there is no answer.
+  virtual Result<int> answer(int trial) = 0;
   virtual void learn(int trial, bool right) = 0;
 };
 

@@ -15,6 +15,13 @@ BlindScore score_of(const BlindSession& session) {
                      static_cast<int>(session.trials.size()));
 }
 
+/// A share in percent with two digits that count: "100", "7.3", "0.024"; "less than 0.01" below that.
+std::string percent_text(double share) {
+  const double percent = 100 * share;
+  if (percent < 0.01) return "less than 0.01";
+  return with_decimals(percent, percent >= 9.95 ? 0 : percent >= 0.995 ? 1 : percent >= 0.0995 ? 2 : 3);
+}
+
 /// "1.4 (0.3 to 2.6)", "2.9 (1.1 or more)".
 std::string sensitivity_text(const BlindScore& score) {
   const auto end = [](const std::optional<double>& value) { return value ? with_decimals(*value, 1) : ""; };
@@ -41,13 +48,14 @@ std::string blind_text(const BlindReport& report) {
   const std::size_t answered = report.session.trials.size();
   std::string text = fmt::format("A {} and B {}, on {}: which of two was A?\n", report.a, report.b, report.device);
   if (report.session.ended)
-    text += fmt::format("  ended early  {} of {} trials were answered: {}\n", answered, report.asked,
-                        in_words(*report.session.ended));
+    text += fmt::format("  ended early  {} of {} trials {} answered: {}\n", answered, report.asked,
+                        answered == 1 ? "was" : "were", in_words(*report.session.ended));
   if (answered > 0) {
     const BlindScore score = score_of(report.session);
     text += fmt::format(
-        "  right        {} of {}: {:.0f} % ({:.0f} to {:.0f} %); guessing gets as many in {:.2g} % of sessions\n",
-        score.right, score.trials, 100 * score.proportion, 100 * score.low, 100 * score.high, 100 * score.by_chance);
+        "  right        {} of {}: {:.0f} % ({:.0f} to {:.0f} %); guessing gets as many or more in {} % of sessions\n",
+        score.right, score.trials, 100 * score.proportion, 100 * score.low, 100 * score.high,
+        percent_text(score.by_chance));
     text += fmt::format("  d'           {}: sqrt(2) z(share right), two intervals, forced choice\n",
                         sensitivity_text(score));
     const auto first = std::ranges::count(report.session.trials, 1, &BlindTrial::answer);

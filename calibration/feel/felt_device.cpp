@@ -24,7 +24,8 @@ Result<Motion> motion_of(const std::string& hand, const HandDeclaration& person)
   if (!trace) {
     Error error = std::move(trace.error());
     std::error_code ignored;
-    if (std::filesystem::exists(hand, ignored)) return error;
+    const bool is_path = hand.find('/') != std::string::npos || has_ending(hand, ".csv");
+    if (is_path || std::filesystem::exists(hand, ignored)) return error;
     const std::vector<std::string> motions{"lateral", "circular", "rest"};
     auto near = nearest_spelling(hand, motions);
     constexpr std::size_t telling = 4;  // letters; "circle" is meant as "circular", but differs by too many letters
@@ -93,7 +94,10 @@ Result<FeltDevice> open_to_feel(const DeviceToFeel& device, const PatchProgram& 
   if (!chosen.plugged) {
     auto opened = simulated(program, person, options.hand);
     if (!opened) return std::move(opened.error());
-    return FeltDevice{*std::move(opened), nullptr, "simulated", options.hand, options.virtual_time};
+    const DeviceProfile& profile = program.device;
+    std::string hand =
+        profile.has_position() ? options.hand : fmt::format("at an assumed {:g} m/s", profile.shaker->exploring_speed);
+    return FeltDevice{*std::move(opened), nullptr, "simulated", std::move(hand), options.virtual_time};
   }
   auto opened = open_device(*device.connections, chosen,
                             {.priority = loop_priority - 1,

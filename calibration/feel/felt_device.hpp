@@ -44,7 +44,7 @@ struct FeltOptions {
 struct FeltDevice {
   std::unique_ptr<Device> device;
   const HotPluggedDevice* plugged = nullptr;  ///< the same device if it is a real one; else null
-  std::string name, hand;                     ///< "simulated", "lateral"
+  std::string name, hand;  ///< "simulated", "lateral"; a device without a position has no hand, but an assumed speed
   bool virtual_time = false;
 
   /// The conditions of a run on it, for the report. Call it while no other thread uses the device.

@@ -30,11 +30,12 @@ Error not_a_setting(const std::string& text) {
           .place = {.name = "--set", .text = text}};
 }
 
-/// Whether an error means that an option's value cannot be read or names something unknown.
+/// Whether an error means that the words of the command make no sense: a word cannot be read or does not apply here,
+/// or an option names something unknown.
 bool is_misuse(const Error& error) {
+  if (error.code == Code::malformed_value) return true;
   if (!error.place.name.starts_with('-')) return false;
   switch (error.code) {
-    case Code::malformed_value:
     case Code::value_out_of_range:
     case Code::missing_argument:
     case Code::wrong_dimension:
@@ -42,6 +43,7 @@ bool is_misuse(const Error& error) {
     case Code::unknown_unit:
     case Code::number_out_of_range:
     case Code::unknown_device:
+    case Code::other_device:
     case Code::unknown_setting: return true;
     default: return false;
   }
@@ -127,9 +129,10 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   if (!choice.device_option.empty() && choice.device != program.device.name)
     return Error{
         .code = Code::other_device,
-        .sentence = fmt::format("this patch program is built for `{}`", program.device.name),
+        .sentence = fmt::format("expected `{}`, the device that `{}` is built for, found `{}`", program.device.name,
+                                opened.name, choice.device),
         .mend = fmt::format("leave out {}, or name the Wale file that it was built from", choice.device_option),
-        .place = {.name = opened.name}};
+        .place = {.name = choice.device_option, .text = choice.device}};
   return {};
 }
 

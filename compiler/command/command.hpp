@@ -25,7 +25,8 @@ inline constexpr int failed = 3;
 
 /// Prints the reason on standard error and returns `refused`.
 int refuse(const std::string& reason);
-/// The same, but returns `misused` if the value of an option cannot be read or names something unknown.
+/// The same, but returns `misused` if the words of the command make no sense: every W0801, and an option that names
+/// something unknown or another device than the program's.
 int refuse(const Error& error);
 
 /// Prints a warning on standard error.

@@ -49,7 +49,7 @@ int format_file(const std::string& file, bool check_only) {
     return refuse(read.error());
   }
   if (const auto other = other_file(file, read->bytes))
-    return refuse(Error{.code = Code::malformed_value,
+    return refuse(Error{.code = Code::damaged_file,
                         .sentence = fmt::format("expected a Wale file, found {}", other->what),
                         .mend = std::string(other->mend),
                         .place = {.name = file}});

@@ -221,6 +221,16 @@ Result<OutputFile> OutputFile::open(const std::string& path, const InputFiles& i
 std::ostream& OutputFile::stream() { return target_->stream(); }
 Result<> OutputFile::finish() { return target_->finish(); }
 
+bool is_same_output(const std::string& one, const std::string& other) {
+  const auto place = [](const std::string& path) {
+    std::error_code error;
+    const fs::path file = fs::absolute(followed(path), error);
+    const fs::path folder = fs::weakly_canonical(file.parent_path(), error);
+    return error ? file : folder / file.filename();
+  };
+  return one == other || place(one) == place(other);
+}
+
 Result<> write_file(const std::string& path, std::string_view bytes, const InputFiles& inputs) {
   auto file = OutputFile::open(path, inputs);
   if (!file) return file.error();

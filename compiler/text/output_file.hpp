@@ -41,6 +41,10 @@ class OutputFile {
   std::unique_ptr<Target> target_;
 };
 
+/// Whether two names stand for one file to write, by whatever links, whether or not it exists yet. Names of streams are
+/// equal only if they are spelt alike.
+bool is_same_output(const std::string& one, const std::string& other);
+
 /// Writes a whole file. Errors: those of `OutputFile::open` and `OutputFile::finish`.
 Result<> write_file(const std::string& path, std::string_view bytes, const InputFiles& inputs);
 

@@ -51,10 +51,36 @@ class Chooser {
     }
     if (request_.only_simulated) return only_simulated();
     if (asked == "auto") return best_or_simulated();
+    const Driver* driver = driver_of(asked);
+    if (driver != nullptr && !has_transport(*driver, request_.transport))
+      return without_transport("`" + asked + "`", *driver);
     return named(asked);
   }
 
  private:
+  /// The driver of a device that may not be plugged in. Null if that is not known before it is.
+  const Driver* driver_of(const std::string& asked) const {
+    if (const Driver* driver = find_driver(drivers_, asked)) return driver;
+    std::vector<UsbNumbers> numbers;
+    if (const auto read = read_usb_numbers(asked)) numbers = {*read};
+    if (const TrustedDevice* device = trusted(asked)) numbers = device->wiring().usb;
+    const auto drives_it = [&](const Driver* driver) {
+      return driver->drives != nullptr && !numbers.empty() && std::ranges::all_of(numbers, driver->drives);
+    };
+    const auto found = std::ranges::find_if(drivers_, drives_it);
+    return found != drivers_.end() ? *found : nullptr;
+  }
+
+  Error without_transport(const std::string& device, const Driver& driver) const {
+    std::string ways;
+    for (const std::string_view way : driver.transports) ways += (ways.empty() ? "" : ", ") + std::string(way);
+    return {.code = Code::malformed_value,
+            .sentence = device + " is not driven by `" + request_.transport + "`",
+            .mend = ways.empty() ? "leave out --transport: there is only one way to drive it"
+                                 : "leave out --transport, or choose among " + ways,
+            .place = {.name = "--transport", .text = request_.transport}};
+  }
+
   /// To simulate. What the program knows goes before what only the owner declares.
   const DeclaredDevice* declared(const std::string& name) const {
     const auto found =
@@ -176,6 +202,8 @@ class Chooser {
   }
 
   Result<ChosenDevice> taken(const Candidate& candidate) const {
+    if (!has_transport(*candidate.plugged->driver, request_.transport))
+      return without_transport("the " + in_words(*candidate.plugged), *candidate.plugged->driver);
     const TrustedDevice& trusted = *candidate.match.device;
     ChosenDevice chosen{.declared = trusted.declared(),
                         .plugged = *candidate.plugged,

@@ -16,6 +16,7 @@ struct DeviceRequest {
   /// `simulated`, `simulated:NAME`, `auto`, `usb`, a driver's name, a declared device, "1209:ffb0", or a port, "1-2.3".
   std::string spelling = "auto";
   std::string built_for;        ///< the device that the program is built for; empty if that is still open
+  std::string transport = {};   ///< the way to drive a real device; empty: its driver chooses
   bool only_simulated = false;  ///< virtual time or a simulated hand's motion was asked for as well
 };
 
@@ -36,7 +37,8 @@ struct ChosenDevice {
 /// `absent_device`: the requested real device is not plugged in; `unusable_device`: it is plugged in but cannot be
 /// used; `other_device`: the program is built for another device; `unknown_device`: no device has that name, or none is
 /// declared for the one that has it; `untrusted_device`: the name of a real device is only in an untrusted declaration;
-/// `malformed_value`: a real device was requested together with virtual time or a simulated hand.
+/// `malformed_value`: a real device was requested together with virtual time or a simulated hand, or with a transport
+/// that its driver lacks, also where it is not plugged in.
 Result<ChosenDevice> choose_device(const DeviceRequest& request, std::span<const DeclaredDevice> known,
                                    std::span<const TrustedDevice> trusted, std::span<const PluggedIn> plugged,
                                    Drivers drivers = wale::drivers());

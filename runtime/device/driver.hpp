@@ -80,6 +80,9 @@ struct Driver {
                        const DeviceOptions& options);
   /// The ways to drive its devices, as `DeviceOptions::transport` spells them; empty if there is only one.
   std::span<const std::string_view> transports = {};
+  /// Whether it drives all devices with these USB numbers, plugged in or not; null where only a plugged device shows
+  /// it.
+  bool (*drives)(const UsbNumbers& numbers) = nullptr;
   /// What its devices do when this process and their keepers die together, for a person; empty where nothing pushes.
   std::string_view left_alone = {};
 };
@@ -90,6 +93,8 @@ using Drivers = std::span<const Driver* const>;
 Drivers drivers();
 /// The names of all ways to drive a device: "hidraw", "libusb".
 std::vector<std::string> transport_names(Drivers drivers = wale::drivers());
+/// Whether a driver knows this way to drive a device; all know the empty one, by which the driver chooses.
+bool has_transport(const Driver& driver, std::string_view transport);
 /// The one of that name, or null.
 const Driver* find_driver(Drivers drivers, std::string_view name);
 

@@ -26,6 +26,10 @@ std::vector<std::string> transport_names(Drivers drivers) {
   return names;
 }
 
+bool has_transport(const Driver& driver, std::string_view transport) {
+  return transport.empty() || std::ranges::find(driver.transports, transport) != driver.transports.end();
+}
+
 const Driver* find_driver(Drivers drivers, std::string_view name) {
   const auto found = std::ranges::find(drivers, name, &Driver::name);
   return found != drivers.end() ? *found : nullptr;

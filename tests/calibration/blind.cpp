@@ -68,7 +68,7 @@ class First final : public BlindPerson {
  public:
   void introduce(bool is_a) override { introduced_ += is_a ? 'A' : 'B'; }
   void begin(int, int interval) override { felt_ += std::to_string(interval); }
-  std::optional<int> answer(int) override { return 1; }
+  Result<int> answer(int) override { return 1; }
   void learn(int, bool right) override { learnt_ += right ? 'r' : 'w'; }
 
   std::string introduced_, felt_, learnt_;
@@ -120,7 +120,7 @@ TEST(BlindSession, ReadsAnswersAsLinesAndEndsWithThem) {
   EXPECT_EQ(session.trials[1].answer, 2);
   EXPECT_EQ(session.trials[2].answer, 2);
   ASSERT_TRUE(session.ended);
-  EXPECT_EQ(session.ended->sentence, "no further answer");
+  EXPECT_EQ(session.ended->sentence, "the input ended");
   EXPECT_NE(out.str().find("A is velvet"), std::string::npos);
   // The text before an answer does not depend on the order, so it reveals nothing.
   const auto shown = [](std::uint64_t seed) {

@@ -52,6 +52,50 @@ TEST(Applying, APadHasNoForceToLimit) {
                   "leave out --max-force"}});
 }
 
+TEST(Applying, ADeviceWithoutAPositionHasNoHandToMove) {
+  const TemporaryFolder folder;
+  const std::string trace = folder.write("t.csv", "t,x,y\n0,0,0\n1,0.01,0\n");
+  for (const std::string& hand : {std::string("rest"), std::string("circular"), trace})
+    expect_misuse({{{"feel", corduroy, "--device", "gamepad", "--virtual-time", "--hand", hand}, "leave out --hand"}});
+  EXPECT_EQ(wale({"feel", corduroy, "--device", "touch_pad", "--virtual-time", "--hand", "rest"}).status, 0)
+      << "its screen knows where the hand is";
+}
+
+TEST(Applying, ATransportIsOneOfTheDriverOfTheDevice) {
+  // At once, although no such device is plugged in.
+  for (const std::string device : {"falcon", "novint-falcon", "0403:cb48"})
+    expect_misuse({{{"feel", corduroy, "--device", device, "--transport", "evdev"}, "error[W0801]: --transport: "},
+                   {{"devices", "--identify", device, "--transport", "evdev"}, "error[W0801]: --transport: "}});
+}
+
+TEST(Applying, AnotherDeviceThanThatOfTheProgramCannotApply) {
+  const TemporaryFolder folder;
+  const std::string program = folder / "corduroy.wpp";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  expect_misuse(
+      {{{"build", program, "--device", "falcon", "-o", folder / "x.wpp"}, "error[W0607]: --device: "},
+       {{"compare", program, "denim", "--device", "falcon"}, "error[W0607]: --device: "},
+       {{"feel", program, "--built-for", "falcon"}, "error[W0607]: --built-for: "},
+       {{"feel", program, "--device", "simulated:falcon"}, "error[W0607]: --device: "},
+       {{"feel", corduroy, "--device", "simulated:falcon", "--built-for", "sandpaper"}, "error[W0607]: --device: "},
+       {{"devices", "--identify", "sandpaper"}, "error[W0801]: --identify: "}});
+}
+
+TEST(Applying, WordsThatMakeNoSenseAreMisuse) {
+  const TemporaryFolder folder;
+  const std::string program = folder / "corduroy.wpp", run = folder / "run.wrec", sound = folder / "q.wav";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  ASSERT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", run}).status, 0);
+  fs::create_symlink("q.wav", folder / "link.csv");
+  expect_misuse({{{"preview", corduroy, "-o", folder / "p.svg"}, "error[W0801]"},
+                 {{"compare", corduroy + ":", "denim"}, "error[W0801]"},
+                 {{"describe", corduroy + ":corduroy", "--material", "other"}, "error[W0801]"},
+                 {{"build", program, "-o", folder / "again.wpp"}, "error[W0801]"},
+                 {{"replay", run, "--csv", sound, "--wav", sound}, "another file than that of --csv"},
+                 {{"replay", run, "--csv", folder / "link.csv", "--wav", sound}, "another file than that of --csv"}});
+  EXPECT_FALSE(fs::exists(sound));
+}
+
 TEST(Applying, WhatAPatchProgramLacksIsNamed) {
   const TemporaryFolder folder;
   const std::string program = folder / "corduroy.wpp";

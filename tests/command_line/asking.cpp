@@ -91,7 +91,7 @@ TEST(Files, InvalidTextIsADiagnostic) {
   EXPECT_EQ(wale({"check", empty}).status, 1);
   EXPECT_TRUE(contains(wale({"check", empty}).out, "W0104")) << wale({"check", empty}).out;
   EXPECT_EQ(wale({"check", binary}).status, 1);
-  EXPECT_TRUE(contains(wale({"check", binary}).out, "W0801")) << wale({"check", binary}).out;
+  EXPECT_TRUE(contains(wale({"check", binary}).out, "W0506")) << wale({"check", binary}).out;
   EXPECT_EQ(wale({"describe", binary}).status, 1);
 }
 

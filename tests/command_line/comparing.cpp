@@ -155,12 +155,24 @@ TEST(Blind, PlaysAsksAndScores) {
   EXPECT_EQ(wale(words, "1\nneither\n2\n1\n").out, run.out) << "the seed determines the order";
 }
 
+TEST(Blind, SaysHowOftenGuessingDoesAsWell) {
+  const std::vector<std::string> words = {"feel",    corduroy,   "--against", library + "fabric/denim.wale",
+                                          "--blind", "--seed",   "5",         "--seconds",
+                                          "0.1",     "--trials", "1",         "--virtual-time"};
+  // Of the two possible answers one is right: none or more right is certain, one right has half of all guesses.
+  const std::string both = wale(words, "1\n").out + wale(words, "2\n").out;
+  EXPECT_TRUE(contains(both, "0 of 1: ") && contains(both, "as many or more in 100 % of sessions")) << both;
+  EXPECT_TRUE(contains(both, "1 of 1: ") && contains(both, "as many or more in 50 % of sessions")) << both;
+}
+
 TEST(Blind, EndsWithTheAnswers) {
   std::vector<std::string> words = {"feel",    corduroy,    "--against", library + "fabric/denim.wale",
                                     "--blind", "--seconds", "0.2",       "--virtual-time"};
   const Outcome some = wale(words, "1\nq\n1\n");
   EXPECT_EQ(some.status, 0) << some.err;
-  EXPECT_TRUE(contains(some.out, "1 of 12 trials were answered")) << some.out;
+  EXPECT_TRUE(contains(some.out, "1 of 12 trials was answered: you ended it with q")) << some.out;
+  const Outcome two = wale(words, "1\n2\n");
+  EXPECT_TRUE(contains(two.out, "2 of 12 trials were answered: the input ended")) << two.out;
   const Outcome none = wale(words);
   EXPECT_EQ(none.status, 1);
   EXPECT_EQ(none.out, "");

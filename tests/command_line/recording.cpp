@@ -89,6 +89,29 @@ TEST(Record, ExistingFilesMissingFoldersAndOtherNamesAreRefused) {
   EXPECT_TRUE(contains(odd.err, "NAME.wrec")) << odd.err;
 }
 
+TEST(Record, ATableThatCannotBeWrittenIsRefusedBeforeTheRun) {
+  const TemporaryFolder folder;
+  // The run would never end.
+  const std::string file = folder / "none/a.csv";
+  Child running({"feel", corduroy, "--device", "simulated", "--seconds", "inf", "--record", file}, folder / "out",
+                folder / "err");
+  int status = 0;
+  ASSERT_TRUE(eventually([&] { return running.has_ended(status); }));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_TRUE(contains(bytes_of(folder / "err"), "error[W0505]: " + file + ": ")) << bytes_of(folder / "err");
+}
+
+TEST(Record, TheReportIsPrintedAlsoWhereTheTableFails) {
+  // The disk has room for a table when the run begins, and none when it ends.
+  const TemporaryFolder folder;
+  const std::string full = folder / "full.csv";
+  fs::create_symlink("/dev/full", full);
+  const Outcome outcome = feel({corduroy, "--record", full});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "error[W0505]: " + full + ": ")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "corduroy on the simulated sandpaper")) << outcome.out;
+}
+
 TEST(Replay, DamagedFilesAndOtherFilesAreRefused) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.wrec";

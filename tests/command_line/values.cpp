@@ -95,10 +95,10 @@ TEST(Values, EmptyTextsAreRefusedByTheirOption) {
 
 TEST(Values, UnknownNamesAreRefused) {
   expect_refused(
-      {{{"describe", "brick:"}, 1, "after its colon"},
-       {{"compare", "denim:", "velvet"}, 1, "after its colon"},
+      {{{"describe", "brick:"}, 2, "after its colon"},
+       {{"compare", "denim:", "velvet"}, 2, "after its colon"},
        {{"describe", corduroy + ":corduroy", "--material", "other"},
-        1,
+        2,
         "names `corduroy`, but --material names `other`"},
        {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
        {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},
@@ -106,6 +106,10 @@ TEST(Values, UnknownNamesAreRefused) {
        {{"describe", corduroy, "--library", "/nowhere"}, 1, "--library: `/nowhere` does not exist"},
        {{"feel", corduroy, "--virtual-time", "--transport", "banana"}, 2, "expected hidraw, libusb, evdev"},
        {{"feel", corduroy, "--device", "simulated:falcon", "--built-for", "nope"}, 2, "error[W0601]: --built-for"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "nofile.csv"},
+        1,
+        "error[W0501]: nofile.csv: the file cannot be read: no such file"},
+       {{"feel", corduroy, "--virtual-time", "--hand", "traces/rest"}, 1, "error[W0501]: traces/rest: "},
        {{"feel", corduroy, "--virtual-time", "--hand", "foo"}, 2, "lateral, circular, rest nor"},
        {{"feel", corduroy, "--virtual-time", "--hand", "circle"}, 2, "did you mean `circular`"},
        {{"feel", corduroy, "--virtual-time", "--hand", "Lateral"}, 2, "did you mean `lateral`"},
@@ -125,13 +129,14 @@ TEST(Values, APatchProgramKeepsItsDeviceAndMaterial) {
   const TemporaryFolder folder;
   const std::string program = folder / "c.wpp";
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
-  expect_refused({{{"describe", program, "--device", "falcon"}, 1, "built for `sandpaper`"},
-                  {{"feel", program, "--virtual-time", "--built-for", "falcon"}, 1, "built for `sandpaper`"},
+  expect_refused({{{"describe", program, "--device", "falcon"}, 2, "expected `sandpaper`, the device"},
+                  {{"feel", program, "--virtual-time", "--built-for", "falcon"}, 2, "expected `sandpaper`, the device"},
                   {{"describe", program, "--material", "x"}, 1, "holds only `corduroy`"},
                   {{"describe", program + ":x"}, 1, "holds only `corduroy`"},
                   {{"describe", program, "--exports"}, 2, "leave out --exports"},
-                  {{"build", program, "-o", folder / "d.wpp"}, 1, "built for `sandpaper`"}});
+                  {{"build", program, "-o", folder / "d.wpp"}, 2, "built for `sandpaper`"}});
   EXPECT_EQ(wale({"describe", program, "--device", "sandpaper"}).status, 0);
+  EXPECT_EQ(wale({"feel", program, "--virtual-time", "--built-for", "sandpaper"}).status, 0);
   const std::string recording = folder.write("a.wrec", "\x89WRC"), picture = folder.write("a.png", "\x89PNG");
   expect_refused({{{"describe", recording}, 1, "`wale replay`"}, {{"describe", picture}, 1, "a picture"}});
 }

@@ -21,6 +21,12 @@ void describe_falcon(PluggedIn& listed, const KernelNodes&, libusb_device_handle
   if (!firmware && !listed.obstacle) listed.obstacle = firmware.error();
 }
 
+bool drives_falcon(const UsbNumbers& numbers) {
+  UsbDeviceInfo info;
+  info.vendor = numbers.vendor, info.product = numbers.product;
+  return is_falcon(info);
+}
+
 std::vector<PluggedIn> find_falcon(const Connections& connections, const PluggedIn*) {
   return list_usb_devices(connections, falcon_driver, is_falcon, describe_falcon);
 }
@@ -45,6 +51,7 @@ constinit const Driver falcon_driver{.name = "novint-falcon",
                                      .is_felt = true,
                                      .find = find_falcon,
                                      .open = open_falcon,
+                                     .drives = drives_falcon,
                                      .left_alone = "keeps pushing until it is opened again or loses its power"};
 
 }  // namespace wale
