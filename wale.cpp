@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/command/options.hpp"
@@ -67,21 +68,61 @@ std::string unknown_option(const CLI::App& app, const std::string& word) {
 }
 
 /// The message for a misspelt verb or option at the beginning, which CLI11 would report as a missing verb. Returns
-/// nullopt if the first word is a verb or a known option.
-std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first) {
+/// nullopt if the first word is a verb or a known option. `second` is the word after it, which may be empty.
+std::optional<std::string> misspelt_verb(const CLI::App& app, const std::string& first, const std::string& second) {
   std::vector<std::string> verbs;
   for (const CLI::App* known : app.get_subcommands({})) verbs.push_back(known->get_name());
   if (first == "-h" || first == "--help" || first == "--version" || std::ranges::find(verbs, first) != verbs.end())
     return std::nullopt;
   if (first.starts_with('-')) return unknown_option(app, first);
+  if (first == "help") {
+    const bool is_verb = !second.empty() && std::ranges::find(verbs, second) != verbs.end();
+    return fmt::format("there is no verb `help`; `wale {}--help` is the help", is_verb ? second + " " : "");
+  }
   const auto near = nearest_spelling(first, verbs);
   return fmt::format("there is no verb `{}`; {}", visible_text(first),
                      near ? fmt::format("did you mean `{}`?", *near)
                           : fmt::format("the verbs are {}; `wale --help` says what they do", fmt::join(verbs, ", ")));
 }
 
+/// The words of the command line after the program's name. `--device=` becomes `--device` and an empty word, for an
+/// option that takes a value: CLI11 would take the next option as its value.
+std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const std::vector<const CLI::App*> verbs = app.get_subcommands({});
+  const auto named = std::ranges::find(verbs, words.front(), [](const CLI::App* each) { return each->get_name(); });
+  if (named == verbs.end()) return words;
+  const CLI::App* verb = *named;
+  const auto marks_the_end = std::ranges::find(words, "--");
+  std::vector<std::string> split(words.begin(), marks_the_end);
+  for (std::size_t i = 1; i < split.size(); ++i) {
+    if (!split[i].starts_with("--") || split[i].find('=') + 1 != split[i].size()) continue;
+    const std::string name = split[i].substr(0, split[i].size() - 1);
+    const CLI::Option* option = verb->get_option_no_throw(name);
+    if (option == nullptr || option->get_items_expected_max() == 0) continue;
+    split[i] = name;
+    split.insert(split.begin() + static_cast<std::ptrdiff_t>(++i), "");
+  }
+  split.insert(split.end(), marks_the_end, words.end());
+  return split;
+}
+
+/// "--device: expected once, found twice" or "--device: expected NAME, found nothing": an option with another number of
+/// values than it takes. Only the last word can be an option without its value, since an option takes the next word.
+std::string mismatch_text(const CLI::App& verb, const std::string& last_word) {
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::size_t count = option->count();
+    if (count > 1 && option->get_items_expected_max() == 1)
+      return fmt::format("{}: expected once, found {}", option->get_name(),
+                         count == 2 ? "twice" : fmt::format("{} times", count));
+  }
+  const CLI::Option* last = verb.get_option_no_throw(last_word);
+  return last == nullptr ? "expected another number of values"
+                         : fmt::format("{}: expected {}, found nothing", last_word, last->get_type_name());
+}
+
 /// The error in the words of a command, and where its options are listed.
-std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
+std::string misuse_text(const CLI::App* app, const CLI::Error& error, const std::string& last_word) {
   const auto verbs = app->get_subcommands();
   const std::string verb = verbs.empty() ? "wale" : "wale " + verbs.front()->get_name();
   std::string what = error.what();
@@ -91,6 +132,8 @@ std::string misuse_text(const CLI::App* app, const CLI::Error& error) {
     what = option != unexpected.end() ? unknown_option(*verbs.front(), *option)
                                       : "unexpected: " + visible_text(fmt::format("{}", fmt::join(unexpected, " ")));
   }
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch) && !verbs.empty())
+    what = mismatch_text(*verbs.front(), last_word);
   return fmt::format("wale: {}\n  = help: `{} --help` lists the options\n", what, verb);
 }
 
@@ -121,13 +164,17 @@ int run(int argc, char** argv) {
     print_error(app.help());
     return misused;
   }
-  if (const auto misspelt = misspelt_verb(app, argv[1])) {
+  if (const auto misspelt = misspelt_verb(app, argv[1], argc > 2 ? argv[2] : "")) {
     refuse(*misspelt);
     return misused;
   }
-  app.failure_message(misuse_text);
+  std::vector<std::string> words = words_of(app, argc, argv);
+  app.failure_message([last_word = words.back()](const CLI::App* of, const CLI::Error& error) {
+    return misuse_text(of, error, last_word);
+  });
+  std::ranges::reverse(words);  // as CLI11 reads them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     const int refusal = app.exit(error, out, err);  // the codes of CLI11 itself are above 100

@@ -71,9 +71,8 @@ Result<std::uint64_t> read_count(const std::string& option, const std::string& t
   const bool is_too_large = !count && !text.empty() && std::ranges::all_of(text, is_digit);
   const bool has_most = is_too_large || range.most != std::numeric_limits<std::uint64_t>::max();
   return unexpected(option, text,
-                    has_most          ? fmt::format("a whole number from {} to {}", range.least, range.most)
-                    : range.least > 0 ? fmt::format("a whole number of at least {}", range.least)
-                                      : "a whole number",
+                    has_most ? fmt::format("a whole number from {} to {}", range.least, range.most)
+                             : fmt::format("a whole number of {} or more", range.least),
                     std::to_string(range.example));
 }
 

@@ -11,6 +11,19 @@ char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<ch
 
 bool same(char a, char b) { return lower(a) == lower(b); }
 
+/// The shortest candidate that begins with a word of at least four letters, as `roughness` does with `rough`.
+std::optional<NearSpelling> begun_by(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t least_letters = 4;
+  std::optional<NearSpelling> shortest;
+  for (const std::string& candidate : candidates) {
+    const bool begins = candidate.size() > word.size() &&
+                        std::ranges::equal(word, std::string_view(candidate).substr(0, word.size()), same);
+    if (word.size() >= least_letters && begins && (!shortest || candidate.size() < shortest->text.size()))
+      shortest = NearSpelling{candidate, false};
+  }
+  return shortest;
+}
+
 }  // namespace
 
 std::size_t letters_changed(std::string_view a, std::string_view b) {
@@ -50,7 +63,8 @@ std::optional<NearSpelling> near_spelling(std::string_view word, const std::vect
     // A name that is declared in two places counts once.
     if (nearest && changed == fewest && candidate != nearest->text) ++as_near;
   }
-  if (nearest) nearest->certain = fewest <= 1 && as_near == 0;
+  if (!nearest) return begun_by(word, candidates);
+  nearest->certain = fewest <= 1 && as_near == 0;
   return nearest;
 }
 

@@ -12,8 +12,9 @@ namespace wale {
 /// neighbours; each letter takes part in one slip at most (the optimal string alignment distance).
 std::size_t letters_changed(std::string_view a, std::string_view b);
 
-/// The candidate other than `word` with the fewest slips: at most one, or a third of the word's letters. Empty for
-/// words of more than 64 bytes and for more than 2000 candidates.
+/// The candidate other than `word` with the fewest slips: at most one, or a third of the word's letters. Otherwise the
+/// shortest candidate that begins with `word`, if that has at least four letters. Empty for words of more than 64 bytes
+/// and for more than 2000 candidates.
 std::optional<std::string> nearest_spelling(std::string_view word, const std::vector<std::string>& candidates);
 
 /// A candidate near to a word.

@@ -23,6 +23,24 @@ std::vector<Fix> as_percentage(const Declared<MaterialDecl>& declared, const Per
   return {replace(declared.tree->span(*node.value), fmt::format("{:.4g}", level / 100), {}, false)};
 }
 
+/// The value of a level or a tolerance, a constant without a unit. Of `0.6 mm` the number was meant.
+std::optional<double> plain_level(const Declared<MaterialDecl>& declared, ExprId expr, const Surroundings& surroundings,
+                                  const char* what) {
+  const auto* literal = std::get_if<NumberLiteral>(&declared.tree->expr(expr));
+  if (literal == nullptr || literal->suffix.count == 0) return plain_constant(declared, expr, surroundings);
+  Diagnostics found;
+  const auto value = plain_constant(declared, expr, {surroundings.sources, surroundings.declarations, found});
+  for (Diagnostic diagnostic : found.all()) {
+    if (diagnostic.code == Code::wrong_dimension) {
+      const std::string number = fmt::format("{}", literal->value);
+      diagnostic.help = fmt::format("{} has no unit: write `{}`", what, number);
+      diagnostic.fixes = {replace(declared.tree->span(expr), number, {}, false)};
+    }
+    surroundings.diagnostics.report(std::move(diagnostic));
+  }
+  return value;
+}
+
 }  // namespace
 
 std::optional<double> named_level(const Declarations& declarations, const std::string& percept, const Word& word,
@@ -94,7 +112,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
                       : *named;  // a name means the same place on the scale for the percept and for its antonym
   } else if (node.value) {
     asked.span = declared.tree->span(*node.value);
-    const auto known = plain_constant(declared, *node.value, surroundings);
+    const auto known = plain_level(declared, *node.value, surroundings, "a level");
     if (!known) return;
     asked.level = *known;
   } else {
@@ -111,7 +129,7 @@ void ask(const Declared<MaterialDecl>& declared, const PerceptStatement& node, c
             .fact("high", 1)
             .fix(as_percentage(declared, node, asked.level)));
   if (node.tolerance) {
-    const auto tolerance = plain_constant(declared, *node.tolerance, surroundings);
+    const auto tolerance = plain_level(declared, *node.tolerance, surroundings, "a tolerance");
     if (!tolerance) return;
     if (!(*tolerance >= 0 && *tolerance <= 1))
       return report(Code::level_out_of_range, declared.tree->span(*node.tolerance),

@@ -115,9 +115,10 @@ int build(const BuildOptions& options) {
 Run declare_build(CLI::App& verb) {
   const auto options = std::make_shared<BuildOptions>();
   offer_material(verb, options->choice);
-  offer_output(verb, options->out,
-               "the patch program to write (.wpp); with --all, a folder for them; with --emit, the text (default: "
-               "standard output)");
+  must_say(offer_output(verb, options->out,
+                        "the patch program to write (.wpp); with --all, a folder for them; with --emit, the text "
+                        "(default: standard output)"),
+           "the name of the file or folder to write", "for example, `wale build corduroy -o corduroy.wpp`");
   verb.add_flag("--all", options->all, "builds every material of the file, each to NAME.wpp in the folder")
       ->excludes("--material");
   verb.add_option("--emit", options->stage,

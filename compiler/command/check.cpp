@@ -55,7 +55,8 @@ int check(const CheckOptions& options) {
 
 Run declare_check(CLI::App& verb) {
   const auto options = std::make_shared<CheckOptions>();
-  verb.add_option("FILE", options->files, "paths of your Wale files, as in my.wale (not names of materials)")
+  must_say(verb.add_option("FILE", options->files, "paths of your Wale files, as in my.wale (not names of materials)"),
+           "the path of a Wale file")
       ->required();
   offer_library(verb, options->folders);
   offer_sandbox(verb, options->sandbox);

@@ -206,6 +206,12 @@ OrStatus<std::vector<Program>> load_programs(const Choice& choice, bool all) {
   return programs_of(*opened, choice, all);
 }
 
+std::string setting_name(const std::string& setting) {
+  const std::string name = setting.substr(0, setting.find('='));
+  const auto begin = name.find_first_not_of(" \t");
+  return begin == std::string::npos ? "" : name.substr(begin, name.find_last_not_of(" \t") + 1 - begin);
+}
+
 Result<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings) {
   auto values = program.default_parameters();
   const std::shared_ptr<const CommonModules> common = common_modules();
@@ -213,7 +219,7 @@ Result<std::vector<float>> chosen_parameters(const Program& program, const std::
   for (const auto& setting : settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos) return not_a_setting(setting);
-    const std::string name = setting.substr(0, equals);
+    const std::string name = setting_name(setting);
     const auto index = program.parameter(name);
     if (!index) return no_parameter(program.description(), name);
     if (std::ranges::find(set, name) != set.end())

@@ -106,6 +106,9 @@ CheckedModule known_here(const FileRequest& request);
 OrStatus<std::vector<Program>> programs_of(OpenedFile& opened, const Choice& choice, bool all);
 OrStatus<std::vector<Program>> load_programs(const Choice& choice, bool all);
 
+/// The name in `--set NAME=VALUE`, without the spaces round it.
+std::string setting_name(const std::string& setting);
+
 /// The program's parameters with `--set NAME=VALUE` applied. Errors: W0801 for a malformed setting and for a parameter
 /// that is set twice, W0206 for an unknown parameter, and those of `read_parameter`.
 Result<std::vector<float>> chosen_parameters(const Program& program, const std::vector<std::string>& settings);

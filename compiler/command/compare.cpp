@@ -58,10 +58,11 @@ int compare(const CompareOptions& options) {
 
 Run declare_compare(CLI::App& verb) {
   const auto options = std::make_shared<CompareOptions>();
-  verb.add_option(
-          "FILE", options->names,
-          "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one; or materials of the "
-          "library by name")
+  must_say(verb.add_option(
+               "FILE", options->names,
+               "Wale files or patch programs, with all of their materials; FILE:MATERIAL for one; or materials of the "
+               "library by name"),
+           "a file or the name of a material")
       ->required();
   offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);

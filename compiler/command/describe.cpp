@@ -41,7 +41,7 @@ Result<DeviceFates> fates_on(const OpenedFile& opened, const FileRequest& reques
   }
   std::vector<std::string> known;
   std::ranges::copy_if(settings, std::back_inserter(known), [&](const std::string& setting) {
-    return program->parameter(setting.substr(0, setting.find('='))).has_value();
+    return program->parameter(setting_name(setting)).has_value();
   });
   used.insert(known.begin(), known.end());
   const auto parameters = chosen_parameters(*program, known);

@@ -28,7 +28,8 @@ int explain(const ExplainOptions& options) {
 
 Run declare_explain(CLI::App& verb) {
   const auto options = std::make_shared<ExplainOptions>();
-  verb.add_option("CODE", options->code, "a code such as W0301 (default: lists all codes)");
+  must_say(verb.add_option("CODE", options->code, "a code such as W0301 (default: lists all codes)"),
+           "a code such as W0301", "leave out the code to list all");
   verb.footer("for example: wale explain W0301");
   return [options] { return explain(*options); };
 }

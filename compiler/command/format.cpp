@@ -81,7 +81,9 @@ int format(const FormatOptions& options) {
 
 Run declare_format(CLI::App& verb) {
   const auto options = std::make_shared<FormatOptions>();
-  verb.add_option("FILE", options->files, "paths of Wale files; - for standard input to standard output")->required();
+  must_say(verb.add_option("FILE", options->files, "paths of Wale files; - for standard input to standard output"),
+           "the path of a Wale file, or -")
+      ->required();
   verb.add_flag("--check", options->check_only,
                 "changes nothing; lists the files that would change and fails if there are any");
   verb.footer("for example: wale format library/fabric/*.wale");

@@ -35,7 +35,9 @@ int levels(const LevelsOptions& options) {
 
 Run declare_levels(CLI::App& verb) {
   const auto options = std::make_shared<LevelsOptions>();
-  verb.add_option("PERCEPT", options->percept, "a percept or its opposite, as in roughness or smoothness")->required();
+  must_say(verb.add_option("PERCEPT", options->percept, "a percept or its opposite, as in roughness or smoothness"),
+           "the name of a percept")
+      ->required();
   offer_device(verb, options->choice);
   offer_count(verb, "--steps", options->steps, {.least = 2, .most = 1000, .example = 5},
               "how many levels, as in 5 (default: as many as people can tell apart)");

@@ -45,6 +45,13 @@ Result<> are_folders(const std::vector<std::string>& folders) {
 
 }  // namespace
 
+CLI::Option* must_say(CLI::Option* option, const std::string& expected, const std::string& mend) {
+  // CLI11 puts the option's name before it.
+  const std::string text =
+      fmt::format("expected {}, found nothing{}", expected, mend.empty() ? "" : "\n  = help: " + mend);
+  return option->check([text](const std::string& word) { return word.empty() ? text : std::string(); });
+}
+
 Result<> without_empty_words(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const auto& words = option->results();
@@ -89,8 +96,9 @@ void offer_device(CLI::App& verb, Choice& choice, const char* option, const char
 }
 
 void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& options) {
-  verb.add_option("FILE", choice.file,
-                  "a Wale file, a patch program (.wpp), or a material of the library by name, as in corduroy")
+  must_say(verb.add_option("FILE", choice.file,
+                           "a Wale file, a patch program (.wpp), or a material of the library by name, as in corduroy"),
+           "a file or the name of a material")
       ->required();
   verb.add_option("--material", choice.material, options.about_material)->type_name("NAME");
   offer_device(verb, choice, options.device_option, options.about_device);

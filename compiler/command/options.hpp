@@ -23,6 +23,10 @@ namespace wale::command {
 /// option out. Called before a verb runs. Error: W0801.
 Result<> without_empty_words(const CLI::App& verb);
 
+/// Refuses an empty text for one option or argument, in words of its own: "expected a file, found nothing". `mend` is
+/// the help; it may be empty.
+CLI::Option* must_say(CLI::Option* option, const std::string& expected, const std::string& mend = {});
+
 /// The help texts of options that mean slightly different things in some verbs.
 namespace help_text {
 inline constexpr const char* library = "a folder to search for imports, after the file's own; may be repeated";

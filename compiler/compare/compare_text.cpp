@@ -7,6 +7,7 @@
 
 #include "compiler/compare/compare.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
 
 namespace wale {
@@ -21,15 +22,15 @@ const CueFacts& facts_of(CueKind kind) { return cue_table()[static_cast<std::siz
 /// "2.5 mm", "1.93 N", "45 degrees", "none": three significant digits, and `more`.
 std::string cue_text(CueKind kind, const std::optional<double>& value, int more = 0) {
   if (!value) return "none";
-  if (kind == CueKind::period) return fmt::format("{:.{}g} mm", 1e3 * *value, 3 + more);
+  if (kind == CueKind::period) return with_digits(1e3 * *value, 3 + more) + " mm";
   if (kind == CueKind::orientation) {
     // 180 degrees is the same as 0: a texture has no front.
     const double unit = std::pow(10, -more);
     const double rounded = std::round(*value * 180 / std::numbers::pi / unit) * unit;
-    return fmt::format("{:.{}f} degrees", std::fmod(rounded, 180) + 0.0, more);
+    return in_degrees(fmt::format("{:.{}f}", std::fmod(rounded, 180) + 0.0, more));
   }
   const CueFacts& facts = facts_of(kind);
-  return fmt::format("{:.{}g}{}{}", *value + 0.0, 3 + more, *facts.unit ? " " : "", facts.unit);
+  return fmt::format("{}{}{}", with_digits(*value, 3 + more), *facts.unit ? " " : "", facts.unit);
 }
 
 /// Both values of a cue; with more digits if they differ and three digits would not show it.

@@ -6,6 +6,7 @@
 
 #include "compiler/compare/propose_levels.hpp"
 #include "compiler/describe/describe.hpp"
+#include "compiler/describe/describe_figure.hpp"
 #include "compiler/text/json_text.hpp"
 
 namespace wale {
@@ -30,7 +31,7 @@ std::string proposal_text(const LevelProposal& proposal) {
     text +=
         fmt::format("  {:<14} {:>8.{}f}  {:>14}  {:>5}", fmt::format("level_{}", proposal.reversed ? count - i : i + 1),
                     proposal.reversed ? 1 - each.level : each.level, proposal.digits,
-                    fmt::format("{:.3g} {}", each.size, proposal.unit), apart);
+                    fmt::format("{} {}", with_digits(each.size, 3), proposal.unit), apart);
     if (i > 0 && after.threshold)
       text += fmt::format("  ({}: {})", evidence_word(after.evidence), after.threshold->source);
     text += '\n';

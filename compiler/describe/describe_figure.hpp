@@ -20,6 +20,17 @@ inline std::string with_decimals(double value, int decimals) {
   return text;
 }
 
+/// `value` with so many significant digits, and below ten million never with an exponent: "1000", not "1e+03". No minus
+/// before zero.
+inline std::string with_digits(double value, int digits) {
+  std::string text = fmt::format("{:.{}g}", value + 0.0, digits);
+  const double size = std::abs(value);
+  return size >= 1 && size < 1e7 && text.find('e') != std::string::npos ? fmt::format("{:.0f}", value) : text;
+}
+
+/// "1 degree", "45 degrees".
+inline std::string in_degrees(const std::string& number) { return number + (number == "1" ? " degree" : " degrees"); }
+
 /// A value of a parameter in the unit that its author used.
 inline double shown(float value, double unit_in_si) { return figure(value / unit_in_si); }
 

@@ -119,13 +119,13 @@ void write_texture(std::string& text, const Description& description) {
       text += fmt::format("  irregular, about {:.2g} mm; {:.2g} sign changes per millimetre\n", 1e3 * force.period,
                           1e-3 * force.transitions);
     text += fmt::format("  anisotropy {:.1f}{}\n", force.anisotropy,
-                        force.oriented()
-                            ? fmt::format(", changes along the direction {} degrees from x", degrees(force.orientation))
-                            : "");
+                        force.oriented() ? fmt::format(", changes along the direction {} from x",
+                                                       in_degrees(fmt::format("{}", degrees(force.orientation))))
+                                         : "");
     if (force.waves.size() > 1)
       for (const ReliefWave& wave : force.waves)
-        text += fmt::format("  {:.0f} % of it has a period of {:.2g} mm along {} degrees\n", 100 * wave.share,
-                            1e3 * wave.period, degrees(wave.orientation));
+        text += fmt::format("  {:.0f} % of it has a period of {:.2g} mm along {}\n", 100 * wave.share,
+                            1e3 * wave.period, in_degrees(fmt::format("{}", degrees(wave.orientation))));
     if (!texture.texture_class.empty()) text += fmt::format("  people would call it {}\n", texture.texture_class);
     if (!texture.size_class.empty() && texture.size_class != "texture")
       text += fmt::format("  period {:.3g} mm: felt as {}\n", 1e3 * force.period,
@@ -154,7 +154,7 @@ std::string bound_lines(const Description& description) {
     line += fmt::format(
         "  limited by the compiler: the formulas may ask for {} along x or y, and `{}` gives {:.4g} N.\n"
         "  Limiting x and y separately turns the force; `force = … limit {:.4g} N` keeps its direction\n",
-        std::isfinite(asked) ? fmt::format("{:.3g} N", asked) : "any force", description.device.name, most, most);
+        std::isfinite(asked) ? with_digits(asked, 3) + " N" : "any force", description.device.name, most, most);
   if (description.asked.maybe_nan)
     line += "  limited by the compiler: where its formulas give no number, the force is 0\n";
   return line;

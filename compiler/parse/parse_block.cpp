@@ -76,6 +76,16 @@ bool Parser::is_leading_word() const {
   return true;
 }
 
+/// `title "x" called "y"`: no word follows a text, so another setting begins here.
+void Parser::next_setting() {
+  const Token& before = token(at_ - 1);
+  complain_at(Code::unexpected_token, span_of(here()), "expected the end of the line" + after_previous(),
+              "`;`, or the end of the line", shown(here()),
+              fmt::format("write `;` or a new line before {}", shown(here())),
+              {replace(Span{tree_.source, before.end, here().begin}, "; ", "part them with `;`")});
+  throw Abandon{};
+}
+
 SettingItem Parser::setting_item() {
   const std::size_t begin = at_;
   SettingItem item;
@@ -95,6 +105,7 @@ SettingItem Parser::setting_item() {
     advance();
     item.equals = expression();
   }
+  if (item.value && at(TokenKind::name) && std::holds_alternative<TextLiteral>(tree_.expr(*item.value))) next_setting();
   while (at(TokenKind::name)) item.trailing.push_back(take_word());
   item.span = since(begin);
   return item;

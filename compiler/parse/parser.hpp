@@ -64,6 +64,7 @@ class Parser {
 
   // parse_block.cpp: blocks in braces
   Setting setting();
+  [[noreturn]] void next_setting();
   SettingItem setting_item();
   bool is_leading_word() const;
   void material_section(MaterialDecl& material, bool& misplaced);

@@ -261,7 +261,7 @@ class Solver {
     if (!lost.empty())
       report(Code::lost_percept, material_.force_span,
              fmt::format("on `{}`, parts of this force are lost ({})", device_->profile.name, lost),
-             "`wale describe --device` lists them; write what matters as a percept, and mark it "
+             "`wale describe FILE --device NAME` lists them; write what matters as a percept, and mark it "
              "`essential` to refuse such a device");
     solved_.fates.insert(solved_.fates.end(), physics_.begin(), physics_.end());
   }

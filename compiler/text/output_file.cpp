@@ -27,9 +27,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t buffer_size = 1 << 16;
 constexpr int most_links = 40;  // as the kernel follows
 
-Error unwritable(const std::string& path, const std::string& why) {
+Error unwritable(const std::string& path, const std::string& why, const std::string& mend = {}) {
   return {.code = Code::unwritable_file,
           .sentence = fmt::format("cannot write this file: {}", why),
+          .mend = mend,
           .place = {.name = path}};
 }
 
@@ -127,6 +128,7 @@ Result<TemporaryFile> make_temporary(const fs::path& folder, const std::string& 
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) return TemporaryFile{descriptor, name};
     if (errno == EEXIST && number < 1000) continue;
+    if (errno == ENOENT) return unwritable(path, "there is no such folder", "make it first");
     return unwritable(path, errno);
   }
 }

@@ -132,7 +132,8 @@ class FileResolver final : public Resolver {
     for (const auto& candidate : candidates)
       if (const auto shown = candidate.lexically_normal().string(); said.insert(shown).second)
         searched += fmt::format("{}`{}`", searched.empty() ? "" : ", ", visible_text(shown));
-    return unreadable(name, fmt::format("no such file; looked for {}", searched));
+    const bool is_elsewhere = said.size() > 1 || !said.contains(name);  // otherwise the name says it already
+    return unreadable(name, is_elsewhere ? fmt::format("no such file; looked for {}", searched) : "no such file");
   }
 
   /// The project of a file. Cached by folder, since each import asks for it.

@@ -93,6 +93,57 @@ TEST(Values, EmptyTextsAreRefusedByTheirOption) {
                   {{"levels", ""}, 2, "PERCEPT: expected"}});
 }
 
+TEST(Values, EmptyArgumentsAreRefusedInTheWordsOfTheirVerb) {
+  expect_refused({{{"check", ""}, 2, "FILE: expected the path of a Wale file, found nothing"},
+                  {{"feel", ""}, 2, "FILE: expected a file or the name of a material, found nothing"},
+                  {{"compare", "", "denim"}, 2, "FILE: expected a file or the name of a material, found nothing"},
+                  {{"build", corduroy, "-o", ""}, 2, "for example, `wale build corduroy -o corduroy.wpp`"}});
+}
+
+TEST(Values, AnEmptyValueDoesNotTakeTheNextOption) {
+  expect_refused({{{"levels", "roughness", "--device=", "--steps", "3"}, 2, "--device: expected NAME, found nothing"},
+                  {{"feel", corduroy, "--max-force=", "--device", "simulated"}, 2, "--max-force: expected a force"},
+                  {{"describe", corduroy, "--set="}, 2, "--set: expected NAME=VALUE, found nothing"}});
+}
+
+TEST(Values, AreExpectedOnce) {
+  expect_refused({{{"levels", "roughness", "--device", "falcon", "--device", "sandpaper"},
+                   2,
+                   "--device: expected once, found twice\n"},
+                  {{"levels", "roughness", "--device", "a", "--device=b", "--device", "c"},
+                   2,
+                   "--device: expected once, found 3 times\n"},
+                  {{"levels", "roughness", "--device"}, 2, "--device: expected NAME, found nothing\n"},
+                  {{"build", corduroy, "-o"}, 2, "-o: expected FILE, found nothing\n"}});
+}
+
+TEST(Values, WholeNumbersSayThatTheyAreNotNegative) {
+  expect_refused({{{"feel", corduroy, "--virtual-time", "--against", corduroy, "--blind", "--seed", "-1"},
+                   2,
+                   "expected a whole number of 0 or more, found \"-1\""}});
+}
+
+TEST(Values, NamesOfParametersMayHaveSpacesRoundThem) {
+  EXPECT_EQ(wale({"describe", corduroy, "--set", " wale = 4 mm"}).out,
+            wale({"describe", corduroy, "--set", "wale=4mm"}).out);
+}
+
+TEST(Values, BeginningsOfNamesAreUnderstood) {
+  expect_refused({{{"levels", "rough"}, 1, "did you mean `roughness`?"}});
+}
+
+TEST(Values, HelpIsAnOption) {
+  expect_refused({{{"help"}, 2, "there is no verb `help`; `wale --help` is the help\n"},
+                  {{"help", "feel"}, 2, "there is no verb `help`; `wale feel --help` is the help\n"}});
+}
+
+TEST(Values, LargeFiguresHaveNoExponent) {
+  const Outcome levels = wale({"levels", "hardness", "--steps", "3"});
+  ASSERT_EQ(levels.status, 0) << levels.err;
+  EXPECT_TRUE(contains(levels.out, " 1000 N/m")) << levels.out;
+  EXPECT_FALSE(contains(levels.out, "e+")) << levels.out;
+}
+
 TEST(Values, UnknownNamesAreRefused) {
   expect_refused(
       {{{"describe", "brick:"}, 2, "after its colon"},

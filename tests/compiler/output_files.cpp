@@ -147,7 +147,7 @@ TEST(OutputFile, WhatCannotBeWrittenIsTold) {
   fs::create_directory(folder / "sub");
   const auto sentence = [](const Result<>& result) { return result ? "" : result.error().sentence; };
   EXPECT_EQ(sentence(write_file(folder / "sub", "", {})), "cannot write this file: Is a directory");
-  EXPECT_EQ(sentence(write_file(folder / "no/out", "", {})), "cannot write this file: No such file or directory");
+  EXPECT_EQ(sentence(write_file(folder / "no/out", "", {})), "cannot write this file: there is no such folder");
   EXPECT_EQ(sentence(write_file("", "", {})), "cannot write this file: No such file or directory");
   EXPECT_EQ(sentence(replace_file(folder / "no", "")), "cannot write this file: No such file or directory");
   EXPECT_EQ(sentence(replace_file("/dev/null", "")), "cannot write this file: it is not a regular file");

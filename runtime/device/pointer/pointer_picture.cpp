@@ -91,8 +91,10 @@ std::string draw(const PointerScene& scene, const WorkspaceView& view) {
   const glm::dvec2 hand = view.cells(scene.hand);
   const int hand_column = static_cast<int>(std::floor(std::clamp(hand.x, -1.0, 2000.0)));
   const int hand_row = static_cast<int>(std::floor(std::clamp(hand.y, -1.0, 2000.0)));
+  const auto hundredths = [](double newton) { return std::round(100 * newton) / 100 + 0.0; };  // never -0.00
   char said[80];
-  std::snprintf(said, sizeof said, " %.2f N to the right, %.2f N away: drawn, not felt", force.x, force.y);
+  std::snprintf(said, sizeof said, " %.2f N to the right, %.2f N away: drawn, not felt", hundredths(force.x),
+                hundredths(force.y));
   const std::string words = std::string(said).substr(0, static_cast<std::size_t>(view.columns()));
 
   std::string text;
