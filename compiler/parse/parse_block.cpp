@@ -76,7 +76,7 @@ bool Parser::is_leading_word() const {
   return true;
 }
 
-/// `title "x" called "y"`: no word follows a text, so another setting begins here.
+/// `title "x" called "y"`: no text follows the words after a text, so another setting begins here.
 void Parser::next_setting() {
   const Token& before = token(at_ - 1);
   complain_at(Code::unexpected_token, span_of(here()), "expected the end of the line" + after_previous(),
@@ -105,7 +105,9 @@ SettingItem Parser::setting_item() {
     advance();
     item.equals = expression();
   }
-  if (item.value && at(TokenKind::name) && std::holds_alternative<TextLiteral>(tree_.expr(*item.value))) next_setting();
+  if (item.value && at(TokenKind::name) && followed_by(TokenKind::text) &&
+      std::holds_alternative<TextLiteral>(tree_.expr(*item.value)))
+    next_setting();
   while (at(TokenKind::name)) item.trailing.push_back(take_word());
   item.span = since(begin);
   return item;

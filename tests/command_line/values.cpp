@@ -144,6 +144,13 @@ TEST(Values, LargeFiguresHaveNoExponent) {
   EXPECT_FALSE(contains(levels.out, "e+")) << levels.out;
 }
 
+TEST(Values, AFolderThatIsMissingIsNamed) {
+  const TemporaryFolder folder;
+  expect_refused({{{"build", corduroy, "-o", folder / "none/x.wpp"},
+                   1,
+                   "cannot write this file: there is no such folder\n  = help: make it first"}});
+}
+
 TEST(Values, UnknownNamesAreRefused) {
   expect_refused(
       {{{"describe", "brick:"}, 2, "after its colon"},

@@ -59,7 +59,7 @@ TEST(Compare, DifferentFiguresAreWrittenWithEnoughDigits) {
     EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
   b[CueKind::orientation] = std::numbers::pi / 4, b[CueKind::amplitude] = 2;
   const std::string far = comparison_text(ComparisonMatrix({a, b}, declarations()));
-  for (const char* part : {" 1 degrees ", " 45 degrees ", " 1 N ", " 2 N "})
+  for (const char* part : {" 1 degree ", " 45 degrees ", " 1 N ", " 2 N "})
     EXPECT_NE(far.find(part), std::string::npos) << part << '\n' << far;
 }
 
