@@ -52,7 +52,8 @@ TEST(PatchPrograms, AFlippedByteIsRefusedWithAReason) {
                                                {"feel", file, "--virtual-time", "--seconds", "0.1"}}) {
       const Outcome outcome = wale(words);
       EXPECT_EQ(outcome.status, 1) << "byte " << at;
-      EXPECT_TRUE(contains(outcome.err, "error[W0506]") || contains(outcome.err, "error[W0606]")) << outcome.err;
+      const bool is_version = at == 9;  // the format is read before the checksum, which a newer one may place elsewhere
+      EXPECT_TRUE(contains(outcome.err, is_version ? "error[W0507]" : "error[W0506]")) << "byte " << at << outcome.err;
     }
   }
   for (const std::size_t size : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1}) {
@@ -265,7 +266,7 @@ TEST(Preview, WritesAPicture) {
 TEST(Preview, UnknownFormatsAreRefused) {
   const TemporaryFolder folder;
   const Outcome outcome = wale({"preview", corduroy, "-o", folder / "out.wall"});
-  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.status, 2);
   EXPECT_FALSE(outcome.err.empty());
   EXPECT_FALSE(fs::exists(folder / "out.wall"));
 }
