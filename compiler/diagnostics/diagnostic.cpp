@@ -34,6 +34,32 @@ Spending spending(Work on) {
   return {"this material takes", "write it as several materials, or with fewer values"};
 }
 
+/// The longest name that a message quotes whole, in bytes. A name may be as long as its file.
+constexpr std::size_t longest_quoted = 200;
+
+/// Keeps the first part of each quoted text (`` `like this` ``) that is too long, and ends it with "…". Facts and
+/// fixes, which programs read, keep theirs whole.
+void shorten_quoted(std::string& text) {
+  if (text.size() <= longest_quoted) return;
+  std::string shortened;
+  std::string_view rest = text;
+  while (true) {
+    const std::size_t open = rest.find('`');
+    const std::size_t close = open == rest.npos ? rest.npos : rest.find('`', open + 1);
+    if (close == rest.npos) break;
+    std::size_t kept = close;
+    if (close - open > longest_quoted) {
+      kept = open + longest_quoted;
+      while ((static_cast<unsigned char>(rest[kept]) & 0xC0) == 0x80) --kept;  // a whole character
+    }
+    shortened += rest.substr(0, kept);
+    if (kept != close) shortened += "…";
+    shortened += '`';
+    rest.remove_prefix(close + 1);
+  }
+  text = shortened.append(rest);
+}
+
 }  // namespace
 
 void Diagnostics::report_spent(const Span& place, Work on) {
@@ -52,6 +78,9 @@ void Diagnostics::report_spent(const Span& place, Work on) {
 
 void Diagnostics::report(Diagnostic diagnostic) {
   if (is_full() || spent_) return;
+  for (std::string* text : {&diagnostic.message, &diagnostic.label, &diagnostic.expected, &diagnostic.found,
+                            &diagnostic.cause, &diagnostic.rule, &diagnostic.help})
+    shorten_quoted(*text);
   const Key key(diagnostic.code, diagnostic.span.source, diagnostic.span.begin, diagnostic.span.end);
   for (auto [said, end] = said_.equal_range(key); said != end; ++said)
     if (said->second == diagnostic.message) return;

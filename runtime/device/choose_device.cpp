@@ -233,7 +233,8 @@ class Chooser {
                  plugged.obstacle->mend);
   }
 
-  /// The best plugged device that `is_meant` accepts; never a simulated one.
+  /// The best plugged device that `is_meant` accepts; never a simulated one. What is wrong with a plugged device is
+  /// not wrong in the option's words, so such an error names no place.
   template <class IsMeant>
   Result<ChosenDevice> real(IsMeant is_meant, const std::string& none, const std::string& instead = "simulated") const {
     std::optional<Error> why;
@@ -243,15 +244,15 @@ class Chooser {
       if (!is_usable(*each.plugged)) {
         if (!why) why = unusable(*each.plugged);
       } else if (each.match.device == nullptr) {
-        why = error(Code::unknown_device, "no declaration is about " + name,
-                    "declare it, as `wale devices --identify` prints it");
+        why = Error{Code::unknown_device, "no declaration is about " + name,
+                    "declare it, as `wale devices --identify` prints it"};
       } else if (!fits(each)) {
         const std::string& profile = each.match.device->profile().name;
-        why = error(
+        why = Error{
             Code::other_device,
             "the program is built for `" + request_.built_for + "`, and " + name + " is used as `" + profile + "`",
             "build it for that (`wale build FILE --device " + profile +
-                " -o OUT.wpp`), or simulate its own (`--device simulated`)");
+                " -o OUT.wpp`), or simulate its own (`--device simulated`)"};
       } else {
         return taken(each);
       }

@@ -215,7 +215,7 @@ TEST(Rendering, WithoutAPlaceHasNoLine) {
   Diagnostics diagnostics;
   diagnostics.report({Code::unknown_device, {}, "no device is called `tablet`", {}, {}, {}, "see `wale devices`"});
   EXPECT_EQ(render_text(diagnostics.all()[0], SourceSet(), false),
-            "error[W0601]: no device is called `tablet`\n   |\n   = help: see `wale devices`\n");
+            "error[W0601]: no device is called `tablet`\n   = help: see `wale devices`\n");
   EXPECT_FALSE(nlohmann::json::parse(render_json(diagnostics, SourceSet()))[0].contains("line"));
 }
 
