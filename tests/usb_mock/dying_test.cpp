@@ -59,10 +59,28 @@ class Dying : public testing::Test {
     }
     return found;
   }
-  /// Frames from now until the device pushes nothing, and stays so for another 100.
+  /// Sends the signal between two requests to the device, and returns the frame in which it was sent. A process that
+  /// was stopped within one goes on until it pushes again, and is stopped once more.
+  template <class Pushes>
+  long tell(const Running& feeling, int signal, Pushes pushes) {
+    while (true) {
+      const long began = mock_.frames();
+      feeling.tell(signal);
+      if (signal != SIGSTOP && signal != SIGTSTP) return began;
+      await([&] {
+        return text_of("/proc/" + std::to_string(feeling.process()) + "/stat").find(") T ") != std::string::npos;
+      });
+      for (int look = 0; look < 30; ++look) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (!MockUsbDevice::is_answering()) return began;
+      }
+      feeling.tell(SIGCONT);
+      await(pushes);
+    }
+  }
+  /// Frames since `began` until the device pushes nothing, and stays so for another 100.
   template <class Force>
-  long frames_until_slack(Force force) {
-    const long began = mock_.frames();
+  long frames_until_slack(Force force, long began) {
     await([&] { return force() == 0; });
     const long ended = mock_.frames();
     await([&] { return mock_.frames() > ended + 100; });
@@ -79,8 +97,8 @@ class Dying : public testing::Test {
       Running feeling(feel());
       await([&] { return force() > felt; });
       std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
-      feeling.tell(signal);
-      const long frames = frames_until_slack(force);
+      const long began = tell(feeling, signal, [&] { return force() > felt; });
+      const long frames = frames_until_slack(force, began);
       EXPECT_LE(frames, most_frames) << signal;
       RecordProperty("ms_after_signal_" + std::to_string(signal), static_cast<int>(frames));
       std::fprintf(stderr, "signal %d: %ld ms\n", signal, frames);
@@ -150,11 +168,12 @@ TEST_F(Dying, TogetherWithItsKeeperAJoystickThatHonoursDurationsIsFree) {
   await([&] { return force() > 0.1; });
   const pid_t keeper = keeper_of(feeling.process());
   ASSERT_GT(keeper, 0);
+  const long began = mock_.frames();
   kill(keeper, SIGKILL);
   feeling.tell(SIGKILL);
   feeling.outcome();
   stick->close_all();
-  const long frames = frames_until_slack(force);
+  const long frames = frames_until_slack(force, began);
   EXPECT_LE(frames, most_frames);
   EXPECT_TRUE(stick->with_model([](PidModel& model) { return model.effects[1].plays; })) << "nobody stopped it";
 }

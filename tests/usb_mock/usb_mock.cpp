@@ -340,7 +340,9 @@ int MockUsbDevice::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument
 }
 
 gboolean MockUsbDevice::when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self) {
+  ++answering_;
   static_cast<MockUsbDevice*>(self)->answer(client);
+  --answering_;
   return TRUE;
 }
 

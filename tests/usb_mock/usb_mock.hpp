@@ -49,6 +49,10 @@ class MockUsbDevice {
   /// itself.
   void close_all();
 
+  /// Whether a request of any client is being answered just now. The mock reads a request's memory from its client, so
+  /// a client that is stopped in the middle of one holds the mock, which no process can do to a kernel.
+  static bool is_answering() { return answering_ != 0; }
+
   const std::string& syspath() const { return syspath_; }
   const std::string& node() const { return node_; }
 
@@ -68,6 +72,8 @@ class MockUsbDevice {
     UMockdevIoctlClient* client = nullptr;  // the owner
     long due = 0;                           // for a control transfer: the frame in which it ends
   };
+
+  static inline std::atomic<int> answering_{0};
 
   static gboolean when_asked(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer self);
   void answer(UMockdevIoctlClient* client);
