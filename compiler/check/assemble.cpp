@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "compiler/check/ask.hpp"
@@ -98,20 +97,6 @@ class Assembler {
   bool charge(std::size_t operations) {
     return surroundings_.diagnostics.charge(operations, path_.front()->name.span, Work::assembly);
   }
-  /// Counts what a material consists of.
-  static void measure(AssembledMaterial& material) {
-    std::size_t levels = 1;
-    material.size = material.work = material.statements.size();
-    for (const auto& assembled : material.statements)
-      if (assembled.value) material.work += assembled.value->parts.size();  // which `between` adds up
-    for (const auto& component : material.components) {
-      material.size += 1 + component.material->size;
-      material.work += 1 + component.material->work;
-      levels += component.material->percepts.size();
-    }
-    material.work += levels * material.percepts.size();
-  }
-
   // ---- what a material is made from -------------------------------------------------------------------------------
 
   /// `like denim`: takes everything from `denim` that the material does not state itself.
@@ -194,7 +179,7 @@ class Assembler {
         continue;
       }
       const Mixture value{{{1, from.tree, argument.value, from.home}}};
-      if (set(*result, argument.name->text, value)) continue;
+      if (set_default(*result, argument.name->text, value)) continue;
       if (const Dial dial = dial_named(*result, argument.name->text); dial != Dial::none) {
         const auto number = plain_constant(from, argument.value, surroundings_);
         if (number && (dial == Dial::weight ? good_weight(*number, span)
@@ -220,7 +205,7 @@ class Assembler {
         }
         continue;
       }
-      const auto known = parameters(*base);
+      const auto known = parameters_of(*base);
       report(Code::unknown_argument, argument.name->span,
              fmt::format("`{}` has no parameter `{}`", call.callee.text, argument.name->text),
              did_you_mean(argument.name->span, argument.name->text, known,
@@ -230,60 +215,9 @@ class Assembler {
     return good ? result : nullptr;
   }
 
-  static std::vector<std::string> parameters(const AssembledMaterial& material) {
-    std::vector<std::string> all;
-    for (const auto& assembled : material.statements)
-      if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what))
-        all.emplace_back(param->name.text);
-    for (const auto& component : material.components) {
-      all.push_back(component.weight_name);
-      for (auto& name : parameters(*component.material)) all.push_back(std::move(name));
-    }
-    return all;
-  }
-
   static std::string example_of(const AssembledMaterial& material) {
-    const auto known = parameters(material);
+    const auto known = parameters_of(material);
     return known.empty() ? "" : known.front() + ": …";
-  }
-
-  /// Gives a parameter another default; in a blend, in every component that has the parameter.
-  static bool set(AssembledMaterial& material, std::string_view name, const Mixture& value) {
-    bool found = false;
-    for (auto& assembled : material.statements)
-      if (const auto* param = std::get_if<ParamStatement>(&assembled.statement->what);
-          param && param->name.text == name)
-        assembled.value = value, found = true;
-    for (auto& component : material.components) {
-      auto copy = std::make_shared<AssembledMaterial>(*component.material);
-      if (set(*copy, name, value)) component.material = copy, found = true;
-    }
-    return found;
-  }
-
-  /// The arguments that change a blend: the weight of a component, or the level of a percept that a component asks for.
-  enum class Dial { none, weight, level };
-
-  static Dial dial_named(const AssembledMaterial& material, std::string_view name) {
-    for (const auto& component : material.components) {
-      if (component.weight_name == name) return Dial::weight;
-      for (const auto& asked : component.material->percepts)
-        if (!asked.blended && component.name + "_" + asked.name == name) return Dial::level;
-      if (const Dial within = dial_named(*component.material, name); within != Dial::none) return within;
-    }
-    return Dial::none;
-  }
-
-  static void turn(AssembledMaterial& material, std::string_view name, double value) {
-    for (auto& component : material.components) {
-      if (component.weight_name == name) component.weight = value;
-      auto copy = std::make_shared<AssembledMaterial>(*component.material);
-      for (auto& asked : copy->percepts)
-        if (!asked.blended && component.name + "_" + asked.name == name) asked.level = value;
-      turn(*copy, name, value);
-      component.material = copy;
-    }
-    blend_levels(material);
   }
 
   bool good_weight(double weight, Span span) {
@@ -369,34 +303,6 @@ class Assembler {
     return std::string(text.substr(0, longest)) + (text.size() > longest ? "…" : "");
   }
 
-  static void mix(AssembledMaterial& a, const AssembledMaterial& b, double way) {
-    for (std::size_t i = 0; i < a.statements.size(); ++i) {
-      const auto* param = std::get_if<ParamStatement>(&a.statements[i].statement->what);
-      if (!param) continue;
-      const auto own = [&](const AssembledStatement& each) {
-        return each.value.value_or(Mixture{{{1, each.tree, param->value, each.home}}});
-      };
-      Mixture mixed;
-      for (auto part : own(a.statements[i]).parts) part.weight *= 1 - way, mixed.parts.push_back(part);
-      for (auto part : own(b.statements[i]).parts) part.weight *= way, mixed.parts.push_back(part);
-      a.statements[i].value = std::move(mixed);
-    }
-    for (auto& percept : a.percepts) {
-      const auto& other = *std::ranges::find(b.percepts, percept.name, &AskedPercept::name);
-      percept.level += way * (other.level - percept.level);
-      percept.blended = percept.blended && other.blended;
-    }
-    for (std::size_t i = 0; i < a.components.size(); ++i) {
-      auto& component = a.components[i];
-      auto copy = std::make_shared<AssembledMaterial>(*component.material);
-      mix(*copy, *b.components[i].material, way);
-      component.material = copy;
-      component.weight += way * (b.components[i].weight - component.weight);
-    }
-    measure(a);
-    blend_levels(a);
-  }
-
   /// `0.7 corduroy + 0.3 denim`: the forces and textures of both at once.
   std::shared_ptr<const AssembledMaterial> blend(const Declared<MaterialDecl>& from, ExprId expr) {
     auto result = std::make_shared<AssembledMaterial>();
@@ -418,31 +324,6 @@ class Assembler {
     measure(*result);
     blend_levels(*result);
     return result;
-  }
-
-  /// Gives the weight of each component a name that no other has.
-  static void name_weights(std::vector<AssembledMaterial::Component>& components) {
-    std::unordered_set<std::string> taken;
-    std::unordered_map<std::string, int> counts;  // for each name, a number below which none is free
-    for (auto& component : components) {
-      component.weight_name = component.name + "_weight";
-      int& count = counts.try_emplace(component.name, 2).first->second;
-      while (!taken.insert(component.weight_name).second)
-        component.weight_name = fmt::format("{}_weight_{}", component.name, count++);
-    }
-  }
-
-  /// Computes the levels of a blend from those of its components, for all percepts that the blend does not ask for.
-  static void blend_levels(AssembledMaterial& material) {
-    double whole = 0;
-    for (const auto& component : material.components) whole += component.weight;
-    for (auto& percept : material.percepts) {
-      if (!percept.blended) continue;
-      percept.level = 0;
-      for (const auto& component : material.components)
-        for (const auto& asked : component.material->percepts)
-          if (asked.name == percept.name) percept.level += component.weight / whole * asked.level;
-    }
   }
 
   bool add_components(const Declared<MaterialDecl>& from, ExprId expr,
