@@ -112,11 +112,11 @@ std::string changed_program(Choices& choices) {
   return bytes;
 }
 
-struct Input {
+struct Fed {
   std::string name, content;
 };
 
-Input input_of(Choices& choices) {
+Fed input_of(Choices& choices) {
   static const std::array<std::string, 6> stems{"hostile",        "two\nlines", "esc\x1b[31m",
                                                 "not \xff utf-8", "rtl\u202e",  "\"quoted\\\""};
   const unsigned kind = choices.next();
@@ -212,7 +212,7 @@ const std::filesystem::path& own_folder() {
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   Choices choices({data, size});
   const Command& command = commands()[choices.next() % commands().size()];
-  const Input input = input_of(choices);
+  const Fed input = input_of(choices);
   const std::filesystem::path file = own_folder() / input.name;
   std::ofstream(file, std::ios::binary) << input.content;
   const Outcome outcome = run(command, input.name);
