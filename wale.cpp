@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/command/deep_thread.hpp"
 #include "compiler/command/options.hpp"
 #include "compiler/command/print.hpp"
 #include "schema/spelling.hpp"
@@ -189,5 +190,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   prepare_streams();
-  return finish_output(status_of([&] { return run(argc, argv); }));
+  return finish_output(
+      status_of([&] { return with_deep_stack([&] { return status_of([&] { return run(argc, argv); }); }); }));
 }

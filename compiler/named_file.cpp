@@ -113,6 +113,8 @@ Result<NamedFile> find_by_name(const std::string& name, const std::vector<std::s
       error.mend = fmt::format("the nearest: {}; `wale find` lists all", listed_near(near));
     else
       error.mend = "`wale find` lists the materials of the library";
+    if (!index->left_out().empty())
+      error.sentence += fmt::format(" in the first {} MB of modules, which are read", most_indexed >> 20);
   }
   return error;
 }

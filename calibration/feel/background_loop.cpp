@@ -25,7 +25,7 @@ void BackgroundLoop::run(const std::function<void()>& step, const std::function<
 
 void BackgroundLoop::end() {
   over_ = true;
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
 }  // namespace wale

@@ -3,11 +3,13 @@
 #include <atomic>
 #include <exception>
 #include <functional>
-#include <thread>
+
+#include "compiler/command/deep_thread.hpp"
 
 namespace wale {
 
-/// Calls a function again and again on a thread of its own, until it is finished, destroyed, or the function throws.
+/// Calls a function again and again on a thread of its own, whose stack is enough to compile, until it is finished,
+/// destroyed, or the function throws.
 class BackgroundLoop {
  public:
   /// `step` should return within about 0.1 s, since the end waits for it. If it throws, `on_failure` is called once, on
@@ -26,7 +28,7 @@ class BackgroundLoop {
 
   std::atomic<bool> over_ = false;
   std::exception_ptr failure_;
-  std::thread thread_;
+  command::DeepThread thread_;
 };
 
 }  // namespace wale

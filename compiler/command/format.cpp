@@ -35,8 +35,8 @@ Result<ResolvedFile> standard_input() {
     if (count < 0) return unreadable(std::strerror(errno));
     if (count == 0) return text;
     text.bytes.append(block.data(), static_cast<std::size_t>(count));
-    if (text.bytes.size() > largest_file)
-      return unreadable(fmt::format("it has more than {} MB, the most that Wale reads", largest_file >> 20));
+    if (text.bytes.size() > largest_source)
+      return unreadable(fmt::format("it has more than {} MB, the most that Wale reads", largest_source >> 20));
   }
 }
 

@@ -53,11 +53,20 @@ int status_of(const std::function<int()>& command) noexcept {
         visible_text(what));
     return failed;
   };
+  const auto say_short = [](const char* what) {
+    print_as_is(stderr, what);
+    return refused;
+  };
   try {
     return command();
   } catch (const std::bad_alloc&) {
-    print_as_is(stderr, "wale: there is not enough memory for it\n");
-    return refused;
+    return say_short("wale: there is not enough memory for it\n");
+  } catch (const std::system_error& thrown) {
+    // What the constructor of a thread throws if it cannot have a stack, or is one more than the user may have.
+    const bool is_short =
+        thrown.code() == std::errc::resource_unavailable_try_again || thrown.code() == std::errc::not_enough_memory;
+    if (!is_short) return say_failed(thrown.what());
+    return say_short("wale: the system gives no more memory or threads for it\n");
   } catch (const std::exception& thrown) {
     return say_failed(thrown.what());
   } catch (...) {

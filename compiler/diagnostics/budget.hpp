@@ -32,12 +32,28 @@ class Budget {
     left_ -= operations;
     return true;
   }
+  /// Samples of pictures and tables that a compilation keeps: those of eight pictures of the largest size, 256 MB.
+  static constexpr std::size_t most_samples = std::size_t{8} * 4096 * 4096;
+  /// A picture or table that a material has already is kept once, and only looked at: that costs as much as keeping
+  /// one sample in so many.
+  static constexpr std::size_t looks_for_a_sample = 16;
+
+  /// Counts the samples of a picture or table; false if the compilation then has more than `most_samples`.
+  bool take_samples(std::size_t samples, bool is_new) {
+    const std::size_t looks = is_new ? samples * looks_for_a_sample : samples;
+    const bool enough = looks <= looks_left_;
+    looks_left_ -= enough ? looks : looks_left_;
+    return enough;
+  }
+  bool has_samples() const { return looks_left_ > 0; }
+
   void allow(std::size_t operations) { left_ += operations, allowed_ += operations; }
   std::size_t allowed() const { return allowed_; }
   std::size_t taken() const { return allowed_ - left_; }
 
  private:
   std::size_t allowed_ = for_any_text, left_ = for_any_text;
+  std::size_t looks_left_ = most_samples * looks_for_a_sample;
 };
 
 }  // namespace wale

@@ -96,6 +96,9 @@ class Diagnostics {
   /// The same, where the place is not at hand; `report_spent` must follow.
   bool charge(std::size_t operations) { return budget_.take(operations); }
   [[gnu::cold]] void report_spent(const Span& place, Work on);
+  /// As `Budget`. The caller reports it (W0509).
+  bool take_samples(std::size_t samples, bool is_new) { return budget_.take_samples(samples, is_new); }
+  bool has_samples() const { return budget_.has_samples(); }
   /// Goes on with the budget of `other`, whose diagnostics are kept apart.
   void continue_budget(const Diagnostics& other) { budget_ = other.budget_, spent_ = other.spent_; }
   bool is_spent() const { return spent_; }

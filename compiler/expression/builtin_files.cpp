@@ -27,6 +27,15 @@ struct FileArgument {
   Sandbox sandbox = Sandbox::required;
 };
 
+void report_too_many_samples(const BuiltinCall& call) {
+  constexpr std::size_t most = Budget::most_samples / (1 << 20);
+  call.reading.calls.report(
+      Code::too_much_read, call.actuals[0].span,
+      fmt::format("expected at most {} million samples of pictures and tables in one compilation, found more with `{}`",
+                  most, call.value(0).text),
+      "", Advice("use fewer or smaller ones").fact("limit", static_cast<double>(Budget::most_samples)));
+}
+
 /// The file that the first argument names, relative to the folder of the Wale file. Empty if it cannot be read, which
 /// is reported.
 std::optional<FileArgument> file_argument(const BuiltinCall& call) {
@@ -40,19 +49,32 @@ std::optional<FileArgument> file_argument(const BuiltinCall& call) {
   if (call.span.source >= first_embedded_source)
     if (const auto* asset = embedded_asset(from, call.value(0).text))
       return FileArgument{{std::string(asset->name), std::string(asset->text)}, Sandbox::if_possible};
+  if (!surroundings.diagnostics.has_samples()) return report_too_many_samples(call), std::nullopt;
   auto resolved = surroundings.resolver->file(std::string(call.value(0).text), from);
   if (resolved) return FileArgument{*std::move(resolved), surroundings.resolver->sandbox()};
+  if (resolved.error().code == Code::too_much_read) {
+    call.reading.calls.report(Code::too_much_read, call.actuals[0].span, resolved.error().sentence, "",
+                              resolved.error().mend);
+    return std::nullopt;
+  }
   call.reading.calls.report(Code::unreadable_file, call.actuals[0].span,
                             fmt::format("`{}` cannot be read: {}", call.value(0).text, resolved.error().sentence), "",
                             "give the path relative to the folder of this file");
   return std::nullopt;
 }
 
-/// The index of a table among those of the material. Equal tables are stored once.
-std::uint32_t add_table(std::vector<HeightTable>& tables, HeightTable table) {
+/// The index of a table among those of the material. Equal tables are stored once. Empty if the compilation would have
+/// too many samples, which is reported.
+std::optional<std::uint32_t> add_table(const BuiltinCall& call, HeightTable table) {
+  std::vector<HeightTable>& tables = call.reading.tables;
   const auto existing = std::ranges::find(tables, table);
+  const bool is_new = existing == tables.end();
+  if (!call.reading.surroundings.diagnostics.take_samples(table.heights.size(), is_new)) {
+    report_too_many_samples(call);
+    return std::nullopt;
+  }
   const auto index = static_cast<std::uint32_t>(existing - tables.begin());
-  if (existing == tables.end()) tables.push_back(std::move(table));
+  if (is_new) tables.push_back(std::move(table));
   return index;
 }
 
@@ -91,7 +113,9 @@ Value relief(const BuiltinCall& call) {
               .rows = static_cast<double>(picture.table.height),
               .column = *scale * picture.pixels_per_column,
               .row = *scale * picture.pixels_per_row};
-  field.index = add_table(call.reading.tables, std::move(picture.table));
+  const auto index = add_table(call, std::move(picture.table));
+  if (!index) return call.failed();
+  field.index = *index;
   return {
       .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
 }
@@ -121,7 +145,9 @@ Value table(const BuiltinCall& call) {
               .step = measured->step,
               .low = measured->low,
               .span = measured->high - measured->low};
-  field.index = add_table(call.reading.tables, measured->table);
+  const auto index = add_table(call, measured->table);
+  if (!index) return call.failed();
+  field.index = *index;
   return {
       .type = Value::Type::field, .dimension = field.to, .field = call.reading.record.keep(field), .span = call.span};
 }

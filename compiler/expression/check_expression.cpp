@@ -81,6 +81,13 @@ Value number(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, co
   return value;
 }
 
+[[gnu::cold]] Value too_deep(ExpressionReading& reading, const Span& span) {
+  return reading.calls.report(
+      Code::nested_too_deep, span,
+      fmt::format("expressions are nested more than {} deep, with those of the functions called", deepest_expression),
+      "", Advice("call fewer functions inside one another").fact("limit", static_cast<double>(deepest_expression)));
+}
+
 Value part_of(ExpressionReading& reading, const SyntaxTree& tree, const Part& node, Scope& scope) {
   Value value = check_expression(reading, tree, node.whole, scope);
   if (value.failed()) return value;
@@ -124,6 +131,8 @@ std::string customary_unit(const Declarations& declarations, const Dimension& di
 
 Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprId expr, Scope& scope) {
   const Span span = tree.span(expr);
+  if (reading.depth >= deepest_expression) return too_deep(reading, span);
+  ++reading.depth;
   Value value =
       std::visit(Overloaded{
                      [&](const NumberLiteral& literal) { return number(reading, tree, expr, literal, scope); },
@@ -141,6 +150,7 @@ Value check_expression(ExpressionReading& reading, const SyntaxTree& tree, ExprI
                      [&](const Erroneous&) { return failed_value(span); },
                  },
                  tree.expr(expr));
+  --reading.depth;
   value.span = span;
   return value;
 }

@@ -56,6 +56,10 @@ struct KnownNames {
 /// and names, of which a text has about one in two bytes.
 inline std::size_t operations_of_text(const Span& span) { return 1 + (span.end - span.begin) / 2; }
 
+/// How deep expressions may be nested with those of the functions that they call. They are read recursively, each with
+/// less than 2 kB of the stack.
+inline constexpr std::size_t deepest_expression = 1000;
+
 /// The state that the parts of the expression checker share while they read the expressions of one material.
 struct ExpressionReading {
   ExpressionReading(const Surroundings& around, Terms& terms, std::vector<HeightTable>& tables)
@@ -72,6 +76,8 @@ struct ExpressionReading {
   CallStack calls;
   CallRecord record;
   KnownNames known;
+  /// How many expressions are being read, one inside another; those of functions that are called count too.
+  std::size_t depth = 0;
   /// The component of a blend whose statements are being read, and which therefore spends the budget.
   std::optional<Span> component;
 

@@ -57,16 +57,27 @@ std::string_view record_word(const RecordDecl& record) {
 LibraryIndex read_all(Resolver& resolver, const std::string& from) {
   LibraryIndex index;
   std::set<std::string> known;
+  std::size_t left = most_indexed;
   for (const std::string& module : resolver.modules(from)) {
-    std::string path = module;
-    std::ranges::replace(path, '.', '/');
-    auto found = resolver.file(path + ".wale", from);
-    if (found && known.insert(module).second)
-      read_into(index, module, found->name, std::move(found->bytes), Origin::own);
+    if (left == 0) {
+      index.leave_out(module);
+      continue;
+    }
+    auto found = resolver.listed_module(module, from);
+    if (!found || !known.insert(module).second) continue;
+    left -= std::min(left, found->bytes.size());
+    read_into(index, module, found->name, std::move(found->bytes), Origin::own);
   }
-  for (const ListedModule& hidden : resolver.hidden_modules(from))
-    if (auto read = read_file(hidden.path))
-      read_into(index, hidden.name, read->name, std::move(read->bytes), Origin::hidden);
+  for (const ListedModule& hidden : resolver.hidden_modules(from)) {
+    if (left == 0) {
+      index.leave_out(hidden.path);
+      continue;
+    }
+    auto read = read_file(hidden.path, largest_source);
+    if (!read) continue;
+    left -= std::min(left, read->bytes.size());
+    read_into(index, hidden.name, read->name, std::move(read->bytes), Origin::hidden);
+  }
   for (const EmbeddedFile& file : embedded_files())
     if (!file.common && known.insert(module_of(file.name)).second)
       read_into(index, module_of(file.name), std::string(file.name), std::string(file.text), Origin::shipped);

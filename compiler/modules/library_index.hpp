@@ -30,6 +30,10 @@ struct IndexedMaterial {
   bool shipped() const { return origin == Origin::shipped; }
 };
 
+/// The texts that an index of a library reads have at most so many bytes together, 300 times those of the whole shipped
+/// library. What it keeps of them is less.
+inline constexpr std::size_t most_indexed = std::size_t{64} << 20;
+
 /// A name that a file of a library exports, other than a material.
 struct ExportedName {
   std::string name;
@@ -45,6 +49,10 @@ class LibraryIndex {
 
   const std::vector<IndexedMaterial>& materials() const { return materials_; }
 
+  /// Notes a file that is not in the index, since the files before it have `most_indexed` bytes.
+  void leave_out(const std::string& file) { left_out_.push_back(file); }
+  const std::vector<std::string>& left_out() const { return left_out_; }
+
   /// The first export with that name, or null.
   const ExportedName* exported(std::string_view name) const;
 
@@ -59,6 +67,7 @@ class LibraryIndex {
  private:
   std::vector<IndexedMaterial> materials_;
   std::vector<ExportedName> exports_;
+  std::vector<std::string> left_out_;
 };
 
 /// The index of all modules that a file called `from` could import: those that the resolver lists, then the embedded

@@ -80,6 +80,11 @@ class ModuleLoader {
   }
 
  private:
+  struct Loaded {
+    std::shared_ptr<const Module> module;
+    std::size_t depth = 1;  ///< how many files one below another it consists of, with itself
+  };
+
   SyntaxTree parsed(SourceId source) {
     diagnostics_.allow_text(sources_[source].text.size());
     return parse(sources_, source, diagnostics_);
@@ -88,6 +93,7 @@ class ModuleLoader {
   std::shared_ptr<const Module> add(SyntaxTree tree) {
     const std::string name = sources_[tree.source].name;
     path_.push_back(name);
+    const std::size_t depth_before = std::exchange(depth_, 0);
     auto module = std::make_shared<Module>(std::move(tree), modules_.common->declarations, names_);
     module->name = name;
     for (const auto& declaration : module->tree.declarations)
@@ -100,7 +106,9 @@ class ModuleLoader {
     if (path_.size() == 1)
       for (const auto& devices : devices_) add_devices(*devices, module->declarations);
     path_.pop_back();
-    loaded_[name] = module;
+    const std::size_t depth = depth_ + 1;
+    depth_ = std::max(depth_before, depth);
+    loaded_[name] = {module, depth};
     modules_.modules.push_back(module);
     added_.push_back(module);
     return module;
@@ -118,7 +126,7 @@ class ModuleLoader {
   void add_owners_devices() {
     std::vector<std::shared_ptr<const Module>> owners;
     for (ResolvedFile& file : resolver_.devices()) {
-      if (const auto known = loaded_.find(file.name); known != loaded_.end()) continue;
+      if (loaded_.contains(file.name)) continue;
       const SourceId source = sources_.add(file.name, std::move(file.bytes));
       owners.push_back(add(parsed(source)));
     }
@@ -136,8 +144,13 @@ class ModuleLoader {
   }
 
   std::shared_ptr<const Module> follow(const Word& module, const std::string& from) {
+    // What is known is not read again.
+    const std::string expected = resolver_.module_name(std::string(module.text), from);
+    if (const auto known = loaded_.find(expected); known != loaded_.end()) return again(module, known->second);
+    if (circular(module, expected) || too_deep(module, 1)) return nullptr;
     auto resolved = resolver_.module(std::string(module.text), from);
     if (!resolved) {
+      if (resolved.error().code == Code::too_much_read) return report_too_much(module, resolved.error()), nullptr;
       if (auto embedded = embedded_module(module)) return *embedded;
       diagnostics_.report(
           {.code = Code::unknown_import,
@@ -147,8 +160,8 @@ class ModuleLoader {
       return nullptr;
     }
     ResolvedFile& file = *resolved;
-    if (const auto known = loaded_.find(file.name); known != loaded_.end()) return known->second;
-    if (circular(module, file.name) || too_deep(module)) return nullptr;
+    if (const auto known = loaded_.find(file.name); known != loaded_.end()) return again(module, known->second);
+    if (circular(module, file.name)) return nullptr;
     const SourceId source = sources_.add(file.name, std::move(file.bytes));
     return add(parsed(source));
   }
@@ -161,8 +174,8 @@ class ModuleLoader {
     for (std::size_t i = 0; i < embedded_files().size(); ++i) {
       const EmbeddedFile& file = embedded_files()[i];
       if (file.common || file.name != name) continue;
-      if (const auto known = loaded_.find(name); known != loaded_.end()) return known->second;
-      if (circular(word, name) || too_deep(word)) return nullptr;
+      if (const auto known = loaded_.find(name); known != loaded_.end()) return again(word, known->second);
+      if (circular(word, name)) return nullptr;
       return add(parsed(embedded_source(i)));
     }
     return std::nullopt;
@@ -188,9 +201,21 @@ class ModuleLoader {
     return true;
   }
 
-  /// Whether the imports are nested too deep, which is reported. They are followed recursively.
-  bool too_deep(const Word& module) {
-    if (path_.size() < deepest_import) return false;
+  /// A module that was loaded before. It counts as deep as it is, in whatever order the imports are written.
+  std::shared_ptr<const Module> again(const Word& word, const Loaded& loaded) {
+    if (too_deep(word, loaded.depth)) return nullptr;
+    depth_ = std::max(depth_, loaded.depth);
+    return loaded.module;
+  }
+
+  void report_too_much(const Word& module, const Error& error) {
+    diagnostics_.report({.code = error.code, .span = module.span, .message = error.sentence, .help = error.mend});
+  }
+
+  /// Whether the imports are nested too deep with a file that has `depth` files one below another, which is reported.
+  /// They are followed recursively.
+  bool too_deep(const Word& module, std::size_t depth) {
+    if (path_.size() + depth <= deepest_import) return false;
     diagnostics_.report(Advice("import directly the files that this file needs, or combine some of the files")
                             .fact("limit", static_cast<double>(deepest_import))
                             .about(Code::nested_too_deep, module.span,
@@ -313,7 +338,8 @@ class ModuleLoader {
   ModuleSet& modules_;
   std::shared_ptr<SharedNames> names_ = std::make_shared<SharedNames>(modules_.common->declarations.names());
   std::vector<std::string> path_;  ///< files whose imports are being followed
-  std::map<std::string, std::shared_ptr<const Module>> loaded_;
+  std::size_t depth_ = 0;          ///< of the files that the current one imports, so far
+  std::map<std::string, Loaded> loaded_;
   std::vector<std::shared_ptr<Module>> added_;          ///< all files loaded so far
   std::vector<std::shared_ptr<const Module>> devices_;  ///< the project's own, then those of the owner's files
 };

@@ -116,28 +116,48 @@ class DescriptorBuffer : public std::streambuf {
   std::array<char, buffer_size> buffer_;
 };
 
+/// The name by which this process can link a file that has none.
+std::string name_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
 struct TemporaryFile {
   int descriptor;
-  std::string name;
+  std::string name;  ///< empty as long as the file has none
 };
 
-/// A new file in a folder, with the permissions that the user's mask gives new files.
-Result<TemporaryFile> make_temporary(const fs::path& folder, const std::string& path) {
+/// Calls a function with names of temporary files in a folder, until it succeeds with one that was free: the name, or
+/// an empty text, with `errno`.
+template <class Make>
+std::string first_free(const fs::path& folder, Make make) {
   for (unsigned number = 0;; ++number) {
     const std::string name = (folder / fmt::format(".wale-{}-{}", getpid(), number)).string();
-    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return TemporaryFile{descriptor, name};
-    if (errno == EEXIST && number < 1000) continue;
-    if (errno == ENOENT) return unwritable(path, "there is no such folder", "make it first");
-    return unwritable(path, errno);
+    if (make(name.c_str())) return name;
+    if (errno != EEXIST || number >= 1000) return {};
   }
+}
+
+/// A new file in a folder, with the permissions that the user's mask gives new files. Where the file system can, it has
+/// no name until it is whole: then nothing of it is left behind, even if this process is killed.
+Result<TemporaryFile> make_temporary(const fs::path& folder, const std::string& path) {
+  const std::string place = folder.empty() ? "." : folder.string();
+  if (const int nameless = ::open(place.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); nameless >= 0) {
+    if (access(name_of(nameless).c_str(), F_OK) == 0) return TemporaryFile{nameless, {}};
+    close(nameless);  // without /proc it could not be named later
+  }
+  int descriptor = -1;
+  const std::string name = first_free(folder, [&](const char* free) {
+    descriptor = ::open(free, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return descriptor >= 0;
+  });
+  if (!name.empty()) return TemporaryFile{descriptor, name};
+  if (errno == ENOENT) return unwritable(path, "there is no such folder", "make it first");
+  return unwritable(path, errno);
 }
 
 }  // namespace
 
 class OutputFile::Target {
  public:
-  /// A stream: `temporary` is empty. Otherwise `temporary` becomes `final` at the end.
+  /// A stream: `final` is empty. Otherwise the file, called `temporary` or nothing yet, becomes `final` at the end.
   Target(std::string path, int descriptor, std::string temporary, fs::path final)
       : path_(std::move(path)),
         descriptor_(descriptor),
@@ -157,8 +177,14 @@ class OutputFile::Target {
   Result<> finish() {
     stream_.flush();
     if (buffer_.error() != 0) return unwritable(path_, buffer_.error());
-    if (temporary_.empty()) return {};
+    if (final_.empty()) return {};
     if (fsync(descriptor_) != 0) return unwritable(path_, errno);
+    // A link cannot take the place of another file, so the file has a temporary name for a moment.
+    if (temporary_.empty())
+      temporary_ = first_free(final_.parent_path(), [&](const char* free) {
+        return linkat(AT_FDCWD, name_of(descriptor_).c_str(), AT_FDCWD, free, AT_SYMLINK_FOLLOW) == 0;
+      });
+    if (temporary_.empty()) return unwritable(path_, errno);
     if (std::rename(temporary_.c_str(), final_.c_str()) != 0) return unwritable(path_, errno);
     temporary_.clear();
     sync_folder();
@@ -194,6 +220,7 @@ Result<OutputFile> OutputFile::open(const std::string& path, const InputFiles& i
     if (descriptor < 0) return unwritable(path, errno);
     return OutputFile(std::make_unique<Target>(path, descriptor, "", fs::path()));
   }
+  if (path.empty()) return unwritable(path, ENOENT);
   const auto status = status_of(path);
   if (status && S_ISDIR(status->st_mode)) return unwritable(path, EISDIR);
   if (status && S_ISREG(status->st_mode) && is_one_of(*status, inputs))

@@ -28,6 +28,38 @@ Error unreadable(const std::string& path, std::string sentence) {
   return {.code = Code::unreadable_file, .sentence = std::move(sentence), .place = {.name = path}};
 }
 
+/// The bytes of all files of one kind that may be read.
+class ReadTotal {
+ public:
+  ReadTotal(std::size_t most, std::string what, std::string mend)
+      : most_(most), left_(most), what_(std::move(what)), mend_(std::move(mend)) {}
+
+  /// Reads a file that fits into what is left.
+  Result<ResolvedFile> read(const std::string& path, std::size_t largest) {
+    std::error_code unknown;
+    if (const std::uintmax_t size = fs::file_size(path, unknown); !unknown && size <= largest && size > left_)
+      return Error{
+          .code = Code::too_much_read,
+          .sentence = fmt::format("expected at most {} MB of {}, found {:.1f} MB with `{}`", most_ >> 20, what_,
+                                  static_cast<double>(most_ - left_ + size) / (1 << 20), visible_text(path)),
+          .mend = mend_,
+          .place = {.name = path}};
+    auto read = read_file(path, std::min(largest, left_));
+    if (read) left_ -= read->bytes.size();
+    return read;
+  }
+
+ private:
+  std::size_t most_, left_;
+  std::string what_, mend_;
+};
+
+/// The file of a module: "fabric/denim.wale" for "fabric.denim".
+std::string file_of(std::string module) {
+  std::ranges::replace(module, '.', '/');
+  return module + ".wale";
+}
+
 class FileResolver final : public Resolver {
  public:
   FileResolver(std::vector<std::string> roots, std::vector<std::string>* looked_for, Sandbox sandbox,
@@ -37,18 +69,29 @@ class FileResolver final : public Resolver {
   std::vector<ResolvedFile> devices() override { return devices_; }
 
   Result<ResolvedFile> module(const std::string& path, const std::string& from) override {
-    std::string relative = path;
-    std::ranges::replace(relative, '.', '/');
-    auto found = look_for(relative + ".wale", from, largest_source);
-    if (!found) return found;
-    modules_.insert(found->name);
-    if (modules_.size() > most_modules)
-      return unreadable(found->name, fmt::format("more than {} files would be imported", most_modules));
-    return found;
+    const auto found = look_for(file_of(path), from);
+    if (!found) return found.error();
+    if (modules_.size() >= most_modules && !modules_.contains(*found))
+      return unreadable(*found, fmt::format("more than {} files would be imported", most_modules));
+    modules_.insert(*found);
+    return imports_.read(*found, largest_source);
+  }
+
+  std::string module_name(const std::string& path, const std::string& from) override {
+    const auto found = look_for(file_of(path), from);
+    return found ? *found : "";
   }
 
   Result<ResolvedFile> file(const std::string& name, const std::string& from) override {
-    return look_for(name, from, largest_asset);
+    const auto found = look_for(name, from);
+    if (!found) return found.error();
+    return assets_.read(*found, largest_asset);
+  }
+
+  Result<ResolvedFile> listed_module(const std::string& path, const std::string& from) override {
+    const auto found = look_for(file_of(path), from);
+    if (!found) return found.error();
+    return read_file(*found, largest_source);
   }
 
   Sandbox sandbox() const override { return sandbox_; }
@@ -118,14 +161,15 @@ class FileResolver final : public Resolver {
     std::ranges::move(found, std::back_inserter(all));
   }
 
-  Result<ResolvedFile> look_for(const std::string& name, const std::string& from, std::size_t largest) {
+  /// The path of the file that `name` means.
+  Result<std::string> look_for(const std::string& name, const std::string& from) {
     std::vector<fs::path> candidates{fs::path(from).parent_path() / name};
     if (const auto project = project_of(from)) candidates.push_back(*project / name);
     for (const auto& root : roots_) candidates.push_back(fs::path(root) / name);
     for (const auto& candidate : candidates) {
       std::error_code ignored;
       if (looked_for_ != nullptr) looked_for_->push_back(candidate.lexically_normal().string());
-      if (fs::exists(candidate, ignored)) return read_file(candidate.lexically_normal().string(), largest);
+      if (fs::exists(candidate, ignored)) return candidate.lexically_normal().string();
     }
     std::string searched;
     std::set<std::string> said;  // a folder may occur twice, if the file is in the root of its project
@@ -162,9 +206,15 @@ class FileResolver final : public Resolver {
   std::vector<ResolvedFile> devices_;
   std::map<std::string, std::optional<fs::path>> projects_;
   std::set<std::string> modules_;  ///< all modules requested so far
+  ReadTotal imports_{most_imported, "imported files", "import fewer or smaller files"};
+  ReadTotal assets_{most_assets, "pictures and tables to read", "use fewer or smaller ones"};
 };
 
 }  // namespace
+
+Result<ResolvedFile> Resolver::listed_module(const std::string& path, const std::string& from) {
+  return file(file_of(path), from);
+}
 
 std::unique_ptr<Resolver> file_resolver(std::vector<std::string> roots, std::vector<std::string>* looked_for,
                                         Sandbox sandbox, std::vector<ResolvedFile> devices) {

@@ -90,6 +90,11 @@ int find(const FindOptions& options) {
   const auto resolver = file_resolver(library_folders(options.folders, std::getenv("WALE_LIBRARY")));
   // The index of what a file in the current folder could import; there need not be such a file.
   const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
+  if (const auto& left_out = index->left_out(); !left_out.empty())
+    print_error(fmt::format("wale: `{}`{} not searched: the modules before have {} MB, the most that are read\n",
+                            visible_text(left_out.front()),
+                            left_out.size() > 1 ? fmt::format(" and {} more are", left_out.size() - 1) : " is",
+                            most_indexed >> 20));
   const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
   if (options.json) print_out(found_json(found));
   if (found.empty()) return refuse(visible_text(why_nothing_is_found(*index, options.texts, options.kind)));

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -80,6 +81,25 @@ Result<std::byte*> ChunkFile::grow(ChunkKind kind, std::uint64_t number) {
   std::memcpy(&first, &header, sizeof first);
   std::atomic_ref(*reinterpret_cast<std::uint64_t*>(chunk)).store(first, std::memory_order_release);
   return chunk;
+}
+
+Result<> ChunkFile::is_intact() const {
+  const std::lock_guard lock(mutex_);
+  const auto lost = [&](const char* sentence) {
+    return Error{.code = Code::unwritable_file,
+                 .sentence = sentence,
+                 .mend = "leave the file alone until the run is over",
+                 .place = {.name = path_}};
+  };
+  struct stat own {
+  }, named{};
+  if (fstat(file_, &own) != 0) return unwritable(path_, errno);
+  if (own.st_nlink == 0) return lost("another program has removed the file");
+  if (static_cast<std::size_t>(own.st_size) < first_chunk + chunks_.size() * chunk_size)
+    return lost("another program has cut the file short");
+  if (stat(path_.c_str(), &named) != 0 || named.st_dev != own.st_dev || named.st_ino != own.st_ino)
+    return lost("another program has renamed the file");
+  return {};
 }
 
 void ChunkFile::unmap(std::byte* chunk) noexcept {

@@ -28,6 +28,10 @@ class ChunkFile {
   Result<std::byte*> grow(recording_format::ChunkKind kind, std::uint64_t number);
   static void unmap(std::byte* chunk) noexcept;
 
+  /// Whether the file is still what this process made: its name leads to it, and it has all its chunks. Error:
+  /// `unwritable_file`, when another program has removed, renamed or cut it. From any thread.
+  Result<> is_intact() const;
+
   /// Cuts off up to `unused` chunks of ticks at the file's end, stopping at the first chunk of events. The chunks cut
   /// off must not be mapped.
   void cut(std::size_t unused) noexcept;
@@ -37,7 +41,7 @@ class ChunkFile {
 
   std::string path_;
   int file_ = -1;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<recording_format::ChunkKind> chunks_;
 };
 

@@ -107,7 +107,9 @@ void RecordWriter::keep_ahead(double seconds) {
     ending_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return over_; });
     if (over_ || failed_.load(std::memory_order_relaxed)) continue;
     lock.unlock();
-    if (auto mapped = map_ahead(); !mapped) give_up(mapped.error());
+    auto good = file_->is_intact();
+    if (good) good = map_ahead();
+    if (!good) give_up(good.error());
     lock.lock();
   }
 }
@@ -119,6 +121,7 @@ void RecordWriter::give_up(const Error& error) noexcept {
 }
 
 std::optional<Error> RecordWriter::ended_early() const {
+  if (const auto intact = file_->is_intact(); !intact) return intact.error();
   if (whole_ && !lost_.load(std::memory_order_relaxed)) return std::nullopt;
   const std::lock_guard lock(mutex_);
   Error error = problem_.value_or(Error{.code = Code::unwritable_file,

@@ -3,11 +3,14 @@
 #include "calibration/feel/background_loop.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <signal.h>
 
 #include <atomic>
 #include <future>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace wale {
 namespace {
@@ -26,6 +29,30 @@ TEST(BackgroundLoop, WorksUntilItIsFinishedAndNoLonger) {
   EXPECT_GE(at_the_end, 3);
   loop.finish();
   EXPECT_EQ(steps, at_the_end);
+}
+
+TEST(BackgroundLoop, HasAStackToCompileOnAndOneForHandlersOfSignals) {
+  std::promise<void> measured;
+  bool is_first = true;
+  std::size_t bytes = 0;
+  stack_t handlers{};
+  BackgroundLoop loop(
+      [&] {
+        if (!std::exchange(is_first, false)) return;
+        pthread_attr_t attributes;
+        void* lowest = nullptr;
+        pthread_getattr_np(pthread_self(), &attributes);
+        pthread_attr_getstack(&attributes, &lowest, &bytes);
+        pthread_attr_destroy(&attributes);
+        sigaltstack(nullptr, &handlers);
+        measured.set_value();
+      },
+      [] { FAIL() << "nothing failed"; });
+  measured.get_future().wait();
+  loop.finish();
+  EXPECT_GE(bytes, command::deep_stack);
+  EXPECT_EQ(handlers.ss_flags & SS_DISABLE, 0);
+  EXPECT_GE(handlers.ss_size, std::size_t{32} * 1024);
 }
 
 TEST(BackgroundLoop, WhatItThrowsAsksForTheEndOnceAndIsThrownByFinish) {

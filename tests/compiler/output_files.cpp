@@ -52,6 +52,23 @@ TEST(OutputFile, LeavesNothingBehindThatWasNotFinished) {
   EXPECT_EQ(entries(folder), 0U);
 }
 
+TEST(OutputFile, HasNoNameUntilItIsWholeSoThatAKilledProcessLeavesNothing) {
+  const TemporaryFolder folder;
+  const int nameless = open((folder / "").c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (nameless < 0) GTEST_SKIP() << "this file system has no files without a name";
+  close(nameless);
+  const pid_t child = fork();
+  if (child == 0) {
+    auto file = OutputFile::open(folder / "out", {});
+    file->stream() << std::string(1 << 20, 'h');
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(entries(folder), 0U);
+}
+
 TEST(OutputFile, KeepsPermissionsAndGivesNewFilesThoseOfTheMask) {
   const TemporaryFolder folder;
   const auto mode_of = [](const std::string& path) {

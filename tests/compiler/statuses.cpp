@@ -4,6 +4,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "compiler/command/print.hpp"
 
@@ -29,6 +30,13 @@ TEST(Statuses, OfAnErrorInWaleIs3AndAsksForAReport) {
 
 TEST(Statuses, OfMissingMemoryIs1) {
   EXPECT_EQ(said_by([]() -> int { throw std::bad_alloc(); }, 1), "wale: there is not enough memory for it\n");
+}
+
+TEST(Statuses, OfAThreadThatTheSystemDoesNotGiveIs1) {
+  const std::string said = said_by([]() -> int { throw std::system_error(EAGAIN, std::generic_category()); }, 1);
+  EXPECT_EQ(said, "wale: the system gives no more memory or threads for it\n");
+  EXPECT_NE(said_by([]() -> int { throw std::system_error(EIO, std::generic_category()); }, 3).find("report"),
+            std::string::npos);
 }
 
 }  // namespace

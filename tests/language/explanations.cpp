@@ -26,6 +26,7 @@ const std::map<std::string, std::string> not_as_one_file = {
     {"W0502", "needs a second file that is no picture"},
     {"W0503", "needs a picture of that size"},
     {"W0504", "needs a second file that is no table"},
+    {"W0509", "needs files of megabytes"},
     {"W0601", "the device is named on the command line"},
 };
 

@@ -238,6 +238,7 @@ TEST(DiagnosticCodes, EachHasACase) {
       {"W0506", "of no Wale text: programs and recordings, tests/schema and tests/runtime"},
       {"W0507", "of no Wale text: programs and recordings, tests/schema and tests/runtime"},
       {"W0508", "of no Wale text: outputs, tests/compiler/output_files.cpp"},
+      {"W0509", "megabytes of files: tests/command_line/totals.cpp"},
       {"W0606", "of no Wale text: the verifier, tests/machine"},
       {"W0607", "of no Wale text: stages and devices, tests/runtime and tests/usb_mock"},
       {"W0608", "of no Wale text: programs on plugged devices, tests/device and tests/usb_mock"},

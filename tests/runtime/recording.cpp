@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "runtime/record/record_writer.hpp"
 #include "runtime/stage/player.hpp"
@@ -234,6 +235,27 @@ TEST(Recording, ReplaysSkippedPeriodsAndOverruns) {
   EXPECT_EQ(recording.tick(99).elapsed, 31u);
   EXPECT_EQ(recording.tick(3999).lateness, 3999000);
   expect_same(recording);
+}
+
+TEST(Recording, WhoseFileAnotherProgramTakesAwayIsTold) {
+  const struct {
+    std::function<void(const std::string&)> take;
+    std::string said;
+  } ways[] = {{[](const std::string& file) { std::filesystem::remove(file); }, "removed"},
+              {[](const std::string& file) { std::filesystem::resize_file(file, 5000); }, "cut"},
+              {[](const std::string& file) { std::filesystem::rename(file, file + "2"); }, "renamed"}};
+  for (const auto& [take, said] : ways) {
+    const TemporaryFolder folder;
+    const std::string file = folder / "a.wrec";
+    const Puppet device(roaming);
+    const auto begun = RecordWriter::begin(file, {.device = device.profile(), .most_newton = HUGE_VAL}, true);
+    EXPECT_FALSE((*begun)->ended_early());
+    take(file);
+    const auto error = (*begun)->ended_early();
+    ASSERT_TRUE(error) << said;
+    EXPECT_EQ(error->code, Code::unwritable_file);
+    EXPECT_NE(error->sentence.find(said), std::string::npos) << error->sentence;
+  }
 }
 
 TEST(Recording, ARealTimeRunReplaysToo) {
