@@ -26,9 +26,7 @@ Result<BuiltCollection> build_all(const OpenedFile& opened, const FileRequest& r
   BuiltCollection collection;
   const auto names = materials_of(opened);
   if (names.empty())
-    return Error{.code = Code::unknown_material,
-                 .sentence = "this file has no material to build",
-                 .place = {.name = opened.name}};
+    return Error{.code = Code::unknown_material, .sentence = fmt::format("`{}` has no material to build", opened.name)};
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     return unwritable(folder, "this is a file; with --all, -o names a folder");

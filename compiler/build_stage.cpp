@@ -60,8 +60,8 @@ Result<std::optional<std::string>> build_stage(const OpenedFile& opened, const F
     return Text(stage == BuildStage::listing ? listing_of(*program) : print_cpp(program->description()));
   }
   const CheckedModule& module = *opened.module;
-  const CheckedMaterial* checked =
-      chosen_material(module, material.empty() ? opened.material : material, opened.source, diagnostics);
+  const CheckedMaterial* checked = chosen_material(module, material.empty() ? opened.material : material,
+                                                   opened.sources, opened.source, diagnostics);
   if (!checked) return Text();
   const SourceLines lines(opened.sources, module.modules);
   if (stage == BuildStage::checked) return Text(print_checked(*checked, module.declarations().names(), lines));

@@ -75,26 +75,35 @@ CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolv
   return checked;
 }
 
-const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
-                                       Diagnostics& diagnostics) {
+Result<const CheckedMaterial*> find_material(const CheckedModule& module, const std::string& name,
+                                             const std::string& file) {
   if (const CheckedMaterial* material = module.material(name)) return material;
   std::vector<std::string> candidates;
   for (const auto& other : module.materials) candidates.push_back(other.name);
   const auto near = nearest_spelling(name, candidates);
-  diagnostics.report(
-      {.code = Code::unknown_material,
-       .span = {source, 0, 0},
-       .message = name.empty() ? "this file has no material" : fmt::format("this file has no material `{}`", name),
-       .help = near                 ? fmt::format("did you mean `{}`?", *near)
-               : candidates.empty() ? "add one, as in `material corduroy { … }`"
-                                    : "it has " + listed(candidates)});
+  return Error{.code = Code::unknown_material,
+               .sentence = fmt::format("`{}` has no material{}", file, name.empty() ? "" : fmt::format(" `{}`", name)),
+               .mend = near                 ? fmt::format("did you mean `{}`?", *near)
+                       : candidates.empty() ? "add one, as in `material corduroy { … }`"
+                                            : "it has " + listed(candidates),
+               .place = {.text = name}};
+}
+
+const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, const SourceSet& sources,
+                                       SourceId source, Diagnostics& diagnostics) {
+  const auto found = find_material(module, name, sources[source].name);
+  if (found) return *found;
+  diagnostics.report({.code = found.error().code,
+                      .span = {source, 0, 0},
+                      .message = found.error().sentence,
+                      .help = found.error().mend});
   return nullptr;
 }
 
 std::optional<Program> compile_material(const CheckedModule& module, const std::string& name, const std::string& device,
                                         const SourceSet& sources, SourceId source, Resolver& resolver,
                                         Diagnostics& diagnostics) {
-  const CheckedMaterial* material = chosen_material(module, name, source, diagnostics);
+  const CheckedMaterial* material = chosen_material(module, name, sources, source, diagnostics);
   if (!material) return std::nullopt;
   diagnostics.renew_budget();
   diagnostics.allow_text(sources[source].text.size());

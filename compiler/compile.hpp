@@ -16,10 +16,14 @@ inline constexpr const char* default_device = "sandpaper";
 /// Checks a text: all stages that do not depend on a material and a device. Errors are reported to `diagnostics`.
 CheckedModule check_source(SourceSet& sources, SourceId source, Resolver& resolver, Diagnostics& diagnostics);
 
-/// The material with that name, or with an empty name the first one of the file. Null if there is none, which is
-/// reported.
-const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, SourceId source,
-                                       Diagnostics& diagnostics);
+/// The material with that name, or with an empty name the first one of the file, which is called `file` in the error:
+/// W0602, whose mend has the nearest name or all of them.
+Result<const CheckedMaterial*> find_material(const CheckedModule& module, const std::string& name,
+                                             const std::string& file);
+
+/// The same. Null if there is none, which is reported.
+const CheckedMaterial* chosen_material(const CheckedModule& module, const std::string& name, const SourceSet& sources,
+                                       SourceId source, Diagnostics& diagnostics);
 
 /// Compiles one material of a checked module to a loaded program: solve, lower, emit, verify, measure. Empty after
 /// errors, which are reported. An empty name means the first material of the file.

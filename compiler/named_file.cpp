@@ -144,6 +144,11 @@ NamedMaterial named_material(const std::string& argument) {
   return {argument.substr(0, colon), argument.substr(colon + 1)};
 }
 
+bool is_searched_for(const std::string& argument) {
+  const std::string file = named_material(argument).file;
+  return !is_path(file) && (!exists(file) || is_folder(file));
+}
+
 Result<NamedFile> find_named(const std::string& argument, const std::vector<std::string>& roots) {
   const auto [file, material] = named_material(argument);
   if (file.ends_with(':') && !exists(file))

@@ -45,4 +45,8 @@ struct NamedMaterial {
 };
 NamedMaterial named_material(const std::string& argument);
 
+/// Whether an argument of `find_named` is looked for by its name in the folders of the library: it is no path, and no
+/// file has that name.
+bool is_searched_for(const std::string& argument);
+
 }  // namespace wale

@@ -195,9 +195,11 @@ constexpr const char* spellings =
     "               a simulation of the device of that name, from the list below\n"
     "  NAME         the real device of that name; a simulation if it cannot be plugged in, as sandpaper\n"
     "  usb          the best device on USB\n"
+    "  DRIVER       the best device of that driver: hid-pid, novint-falcon\n"
     "  1209:ffb0    the device with these numbers of vendor and product\n"
     "  1-2          the device at this port\n"
-    "  If a real device is named but not plugged in, wale feel waits for it.\n"
+    "  A real device that is named but not plugged in is waited for; with --virtual-time or --hand, NAME means its\n"
+    "  simulation, and what only a plugged device can mean is refused.\n"
     "\nto build for (wale build --device NAME)\n";
 
 constexpr const char* nothing_plugged =

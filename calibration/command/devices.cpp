@@ -70,6 +70,7 @@ int list_devices(const DevicesOptions& options) {
   declared_everywhere();
   const auto trusted = trusted_here(options.trusted);
   if (!trusted) return refuse(trusted.error());
+  if (trusted->owners_problem) warn_of_owners_file(*trusted);
   const std::vector<DeclaredDevice> known = devices_here({}, trusted->files);
   const Connections connections = Connections::open();
   const std::vector<PluggedIn> plugged = plugged_in(connections);
@@ -83,6 +84,7 @@ Result<ChosenDevice> device_to_identify(const DevicesOptions& options, const Con
   const std::string& asked = options.device;
   const auto trusted = trusted_here(options.trusted);
   if (!trusted) return trusted.error();
+  if (trusted->owners_problem) return *trusted->owners_problem;
   auto chosen = choose_device({.spelling = asked.empty() ? "auto" : asked, .transport = options.transport}, {},
                               trusted->devices, plugged_in(connections, asked));
   if (!chosen) {
@@ -101,7 +103,8 @@ Result<ChosenDevice> device_to_identify(const DevicesOptions& options, const Con
                  "`wale devices` lists what is plugged in"};
   if (chosen->declared->profile.shaker)
     return Error{Code::unusable_device,
-                 fmt::format("`{}` only vibrates: it has no axes", chosen->declared->profile.name)};
+                 fmt::format("`{}` only vibrates: it has no axes to identify", chosen->declared->profile.name),
+                 "a pad needs no identification: `wale feel FILE --device` runs a material on it as it is"};
   return chosen;
 }
 
@@ -147,6 +150,7 @@ Result<> add_to_owners_file(const DeclaredDevice& declared, const std::string& d
   if (fs::exists(file, problem)) {
     const auto known = trusted_declarations({}, file);
     if (!known) return known.error();
+    if (known->owners_problem) return *known->owners_problem;
     for (const TrustedDevice& each : known->devices)
       if (each.file() == file && each.profile().name == declared.profile.name)
         return Error{Code::declared_twice,

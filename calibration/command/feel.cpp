@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -120,20 +121,47 @@ Result<> apply_to_program(const FeelOptions& options, const PatchProgram& progra
         "leave out --hand"}});
 }
 
+/// Whether a person asks for a device that may be a real one, and names it.
+bool may_name_a_real_device(const FeelOptions& options) {
+  if (options.virtual_time || options.hand || options.device.empty() || options.device == "auto") return false;
+  if (options.device.starts_with("simulated")) return false;
+  const DeviceDeclaration* shipped = common_modules()->declarations.devices.find(options.device);
+  return shipped == nullptr || !shipped->wiring.usb.empty() || shipped->wiring.is_generic;
+}
+
+/// What this person trusts. An error in the owner's own file is only warned of where the run may do without it.
+Result<TrustedDeclarations> trusted_for(const FeelOptions& options) {
+  auto trusted = trusted_here(options.trusted);
+  if (!trusted || !trusted->owners_problem) return trusted;
+  if (may_name_a_real_device(options)) return *std::move(trusted->owners_problem);
+  warn_of_owners_file(*trusted);
+  return trusted;
+}
+
+/// The devices that a file knows. A patch program brings its own.
+std::vector<DeclaredDevice> known_to(const OpenedFile& opened, const Choice& choice) {
+  if (opened.module) return declared_devices(opened.module->declarations());
+  std::vector<DeclaredDevice> known = devices_here(choice.folders, choice.devices);
+  const DeviceProfile& own = opened.program->description().device;
+  const auto is_own = [&](const DeclaredDevice& each) { return each.profile.name == own.name; };
+  if (std::ranges::none_of(known, is_own)) known.push_back({.profile = own});
+  return known;
+}
+
 /// Opens and checks the file, chooses the device among those that the file knows, and compiles the material for it.
 OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<bool>& stop) {
-  auto trusted = trusted_here(options.trusted);
+  const auto trusted = trusted_for(options);
   if (!trusted) return refuse(trusted.error());
   Choice built = options.choice;
-  built.device.clear(), built.device_option.clear();  // it is not known yet
-  built.devices = trusted->files;
+  built.device.clear(), built.device_option.clear();           // it is not known yet
+  built.devices = trusted->files, built.knows_owners = false;  // they are among these
+  built.shares_options = !options.against.empty();
   auto opened = open(built);
   if (!opened) return opened.status();
   if (const auto fit = apply_to_file(options, *opened); !fit) return refuse(fit.error());
   if (const auto same = is_as_named(*opened, {}, options.choice); !same) return refuse(same.error());
   if (options.hand) options.choice.inputs->push_back(*options.hand);
-  const std::vector<DeclaredDevice> known =
-      opened->module ? declared_devices(opened->module->declarations()) : devices_here(built.folders, built.devices);
+  const std::vector<DeclaredDevice> known = known_to(*opened, built);
   if (const auto is_known = can_be_built_for(options.built_for, known); !is_known) return refuse(is_known.error());
   const bool asks = !options.device.empty();
   auto device =
@@ -144,6 +172,7 @@ OrStatus<PreparedRun> prepared(const FeelOptions& options, const std::atomic<boo
                      known, trusted->devices, options.seconds, say, stop);
   if (!device) return refuse(device.error());
   const ChosenDevice& chosen = device->chosen;
+  if (trusted->owners_problem && chosen.plugged) return refuse(*trusted->owners_problem);
   if (const auto fit = apply_to_device(options, chosen); !fit) return refuse(fit.error());
   if (!chosen.said.empty() && (asks || chosen.is_worth_saying)) say(chosen.said);
 
@@ -195,9 +224,10 @@ Result<std::optional<OutputFile>> table_of(const FeelOptions& options) {
   return table;
 }
 
-/// Writes the table and the report of a finished run, the report also where the table fails. Returns the exit status.
+/// Writes the table and the report of a finished run of so many versions of the file, the report also where the table
+/// fails. Returns the exit status.
 int report_run(const FeelOptions& options, const RunResult& result, const Bank& bank, FeltDevice felt,
-               std::optional<OutputFile> table) {
+               std::optional<OutputFile> table, long versions) {
   Result<> tabled;
   if (table) {
     write_csv(table->stream(), result.record);
@@ -205,7 +235,9 @@ int report_run(const FeelOptions& options, const RunResult& result, const Bank& 
   }
   if (static_cast<std::size_t>(result.ticks_run) > result.record.ticks.size())
     say(fmt::format("the last {:.4g} s are measured", measured_seconds));
-  const FeltReport report = felt_report(bank, result, bank.program().description().device, felt.manner());
+  RunManner manner = felt.manner();
+  manner.versions = versions;
+  const FeltReport report = felt_report(bank, result, bank.program().description().device, std::move(manner));
   felt.device.reset();  // the pointer restores the terminal
   print_out(options.json ? felt_json(report) : felt_text(report));
   if (!tabled) return refuse(tabled.error());
@@ -245,7 +277,7 @@ int feel_one(const FeelOptions& options, const std::atomic<bool>& stop) {
     if (error.place.name == "seconds") error.place.name = "--seconds";
     return refuse(error);
   }
-  return report_run(options, *result, *stage.bank(), *std::move(felt), *std::move(table));
+  return report_run(options, *result, *stage.bank(), *std::move(felt), *std::move(table), watch.versions());
 }
 
 /// Checks that two materials can be compared blindly on this device. Errors: W0607, W0608.
@@ -275,7 +307,9 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
   const NamedMaterial named = named_material(options.against);
   against.file = named.file, against.material = named.material;
   const BlindMaterial& a = run->material;
-  against.device_option.clear();  // it was named for A
+  against.device_option.clear(), against.material_option.clear();  // they were named for A
+  against.file_option = "--against";
+  if (!named.material.empty()) against.material_option = "--against";
   const auto programs = load_programs(against, false);
   if (!programs) return programs.status();
   const auto b = material_to_feel(programs->front(), {});
@@ -361,8 +395,9 @@ Run declare_feel(CLI::App& verb) {
   verb.add_option(
           "--device", options->device,
           "where to feel it: auto (default), the best joystick plugged in, else a simulated one; simulated; "
-          "simulated:falcon; a device as `wale devices` lists them; usb, the best on USB; vendor and product, as "
-          "in 1209:ffb0; a port, as in 1-2")
+          "simulated:falcon; a device of `wale devices`, of --devices or of the file itself; usb, the best on USB; "
+          "vendor and product, as in 1209:ffb0; a port, as in 1-2. A real device that is not plugged in is waited for; "
+          "with --virtual-time or --hand, a name means its simulation")
       ->type_name("NAME");
   offer_trusted_files(verb, options->trusted);
   offer_name(verb, "--transport", options->transport, transport_names(),
@@ -376,16 +411,19 @@ Run declare_feel(CLI::App& verb) {
       "how long to feel, as in 10, \"10 s\", \"2 min\" or inf (default: 5 s; with --watch until Ctrl-C; with "
       "--blind 3 s for each of the two); also the longest wait for a device to be plugged in (default: until "
       "Ctrl-C)");
-  auto* virtual_time = verb.add_flag("--virtual-time", options->virtual_time,
-                                     "simulates as fast as the computer can, with exactly the same result each time");
+  auto* virtual_time =
+      verb.add_flag("--virtual-time", options->virtual_time,
+                    "simulates the device as fast as the computer can, with exactly the same result each time");
   offer_force(
       verb, "--max-force", options->max_force,
       "the largest force at the handle, as in \"3 N\" (default: the device's own); every packet to a real device "
       "keeps within it");
-  auto* record = verb.add_option("--record", options->record,
-                                 "records every tick: to NAME.wrec while it runs, for `wale replay`; to NAME.csv, a "
-                                 "table, at the end (default: no recording)")
-                     ->type_name("FILE");
+  auto* record =
+      verb.add_option("--record", options->record,
+                      "records every tick: to NAME.wrec while it runs, for `wale replay`, which never replaces an "
+                      "existing file; to NAME.csv, a table, at the end, which replaces one (default: no "
+                      "recording)")
+          ->type_name("FILE");
   offer_blind(verb, *options, record);
   verb.add_flag("--watch", options->watch,
                 "puts each saved version of the file in your hand at once; until Ctrl-C, or for --seconds")

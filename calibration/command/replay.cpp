@@ -131,6 +131,11 @@ int replay(const ReplayOptions& options) {
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected a file NAME.wav, found `{}`", options.wav),
                         .place = {.name = "--wav", .text = options.wav}});
+  if (!options.csv.empty() && options.csv != "-" && !has_ending(options.csv, ".csv"))
+    return refuse(Error{.code = Code::malformed_value,
+                        .sentence = fmt::format("expected a file NAME.csv, found `{}`", options.csv),
+                        .mend = "for example, `--csv ticks.csv`",
+                        .place = {.name = "--csv", .text = options.csv}});
   if (!options.csv.empty() && !options.wav.empty() && is_same_output(options.csv, options.wav))
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected another file than that of --csv, found `{}`", options.wav),
@@ -159,12 +164,13 @@ Run declare_replay(CLI::App& verb) {
   verb.add_option("FILE", options->file, "a recording, made by `wale feel corduroy --record corduroy.wrec`")
       ->required();
   verb.add_option("--csv", options->csv,
-                  "also writes a table with a line for each tick, with units in its first line, as in ticks.csv")
+                  "also writes a table with a line for each tick, with units in its first line, as in ticks.csv; an "
+                  "existing file is replaced")
       ->type_name("FILE");
   verb.add_option(
           "--wav", options->wav,
           "also writes the force as sound, 44.1 kHz, as in corduroy.wav: x left, y right; the device's peak force is "
-          "full scale")
+          "full scale; an existing file is replaced")
       ->type_name("FILE");
   offer_count(verb, "--ticks", options->ticks, {.least = 1, .example = 900},
               "reads only the first N ticks, as in 900 for the first second at 900 Hz (default: all); so a damaged "

@@ -153,6 +153,10 @@ std::string felt_text(const FeltReport& report) {
                          : fmt::format("{} on the {} {}, hand {}, {:.4g} s{}\n", report.material, report.manner.device,
                                        report.device.name, visible_text(report.manner.hand), report.seconds,
                                        report.manner.virtual_time ? " of virtual time" : "");
+  if (report.manner.versions > 1)
+    text += fmt::format(
+        "  versions     {} of the file were felt: measured figures are over all of them, predicted ones of the last\n",
+        report.manner.versions);
   text += fmt::format("  ticks        {} run, {} missed, at {:.4g} Hz\n", report.ticks_run, report.ticks_missed,
                       report.device.rate);
   if (report.manner.virtual_time)
@@ -209,6 +213,7 @@ std::string felt_json(const FeltReport& report) {
   json["profile"] = report.device.name;
   json["hand"] = report.manner.hand;
   json["virtual_time"] = report.manner.virtual_time;
+  json["versions"] = report.manner.versions;
   json["seconds"] = report.seconds;
   json["ticks"] = {{"run", report.ticks_run}, {"missed", report.ticks_missed}, {"rubbing", felt.ticks_rubbing}};
   json["lateness"] = times_json(report.lateness);

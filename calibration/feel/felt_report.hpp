@@ -16,6 +16,7 @@ struct RunManner {
   std::string hand;    ///< "lateral", or the trace's file
   bool virtual_time = false;
   std::optional<HotPlugReport> plugged;  ///< of a real device
+  long versions = 1;                     ///< of a watched file, that were felt one after the other
 };
 
 /// The measured force at the handle, and the force that the program aims at.

@@ -39,7 +39,11 @@ MaterialWatch::Outcome MaterialWatch::look() {
     looked_for.push_back(opened ? opened->name : choice_.file);
   } while (files_.follow(looked_for));  // again if a folder was not watched while its file was read
 
-  if (!opened) return refuse(fmt::format("wale: {}\n", command::error_text(opened.error())));
+  if (!opened) {
+    Error error = opened.error();
+    if (error.code == Code::unreadable_file) error.mend = "save it again, or end with Ctrl-C";
+    return refuse(fmt::format("wale: {}\n", command::error_text(error)));
+  }
   std::string said;
   for (const auto& diagnostic : opened->diagnostics.all())
     said += render_text(diagnostic, opened->sources, isatty(fileno(stderr)) != 0) + "\n";
@@ -59,6 +63,7 @@ MaterialWatch::Outcome MaterialWatch::look() {
   if (const auto done = stage_.replace(0, *program); !done)
     return refuse(fmt::format("wale: {}\n", in_words(done.error())));
   felt_ = std::move(bytes);
+  ++versions_;
   say_(said + fmt::format("wale: the new version of `{}` is active\n", now.material));
   return Outcome::replaced;
 }

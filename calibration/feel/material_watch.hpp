@@ -27,6 +27,9 @@ class MaterialWatch {
   /// read.
   Outcome attend(std::chrono::milliseconds wait);
 
+  /// How many versions were on the stage, the first among them. Call it when nobody attends.
+  long versions() const { return versions_; }
+
  private:
   Outcome look();
   Outcome refuse(std::string why);
@@ -36,6 +39,7 @@ class MaterialWatch {
   std::function<void(const std::string&)> say_;
   FileWatch files_;
   bool begun_ = false;
+  long versions_ = 1;
   std::vector<std::byte> felt_;  // the program's bytes
   DeviceProfile device_;         // that the program is built for
   std::string refused_;          // the last message about it; empty while it is active

@@ -23,6 +23,12 @@ Error first_error(const Diagnostics& diagnostics, const SourceSet& sources) {
   return error;
 }
 
+/// A file with its devices.
+struct TrustedFile {
+  ResolvedFile file;
+  std::vector<TrustedDevice> devices;
+};
+
 /// The devices that a file declares itself and exports.
 Result<std::vector<TrustedDevice>> exported_devices(const ResolvedFile& file) {
   SourceSet sources;
@@ -36,32 +42,46 @@ Result<std::vector<TrustedDevice>> exported_devices(const ResolvedFile& file) {
   return devices;
 }
 
+Result<TrustedFile> trusted_file(const std::string& path) {
+  auto file = read_file(path);
+  if (!file) {
+    Error error = std::move(file.error());
+    error.sentence = "cannot be read: " + error.sentence;
+    error.place.name = path;
+    return error;
+  }
+  auto devices = exported_devices(*file);
+  if (!devices) return std::move(devices.error());
+  return TrustedFile{*std::move(file), *std::move(devices)};
+}
+
 }  // namespace
 
 Result<TrustedDeclarations> trusted_declarations(const std::vector<std::string>& files,
                                                  const std::string& owners_file) {
-  std::vector<std::string> all = files;
-  std::error_code ignored;
-  if (!owners_file.empty() && std::filesystem::exists(owners_file, ignored)) all.push_back(owners_file);
   TrustedDeclarations trusted;
   std::vector<TrustedDevice> of_owner;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    auto file = read_file(all[i]);
-    if (!file) {
-      Error error = std::move(file.error());
-      error.sentence = "cannot be read: " + error.sentence;
-      error.place.name = all[i];
-      return error;
-    }
-    auto devices = exported_devices(*file);
-    if (!devices) return std::move(devices.error());
-    if (devices->empty() && i < files.size())
+  const auto take = [&](TrustedFile file) {
+    for (TrustedDevice& each : file.devices) of_owner.push_back(std::move(each));
+    trusted.files.push_back(std::move(file.file));
+  };
+  for (const std::string& path : files) {
+    auto file = trusted_file(path);
+    if (!file) return std::move(file.error());
+    if (file->devices.empty())
       return Error{Code::unknown_device,
                    "this file exports no device of its own",
                    "write `export device NAME { … }`, as `wale devices --identify` prints it",
-                   {.name = all[i]}};
-    for (TrustedDevice& each : *devices) of_owner.push_back(std::move(each));
-    trusted.files.push_back(*std::move(file));
+                   {.name = path}};
+    take(*std::move(file));
+  }
+  std::error_code ignored;
+  if (!owners_file.empty() && std::filesystem::exists(owners_file, ignored)) {
+    auto file = trusted_file(owners_file);
+    if (file)
+      take(*std::move(file));
+    else
+      trusted.owners_problem = std::move(file.error());
   }
   auto devices = trusted_devices(std::move(of_owner));
   if (!devices) return std::move(devices.error());

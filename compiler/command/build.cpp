@@ -56,11 +56,13 @@ int show_stage(const BuildOptions& options) {
                         .sentence = fmt::format("the stage `{}` is the same for all devices", options.stage),
                         .mend = "leave out --device, or show ir, listing or cpp",
                         .place = {.name = "--device"}});
-  if (known->stage == BuildStage::tree && !options.choice.material.empty())
-    return refuse(Error{.code = Code::malformed_value,
-                        .sentence = "the stage `tree` is of the whole file",
-                        .mend = "leave out --material, or show another stage",
-                        .place = {.name = "--material"}});
+  const bool is_option = !options.choice.material.empty();
+  if (known->stage == BuildStage::tree && (is_option || !named_material(options.choice.file).material.empty()))
+    return refuse(
+        Error{.code = Code::malformed_value,
+              .sentence = "the stage `tree` is of the whole file",
+              .mend = fmt::format("leave out {}, or show another stage", is_option ? "--material" : "the material"),
+              .place = {.name = is_option ? "--material" : options.choice.file}});
   auto opened = open(options.choice);
   if (!opened) return opened.status();
   const auto text = build_stage(*opened, options.choice.recording_request(), options.choice.material, known->stage,
@@ -116,8 +118,8 @@ Run declare_build(CLI::App& verb) {
   const auto options = std::make_shared<BuildOptions>();
   offer_material(verb, options->choice);
   must_say(offer_output(verb, options->out,
-                        "the patch program to write (.wpp); with --all, a folder for them; with --emit, the text "
-                        "(default: standard output)"),
+                        "the patch program to write, as in corduroy.wpp; with --all, a folder for them; with --emit, "
+                        "the file for the text, which otherwise goes to standard output"),
            "the name of the file or folder to write", "for example, `wale build corduroy -o corduroy.wpp`");
   verb.add_flag("--all", options->all, "builds every material of the file, each to NAME.wpp in the folder")
       ->excludes("--material");

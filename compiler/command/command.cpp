@@ -43,6 +43,8 @@ bool is_misuse(const Error& error) {
     case Code::unknown_unit:
     case Code::number_out_of_range:
     case Code::unknown_device:
+    case Code::unknown_material:
+    case Code::unknown_name:
     case Code::other_device:
     case Code::unknown_setting: return true;
     default: return false;
@@ -102,7 +104,7 @@ FileRequest Choice::request() const {
                       .devices = devices,
                       .sandbox = sandbox};
   const bool is_shipped = device.empty() || common_modules()->declarations.devices.contains(device);
-  if (is_shipped || !devices.empty()) return request;
+  if (is_shipped || !knows_owners) return request;
   if (auto owners = read_file(owners_devices_file(std::getenv("XDG_CONFIG_HOME"), std::getenv("HOME"))))
     request.devices.push_back(*std::move(owners));
   return request;
@@ -123,9 +125,10 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
   const PatchProgram& program = opened.program->description();
   if (!material.empty() && material != program.material)
     return Error{.code = Code::unknown_material,
-                 .sentence = fmt::format("this patch program holds only `{}`, not `{}`", program.material, material),
+                 .sentence = fmt::format("the patch program `{}` holds only `{}`, not `{}`", opened.name,
+                                         program.material, material),
                  .mend = "leave out the material, or name the Wale file that it was built from",
-                 .place = {.name = opened.name}};
+                 .place = {.name = choice.material_option.empty() ? opened.name : choice.material_option}};
   if (!choice.device_option.empty() && choice.device != program.device.name)
     return Error{
         .code = Code::other_device,
@@ -134,6 +137,34 @@ Result<> is_as_named(const OpenedFile& opened, const std::string& material, cons
         .mend = fmt::format("leave out {}, or name the Wale file that it was built from", choice.device_option),
         .place = {.name = choice.device_option, .text = choice.device}};
   return {};
+}
+
+Result<> has_material(const OpenedFile& opened, const Choice& choice) {
+  if (!opened.module || choice.material_option.empty() || choice.material.empty()) return {};
+  auto found = find_material(*opened.module, choice.material, opened.name);
+  if (found) return {};
+  found.error().place.name = choice.material_option;
+  return std::move(found.error());
+}
+
+Result<> has_use_for_options(const OpenedFile& opened, const Choice& choice) {
+  if (!opened.program || choice.shares_options) return {};
+  const char* useless = !choice.folders.empty()                          ? "--library"
+                        : choice.sandbox == Sandbox::if_possible         ? "--unsandboxed-pictures"
+                        : !choice.devices.empty() && choice.knows_owners ? "--devices"
+                                                                         : nullptr;
+  if (useless == nullptr) return {};
+  return Error{.code = Code::malformed_value,
+               .sentence = fmt::format("expected a Wale file, found the patch program `{}`, which needs no other file",
+                                       opened.name),
+               .mend = fmt::format("leave out {}, or name the Wale file that it was built from", useless),
+               .place = {.name = useless}};
+}
+
+void say_unread(const std::vector<std::string>& roots) {
+  for (const std::string& folder : file_resolver(roots)->unreadable_folders("here"))
+    print_error("wale: warning: the folder `{}` cannot be read, so its materials are not known\n",
+                visible_text(folder));
 }
 
 Result<> has_device(const CheckedModule& module, const Choice& choice) {
@@ -148,6 +179,25 @@ Result<> has_device(const CheckedModule& module, const Choice& choice) {
       .place = {.name = choice.device_option, .text = choice.device}};
 }
 
+namespace {
+
+/// Opens a file. If it only fails for an error in the owner's devices.wale, and has its device without that, the error
+/// is a warning.
+Result<OpenedFile> opened_without_need(const Choice& choice, const FileRequest& request) {
+  auto opened = open_file(request);
+  const bool has_owners = request.devices.size() > choice.devices.size();
+  if (!opened || !opened->diagnostics.has_errors() || !has_owners) return opened;
+  Choice without = choice;
+  without.knows_owners = false;
+  auto again = open_file(without.recording_request());
+  if (!again || again->diagnostics.has_errors() || !has_device(*again->module, choice)) return opened;
+  print_error("wale: warning: nothing in {} is used, since it has an error; `wale check` shows it\n",
+              visible_text(request.devices.back().name));
+  return again;
+}
+
+}  // namespace
+
 OrStatus<OpenedFile> open(const Choice& choice) {
   const std::string named = named_material(choice.file).material;
   if (!named.empty() && !choice.material.empty() && named != choice.material)
@@ -156,13 +206,21 @@ OrStatus<OpenedFile> open(const Choice& choice) {
         .sentence = fmt::format("`{}` names `{}`, but --material names `{}`", choice.file, named, choice.material),
         .mend = "name only one of the two",
         .place = {.text = choice.material}});
-  auto opened = open_file(choice.recording_request());
-  if (!opened) return refuse(opened.error());
+  const FileRequest request = choice.recording_request();
+  auto opened = opened_without_need(choice, request);
+  if (is_searched_for(choice.file)) say_unread(request.roots);
+  if (!opened) {
+    if (opened.error().code == Code::unknown_name) opened.error().place.name = choice.file_option;
+    return refuse(opened.error());
+  }
   choice.inputs->push_back(opened->name);
   for (const ResolvedFile& trusted : choice.devices) choice.inputs->push_back(trusted.name);
   if (const auto same = is_as_named(*opened, named.empty() ? choice.material : named, choice); !same)
     return refuse(same.error());
+  if (const auto useful = has_use_for_options(*opened, choice); !useful) return refuse(useful.error());
   say_taken(*opened);
+  if (!opened->diagnostics.has_errors())
+    if (const auto has = has_material(*opened, choice); !has) return refuse(has.error());
   if (opened->module)
     if (const auto has = has_device(*opened->module, choice); !has) return refuse(has.error());
   if (!opened->diagnostics.has_errors()) return *std::move(opened);

@@ -43,13 +43,17 @@ void print_diagnostics(std::FILE* stream, const Diagnostics& diagnostics, const 
 struct Choice {
   std::string file, material, device = default_device;
   std::string device_option;          ///< "--device" if that option named the device; empty for the default device
+  std::string material_option;        ///< "--material" if that option named the material
+  std::string file_option;            ///< "--against" if that option named the file; empty for an argument
   std::vector<std::string> folders;   ///< folders to search for imports
-  std::vector<ResolvedFile> devices;  ///< files with trusted devices, which every file knows
+  std::vector<ResolvedFile> devices;  ///< files of `--devices`, whose devices every file knows
+  bool knows_owners = true;           ///< every file knows also the devices of the owner's devices.wale
+  bool shares_options = false;        ///< what is said of imports and pictures is said of another file as well
   /// All files that were read for it, and for its copies.
   std::shared_ptr<InputFiles> inputs = std::make_shared<InputFiles>();
   Sandbox sandbox = Sandbox::required;  ///< of the decoder of its pictures
 
-  /// Includes the owner's devices.wale if the device is not a shipped one.
+  /// Includes the owner's devices.wale if that is to be known and the device is not a shipped one.
   FileRequest request() const;
   /// The same; what is read for it becomes one of the `inputs`. For one thread at a time.
   FileRequest recording_request() const;
@@ -61,6 +65,16 @@ void say_taken(const OpenedFile& opened);
 /// Checks that a patch program holds `material` and is built for the device of `choice`, if these are named. Wale files
 /// always pass. Errors: W0602 for another material, W0607 for another device.
 Result<> is_as_named(const OpenedFile& opened, const std::string& material, const Choice& choice);
+
+/// Checks that a Wale file has the material that an option named. Error: W0602.
+Result<> has_material(const OpenedFile& opened, const Choice& choice);
+
+/// Checks that no option about imports, pictures or declarations came with a patch program, which has none of them.
+/// Error: W0801.
+Result<> has_use_for_options(const OpenedFile& opened, const Choice& choice);
+
+/// Warns of the folders that the search for materials could not read.
+void say_unread(const std::vector<std::string>& roots);
 
 /// Checks that a device which an option named is declared where a file can see it. Error: W0601.
 Result<> has_device(const CheckedModule& module, const Choice& choice);

@@ -25,7 +25,12 @@ struct CompareOptions {
 
 int compare(const CompareOptions& options) {
   const std::shared_ptr<const CommonModules> common = declared_everywhere();
-  std::vector<ComparedFile> files = read_cues(options.names, options.choice.request(), common->declarations);
+  const FileRequest request = options.choice.request();
+  std::vector<ComparedFile> files = read_cues(options.names, request, common->declarations);
+  if (std::ranges::any_of(options.names, is_searched_for)) say_unread(request.roots);
+  Choice choice = options.choice;
+  choice.shares_options = std::ranges::any_of(
+      files, [](const ComparedFile& file) { return !file.opened || !file.opened->program.has_value(); });
   int status = done;
   const auto require = [&](const auto& result) {
     if (!result) status = std::max(status, refuse(result.error()));
@@ -39,6 +44,7 @@ int compare(const CompareOptions& options) {
     say_taken(opened);
     print_diagnostics(stderr, opened.diagnostics, opened.sources);
     require(is_as_named(opened, file.name.material, options.choice));
+    if (!require(has_use_for_options(opened, choice))) return status;  // nor has any other
     if (opened.diagnostics.has_errors()) status = std::max(status, refused);
     // Some files only have functions for others.
     if (file.without_material())
@@ -67,9 +73,11 @@ Run declare_compare(CLI::App& verb) {
   offer_device(verb, options->choice);
   offer_library(verb, options->choice.folders);
   offer_sandbox(verb, options->choice.sandbox);
-  verb.add_flag("--matrix", options->with_table, "prints all distances, even if the table does not fit a screen");
+  auto* table =
+      verb.add_flag("--matrix", options->with_table, "prints all distances, even if the table does not fit a screen");
   offer_json(verb, options->json,
-             "an object with every material's cues, all distances, and the nearest pairs cue by cue");
+             "an object with every material's cues, all distances, and the nearest pairs cue by cue")
+      ->excludes(table);
   verb.footer("for example: wale compare velvet denim;  wale compare my.wale:old my.wale:new");
   return [options] { return compare(*options); };
 }

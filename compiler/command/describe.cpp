@@ -65,7 +65,7 @@ int describe_fates(const DescribeOptions& options) {
                         .place = {.name = "--device"}});
   const auto names = choice.material.empty() ? materials_of(*opened) : std::vector<std::string>{choice.material};
   for (const std::string& name : names)
-    if (!chosen_material(*opened->module, name, opened->source, opened->diagnostics)) {
+    if (!chosen_material(*opened->module, name, opened->sources, opened->source, opened->diagnostics)) {
       print_diagnostics(stderr, opened->diagnostics, opened->sources);
       return refused;
     }
@@ -73,7 +73,7 @@ int describe_fates(const DescribeOptions& options) {
   std::vector<DeviceFates> all;
   std::set<std::string> used;
   for (const std::string& material : names)
-    for (const std::string& device : common->declarations.devices.spellings()) {
+    for (const std::string& device : opened->module->declarations().devices.spellings()) {
       FileRequest request = choice.request();
       request.device = device;
       auto fates = fates_on(*opened, request, material, options.settings, common->declarations, used);
@@ -82,8 +82,7 @@ int describe_fates(const DescribeOptions& options) {
     }
   if (all.empty())
     return refuse(Error{.code = Code::unknown_material,
-                        .sentence = "this file has no material to describe",
-                        .place = {.name = choice.file}});
+                        .sentence = fmt::format("`{}` has no material to describe", opened->name)});
   for (const std::string& setting : options.settings)
     if (!used.contains(setting))
       return refuse(Error{.code = Code::unknown_setting,

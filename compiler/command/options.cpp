@@ -70,7 +70,7 @@ Result<> without_empty_words(const CLI::App& verb) {
 
 void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char* about) {
   const auto take = [&folders](const std::vector<std::string>& given) {
-    if (const auto found = are_folders(given); !found) throw CLI::ValidationError(error_text(found.error()), refused);
+    if (const auto found = are_folders(given); !found) throw CLI::ValidationError(error_text(found.error()), misused);
     folders = given;
   };
   may_be_repeated(verb.add_option_function<std::vector<std::string>>("--library", take, about)->type_name("DIR"));
@@ -83,8 +83,24 @@ void offer_sandbox(CLI::App& verb, Sandbox& sandbox) {
       "decodes pictures also where the system has no sandbox for it; only for pictures that you trust");
 }
 
-void offer_device(CLI::App& verb, std::string& device) {
-  verb.add_option("--device", device, help_text::device)->type_name("NAME");
+void offer_device_files(CLI::App& verb, std::vector<ResolvedFile>& files) {
+  const auto take = [&files](const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      if (name.empty()) continue;  // `without_empty_words` refuses it
+      auto file = read_file(name);
+      if (!file)
+        throw CLI::ValidationError(error_text({.code = file.error().code,
+                                               .sentence = "cannot be read: " + file.error().sentence,
+                                               .place = {.name = name}}),
+                                   refused);
+      files.push_back(*std::move(file));
+    }
+  };
+  may_be_repeated(verb.add_option_function<std::vector<std::string>>(
+                          "--devices", take,
+                          "a Wale file with exported devices for --device, like ~/.config/wale/devices.wale, whose "
+                          "devices are known without it; may be repeated")
+                      ->type_name("FILE"));
 }
 
 void offer_device(CLI::App& verb, Choice& choice, const char* option, const char* about) {
@@ -93,6 +109,7 @@ void offer_device(CLI::App& verb, Choice& choice, const char* option, const char
     choice.device_option = option;
   };
   verb.add_option_function<std::string>(option, take, about)->type_name("NAME");
+  if (std::string_view(option) == "--device") offer_device_files(verb, choice.devices);
 }
 
 void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& options) {
@@ -100,7 +117,11 @@ void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& optio
                            "a Wale file, a patch program (.wpp), or a material of the library by name, as in corduroy"),
            "a file or the name of a material")
       ->required();
-  verb.add_option("--material", choice.material, options.about_material)->type_name("NAME");
+  const auto take_material = [&choice](const std::string& name) {
+    choice.material = name;
+    choice.material_option = "--material";
+  };
+  verb.add_option_function<std::string>("--material", take_material, options.about_material)->type_name("NAME");
   offer_device(verb, choice, options.device_option, options.about_device);
   offer_library(verb, choice.folders);
   offer_sandbox(verb, choice.sandbox);
@@ -111,7 +132,7 @@ void offer_settings(CLI::App& verb, std::vector<std::string>& settings) {
                       ->type_name("NAME=VALUE"));
 }
 
-void offer_json(CLI::App& verb, bool& json, const char* about) { verb.add_flag("--json", json, about); }
+CLI::Option* offer_json(CLI::App& verb, bool& json, const char* about) { return verb.add_flag("--json", json, about); }
 
 CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about) {
   return verb.add_option("-o,--output", out, about)->type_name("FILE");

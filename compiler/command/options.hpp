@@ -31,7 +31,8 @@ CLI::Option* must_say(CLI::Option* option, const std::string& expected, const st
 namespace help_text {
 inline constexpr const char* library = "a folder to search for imports, after the file's own; may be repeated";
 inline constexpr const char* material = "which material of the file (default: its first)";
-inline constexpr const char* device = "the device to build for (default: sandpaper; see `wale devices`)";
+inline constexpr const char* device =
+    "the device to build for: one of `wale devices`, of --devices or of the file itself (default: sandpaper)";
 }  // namespace help_text
 
 /// --library DIR, which may be repeated. If DIR is not a folder, the command ends.
@@ -40,9 +41,10 @@ void offer_library(CLI::App& verb, std::vector<std::string>& folders, const char
 /// --unsandboxed-pictures, for a verb that compiles materials.
 void offer_sandbox(CLI::App& verb, Sandbox& sandbox);
 
-/// --device NAME, for a verb without a material.
-void offer_device(CLI::App& verb, std::string& device);
-/// The same for a material; `option` may give it another name.
+/// --devices FILE, which may be repeated, as `offer_device` offers it. A file that cannot be read ends the command.
+void offer_device_files(CLI::App& verb, std::vector<ResolvedFile>& files);
+
+/// --device NAME and --devices FILE. `option` may give the first another name; then there is no second.
 void offer_device(CLI::App& verb, Choice& choice, const char* option = "--device",
                   const char* about = help_text::device);
 
@@ -61,7 +63,7 @@ void offer_material(CLI::App& verb, Choice& choice, const MaterialOptions& optio
 void offer_settings(CLI::App& verb, std::vector<std::string>& settings);
 
 /// --json; `about` describes the JSON output.
-void offer_json(CLI::App& verb, bool& json, const char* about);
+CLI::Option* offer_json(CLI::App& verb, bool& json, const char* about);
 
 /// -o, --output FILE.
 CLI::Option* offer_output(CLI::App& verb, std::string& out, const char* about);

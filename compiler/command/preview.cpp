@@ -35,9 +35,10 @@ int preview(const PreviewOptions& options) {
   if (const std::size_t coarseness = coarseness_of(described); coarseness > 1)
     print_error("wale: {}\n", coarseness_note(described.material, coarseness));
   if (drawing->coarseness > 1)
-    print_error("wale: this program is so large that its surface is drawn in squares of {0} x {0} pixels, each of one "
-                "sample\n",
-                drawing->coarseness);
+    print_error(
+        "wale: this program is so large that its surface is drawn in squares of {0} x {0} pixels, each of one "
+        "sample\n",
+        drawing->coarseness);
   const auto bytes = encode_drawing(*drawing, options.out);
   if (!bytes) return refuse(bytes.error());
   const auto written =
@@ -50,7 +51,10 @@ Run declare_preview(CLI::App& verb) {
   const auto options = std::make_shared<PreviewOptions>();
   offer_material(verb, options->choice);
   offer_settings(verb, options->settings);
-  offer_output(verb, options->out, "the picture to write (.png)")->required();
+  offer_output(
+      verb, options->out,
+      "the picture to write, as in corduroy.png; also .jpg, .tif and the other formats that OpenImageIO writes")
+      ->required();
   verb.footer("for example: wale preview corduroy -o corduroy.png");
   return [options] { return preview(*options); };
 }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <exception>
@@ -31,6 +32,9 @@ void prepare_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes the lowest number that is free
+  // A pipe of the usual size takes an output of up to its size at once, so its reader cannot leave in the middle.
+  static std::array<char, 65536> size_of_a_pipe;
+  if (isatty(STDOUT_FILENO) == 0) std::setvbuf(stdout, size_of_a_pipe.data(), _IOFBF, size_of_a_pipe.size());
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 

@@ -35,7 +35,7 @@ void prepare_streams();
 
 /// Writes what is left for standard output. Returns the exit status of a command that would have ended with `status`:
 /// where standard output could not be written, `done` becomes `refused`, and the reason is printed. If its reader has
-/// gone away, nothing is printed, since nobody asked for more.
+/// gone away before all was written, nothing is printed, since nobody asked for more. Up to 64 KiB are written at once.
 int finish_output(int status);
 
 /// The exit status of a command. An exception that it throws ends it: one about memory with `refused`; any other is an

@@ -215,7 +215,7 @@ class Solver {
       return map->percept == asked.name && map->dimension == declarations_.dimension("acceleration");
     });
     const char* unknown = device_->profile.shaker && !told_by_shaking ? ", and no map ties it to shaking" : "";
-    lost_[asked.name] = why.empty() ? fmt::format("`{}` has no realisation of {}{}", device, asked.name, unknown) : why;
+    lost_[asked.name] = why.empty() ? fmt::format("`{}` has no rule for {}{}", device, asked.name, unknown) : why;
     if (asked.essential)
       report(Code::percept_unrealised, asked.span,
              fmt::format("`{}` cannot render {}, which is essential here", device, asked.name),

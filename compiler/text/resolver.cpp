@@ -1,8 +1,10 @@
 #include "compiler/text/resolver.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -121,6 +123,12 @@ class FileResolver final : public Resolver {
     return hidden;
   }
 
+  std::vector<std::string> unreadable_folders(const std::string& from) override {
+    unreadable_.clear();
+    listed(from);
+    return unreadable_;
+  }
+
  private:
   /// The folder of a file's project, or else the folder that contains the file.
   fs::path own_folder(const std::string& from) {
@@ -138,7 +146,12 @@ class FileResolver final : public Resolver {
   }
 
   /// Adds the modules of a folder in the order of their names; if `whole`, those of its subfolders too.
-  static void list(const fs::path& folder, bool whole, std::vector<ListedModule>& all) {
+  void list(const fs::path& folder, bool whole, std::vector<ListedModule>& all) {
+    const auto note_unreadable = [&](const fs::path& each) {
+      const std::string name = each.lexically_normal().string();
+      if (access(name.c_str(), R_OK | X_OK) != 0 && errno == EACCES) unreadable_.push_back(name);
+    };
+    note_unreadable(folder);
     std::vector<ListedModule> found;
     std::error_code error;
     fs::recursive_directory_iterator each(folder, fs::directory_options::skip_permission_denied, error);
@@ -146,7 +159,10 @@ class FileResolver final : public Resolver {
       const fs::path& path = each->path();
       std::error_code ignored;
       if (each->is_directory(ignored)) {
-        if (!whole || path.filename().string().starts_with('.')) each.disable_recursion_pending();
+        if (!whole || path.filename().string().starts_with('.'))
+          each.disable_recursion_pending();
+        else
+          note_unreadable(path);
       } else if (path.extension() == ".wale") {
         std::string module = path.lexically_relative(folder).replace_extension().generic_string();
         // A dot in a module's name would mean a folder.
@@ -205,7 +221,8 @@ class FileResolver final : public Resolver {
   Sandbox sandbox_;
   std::vector<ResolvedFile> devices_;
   std::map<std::string, std::optional<fs::path>> projects_;
-  std::set<std::string> modules_;  ///< all modules requested so far
+  std::vector<std::string> unreadable_;  ///< of the last listing
+  std::set<std::string> modules_;        ///< all modules requested so far
   ReadTotal imports_{most_imported, "imported files", "import fewer or smaller files"};
   ReadTotal assets_{most_assets, "pictures and tables to read", "use fewer or smaller ones"};
 };

@@ -67,6 +67,8 @@ class Resolver {
   virtual Result<ResolvedFile> listed_module(const std::string& path, const std::string& from);
   /// The files that imports do not find, since a folder searched earlier has a module of the same name.
   virtual std::vector<ListedModule> hidden_modules(const std::string& /*from*/) { return {}; }
+  /// The folders that `modules` should list and cannot, since this user may not read them.
+  virtual std::vector<std::string> unreadable_folders(const std::string& /*from*/) { return {}; }
 };
 
 /// The name of the file that marks the root folder of a project's modules. The file may be empty.

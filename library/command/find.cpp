@@ -25,23 +25,28 @@ struct FindOptions {
 };
 
 /// The reason why nothing was found, with a proposal.
-std::string why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts,
-                                 const std::string& kind) {
-  if (index.materials().empty()) return "there is no material here";
+Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::string>& texts, const std::string& kind) {
+  const auto because = [](std::string sentence, std::string mend = {}) {
+    return Error{Code::unknown_name, std::move(sentence), std::move(mend)};
+  };
+  if (index.materials().empty()) return because("there is no material here");
   if (!kind.empty() && find_materials(index, {}, kind).empty()) {
     const auto kinds = kinds_in(index);
-    if (const auto near = nearest_spelling(kind, kinds))
-      return fmt::format("no material is of kind `{}`; did you mean `{}`?", kind, *near);
-    return fmt::format("no material is of kind `{}`; there are: {}", kind, fmt::join(kinds, ", "));
+    const auto near = nearest_spelling(kind, kinds);
+    return Error{Code::unknown_name,
+                 fmt::format("no material is of kind `{}`", kind),
+                 near ? fmt::format("did you mean `{}`?", *near) : fmt::format("there are: {}", fmt::join(kinds, ", ")),
+                 {.name = "--kind", .text = kind}};
   }
   for (const std::string& text : texts) {
     if (!find_materials(index, {text}, kind).empty()) continue;
     const std::string among = kind.empty() ? "" : fmt::format(" of kind `{}`", kind);
     const auto near = nearest_spelling(text, findable_words(index));
-    return fmt::format("none of {} materials{} has \"{}\"{}", find_materials(index, {}, kind).size(), among, text,
-                       near ? fmt::format("; did you mean \"{}\"?", *near) : "; `wale find` alone lists them all");
+    return because(
+        fmt::format("none of {} materials{} has \"{}\"", find_materials(index, {}, kind).size(), among, text),
+        near ? fmt::format("did you mean \"{}\"?", *near) : "`wale find` alone lists them all");
   }
-  return "no material has all of these texts, although each alone is found";
+  return because("no material has all of these texts, although each alone is found");
 }
 
 /// The text by which a material was found, if its line does not show it already.
@@ -87,7 +92,8 @@ std::string found_json(const std::vector<FoundMaterial>& found) {
 }
 
 int find(const FindOptions& options) {
-  const auto resolver = file_resolver(library_folders(options.folders, std::getenv("WALE_LIBRARY")));
+  const std::vector<std::string> roots = library_folders(options.folders, std::getenv("WALE_LIBRARY"));
+  const auto resolver = file_resolver(roots);
   // The index of what a file in the current folder could import; there need not be such a file.
   const std::shared_ptr<const LibraryIndex> index = library_index(*resolver, "here");
   if (const auto& left_out = index->left_out(); !left_out.empty())
@@ -96,8 +102,9 @@ int find(const FindOptions& options) {
                             left_out.size() > 1 ? fmt::format(" and {} more are", left_out.size() - 1) : " is",
                             most_indexed >> 20));
   const std::vector<FoundMaterial> found = find_materials(*index, options.texts, options.kind);
+  say_unread(roots);
   if (options.json) print_out(found_json(found));
-  if (found.empty()) return refuse(visible_text(why_nothing_is_found(*index, options.texts, options.kind)));
+  if (found.empty()) return refuse(why_nothing_is_found(*index, options.texts, options.kind));
   if (!options.json) print_out(found_text(found));
   return done;
 }

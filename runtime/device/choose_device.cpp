@@ -119,7 +119,11 @@ class Chooser {
   Result<ChosenDevice> only_simulated() const {
     const std::string& asked = request_.spelling;
     if (asked == "auto") return ChosenDevice{};
-    if (const DeclaredDevice* device = declared(asked)) return simulate(*device);
+    if (const DeclaredDevice* device = declared(asked)) {
+      auto chosen = simulate(*device);
+      if (chosen) chosen->said = "simulating `" + asked + "`: virtual time and --hand are for a simulation";
+      return chosen;
+    }
     if (asked != "usb" && find_driver(drivers_, asked) == nullptr && !read_usb_numbers(asked) && !is_port(asked))
       return unknown(asked, "");
     return error(Code::malformed_value, "a real device runs in real time, in a real hand",

@@ -26,7 +26,7 @@ Error unwritable(const std::string& path, int error) {
   switch (error) {
     case EEXIST:
       return because("the file exists already, and a recording never overwrites a file",
-                     "delete it or choose another name");
+                     "delete it or choose another name; only a table, as in `--record run.csv`, replaces a file");
     case ENOENT: return because("there is no such folder", "make it first");
     case EACCES:
     case EROFS: return because("no file can be written in this folder", "choose another folder");

@@ -91,7 +91,7 @@ TEST(Applying, WordsThatMakeNoSenseAreMisuse) {
                  {{"compare", corduroy + ":", "denim"}, "error[W0801]"},
                  {{"describe", corduroy + ":corduroy", "--material", "other"}, "error[W0801]"},
                  {{"build", program, "-o", folder / "again.wpp"}, "error[W0801]"},
-                 {{"replay", run, "--csv", sound, "--wav", sound}, "another file than that of --csv"},
+                 {{"replay", run, "--csv", sound, "--wav", sound}, "expected a file NAME.csv"},
                  {{"replay", run, "--csv", folder / "link.csv", "--wav", sound}, "another file than that of --csv"}});
   EXPECT_FALSE(fs::exists(sound));
 }
@@ -117,6 +117,41 @@ TEST(Applying, OptionsOfOneMaterialAreRefusedWithTheWholeFile) {
                  {{"build", corduroy, "--emit", "tree", "--material", "corduroy"}, "leave out --material"},
                  {{"build", corduroy, "--emit", "tree", "--device", "falcon"}, "leave out --device"},
                  {{"build", corduroy, "--emit", "checked", "--device", "falcon"}, "leave out --device"}});
+}
+
+TEST(Applying, OptionsAboutOtherFilesNeedAWaleFile) {
+  const TemporaryFolder folder;
+  const std::string program = folder / "corduroy.wpp", library = folder / ".";
+  ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
+  expect_misuse({{{"describe", program, "--library", library}, "leave out --library"},
+                 {{"describe", program, "--unsandboxed-pictures"}, "leave out --unsandboxed-pictures"},
+                 {{"preview", program, "--library", library, "-o", folder / "p.png"}, "leave out --library"},
+                 {{"sample", program, "--library", library, "--at", "1 mm, 1 mm"}, "leave out --library"},
+                 {{"build", program, "--emit", "cpp", "--library", library}, "leave out --library"},
+                 {{"feel", program, "--virtual-time", "--library", library}, "leave out --library"},
+                 {{"feel", program, "--virtual-time", "--unsandboxed-pictures"}, "leave out --unsandboxed-pictures"},
+                 {{"compare", program, program, "--library", library}, "leave out --library"}});
+  EXPECT_EQ(wale({"compare", program, "denim", "--library", library}).status, 0) << "the other is looked for in it";
+}
+
+TEST(Applying, AMaterialOfAWholeFileIsRefusedHoweverItIsNamed) {
+  expect_misuse({{{"build", corduroy, "--material", "corduroy", "--emit", "tree"}, "leave out --material"},
+                 {{"build", corduroy + ":corduroy", "--emit", "tree"}, "leave out the material"},
+                 {{"build", "corduroy:corduroy", "--emit", "tree"}, "leave out the material"}});
+}
+
+TEST(Applying, AMatrixOfJsonIsRefused) {
+  expect_misuse({{{"compare", "corduroy", "denim", "--matrix", "--json"}, "--matrix excludes --json"}});
+}
+
+TEST(Applying, ATableHasTheEndingOfATable) {
+  const TemporaryFolder folder;
+  const std::string run = folder / "run.wrec";
+  ASSERT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", run}).status, 0);
+  expect_misuse({{{"replay", run, "--csv", folder / "a.txt"}, "expected a file NAME.csv"},
+                 {{"replay", run, "--wav", folder / "a.txt"}, "expected a file NAME.wav"},
+                 {{"feel", corduroy, "--virtual-time", "--record", folder / "a.txt"}, "NAME.wrec or NAME.csv"}});
+  EXPECT_FALSE(fs::exists(folder / "a.txt"));
 }
 
 TEST(Applying, EndingsMayBeInCapitalLetters) {

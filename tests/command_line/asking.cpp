@@ -232,7 +232,7 @@ TEST(Devices, HaveNoFigureForAnUnknownBandwidth) {
 TEST(Choices, UnknownNamesAreRefusedWithTheNearest) {
   const TemporaryFolder folder;
   const Outcome material = wale({"describe", corduroy, "--material", "corderoy"});
-  EXPECT_EQ(material.status, 1);
+  EXPECT_EQ(material.status, 2);
   EXPECT_TRUE(contains(material.err, "`corduroy`")) << material.err;
   const Outcome device = wale({"build", corduroy, "--device", "sandpapre", "-o", folder / "out.wpp"});
   EXPECT_EQ(device.status, 2);

@@ -158,10 +158,10 @@ TEST(Values, UnknownNamesAreRefused) {
        {{"describe", corduroy + ":corduroy", "--material", "other"},
         2,
         "names `corduroy`, but --material names `other`"},
-       {{"describe", corduroy, "--material", "nosuch"}, 1, "it has `corduroy`"},
+       {{"describe", corduroy, "--material", "nosuch"}, 2, "it has `corduroy`"},
        {{"describe", "fabric"}, 1, "`wale find --kind fabric`"},
        {{"describe", "std"}, 1, "`wale find --kind std`"},
-       {{"describe", corduroy, "--library", "/nowhere"}, 1, "--library: `/nowhere` does not exist"},
+       {{"describe", corduroy, "--library", "/nowhere"}, 2, "--library: `/nowhere` does not exist"},
        {{"feel", corduroy, "--virtual-time", "--transport", "banana"}, 2, "expected hidraw, libusb, evdev"},
        {{"feel", corduroy, "--device", "simulated:falcon", "--built-for", "nope"}, 2, "error[W0601]: --built-for"},
        {{"feel", corduroy, "--virtual-time", "--hand", "nofile.csv"},
@@ -189,7 +189,7 @@ TEST(Values, APatchProgramKeepsItsDeviceAndMaterial) {
   ASSERT_EQ(wale({"build", corduroy, "-o", program}).status, 0);
   expect_refused({{{"describe", program, "--device", "falcon"}, 2, "expected `sandpaper`, the device"},
                   {{"feel", program, "--virtual-time", "--built-for", "falcon"}, 2, "expected `sandpaper`, the device"},
-                  {{"describe", program, "--material", "x"}, 1, "holds only `corduroy`"},
+                  {{"describe", program, "--material", "x"}, 2, "holds only `corduroy`"},
                   {{"describe", program + ":x"}, 1, "holds only `corduroy`"},
                   {{"describe", program, "--exports"}, 2, "leave out --exports"},
                   {{"build", program, "-o", folder / "d.wpp"}, 2, "built for `sandpaper`"}});

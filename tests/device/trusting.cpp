@@ -60,11 +60,15 @@ TEST(Trusting, WhatAnOwnersFileImportsIsNotTrusted) {
 TEST(Trusting, AFileThatIsWrongIsRefusedAtItsLine) {
   const TemporaryFolder folder;
   const std::string wrong = folder.write("wrong.wale", "wale 1\n\n" + device_text("openffboard", "5 N"));
-  const auto trusted = trusted_declarations({}, wrong);
+  const auto trusted = trusted_declarations({wrong}, "");
   ASSERT_FALSE(trusted) << "a shipped name";
   EXPECT_EQ(trusted.error().code, Code::declared_twice);
   EXPECT_EQ(trusted.error().place.name, wrong);
   EXPECT_EQ(trusted.error().place.number, 3u);
+  const auto of_owner = trusted_declarations({}, wrong);
+  ASSERT_TRUE(of_owner && of_owner->owners_problem) << "one's own is left out, and the caller decides";
+  EXPECT_EQ(of_owner->owners_problem->place.name, wrong);
+  EXPECT_EQ(of_owner->devices.size(), trusted_declarations({}, "")->devices.size());
   const std::string empty = folder.write("empty.wale", "wale 1\n");
   EXPECT_EQ(trusted_declarations({empty}, "").error().code, Code::unknown_device);
   EXPECT_TRUE(trusted_declarations({}, empty)) << "one's own may still be empty";

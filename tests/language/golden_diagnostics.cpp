@@ -291,7 +291,7 @@ TEST(Choices, NearestMaterialIsProposed) {
 TEST(Choices, AFileWithoutMaterialsSaysSo) {
   const auto diagnostics = choosing("", "sandpaper", "wale 1\n");
   ASSERT_EQ(diagnostics.all().size(), 1u);
-  EXPECT_EQ(diagnostics.all()[0].message, "this file has no material");
+  EXPECT_EQ(diagnostics.all()[0].message, "`test.wale` has no material");
 }
 
 }  // namespace
