@@ -350,7 +350,7 @@ int feel_blind(const FeelOptions& options, const std::atomic<bool>& stop) {
 
 int feel(const FeelOptions& options) {
   const std::string& record = options.record;
-  if (!record.empty() && record != "-" && !has_ending(record, ".wrec") && !has_ending(record, ".csv"))
+  if (!record.empty() && !has_ending(record, ".wrec") && !has_ending(record, ".csv") && !is_written_as_it_comes(record))
     return refuse(Error{Code::malformed_value,
                         fmt::format("expected a file NAME.wrec or NAME.csv, found `{}`", record),
                         "NAME.wrec is a recording for `wale replay`, NAME.csv a table",

@@ -127,15 +127,10 @@ struct ReplayOptions {
 };
 
 int replay(const ReplayOptions& options) {
-  if (!options.wav.empty() && !has_ending(options.wav, ".wav"))
+  if (!options.wav.empty() && !has_ending(options.wav, ".wav") && !is_written_as_it_comes(options.wav))
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected a file NAME.wav, found `{}`", options.wav),
                         .place = {.name = "--wav", .text = options.wav}});
-  if (!options.csv.empty() && options.csv != "-" && !has_ending(options.csv, ".csv"))
-    return refuse(Error{.code = Code::malformed_value,
-                        .sentence = fmt::format("expected a file NAME.csv, found `{}`", options.csv),
-                        .mend = "for example, `--csv ticks.csv`",
-                        .place = {.name = "--csv", .text = options.csv}});
   if (!options.csv.empty() && !options.wav.empty() && is_same_output(options.csv, options.wav))
     return refuse(Error{.code = Code::malformed_value,
                         .sentence = fmt::format("expected another file than that of --csv, found `{}`", options.wav),

@@ -250,6 +250,11 @@ Result<OutputFile> OutputFile::open(const std::string& path, const InputFiles& i
 std::ostream& OutputFile::stream() { return target_->stream(); }
 Result<> OutputFile::finish() { return target_->finish(); }
 
+bool is_written_as_it_comes(const std::string& path) {
+  std::error_code ignored;
+  return path == "-" || fs::is_other(path, ignored);
+}
+
 bool is_same_output(const std::string& one, const std::string& other) {
   const auto place = [](const std::string& path) {
     std::error_code error;

@@ -45,6 +45,10 @@ class OutputFile {
 /// equal only if they are spelt alike.
 bool is_same_output(const std::string& one, const std::string& other);
 
+/// Whether an output is written as it comes, because it is "-" or something that is no regular file: a pipe, a device.
+/// The ending of such a name says nothing about a format.
+bool is_written_as_it_comes(const std::string& path);
+
 /// Writes a whole file. Errors: those of `OutputFile::open` and `OutputFile::finish`.
 Result<> write_file(const std::string& path, std::string_view bytes, const InputFiles& inputs);
 

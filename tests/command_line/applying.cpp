@@ -91,7 +91,7 @@ TEST(Applying, WordsThatMakeNoSenseAreMisuse) {
                  {{"compare", corduroy + ":", "denim"}, "error[W0801]"},
                  {{"describe", corduroy + ":corduroy", "--material", "other"}, "error[W0801]"},
                  {{"build", program, "-o", folder / "again.wpp"}, "error[W0801]"},
-                 {{"replay", run, "--csv", sound, "--wav", sound}, "expected a file NAME.csv"},
+                 {{"replay", run, "--csv", sound, "--wav", sound}, "another file than that of --csv"},
                  {{"replay", run, "--csv", folder / "link.csv", "--wav", sound}, "another file than that of --csv"}});
   EXPECT_FALSE(fs::exists(sound));
 }
@@ -144,14 +144,20 @@ TEST(Applying, AMatrixOfJsonIsRefused) {
   expect_misuse({{{"compare", "corduroy", "denim", "--matrix", "--json"}, "--matrix excludes --json"}});
 }
 
-TEST(Applying, ATableHasTheEndingOfATable) {
+TEST(Applying, AFormatIsWhatTheEndingSays) {
   const TemporaryFolder folder;
   const std::string run = folder / "run.wrec";
   ASSERT_EQ(wale({"feel", corduroy, "--virtual-time", "--seconds", "0.1", "--record", run}).status, 0);
-  expect_misuse({{{"replay", run, "--csv", folder / "a.txt"}, "expected a file NAME.csv"},
-                 {{"replay", run, "--wav", folder / "a.txt"}, "expected a file NAME.wav"},
+  expect_misuse({{{"replay", run, "--wav", folder / "a.txt"}, "expected a file NAME.wav"},
                  {{"feel", corduroy, "--virtual-time", "--record", folder / "a.txt"}, "NAME.wrec or NAME.csv"}});
   EXPECT_FALSE(fs::exists(folder / "a.txt"));
+  // A device has no ending.
+  for (const Words& words : {Words{"replay", run, "--csv", "/dev/full"}, Words{"replay", run, "--wav", "/dev/full"},
+                             Words{"feel", corduroy, "--virtual-time", "--record", "/dev/full"}}) {
+    const Outcome outcome = wale(words);
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "error[W0505]")) << outcome.err;
+  }
 }
 
 TEST(Applying, EndingsMayBeInCapitalLetters) {

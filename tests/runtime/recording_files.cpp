@@ -277,7 +277,8 @@ TEST(RecordingFile, CannotReplaceAFileOrBeInAMissingFolder) {
   const auto before = bytes_of(folder / "a.wrec");
   EXPECT_EQ(attempt(folder / "a.wrec"),
             folder / "a.wrec" +
-                ": the file exists already, and a recording never overwrites a file; delete it or choose another name");
+                ": the file exists already, and a recording never overwrites a file; delete it or choose another name; "
+                "only a table, as in `--record run.csv`, replaces a file");
   EXPECT_EQ(bytes_of(folder / "a.wrec"), before);
   EXPECT_EQ(attempt(folder / "none/a.wrec"), folder / "none/a.wrec" + ": there is no such folder; make it first");
   device.profile_.mass = -1;
