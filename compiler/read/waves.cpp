@@ -21,6 +21,7 @@ constexpr std::size_t candidates = 5;
 constexpr std::size_t parts_of_a_wave = 32;       // of the shortest wave that a fold should show
 constexpr std::size_t most_multiples = 40;        // of a peak's period, for its fundamental
 constexpr std::size_t few_multiples = 12;         // after which ...
+constexpr std::size_t places_a_part = 24;         // of a period, to move a wave by
 constexpr double hopeless = 0.12;                 // ... so little explained means that there is no wave
 constexpr double hardly_less = 0.015;             // of the mean square: as well explained
 constexpr double out_of_place = 0.25;             // periods over the window
@@ -55,7 +56,7 @@ StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::
   std::uint64_t random = 88172645463325252u;  // Marsaglia's xorshift
   for (std::size_t i = 0; i < forces.size(); ++i) {
     random ^= random << 13, random ^= random >> 7, random ^= random << 17;
-    if (random % forces.size() >= about) continue;
+    if ((random >> 32) * forces.size() >> 32 >= about) continue;
     thin.places.push_back(window.places[i]), thin.forces.push_back(forces[i]);
   }
   return thin;
@@ -85,14 +86,18 @@ glm::dvec2 best_explained(const StillForces& thin, glm::dvec2 waves) {
 /// The mean squares of a profile's harmonics, from the first on, as shares of all.
 std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most) {
   std::vector<double> powers(most);
-  const auto count = static_cast<double>(wave.profile.size());
-  double all = 0;
-  for (const glm::dvec2& force : wave.profile) all += glm::dot(force, force) / count;
+  const std::size_t parts = wave.profile.size();
+  const auto count = static_cast<double>(parts);
+  std::vector<std::complex<double>> turned(parts);
+  for (std::size_t i = 0; i < parts; ++i)
+    turned[i] = std::polar(1 / count, -2 * std::numbers::pi * static_cast<double>(i) / count);
+  const double all = mean_square(wave.profile);
   for (std::size_t harmonic = 1; harmonic <= most; ++harmonic) {
     std::complex<double> x = 0, y = 0;
-    for (std::size_t i = 0; i < wave.profile.size(); ++i) {
-      const auto turned = std::polar(1 / count, -2 * std::numbers::pi * static_cast<double>(harmonic * i) / count);
-      x += wave.profile[i].x * turned, y += wave.profile[i].y * turned;
+    for (std::size_t i = 0, at = 0; i < parts; ++i) {
+      x += wave.profile[i].x * turned[at], y += wave.profile[i].y * turned[at];
+      at += harmonic;
+      while (at >= parts) at -= parts;
     }
     powers[harmonic - 1] = all > 0 ? 2 * (std::norm(x) + std::norm(y)) / all : 0;
   }
@@ -309,21 +314,8 @@ class WaveSearch {
     const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
     FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
     if (wave.explained < 0.02) return false;
-    add_to_rest(wave, -1);
     found_.waves.push_back({std::move(wave), 0, fundamental.parts});
-    const bool slow = is_slow(waves);
-    for (int turn = 0; turn < (slow ? 4 : 3); ++turn) {
-      fit_trend();
-      for (FoundWave& each : found_.waves) {
-        add_to_rest(each.wave, 1);
-        const std::size_t bins = each.wave.profile.size();
-        const auto [places, forces] = some_of_rest();
-        each.wave = folded(whole_.places, found_.rest, better_fitting(places, forces, each.wave.waves, bins / 4), bins);
-        add_to_rest(each.wave, -1);
-      }
-      const double left = mean_square(found_.rest);
-      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
-    }
+    fit_together(is_slow(waves) ? 4 : 3);
     // Over the whole patch the harmonics are clean: if only every so many-th is there, the wave is that much shorter.
     FoundWave& last = found_.waves.back();
     const std::vector<double> powers = harmonics_of(last.wave, std::min<std::size_t>(60, last.wave.profile.size() / 3));
@@ -336,39 +328,71 @@ class WaveSearch {
                          std::max<std::size_t>(last.wave.profile.size() / step, 64));
       add_to_rest(last.wave, -1);
     }
-    fit_trend();
+    StillForces some = every(3);
+    some.forces = rest_at(some.places, some.forces);
+    fit_trend(some);
+    update_rest();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
     return true;
   }
 
+  /// Fits the trend and all waves, the last of which is new, in turn: first at some places, then once at all.
+  void fit_together(int turns) {
+    std::size_t most = 0;
+    for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
+    StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (places_a_part * most)));
+    some.forces = rest_at(some.places, some.forces);
+    for (int turn = 0; turn < turns; ++turn) {
+      fit_trend(some);
+      for (FoundWave& each : found_.waves) {
+        const std::size_t bins = each.wave.profile.size();
+        add_wave(each.wave, 1, some);
+        each.wave = folded(some.places, some.forces,
+                           better_fitting(some.places, some.forces, each.wave.waves, bins / 4), bins);
+        add_wave(each.wave, -1, some);
+      }
+      const double left = mean_square(some.forces);
+      if (left < 1e-5 * all_ || (turn > 0 && turns == 3 && left < negligible * all_)) break;
+    }
+    update_rest();
+    for (FoundWave& each : found_.waves) {
+      add_to_rest(each.wave, 1);
+      each.wave = folded(whole_.places, found_.rest, each.wave.waves, each.wave.profile.size());
+      add_to_rest(each.wave, -1);
+    }
+  }
+
+  static void add_wave(const FoldedWave& wave, double times, StillForces& still) {
+    for (std::size_t i = 0; i < still.places.size(); ++i) still.forces[i] += times * wave.at(still.places[i]);
+  }
   void add_to_rest(const FoldedWave& wave, double times) {
     for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += times * wave.at(whole_.places[i]);
   }
-  /// Every third place and the rest there: enough to move a wave by.
-  std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some_of_rest() const {
-    std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some;
-    for (std::size_t i = 0; i < whole_.places.size(); i += 3)
-      some.first.push_back(whole_.places[i]), some.second.push_back(found_.rest[i]);
+  /// Every so-many-th place of the whole. They lie anywhere in their cells, so that no choice among them aliases.
+  StillForces every(std::size_t step) const {
+    StillForces some{whole_.side, whole_.centre, whole_.size, {}, {}};
+    for (std::size_t i = 0; i < whole_.places.size(); i += step)
+      some.places.push_back(whole_.places[i]), some.forces.push_back(whole_.forces[i]);
     return some;
   }
 
   /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.
-  void fit_trend() {
+  void fit_trend(StillForces& rest) {
     std::vector<glm::dvec2> slow;
     for (const FoundWave& each : found_.waves)
       if (is_slow(each.wave.waves)) slow.push_back(each.wave.waves);
-    std::vector<glm::dvec2> forces = found_.rest;
+    std::vector<glm::dvec2> forces = rest.forces;
     for (std::size_t i = 0; i < forces.size(); ++i) {
-      forces[i] += found_.trend.at(whole_.places[i]);
+      forces[i] += found_.trend.at(rest.places[i]);
       if (slow.empty()) continue;
       for (const FoundWave& each : found_.waves)
-        if (is_slow(each.wave.waves)) forces[i] += each.wave.at(whole_.places[i]);
+        if (is_slow(each.wave.waves)) forces[i] += each.wave.at(rest.places[i]);
     }
     const LinearForce before = found_.trend;
-    found_.trend = slow.empty() ? linear_force(whole_.places, forces) : linear_beside(whole_.places, forces, slow);
+    found_.trend = slow.empty() ? linear_force(rest.places, forces) : linear_beside(rest.places, forces, slow);
     const LinearForce more{before.mean - found_.trend.mean, before.by_x - found_.trend.by_x,
                            before.by_y - found_.trend.by_y};
-    for (std::size_t i = 0; i < forces.size(); ++i) found_.rest[i] += more.at(whole_.places[i]);
+    for (std::size_t i = 0; i < forces.size(); ++i) rest.forces[i] += more.at(rest.places[i]);
   }
   bool is_slow(glm::dvec2 waves) const { return glm::length(waves * whole_.size) < slow_periods; }
 
