@@ -245,7 +245,8 @@ glm::dvec2 beside(const std::vector<Feature>& features, glm::dvec2 place, glm::d
   return force;
 }
 
-std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                                   bool may_turn) {
   const double all = mean_square(forces);
   if (!(all > 0)) return {};
   std::vector<Feature> found;
@@ -256,6 +257,7 @@ std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span
     if (!next) break;
     found.push_back(*next);
     rest = fit_together(found, places, forces, fine_bins);
+    if (!may_turn && turns_of(found.back()) > most_turns) return {};
     left = mean_square(rest);
     if (found.size() > 1) left = turn_together(found, places, forces, left);
   }

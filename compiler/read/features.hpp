@@ -35,8 +35,10 @@ void add_feature(const Feature& feature, double times, std::span<const glm::dvec
 /// A force at a place without the features; nothing is left where one of them jumps.
 glm::dvec2 beside(const std::vector<Feature>& features, glm::dvec2 place, glm::dvec2 force);
 
-/// The features of some forces: at most two, if together they explain nearly all of them; none otherwise.
-std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces);
+/// The features of some forces: at most two, if together they explain nearly all of them; none otherwise. Unless they
+/// `may_turn`, none is looked for beside one that turns as often as a texture does.
+std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                                   bool may_turn = true);
 
 /// Fits the profiles of features anew to more forces, and finely, and tells which are monotone. Nothing is left if one
 /// turns as often as a texture does.

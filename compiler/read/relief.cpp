@@ -14,7 +14,7 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
+constexpr std::size_t side_of_whole = 128;  // 1.1 mm apart on a patch of 160 mm
 constexpr double ratio = 0.99;              // the percentile that is an amplitude
 constexpr std::size_t change_places = 1024;
 constexpr double difference = 1e-5;  // m: half the step for the change of the force
@@ -149,7 +149,7 @@ class ReliefReader {
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
     places.clear();
     add_means(whole_.forces, places, means);
-    std::vector<Feature> features = find_features(places, means);
+    std::vector<Feature> features = find_features(places, means, false);
     if (features.empty()) return;
     double left = 0, all = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {

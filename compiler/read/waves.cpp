@@ -41,6 +41,7 @@ constexpr double slowest_lattice = 4;  // periods over the patch
 constexpr double too_fine = 0.97;      // of the mean square: nothing is left to search in this window
 constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
+constexpr std::size_t lattice_places = 4500;
 constexpr double least_lattice = 0.6;
 constexpr double least_turn = 0.2;  // rad between two directions
 
@@ -409,7 +410,7 @@ class WaveSearch {
     if (mean_square(found_.rest) < 0.1 * all_) return false;
     std::vector<glm::dvec2> peaks;
     for (const FoundWave& each : found_.waves) peaks.push_back(each.wave.waves);
-    const StillForces left = thinned_by_chance(whole_, rest_at(whole_.places, whole_.forces), 9000);
+    const StillForces left = thinned_by_chance(whole_, rest_at(whole_.places, whole_.forces), lattice_places);
     if (peaks.size() < 2)
       for (const glm::dvec2 peak : spectrum.peaks(6, 5))
         peaks.push_back(in_phase(left.places, left.forces, whole_.centre, whole_.size, peak));
