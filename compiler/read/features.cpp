@@ -30,6 +30,19 @@ glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
   return far > 0 ? off / far : glm::dvec2(0);
 }
 
+/// Near its point a radial profile has parts without a place: these go on evenly from one neighbour to the next.
+void fill_gaps(std::vector<glm::dvec2>& profile, const std::vector<double>& counts) {
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (!(counts[i] > 0)) continue;
+    for (std::size_t gap = before + 1; gap < i; ++gap) {
+      const double part = static_cast<double>(gap - before) / static_cast<double>(i - before);
+      profile[gap] = (1 - part) * profile[before] + part * profile[i];
+    }
+    before = i;
+  }
+}
+
 /// Fits a profile of so many values along a feature's coordinate, and returns what share of the mean square it
 /// explains.
 double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
@@ -68,6 +81,7 @@ double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::sp
     if (counts[i] < few) feature.profile[i] = feature.profile[i - 1];
   for (std::size_t i = bins / 2; i-- > 0;)
     if (counts[i] < few && !feature.radial) feature.profile[i] = feature.profile[i + 1];
+  if (feature.radial) fill_gaps(feature.profile, counts);
   return whole > 0 && count > used ? 1 - (whole - kept) / whole * count / (count - used) : 0;
 }
 

@@ -32,6 +32,8 @@ constexpr double least_explained_by_many = 0.12;  // ... and by one with many
 constexpr double few_periods = 6, many_periods = 25;
 constexpr double slow_periods = 12;  // over the patch
 constexpr double least_explained_locally = 0.5;
+constexpr double plainly_there = 0.95;  // explained in a small window
+constexpr double same_period = 0.03;    // relative difference
 constexpr double coherent = 0.7;      // of the share in a small window, also in the whole
 constexpr double negligible = 0.004;  // of the whole mean square
 constexpr std::size_t small_common_multiple = 5;
@@ -255,7 +257,9 @@ class WaveSearch {
       const double least = level > 0 || held > many_periods ? least_explained_by_many
                            : held < few_periods             ? least_explained_by_few
                                                             : least_explained;
-      if (held < (level > 0 ? 4 : 1.9) || fundamental.explained < least) continue;
+      // A window that is hardly longer than a wave shows one all the same, if nothing else is there.
+      const double fewest = level == 0 ? 1.9 : fundamental.explained < plainly_there ? 4 : 2.9;
+      if (held < fewest || fundamental.explained < least) continue;
       if (level == 0) return take_off(fundamental.waves, fundamental);
       const auto wider = widened(window, fundamental);
       if (wider) return take_off(*wider, fundamental);
@@ -304,9 +308,14 @@ class WaveSearch {
       const std::vector<glm::dvec2> forces = rest_at(beside.places, beside.forces);
       if (mean_square(forces) < 0.3 * here) continue;
       strong += 1;
-      held +=
-          explained_by(beside.places, forces, fundamental.waves,
-                       most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >= least_explained_locally;
+      // The strongest harmonic tells whether the period has changed.
+      const auto multiple = static_cast<double>(fundamental.multiple);
+      const glm::dvec2 waves = in_phase(beside.places, forces, centre, window.size, multiple * fundamental.waves) / multiple;
+      const double stretched = glm::length(waves) / glm::length(fundamental.waves);
+      held += std::abs(stretched - 1) < same_period &&
+              explained_by(beside.places, forces, waves,
+                           most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >=
+                  least_explained_locally;
     }
     return 4 * held >= 3 * strong;
   }
