@@ -293,8 +293,7 @@ void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2>
   std::vector<glm::dvec2> some_places, some;
   for (std::size_t i = 0; i < places.size(); i += every) some_places.push_back(places[i]), some.push_back(forces[i]);
   for (int turn = 0; turn < 3; ++turn) {
-    std::vector<glm::dvec2> rest =
-        fit_together(features, some_places, some, all_long ? finest_bins / 2 : finest_bins);
+    std::vector<glm::dvec2> rest = fit_together(features, some_places, some, all_long ? finest_bins / 2 : finest_bins);
     for (Feature& each : features) {
       add_feature(each, 1, some_places, rest);
       place_better(each, some_places, rest);

@@ -119,9 +119,7 @@ glm::dvec2 in_phase(std::span<const glm::dvec2> places, std::span<const glm::dve
       }
     }
     Complex along_x = 0, along_y = 0;
-    const auto sum = [&](int x, int y, int part) {
-      return Complex(real[2 * x + y][part], imaginary[2 * x + y][part]);
-    };
+    const auto sum = [&](int x, int y, int part) { return Complex(real[2 * x + y][part], imaginary[2 * x + y][part]); };
     for (int half : {0, 1})
       for (int part : {0, 1}) {
         along_x += sum(1, half, part) * std::conj(sum(0, half, part));

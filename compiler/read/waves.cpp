@@ -34,8 +34,8 @@ constexpr double slow_periods = 12;  // over the patch
 constexpr double least_explained_locally = 0.5;
 constexpr double plainly_there = 0.95;  // explained in a small window
 constexpr double same_period = 0.03;    // relative difference
-constexpr double coherent = 0.7;      // of the share in a small window, also in the whole
-constexpr double negligible = 0.004;  // of the whole mean square
+constexpr double coherent = 0.7;        // of the share in a small window, also in the whole
+constexpr double negligible = 0.004;    // of the whole mean square
 constexpr std::size_t small_common_multiple = 5;
 constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
 constexpr double weak_part = 0.004;
@@ -310,12 +310,13 @@ class WaveSearch {
       strong += 1;
       // The strongest harmonic tells whether the period has changed.
       const auto multiple = static_cast<double>(fundamental.multiple);
-      const glm::dvec2 waves = in_phase(beside.places, forces, centre, window.size, multiple * fundamental.waves) / multiple;
+      const glm::dvec2 waves =
+          in_phase(beside.places, forces, centre, window.size, multiple * fundamental.waves) / multiple;
       const double stretched = glm::length(waves) / glm::length(fundamental.waves);
-      held += std::abs(stretched - 1) < same_period &&
-              explained_by(beside.places, forces, waves,
-                           most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >=
-                  least_explained_locally;
+      held +=
+          std::abs(stretched - 1) < same_period &&
+          explained_by(beside.places, forces, waves,
+                       most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >= least_explained_locally;
     }
     return 4 * held >= 3 * strong;
   }
@@ -357,8 +358,8 @@ class WaveSearch {
       for (FoundWave& each : found_.waves) {
         const std::size_t bins = each.wave.profile.size();
         add_wave(each.wave, 1, some);
-        each.wave = folded(some.places, some.forces,
-                           better_fitting(some.places, some.forces, each.wave.waves, bins / 4), bins);
+        each.wave =
+            folded(some.places, some.forces, better_fitting(some.places, some.forces, each.wave.waves, bins / 4), bins);
         add_wave(each.wave, -1, some);
       }
       const double left = mean_square(some.forces);
