@@ -14,11 +14,11 @@
 namespace wale {
 namespace {
 
-constexpr std::size_t side_of_whole = 120;  // 1.2 mm apart on a patch of 160 mm
+constexpr std::size_t side_of_whole = 160;  // 0.9 mm apart on a patch of 160 mm
 constexpr double ratio = 0.99;              // the percentile that is an amplitude
 constexpr std::size_t change_places = 1024;
 constexpr double difference = 1e-5;  // m: half the step for the change of the force
-constexpr std::size_t cells_a_mean = 3;
+constexpr std::size_t cells_a_mean = 4;
 constexpr double plainly_explained = 0.03;  // of the mean square, left by a trend that is found before the waves
 constexpr double little = 0.04;             // of the mean square: not worth its own spectrum
 constexpr double curved = 0.02;             // of the mean square without waves, beyond a line
