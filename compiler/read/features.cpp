@@ -30,25 +30,38 @@ glm::dvec2 outward(glm::dvec2 place, glm::dvec2 origin) {
   return far > 0 ? off / far : glm::dvec2(0);
 }
 
+/// Near its point a radial profile has parts without a place: these go on evenly from one neighbour to the next.
+void fill_gaps(std::vector<glm::dvec2>& profile, const std::vector<double>& counts) {
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (!(counts[i] > 0)) continue;
+    for (std::size_t gap = before + 1; gap < i; ++gap) {
+      const double part = static_cast<double>(gap - before) / static_cast<double>(i - before);
+      profile[gap] = (1 - part) * profile[before] + part * profile[i];
+    }
+    before = i;
+  }
+}
+
 /// Fits a profile of so many values along a feature's coordinate, and returns what share of the mean square it
 /// explains.
 double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
                    std::size_t bins) {
   if (places.size() < few_places) bins = std::min(bins, bins_of_means);
+  std::vector<double> at(places.size());
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const glm::dvec2& place : places) {
-    const double at = feature.coordinate(place);
-    low = std::min(low, at), high = std::max(high, at);
-  }
+  for (std::size_t i = 0; i < places.size(); ++i) at[i] = feature.coordinate(places[i]);
+  for (const double each : at) low = std::min(low, each), high = std::max(high, each);
   if (!(high > low)) return 0;
   feature.step = (high - low) / static_cast<double>(bins);
   feature.low = low + 0.5 * feature.step;
   feature.profile.assign(bins, glm::dvec2(0));
   std::vector<double> counts(bins, 0);
+  const double scale = static_cast<double>(bins) / (high - low);
+  const int last = static_cast<int>(bins) - 1;
   double whole = 0, kept = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double share = (feature.coordinate(places[i]) - low) / (high - low) * static_cast<double>(bins);
-    const std::size_t bin = std::min(static_cast<std::size_t>(share), bins - 1);
+    const int bin = std::min(static_cast<int>((at[i] - low) * scale), last);
     whole += glm::dot(forces[i], forces[i]);
     feature.profile[bin] +=
         feature.radial ? glm::dvec2(glm::dot(forces[i], outward(places[i], feature.origin)), 0) : forces[i];
@@ -68,6 +81,7 @@ double fit_profile(Feature& feature, std::span<const glm::dvec2> places, std::sp
     if (counts[i] < few) feature.profile[i] = feature.profile[i - 1];
   for (std::size_t i = bins / 2; i-- > 0;)
     if (counts[i] < few && !feature.radial) feature.profile[i] = feature.profile[i + 1];
+  if (feature.radial) fill_gaps(feature.profile, counts);
   return whole > 0 && count > used ? 1 - (whole - kept) / whole * count / (count - used) : 0;
 }
 
@@ -150,25 +164,17 @@ std::optional<Feature> next_feature(std::span<const glm::dvec2> places, std::spa
   return best;
 }
 
-std::vector<glm::dvec2> without_features(const std::vector<Feature>& features, std::span<const glm::dvec2> places,
-                                         std::span<const glm::dvec2> forces) {
+/// Fits the profiles of all features in turn, and returns what they leave.
+std::vector<glm::dvec2> fit_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
+                                     std::span<const glm::dvec2> forces, std::size_t bins) {
   std::vector<glm::dvec2> rest(forces.begin(), forces.end());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (const Feature& each : features) rest[i] -= each.at(places[i]);
-  return rest;
-}
-
-/// Fits the profiles of all features in turn, and returns the mean square of what they leave.
-double fit_together(std::vector<Feature>& features, std::span<const glm::dvec2> places,
-                    std::span<const glm::dvec2> forces, std::size_t bins) {
-  for (Feature& each : features) each.profile.assign(2, glm::dvec2(0)), each.step = 1;
   for (int turn = 0; turn < (features.size() > 1 ? 2 : 1); ++turn)
     for (Feature& each : features) {
-      std::vector<glm::dvec2> own = without_features(features, places, forces);
-      for (std::size_t i = 0; i < places.size(); ++i) own[i] += each.at(places[i]);
-      fit_profile(each, places, own, bins);
+      if (turn > 0) add_feature(each, 1, places, rest);
+      fit_profile(each, places, rest, bins);
+      add_feature(each, -1, places, rest);
     }
-  return mean_square(without_features(features, places, forces));
+  return rest;
 }
 
 /// Turns the directions of two features to where they explain most together; alone, one leans towards the other.
@@ -180,7 +186,7 @@ double turn_together(std::vector<Feature>& features, std::span<const glm::dvec2>
         if (features[i].radial) continue;
         std::vector<Feature> other = features;
         other[i] = along(std::atan2(other[i].direction.y, other[i].direction.x) + turn);
-        const double here = fit_together(other, places, forces, fine_bins);
+        const double here = mean_square(fit_together(other, places, forces, fine_bins));
         if (here < left) left = here, features = std::move(other);
       }
   return left;
@@ -224,16 +230,17 @@ void place_better(Feature& feature, std::span<const glm::dvec2> places, std::spa
 
 }  // namespace
 
-double Feature::coordinate(glm::dvec2 place) const {
-  return radial ? glm::length(place - origin) : glm::dot(place, direction);
-}
-
 glm::dvec2 Feature::at(glm::dvec2 place) const {
   const double at = std::clamp((coordinate(place) - low) / step, 0.0, static_cast<double>(profile.size() - 1));
-  const auto first = std::min(static_cast<std::size_t>(at), profile.size() - 2);
-  const double part = at - static_cast<double>(first);
+  const int first = std::min(static_cast<int>(at), static_cast<int>(profile.size()) - 2);
+  const double part = at - first;
   const glm::dvec2 force = (1 - part) * profile[first] + part * profile[first + 1];
   return radial ? force.x * outward(place, origin) : force;
+}
+
+void add_feature(const Feature& feature, double times, std::span<const glm::dvec2> places,
+                 std::span<glm::dvec2> forces) {
+  for (std::size_t i = 0; i < places.size(); ++i) forces[i] += times * feature.at(places[i]);
 }
 
 bool Feature::jumps_at(glm::dvec2 place) const {
@@ -252,22 +259,26 @@ glm::dvec2 beside(const std::vector<Feature>& features, glm::dvec2 place, glm::d
   return force;
 }
 
-std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces) {
+std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                                   bool may_turn) {
   const double all = mean_square(forces);
   if (!(all > 0)) return {};
   std::vector<Feature> found;
+  std::vector<glm::dvec2> rest(forces.begin(), forces.end());
   double left = all;
   while (found.size() < most_features && left > exactly * all) {
-    const auto next = next_feature(places, without_features(found, places, forces));
+    const auto next = next_feature(places, rest);
     if (!next) break;
     found.push_back(*next);
-    left = fit_together(found, places, forces, fine_bins);
+    rest = fit_together(found, places, forces, fine_bins);
+    if (!may_turn && turns_of(found.back()) > most_turns) return {};
+    left = mean_square(rest);
     if (found.size() > 1) left = turn_together(found, places, forces, left);
   }
   // A device limits each axis by itself, so what saturates is often the sum of a part along x and one along y.
   if (left > 1e-4 * all) {
     std::vector<Feature> axes = {along(0), along(0.5 * std::numbers::pi)};
-    const double here = fit_together(axes, places, forces, fine_bins);
+    const double here = mean_square(fit_together(axes, places, forces, fine_bins));
     if (here < 0.5 * left) left = here, found = std::move(axes);
   }
   if (left > (1 - nearly_all) * all) return {};
@@ -282,11 +293,11 @@ void refine_features(std::vector<Feature>& features, std::span<const glm::dvec2>
   std::vector<glm::dvec2> some_places, some;
   for (std::size_t i = 0; i < places.size(); i += every) some_places.push_back(places[i]), some.push_back(forces[i]);
   for (int turn = 0; turn < 3; ++turn) {
-    fit_together(features, some_places, some, all_long ? finest_bins / 2 : finest_bins);
+    std::vector<glm::dvec2> rest = fit_together(features, some_places, some, all_long ? finest_bins / 2 : finest_bins);
     for (Feature& each : features) {
-      std::vector<glm::dvec2> own = without_features(features, some_places, some);
-      for (std::size_t i = 0; i < own.size(); ++i) own[i] += each.at(some_places[i]);
-      place_better(each, some_places, own);
+      add_feature(each, 1, some_places, rest);
+      place_better(each, some_places, rest);
+      add_feature(each, -1, some_places, rest);
     }
   }
   fit_together(features, places, forces, finest_bins);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -20,16 +21,24 @@ struct Feature {
   bool monotone = false;
 
   glm::dvec2 at(glm::dvec2 place) const;
-  double coordinate(glm::dvec2 place) const;
+  double coordinate(glm::dvec2 place) const {
+    return radial ? glm::length(place - origin) : glm::dot(place, direction);
+  }
   /// Whether the profile jumps about there, so that what it leaves says nothing.
   bool jumps_at(glm::dvec2 place) const;
 };
 
+/// Adds a feature to the forces at some places, so many times.
+void add_feature(const Feature& feature, double times, std::span<const glm::dvec2> places,
+                 std::span<glm::dvec2> forces);
+
 /// A force at a place without the features; nothing is left where one of them jumps.
 glm::dvec2 beside(const std::vector<Feature>& features, glm::dvec2 place, glm::dvec2 force);
 
-/// The features of some forces: at most two, if together they explain nearly all of them; none otherwise.
-std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces);
+/// The features of some forces: at most two, if together they explain nearly all of them; none otherwise. Unless they
+/// `may_turn`, none is looked for beside one that turns as often as a texture does.
+std::vector<Feature> find_features(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces,
+                                   bool may_turn = true);
 
 /// Fits the profiles of features anew to more forces, and finely, and tells which are monotone. Nothing is left if one
 /// turns as often as a texture does.

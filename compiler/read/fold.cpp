@@ -1,43 +1,73 @@
 #include "compiler/read/fold.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "runtime/machine/arithmetic.hpp"
+
 namespace wale {
 namespace {
 
-/// The sum and number of the forces in each part of a period or of a lattice's cell.
-struct Bins {
-  std::vector<glm::dvec2> sums;
-  std::vector<double> counts;
+/// The part of a period, of `count`, at a number of periods.
+inline std::size_t part_of(double periods, int count) {
+  const auto part = static_cast<int>((periods - std::floor(periods)) * count);
+  return static_cast<std::size_t>(part < count ? part : count - 1);
+}
 
-  explicit Bins(std::size_t count) : sums(count, glm::dvec2(0)), counts(count, 0) {}
-  void add(std::size_t bin, glm::dvec2 force) { sums[bin] += force, counts[bin] += 1; }
+/// The forces in each part of a period or of a lattice's cell.
+class Bins {
+ public:
+  explicit Bins(std::size_t count) : bins_(count) {}
+
+  void add(std::size_t bin, glm::dvec2 force) {
+    bins_[bin].sum += force, bins_[bin].count += 1;
+    sum_ += force, whole_ += glm::dot(force, force), count_ += 1;
+  }
+  glm::dvec2 mean() const { return count_ > 0 ? sum_ / count_ : glm::dvec2(0); }
+  /// The mean force of a part; that of all forces in a part that has none.
+  glm::dvec2 mean(std::size_t bin) const { return bins_[bin].count > 0 ? bins_[bin].sum / bins_[bin].count : mean(); }
 
   /// The share explained, less what the bins explain of noise.
-  double explained(std::span<const glm::dvec2> forces) const {
-    glm::dvec2 sum{0};
-    double whole = 0, kept = 0, used = 0;
-    for (const glm::dvec2& force : forces) sum += force, whole += glm::dot(force, force);
-    const auto count = static_cast<double>(forces.size());
-    const double of_mean = glm::dot(sum, sum) / count;
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      if (counts[i] > 0) kept += glm::dot(sums[i], sums[i]) / counts[i], used += 1;
-    whole -= of_mean, kept -= of_mean;
-    if (!(whole > 0) || used + 1 >= count) return 0;
-    return 1 - (whole - kept) / (count - used) / (whole / (count - 1));
+  double explained() const {
+    double kept = 0, used = 0;
+    for (const Bin& bin : bins_)
+      if (bin.count > 0) kept += glm::dot(bin.sum, bin.sum) / bin.count, used += 1;
+    const double of_mean = count_ > 0 ? glm::dot(sum_, sum_) / count_ : 0, whole = whole_ - of_mean;
+    if (!(whole > 0) || used + 1 >= count_) return 0;
+    return 1 - (whole_ - kept) / (count_ - used) / (whole / (count_ - 1));
   }
+
+ private:
+  struct Bin {
+    glm::dvec2 sum{0};
+    double count = 0;
+  };
+  std::vector<Bin> bins_;
+  glm::dvec2 sum_{0};
+  double whole_ = 0, count_ = 0;
 };
 
-/// The part of a period, of `count`, at a number of periods.
-std::size_t part_of(double periods, std::size_t count) {
-  const double share = periods - std::floor(periods);
-  return std::min(static_cast<std::size_t>(share * static_cast<double>(count)), count - 1);
+Bins bins_of(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
+             std::size_t count) {
+  Bins bins(count);
+  const auto parts = static_cast<int>(count);
+  for (std::size_t i = 0; i < places.size(); ++i) bins.add(part_of(glm::dot(waves, places[i]), parts), forces[i]);
+  return bins;
 }
+
+/// The cosines and minus the sines of some phases, in periods; 2e-7 of 1 are lost.
+void turn_back(std::span<const double> periods, std::span<float> cosines, std::span<float> sines) {
+  for (std::size_t i = 0; i < periods.size(); ++i) {
+    const auto angle = static_cast<float>(2 * std::numbers::pi * (periods[i] - std::floor(periods[i])));
+    cosines[i] = cosine_of(angle), sines[i] = -sine_of(angle);
+  }
+}
+constexpr std::size_t at_once = 256;  // phases
 
 }  // namespace
 
@@ -45,54 +75,55 @@ double FoldedWave::period() const { return 1 / glm::length(waves); }
 
 glm::dvec2 FoldedWave::at(glm::dvec2 place) const {
   const double periods = glm::dot(waves, place);
-  const double at = (periods - std::floor(periods)) * static_cast<double>(profile.size()) - 0.5;
-  const double low = std::floor(at), part = at - low;
-  const auto count = static_cast<std::ptrdiff_t>(profile.size());
-  const auto first = static_cast<std::size_t>((static_cast<std::ptrdiff_t>(low) + count) % count);
-  return (1 - part) * profile[first] + part * profile[(first + 1) % profile.size()];
+  const auto count = static_cast<int>(profile.size());
+  const double at = (periods - std::floor(periods)) * count + 0.5;  // after the middle of the last part
+  const auto next = static_cast<int>(at);
+  const double part = at - next;
+  const glm::dvec2 &before = profile[next > 0 ? next - 1 : count - 1], &after = profile[next < count ? next : 0];
+  return (1 - part) * before + part * after;
 }
 
 double explained_by(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
                     std::size_t count) {
-  Bins bins(count);
-  for (std::size_t i = 0; i < places.size(); ++i) bins.add(part_of(glm::dot(waves, places[i]), count), forces[i]);
-  return bins.explained(forces);
+  return bins_of(places, forces, waves, count).explained();
 }
 
 FoldedWave folded(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
                   std::size_t count) {
-  Bins bins(count);
-  glm::dvec2 mean{0};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    bins.add(part_of(glm::dot(waves, places[i]), count), forces[i]);
-    mean += forces[i] / static_cast<double>(places.size());
-  }
-  FoldedWave wave{waves, std::vector<glm::dvec2>(count), mean, bins.explained(forces)};
-  for (std::size_t i = 0; i < count; ++i)
-    wave.profile[i] = bins.counts[i] > 0 ? bins.sums[i] / bins.counts[i] - mean : glm::dvec2(0);
+  const Bins bins = bins_of(places, forces, waves, count);
+  FoldedWave wave{waves, std::vector<glm::dvec2>(count), bins.mean(), bins.explained()};
+  for (std::size_t i = 0; i < count; ++i) wave.profile[i] = bins.mean(i) - wave.mean;
   return wave;
 }
 
 glm::dvec2 in_phase(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 centre,
                     glm::dvec2 size, glm::dvec2 waves) {
   using Complex = std::complex<double>;
+  std::array<double, at_once> periods;
+  std::array<float, at_once> cosines, sines;
+  const glm::dvec2 scale = 1.0 / size;
   for (int turn = 0; turn < 2; ++turn) {
-    Complex sums[2][2][2] = {};  // by half along x and y, and by component
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const glm::dvec2 share = (places[i] - centre) / size + 0.5;  // 0 .. 1
-      // A window in each quarter, nearly Hann's, keeps the ends of incomplete periods out.
-      const glm::dvec2 half = 2.0 * share - glm::floor(2.0 * share), window = 4.0 * half * (1.0 - half);
-      const double periods = glm::dot(waves, places[i] - centre);
-      const Complex turned = std::polar(window.x * window.x * window.y * window.y,
-                                        -2 * std::numbers::pi * (periods - std::floor(periods)));
-      Complex(&quarter)[2] = sums[share.x < 0.5 ? 0 : 1][share.y < 0.5 ? 0 : 1];
-      quarter[0] += forces[i].x * turned, quarter[1] += forces[i].y * turned;
+    glm::dvec2 real[4] = {}, imaginary[4] = {};  // by quarter: half along y, and twice half along x
+    for (std::size_t first = 0; first < places.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, places.size() - first);
+      for (std::size_t i = 0; i < count; ++i) periods[i] = glm::dot(waves, places[first + i] - centre);
+      turn_back(std::span(periods).first(count), cosines, sines);
+      for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 twice = 2.0 * ((places[first + i] - centre) * scale + 0.5);  // 0 .. 2
+        const glm::dvec2 far(twice.x < 1 ? 0 : 1, twice.y < 1 ? 0 : 1), half = twice - far;
+        // A window in each quarter, nearly Hann's, keeps the ends of incomplete periods out.
+        const glm::dvec2 window = 4.0 * half * (1.0 - half);
+        const glm::dvec2 force = window.x * window.x * window.y * window.y * forces[first + i];
+        const auto quarter = static_cast<std::size_t>(2 * far.x + far.y);
+        real[quarter] += double{cosines[i]} * force, imaginary[quarter] += double{sines[i]} * force;
+      }
     }
     Complex along_x = 0, along_y = 0;
+    const auto sum = [&](int x, int y, int part) { return Complex(real[2 * x + y][part], imaginary[2 * x + y][part]); };
     for (int half : {0, 1})
       for (int part : {0, 1}) {
-        along_x += sums[1][half][part] * std::conj(sums[0][half][part]);
-        along_y += sums[half][1][part] * std::conj(sums[half][0][part]);
+        along_x += sum(1, half, part) * std::conj(sum(0, half, part));
+        along_y += sum(half, 1, part) * std::conj(sum(half, 0, part));
       }
     waves += glm::dvec2(std::arg(along_x), std::arg(along_y)) / (2 * std::numbers::pi) / (0.5 * size);
   }
@@ -102,6 +133,7 @@ glm::dvec2 in_phase(std::span<const glm::dvec2> places, std::span<const glm::dve
 glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 waves,
                           std::size_t bins) {
   const FoldedWave wave = folded(places, forces, waves, bins);
+  const auto parts = static_cast<int>(bins);
   std::vector<glm::dvec2> slope(bins);  // N per period
   for (std::size_t i = 0; i < bins; ++i)
     slope[i] = 0.5 * static_cast<double>(bins) * (wave.profile[(i + 1) % bins] - wave.profile[(i + bins - 1) % bins]);
@@ -109,13 +141,12 @@ glm::dvec2 better_fitting(std::span<const glm::dvec2> places, std::span<const gl
   double weights = 0, sum = 0, xx = 0, xy = 0, yy = 0;
   glm::dvec2 middle{0}, sums{0};
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::size_t bin = part_of(glm::dot(waves, places[i]), bins);
-    const double weight = glm::dot(slope[bin], slope[bin]);
-    const double off = glm::dot(slope[bin], forces[i] - wave.mean - wave.at(places[i]));
-    weights += weight, middle += weight * places[i];
-    sum += off, sums += off * places[i];
-    xx += weight * places[i].x * places[i].x, xy += weight * places[i].x * places[i].y;
-    yy += weight * places[i].y * places[i].y;
+    const glm::dvec2 place = places[i], steep = slope[part_of(glm::dot(waves, place), parts)];
+    const double weight = glm::dot(steep, steep), off = glm::dot(steep, forces[i] - wave.mean - wave.at(place));
+    const glm::dvec2 weighted = weight * place;
+    weights += weight, middle += weighted;
+    sum += off, sums += off * place;
+    xx += weighted.x * place.x, xy += weighted.x * place.y, yy += weighted.y * place.y;
   }
   if (!(weights > 0)) return waves;
   middle /= weights;
@@ -130,16 +161,21 @@ LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const gl
   constexpr std::size_t harmonics = 4;
   constexpr double metre = 0.05;  // so that all columns are about 1
   const std::size_t columns = 3 + 2 * harmonics * waves.size();
-  // The normal equations, with two right sides; every third place is enough.
+  // The normal equations, with two right sides.
   std::vector<double> row(columns), matrix(columns * columns, 0.0);
   std::vector<glm::dvec2> right(columns, glm::dvec2(0));
-  for (std::size_t i = 0; i < places.size(); i += 3) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     row[0] = 1, row[1] = places[i].x / metre, row[2] = places[i].y / metre;
     for (std::size_t wave = 0, at = 3; wave < waves.size(); ++wave) {
-      const auto once = std::polar(1.0, 2 * std::numbers::pi * glm::dot(waves[wave], places[i]));
-      auto turned = once;
-      for (std::size_t harmonic = 0; harmonic < harmonics; ++harmonic, turned *= once)
-        row[at++] = turned.real(), row[at++] = turned.imag();
+      const double periods = glm::dot(waves[wave], places[i]);
+      const auto angle = static_cast<float>(2 * std::numbers::pi * (periods - std::floor(periods)));
+      const double cosine = cosine_of(angle), sine = sine_of(angle);
+      double real = cosine, imaginary = sine;
+      for (std::size_t harmonic = 0; harmonic < harmonics; ++harmonic) {
+        row[at++] = real, row[at++] = imaginary;
+        const double turned = real * cosine - imaginary * sine;
+        imaginary = real * sine + imaginary * cosine, real = turned;
+      }
     }
     for (std::size_t a = 0; a < columns; ++a) {
       right[a] += row[a] * forces[i];
@@ -168,9 +204,10 @@ LinearForce linear_beside(std::span<const glm::dvec2> places, std::span<const gl
 double explained_by_lattice(std::span<const glm::dvec2> places, std::span<const glm::dvec2> forces, glm::dvec2 one,
                             glm::dvec2 other, std::size_t count) {
   Bins bins(count * count);
+  const auto parts = static_cast<int>(count);
   for (std::size_t i = 0; i < places.size(); ++i)
-    bins.add(part_of(glm::dot(one, places[i]), count) * count + part_of(glm::dot(other, places[i]), count), forces[i]);
-  return bins.explained(forces);
+    bins.add(part_of(glm::dot(one, places[i]), parts) * count + part_of(glm::dot(other, places[i]), parts), forces[i]);
+  return bins.explained();
 }
 
 }  // namespace wale

@@ -263,7 +263,7 @@ OpposingForce fitted(const FrictionLaw& law, double whole, const std::vector<Str
   } else {
     found.damping = vf / vv;
   }
-  found.breakaway = law.rises ? whole : 0;
+  found.saturation_speed = law.rises ? whole : 0;
   double squares = 0;
   for (std::size_t i = 0; i < strokes.size(); ++i) {
     const double v = strokes[i].speed, off = opposed[i] - found.friction * share(v) - found.damping * v;

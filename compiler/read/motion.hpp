@@ -6,10 +6,11 @@ namespace wale {
 
 /// The resistance to a moving hand, without forces that depend on position or time only.
 struct OpposingForce {
-  double friction = 0;   ///< N: at any speed above `breakaway`; negative if the force pushes the hand on
-  double breakaway = 0;  ///< m/s: the speed at which the friction is fully there; 0 if it is at any that was tried
-  double damping = 0;    ///< N s/m: in proportion to the speed
-  double scatter = 0;    ///< N: standard deviation of the strokes from these laws
+  /// N: of a hand that slides, at any speed above `saturation_speed`; negative if the force pushes the hand on
+  double friction = 0;
+  double saturation_speed = 0;  ///< m/s: at which the friction is fully there; 0 if it is at any that was tried
+  double damping = 0;           ///< N s/m: in proportion to the speed
+  double scatter = 0;           ///< N: standard deviation of the strokes from these laws
 };
 
 /// Strokes with hands to and fro at several speeds, along both axes and through several positions. Each goes over the

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/measure/coarseness.hpp"
+#include "compiler/read/breakaway.hpp"
 #include "compiler/read/dependence.hpp"
 #include "compiler/read/tolerances.hpp"
 #include "runtime/machine/parallel.hpp"
@@ -55,6 +56,7 @@ ForceReading read(const Bank& bank, const Declarations&) {
   const auto read_still = [&] { found.still = static_force(bank); };
   const auto read_moving = [&] {
     found.opposing = opposing_force(bank);
+    found.breakaway = breakaway_of(bank, found.opposing.friction);
     found.inertia = inertia(bank);
     tell_swings(bank, found.sway, found.vibration);
   };

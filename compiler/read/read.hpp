@@ -18,8 +18,9 @@ struct ForceReading {
   double stiffness = 0;
   std::optional<WallFace> wall;
   OpposingForce opposing;
-  double inertia = 0;  ///< kg
-  Swing sway;          ///< slower than 10 Hz
+  double breakaway = 0;  ///< N: what makes a resting hand slide, if it is more than the friction of a sliding one
+  double inertia = 0;    ///< kg
+  Swing sway;            ///< slower than 10 Hz
   Swing vibration;
 
   const Relief& relief() const { return still.relief; }

@@ -149,7 +149,7 @@ class ReliefReader {
     if (mean_square(bent) < 0.5 * mean_square(beyond)) return;
     places.clear();
     add_means(whole_.forces, places, means);
-    std::vector<Feature> features = find_features(places, means);
+    std::vector<Feature> features = find_features(places, means, false);
     if (features.empty()) return;
     double left = 0, all = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {

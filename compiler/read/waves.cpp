@@ -9,45 +9,33 @@
 #include <numeric>
 #include <utility>
 
+#include "compiler/read/fundamental.hpp"
 #include "compiler/read/window_spectrum.hpp"
 
 namespace wale {
 namespace {
 
-constexpr std::size_t most_waves_found = 3;
 constexpr std::array<double, 3> closer = {4, 16, 96};  // windows are so many times smaller than the patch
 constexpr std::size_t closer_side = 128;
 constexpr std::size_t candidates = 5;
-constexpr std::size_t parts_of_a_wave = 32;       // of the shortest wave that a fold should show
-constexpr std::size_t most_multiples = 40;        // of a peak's period, for its fundamental
-constexpr std::size_t few_multiples = 12;         // after which ...
-constexpr double hopeless = 0.12;                 // ... so little explained means that there is no wave
-constexpr double hardly_less = 0.015;             // of the mean square: as well explained
-constexpr double out_of_place = 0.25;             // periods over the window
-constexpr double wholly = 0.985;                  // explained: no longer period can be better
+constexpr std::size_t places_a_part = 48;         // of a period, to move a wave by
 constexpr double least_explained = 0.3;           // of what is left, by a wave ...
 constexpr double least_explained_by_few = 0.7;    // ... and by one with few periods
 constexpr double least_explained_by_many = 0.12;  // ... and by one with many
 constexpr double few_periods = 6, many_periods = 25;
 constexpr double slow_periods = 12;  // over the patch
 constexpr double least_explained_locally = 0.5;
-constexpr double coherent = 0.7;      // of the share in a small window, also in the whole
-constexpr double negligible = 0.004;  // of the whole mean square
-constexpr std::size_t small_common_multiple = 5;
-constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
-constexpr double weak_part = 0.004;
-constexpr double slowest_lattice = 4;  // periods over the patch
-constexpr double too_fine = 0.97;      // of the mean square: nothing is left to search in this window
+constexpr double plainly_there = 0.95;  // explained in a small window
+constexpr double same_period = 0.03;    // relative difference
+constexpr double coherent = 0.7;        // of the share in a small window, also in the whole
+constexpr double negligible = 0.004;    // of the whole mean square
+constexpr double slowest_lattice = 4;   // periods over the patch
+constexpr double too_fine = 0.97;       // of the mean square: nothing is left to search in this window
 constexpr std::size_t lattice_parts = 20;
 constexpr std::size_t finer_lattice_parts = 40;
+constexpr std::size_t lattice_places = 9000;
 constexpr double least_lattice = 0.6;
 constexpr double least_turn = 0.2;  // rad between two directions
-
-/// The longest line in a direction across a window.
-double length_along(glm::dvec2 size, glm::dvec2 direction) {
-  const glm::dvec2 way = glm::abs(glm::normalize(direction));
-  return std::min(way.x > 0 ? size.x / way.x : HUGE_VAL, way.y > 0 ? size.y / way.y : HUGE_VAL);
-}
 
 /// Every fourth place or so, chosen as if by chance: a regular choice would alias.
 StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::dvec2>& forces, std::size_t about) {
@@ -55,14 +43,10 @@ StillForces thinned_by_chance(const StillForces& window, const std::vector<glm::
   std::uint64_t random = 88172645463325252u;  // Marsaglia's xorshift
   for (std::size_t i = 0; i < forces.size(); ++i) {
     random ^= random << 13, random ^= random >> 7, random ^= random << 17;
-    if (random % forces.size() >= about) continue;
+    if ((random >> 32) * forces.size() >> 32 >= about) continue;
     thin.places.push_back(window.places[i]), thin.forces.push_back(forces[i]);
   }
   return thin;
-}
-
-std::size_t most_bins(std::size_t wanted, std::size_t places) {
-  return std::clamp<std::size_t>(wanted, 16, places / 5);
 }
 
 /// Moves waves so slow that quarters of the window hold too little of them to where they explain most.
@@ -80,90 +64,6 @@ glm::dvec2 best_explained(const StillForces& thin, glm::dvec2 waves) {
     if (!moved) step *= 0.5;
   }
   return waves;
-}
-
-/// The mean squares of a profile's harmonics, from the first on, as shares of all.
-std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most) {
-  std::vector<double> powers(most);
-  const auto count = static_cast<double>(wave.profile.size());
-  double all = 0;
-  for (const glm::dvec2& force : wave.profile) all += glm::dot(force, force) / count;
-  for (std::size_t harmonic = 1; harmonic <= most; ++harmonic) {
-    std::complex<double> x = 0, y = 0;
-    for (std::size_t i = 0; i < wave.profile.size(); ++i) {
-      const auto turned = std::polar(1 / count, -2 * std::numbers::pi * static_cast<double>(harmonic * i) / count);
-      x += wave.profile[i].x * turned, y += wave.profile[i].y * turned;
-    }
-    powers[harmonic - 1] = all > 0 ? 2 * (std::norm(x) + std::norm(y)) / all : 0;
-  }
-  return powers;
-}
-
-/// A wave in a window: what `multiple` times the period of a peak explains.
-struct Fundamental {
-  glm::dvec2 waves{0};
-  std::size_t multiple = 1;
-  double explained = 0;
-  std::vector<std::size_t> parts{1};
-};
-
-/// The fundamental of the wave whose strongest harmonic is at a peak: the shortest multiple of its period that explains
-/// nearly as much as any.
-Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside = true) {
-  const double period = 1 / glm::length(peak), length = length_along(thin.size, peak);
-  const auto explained = [&](std::size_t multiple) {
-    return explained_by(thin.places, thin.forces, peak / static_cast<double>(multiple),
-                        most_bins(parts_of_a_wave * multiple, thin.places.size()));
-  };
-  Fundamental found{peak, 1, explained(1), {1}};
-  if (found.explained >= wholly) return found;
-  const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
-  std::vector<double> all{found.explained};
-  for (std::size_t multiple = 2; multiple <= most; ++multiple) {
-    all.push_back(explained(multiple));
-    if (multiple == few_multiples && std::ranges::max(all) < hopeless) break;
-  }
-  const double best = std::ranges::max(all);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i] >= best - hardly_less) {
-      found = {peak / static_cast<double>(i + 1), i + 1, all[i], {1}};
-      break;
-    }
-  if (found.multiple == 1) return found;
-  // A few waves whose common multiple is long repeat only by chance.
-  const FoldedWave wave =
-      folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
-  const std::vector<double> powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
-  // A peak may lie beside the wave, at an even part of a multiple: then only every so many-th harmonic is there.
-  std::size_t step = 0;
-  for (std::size_t i = 0; i < powers.size(); ++i)
-    if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
-  if (step > 1 && may_lie_beside) {
-    glm::dvec2 finer = static_cast<double>(step) * found.waves;
-    for (int turn = 0; turn < 3; ++turn) finer = better_fitting(thin.places, thin.forces, finer, parts_of_a_wave);
-    return fundamental_of(thin, finer, false);
-  }
-  // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
-  std::vector<std::size_t> strong, own;
-  double in_strong = 0;
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    if (powers[i] < strong_part) continue;
-    in_strong += powers[i];
-    strong.push_back(i + 1);
-    if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
-  }
-  if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
-    const bool sines = strong.size() == own.size();
-    // Waves that do not quite fit a common multiple are elsewhere when looked for by themselves.
-    const bool elsewhere = sines && std::ranges::any_of(own, [&](std::size_t part) {
-                             const glm::dvec2 waves = static_cast<double>(part) * found.waves;
-                             const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
-                             return glm::length((there - waves) * thin.size) > out_of_place;
-                           });
-    if (own.back() > small_common_multiple || elsewhere) return {peak, 1, all.front(), {1}};
-    if (sines) found.parts = own;
-  }
-  return found;
 }
 
 /// Searches the waves of one program.
@@ -249,10 +149,12 @@ class WaveSearch {
       const double least = level > 0 || held > many_periods ? least_explained_by_many
                            : held < few_periods             ? least_explained_by_few
                                                             : least_explained;
-      if (held < (level > 0 ? 4 : 1.9) || fundamental.explained < least) continue;
+      // A window that is hardly longer than a wave shows one all the same, if nothing else is there.
+      const double fewest = level == 0 ? 1.9 : fundamental.explained < plainly_there ? 4 : 2.9;
+      if (held < fewest || fundamental.explained < least) continue;
       if (level == 0) return take_off(fundamental.waves, fundamental);
       const auto wider = widened(window, fundamental);
-      if (wider) return take_off(*wider, fundamental);
+      if (wider) return take_off_wider(*wider, fundamental);
       if (fundamental.explained < least_explained_locally || !found_.waves.empty() ||
           !holds_where_it_is(window, fundamental))
         continue;
@@ -298,32 +200,37 @@ class WaveSearch {
       const std::vector<glm::dvec2> forces = rest_at(beside.places, beside.forces);
       if (mean_square(forces) < 0.3 * here) continue;
       strong += 1;
+      // The strongest harmonic tells whether the period has changed.
+      const auto multiple = static_cast<double>(fundamental.multiple);
+      const glm::dvec2 waves =
+          in_phase(beside.places, forces, centre, window.size, multiple * fundamental.waves) / multiple;
+      const double stretched = glm::length(waves) / glm::length(fundamental.waves);
       held +=
-          explained_by(beside.places, forces, fundamental.waves,
+          std::abs(stretched - 1) < same_period &&
+          explained_by(beside.places, forces, waves,
                        most_bins(parts_of_a_wave * fundamental.multiple / 2, forces.size())) >= least_explained_locally;
     }
     return 4 * held >= 3 * strong;
+  }
+
+  /// Takes off a wave that was found in a small window. If it leaves much, it may be a part of a longer one, of which
+  /// the window holds too few periods.
+  bool take_off_wider(glm::dvec2 waves, const Fundamental& fundamental) {
+    if (fundamental.explained >= plainly_there) return take_off(waves, fundamental);
+    const StillForces thin = thinned_by_chance(whole_, found_.rest, 5000);
+    Fundamental longer = fundamental_of(thin, waves);
+    const bool better = longer.multiple > 1 && longer.explained >= plainly_there;
+    if (!better) return take_off(waves, fundamental);
+    longer.multiple *= fundamental.multiple;
+    return take_off(longer.waves, longer);
   }
 
   bool take_off(glm::dvec2 waves, const Fundamental& fundamental) {
     const std::size_t bins = most_bins(2 * parts_of_a_wave * fundamental.multiple, whole_.places.size() / 4);
     FoldedWave wave = folded(whole_.places, found_.rest, waves, std::max<std::size_t>(bins, 192));
     if (wave.explained < 0.02) return false;
-    add_to_rest(wave, -1);
     found_.waves.push_back({std::move(wave), 0, fundamental.parts});
-    const bool slow = is_slow(waves);
-    for (int turn = 0; turn < (slow ? 4 : 3); ++turn) {
-      fit_trend();
-      for (FoundWave& each : found_.waves) {
-        add_to_rest(each.wave, 1);
-        const std::size_t bins = each.wave.profile.size();
-        const auto [places, forces] = some_of_rest();
-        each.wave = folded(whole_.places, found_.rest, better_fitting(places, forces, each.wave.waves, bins / 4), bins);
-        add_to_rest(each.wave, -1);
-      }
-      const double left = mean_square(found_.rest);
-      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
-    }
+    fit_together(is_slow(waves));
     // Over the whole patch the harmonics are clean: if only every so many-th is there, the wave is that much shorter.
     FoundWave& last = found_.waves.back();
     const std::vector<double> powers = harmonics_of(last.wave, std::min<std::size_t>(60, last.wave.profile.size() / 3));
@@ -336,39 +243,69 @@ class WaveSearch {
                          std::max<std::size_t>(last.wave.profile.size() / step, 64));
       add_to_rest(last.wave, -1);
     }
-    fit_trend();
+    StillForces some = every(3);
+    some.forces = rest_at(some.places, some.forces);
+    fit_trend(some);
+    update_rest();
     for (FoundWave& each : found_.waves) each.power = mean_square(each.wave.profile);
     return true;
   }
 
+  /// Fits the trend and all waves, the last of which is new, in turn: first at some places, then once at all.
+  void fit_together(bool slow) {
+    const int turns = slow ? 4 : 3;
+    std::size_t most = 0;
+    for (const FoundWave& each : found_.waves) most = std::max(most, each.wave.profile.size());
+    StillForces some = every(std::max<std::size_t>(1, whole_.places.size() / (places_a_part * most)));
+    some.forces = rest_at(some.places, some.forces);
+    for (int turn = 0; turn < turns; ++turn) {
+      fit_trend(some);
+      for (FoundWave& each : found_.waves) {
+        const std::size_t bins = each.wave.profile.size();
+        add_wave(each.wave, 1, some);
+        const glm::dvec2 waves = better_fitting(some.places, some.forces, each.wave.waves, bins / 4);
+        each.wave = folded(some.places, some.forces, waves, bins);
+        add_wave(each.wave, -1, some);
+      }
+      const double left = mean_square(some.forces);
+      if (left < 1e-5 * all_ || (turn > 0 && !slow && left < negligible * all_)) break;
+    }
+    update_rest();
+    for (FoundWave& each : found_.waves) {
+      add_to_rest(each.wave, 1);
+      each.wave = folded(whole_.places, found_.rest, each.wave.waves, each.wave.profile.size());
+      add_to_rest(each.wave, -1);
+    }
+  }
+
+  static void add_wave(const FoldedWave& wave, double times, StillForces& still) {
+    for (std::size_t i = 0; i < still.places.size(); ++i) still.forces[i] += times * wave.at(still.places[i]);
+  }
   void add_to_rest(const FoldedWave& wave, double times) {
     for (std::size_t i = 0; i < whole_.places.size(); ++i) found_.rest[i] += times * wave.at(whole_.places[i]);
   }
-  /// Every third place and the rest there: enough to move a wave by.
-  std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some_of_rest() const {
-    std::pair<std::vector<glm::dvec2>, std::vector<glm::dvec2>> some;
-    for (std::size_t i = 0; i < whole_.places.size(); i += 3)
-      some.first.push_back(whole_.places[i]), some.second.push_back(found_.rest[i]);
+  /// Every so-many-th place of the whole. They lie anywhere in their cells, so that no choice among them aliases.
+  StillForces every(std::size_t step) const {
+    StillForces some{whole_.side, whole_.centre, whole_.size, {}, {}};
+    for (std::size_t i = 0; i < whole_.places.size(); i += step)
+      some.places.push_back(whole_.places[i]), some.forces.push_back(whole_.forces[i]);
     return some;
   }
 
   /// The linear part of what the waves leave. Slow waves are fitted with it: a few periods look a little like a slope.
-  void fit_trend() {
-    std::vector<glm::dvec2> slow;
-    for (const FoundWave& each : found_.waves)
-      if (is_slow(each.wave.waves)) slow.push_back(each.wave.waves);
-    std::vector<glm::dvec2> forces = found_.rest;
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      forces[i] += found_.trend.at(whole_.places[i]);
-      if (slow.empty()) continue;
-      for (const FoundWave& each : found_.waves)
-        if (is_slow(each.wave.waves)) forces[i] += each.wave.at(whole_.places[i]);
+  void fit_trend(StillForces& rest) {
+    std::vector<glm::dvec2> slow, forces = rest.forces;
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += found_.trend.at(rest.places[i]);
+    for (const FoundWave& each : found_.waves) {
+      if (!is_slow(each.wave.waves)) continue;
+      slow.push_back(each.wave.waves);
+      for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += each.wave.at(rest.places[i]);
     }
     const LinearForce before = found_.trend;
-    found_.trend = slow.empty() ? linear_force(whole_.places, forces) : linear_beside(whole_.places, forces, slow);
+    found_.trend = slow.empty() ? linear_force(rest.places, forces) : linear_beside(rest.places, forces, slow);
     const LinearForce more{before.mean - found_.trend.mean, before.by_x - found_.trend.by_x,
                            before.by_y - found_.trend.by_y};
-    for (std::size_t i = 0; i < forces.size(); ++i) found_.rest[i] += more.at(whole_.places[i]);
+    for (std::size_t i = 0; i < forces.size(); ++i) rest.forces[i] += more.at(rest.places[i]);
   }
   bool is_slow(glm::dvec2 waves) const { return glm::length(waves * whole_.size) < slow_periods; }
 
@@ -385,7 +322,7 @@ class WaveSearch {
     if (mean_square(found_.rest) < 0.1 * all_) return false;
     std::vector<glm::dvec2> peaks;
     for (const FoundWave& each : found_.waves) peaks.push_back(each.wave.waves);
-    const StillForces left = thinned_by_chance(whole_, rest_at(whole_.places, whole_.forces), 9000);
+    const StillForces left = thinned_by_chance(whole_, rest_at(whole_.places, whole_.forces), lattice_places);
     if (peaks.size() < 2)
       for (const glm::dvec2 peak : spectrum.peaks(6, 5))
         peaks.push_back(in_phase(left.places, left.forces, whole_.centre, whole_.size, peak));

@@ -32,7 +32,7 @@ std::vector<float> hann_window(std::size_t count) {
 }
 
 WindowSpectrum::WindowSpectrum(const StillForces& window, std::span<const glm::dvec2> forces)
-    : side_(window.side), size_(window.size), shares_(side_ * side_) {
+    : side_(window.side), size_(window.size), shares_(side_ * (side_ / 2 + 1)) {
   finest_ = cells_a_period * std::max(window.cell().x, window.cell().y);
   const LinearForce trend = linear_force(window.places, forces);
   Spectrum values(side_ * side_);
@@ -61,22 +61,23 @@ WindowSpectrum::WindowSpectrum(const StillForces& window, std::span<const glm::d
       const double power =
           (std::norm(spectrum[at]) + std::norm(spectrum[mirror])) / (whole * count) * (at == mirror ? 0.5 : 1);
       const glm::dvec2 periods = wavy(column, row);
-      if (glm::length(periods) > fine) corners.push_back(power);
+      if (glm::dot(periods, periods) > fine * fine) corners.push_back(power);
       if ((row == 0 || 2 * row == side_) && 2 * column > side_) continue;  // the image of one that was visited
       shares_[at] = power;
     }
   const auto middle = corners.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
   std::ranges::nth_element(corners, middle);
   const double noise = *middle / 0.84;
+  std::vector<double> left(side_);  // of an amplitude, along one axis
+  for (std::size_t i = 0; i < side_; ++i) left[i] = left_by_chance(periods_over(side_, i) / static_cast<double>(side_));
   double resolved = 0;
   for (std::size_t row = 0; row <= side_ / 2; ++row)
     for (std::size_t column = 0; column < side_; ++column) {
       double& share = shares_[row * side_ + column];
-      const glm::dvec2 periods = wavy(column, row);
-      const double left = left_by_chance(periods.x / static_cast<double>(side_)) *
-                          left_by_chance(periods.y / static_cast<double>(side_));
-      const bool seen = glm::length(periods / size_) * finest_ <= 1;
-      share = seen ? std::max(0.0, share - noise) / (left * left) : 0;
+      const glm::dvec2 waves = wavy(column, row) / size_;
+      const double both = left[row] * left[column];
+      const bool seen = glm::dot(waves, waves) * finest_ * finest_ <= 1;
+      share = seen ? std::max(0.0, share - noise) / (both * both) : 0;
       resolved += share;
     }
   // Chance leaves as much above the noise as below it; only the sum is without that.
@@ -89,7 +90,8 @@ std::vector<glm::dvec2> WindowSpectrum::peaks(std::size_t most, double fewest_pe
   std::vector<double> left = shares_;
   std::vector<glm::dvec2> found;
   const auto side = static_cast<std::ptrdiff_t>(side_);
-  for (std::size_t row = 0; row <= side_ / 2; ++row)
+  const auto slow = std::min(side_ / 2, static_cast<std::size_t>(fewest_periods) + 1);
+  for (std::size_t row = 0; row <= slow; ++row)
     for (std::size_t column = 0; column < side_; ++column)
       if (glm::length(glm::dvec2(periods_over(side_, column), periods_over(side_, row))) < fewest_periods)
         left[row * side_ + column] = 0;

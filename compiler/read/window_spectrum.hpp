@@ -28,7 +28,7 @@ class WindowSpectrum {
  private:
   std::size_t side_;
   glm::dvec2 size_;
-  std::vector<double> shares_;  // of the mean square, row by row; the mirror image of each is 0
+  std::vector<double> shares_;  // of the mean square, row by row up to half of the rows: the others mirror them
   double finer_ = 0, finest_ = 0;
 };
 

@@ -350,7 +350,7 @@ TEST(Reading, FrictionOnASlopeThatStartsAtRestIsNoViscosity) {
         pushing("force = coulomb(" + std::to_string(newton) + " N, rise: 8 N s/m)", "import std.friction"));
     EXPECT_NEAR(found.friction, newton, 0.03 * newton);
     EXPECT_EQ(found.damping, 0);
-    EXPECT_NEAR(found.breakaway, newton / 8, 0.05 * newton / 8);
+    EXPECT_NEAR(found.saturation_speed, newton / 8, 0.05 * newton / 8);
   }
 }
 

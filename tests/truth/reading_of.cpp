@@ -27,6 +27,7 @@ constexpr std::pair<Cue, CueKind> words[] = {
     {Cue::wall_stiffness, CueKind::wall_stiffness},
     {Cue::viscosity, CueKind::viscosity},
     {Cue::friction, CueKind::friction},
+    {Cue::breakaway, CueKind::breakaway},
     {Cue::mass, CueKind::mass},
     {Cue::vibration, CueKind::vibration},
     {Cue::vibration_rate, CueKind::vibration_frequency},

@@ -1,0 +1,110 @@
+#include "compiler/read/fundamental.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+namespace wale {
+namespace {
+
+constexpr std::size_t most_multiples = 40;  // of a peak's period, for its fundamental
+constexpr std::size_t few_multiples = 12;   // after which ...
+constexpr double hopeless = 0.12;           // ... so little explained means that there is no wave
+constexpr double hardly_less = 0.015;       // of the mean square: as well explained
+constexpr double out_of_place = 0.25;       // periods over the window
+constexpr double wholly = 0.985;            // explained: no longer period can be better
+constexpr std::size_t small_common_multiple = 5;
+constexpr double strong_part = 0.02;  // of a wave's mean square, in one of its harmonics
+
+}  // namespace
+
+double length_along(glm::dvec2 size, glm::dvec2 direction) {
+  const glm::dvec2 way = glm::abs(glm::normalize(direction));
+  return std::min(way.x > 0 ? size.x / way.x : HUGE_VAL, way.y > 0 ? size.y / way.y : HUGE_VAL);
+}
+
+std::size_t most_bins(std::size_t wanted, std::size_t places) {
+  return std::clamp<std::size_t>(wanted, 16, places / 5);
+}
+
+std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most) {
+  std::vector<double> powers(most);
+  const std::size_t parts = wave.profile.size();
+  const auto count = static_cast<double>(parts);
+  std::vector<std::complex<double>> turned(parts);
+  for (std::size_t i = 0; i < parts; ++i)
+    turned[i] = std::polar(1 / count, -2 * std::numbers::pi * static_cast<double>(i) / count);
+  const double all = mean_square(wave.profile);
+  for (std::size_t harmonic = 1; harmonic <= most; ++harmonic) {
+    std::complex<double> x = 0, y = 0;
+    for (std::size_t i = 0, at = 0; i < parts; ++i) {
+      x += wave.profile[i].x * turned[at], y += wave.profile[i].y * turned[at];
+      at += harmonic;
+      while (at >= parts) at -= parts;
+    }
+    powers[harmonic - 1] = all > 0 ? 2 * (std::norm(x) + std::norm(y)) / all : 0;
+  }
+  return powers;
+}
+
+Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside) {
+  const double period = 1 / glm::length(peak), length = length_along(thin.size, peak);
+  const auto explained = [&](std::size_t multiple) {
+    return explained_by(thin.places, thin.forces, peak / static_cast<double>(multiple),
+                        most_bins(parts_of_a_wave * multiple, thin.places.size()));
+  };
+  Fundamental found{peak, 1, explained(1), {1}};
+  if (found.explained >= wholly) return found;
+  const auto most = std::min<std::size_t>(most_multiples, static_cast<std::size_t>(length / 3 / period));
+  std::vector<double> all{found.explained};
+  for (std::size_t multiple = 2; multiple <= most; ++multiple) {
+    all.push_back(explained(multiple));
+    if (multiple == few_multiples && std::ranges::max(all) < hopeless) break;
+  }
+  const double best = std::ranges::max(all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] >= best - hardly_less) {
+      found = {peak / static_cast<double>(i + 1), i + 1, all[i], {1}};
+      break;
+    }
+  if (found.multiple == 1) return found;
+  // A few waves whose common multiple is long repeat only by chance.
+  const FoldedWave wave =
+      folded(thin.places, thin.forces, found.waves, most_bins(parts_of_a_wave * found.multiple, thin.places.size()));
+  const std::vector<double> powers = harmonics_of(wave, std::min(6 * found.multiple + 6, wave.profile.size() / 2));
+  // A peak may lie beside the wave, at an even part of a multiple: then only every so many-th harmonic is there.
+  std::size_t step = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i)
+    if (powers[i] >= weak_part) step = std::gcd(step, i + 1);
+  if (step > 1 && may_lie_beside) {
+    glm::dvec2 finer = static_cast<double>(step) * found.waves;
+    for (int turn = 0; turn < 3; ++turn) finer = better_fitting(thin.places, thin.forces, finer, parts_of_a_wave);
+    return fundamental_of(thin, finer, false);
+  }
+  // Harmonics of one wave, or waves of their own whose common multiple this is: those whose multiples the others are.
+  std::vector<std::size_t> strong, own;
+  double in_strong = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    if (powers[i] < strong_part) continue;
+    in_strong += powers[i];
+    strong.push_back(i + 1);
+    if (std::ranges::none_of(own, [&](std::size_t other) { return (i + 1) % other == 0; })) own.push_back(i + 1);
+  }
+  if (own.size() >= 2 && own.size() <= most_waves_found && in_strong > 0.85) {
+    const bool sines = strong.size() == own.size();
+    // Waves that do not quite fit a common multiple are elsewhere when looked for by themselves.
+    const bool elsewhere = sines && std::ranges::any_of(own, [&](std::size_t part) {
+                             const glm::dvec2 waves = static_cast<double>(part) * found.waves;
+                             const glm::dvec2 there = in_phase(thin.places, thin.forces, thin.centre, thin.size, waves);
+                             return glm::length((there - waves) * thin.size) > out_of_place;
+                           });
+    if (own.back() > small_common_multiple || elsewhere) return {peak, 1, all.front(), {1}};
+    if (sines) found.parts = own;
+  }
+  return found;
+}
+
+}  // namespace wale

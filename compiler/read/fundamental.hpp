@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "compiler/read/fold.hpp"
+
+namespace wale {
+
+inline constexpr std::size_t most_waves_found = 3;
+inline constexpr std::size_t parts_of_a_wave = 32;  // of the shortest wave that a fold should show
+inline constexpr double weak_part = 0.004;
+
+/// The longest line in a direction across a window.
+double length_along(glm::dvec2 size, glm::dvec2 direction);
+
+/// As many bins as are wanted, unless the places are too few for them.
+std::size_t most_bins(std::size_t wanted, std::size_t places);
+
+/// The mean squares of a profile's harmonics, from the first on, as shares of all.
+std::vector<double> harmonics_of(const FoldedWave& wave, std::size_t most);
+
+/// A wave in a window: what `multiple` times the period of a peak explains.
+struct Fundamental {
+  glm::dvec2 waves{0};
+  std::size_t multiple = 1;
+  double explained = 0;
+  std::vector<std::size_t> parts{1};
+};
+
+/// The fundamental of the wave whose strongest harmonic is at a peak: the shortest multiple of its period that explains
+/// nearly as much as any.
+Fundamental fundamental_of(const StillForces& thin, glm::dvec2 peak, bool may_lie_beside = true);
+
+}  // namespace wale
