@@ -59,7 +59,7 @@ TEST(Levels, AreSpacedByTheFloorWhereForcesAreSmall) {
   // Level = (F / 194 pu)^0.759593, from level 0.1, which is near the threshold. A just noticeable difference is 0.07 of
   // the force at three of four, but at least 0.1 N: below 1.36 N steps of force are equal, above it ratios are.
   const LevelProposal all = proposal("roughness", std::nullopt);
-  const double one = 194 * 10.0 / 512, share = std::log1p(0.07 / d_prime_of_three_of_four);
+  const double one = 194 * 10.0 / 512, share = std::log1p(0.07);
   const auto force = [&](double level) { return one * std::pow(level, 1 / 0.759593); };
   double sum = 0;
   for (std::size_t i = 1; i < all.levels.size(); ++i) {
