@@ -36,7 +36,8 @@ std::string predicted_text(const Comparison& predicted) {
   const CueDifference* plainest = predicted.plainest();
   if (predicted.verdict == Verdict::unknown) return "unknown: they differ in a cue whose threshold is not known";
   if (!plainest || *plainest->noticeable == 0) return "d' 0.0: no known difference, so half of the answers are right";
-  const std::string by = cue_table()[static_cast<std::size_t>(plainest->kind)].name;
+  const std::string by = cue_table()[static_cast<std::size_t>(plainest->kind)].name +
+                         std::string(plainest->outside.empty() ? "" : ", extrapolated");
   if (*plainest->noticeable > 20) return fmt::format("d' > 20 by their {}: all answers are right", by);
   return fmt::format("d' {:.1f} by their {}: {:.0f} % of answers right", *plainest->noticeable, by,
                      100 * proportion_right(*plainest->noticeable));
@@ -91,7 +92,8 @@ std::string blind_json(const BlindReport& report) {
   json["predicted"] = {
       {"d_prime", known ? Json(apart) : Json(nullptr)},
       {"proportion", known ? Json(proportion_right(apart)) : Json(nullptr)},
-      {"cue", known && apart > 0 ? Json(cue_table()[static_cast<std::size_t>(plainest->kind)].name) : Json(nullptr)}};
+      {"cue", known && apart > 0 ? Json(cue_table()[static_cast<std::size_t>(plainest->kind)].name) : Json(nullptr)},
+      {"outside", known && apart > 0 ? Json(plainest->outside) : Json::array()}};
   return json_lines(json);
 }
 

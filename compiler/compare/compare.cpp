@@ -23,6 +23,23 @@ double exerts(const CueFacts& facts, const Declarations& declarations) {
   return found;
 }
 
+/// The name that the condition of a threshold has for a cue: "wall_stiffness", and "rate" for a vibration's frequency.
+std::string condition_name(const CueFacts& facts) {
+  if (facts.kind == CueKind::vibration_frequency) return "rate";
+  std::string name = facts.name;
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+/// What the conditions of a threshold may ask of a material: its cues, and the speed of the hand on it, m/s.
+Sizes sizes_of(const Cues& cues, const std::optional<double>& speed) {
+  Sizes sizes;
+  for (const CueFacts& facts : cue_table())
+    if (cues[facts.kind]) sizes[condition_name(facts)] = *cues[facts.kind];
+  if (speed) sizes["speed"] = *speed;
+  return sizes;
+}
+
 Verdict verdict_of(const std::optional<double>& plainest, bool unknown) {
   if (plainest && *plainest >= 1) return Verdict::apart;
   return unknown ? Verdict::unknown : Verdict::alike;
@@ -41,6 +58,9 @@ Comparer::Comparer(const Declarations& declarations, const std::string& device) 
   for (const CueFacts& facts : cue_table()) {
     people_.emplace_back(declarations, facts.threshold, device, exerts(facts, declarations));
   }
+  // A stroke goes from one end to the other and back: four amplitudes.
+  if (const HandDeclaration* hand = declarations.hands.find("normal"); hand && hand->lateral_frequency > 0)
+    speed_ = 4 * hand->lateral_amplitude * hand->lateral_frequency;
 }
 
 /// The difference in just noticeable differences; empty if no publication gives a threshold.
@@ -66,12 +86,16 @@ void Comparer::each_cue(const Cues& a, const Cues& b, Visit visit) const {
 Comparison Comparer::compare(const Cues& a, const Cues& b) const {
   Comparison comparison;
   bool unknown = false;
+  const Sizes of_a = sizes_of(a, speed_), of_b = sizes_of(b, speed_);
   each_cue(a, b, [&](const CueFacts& facts, std::optional<double> noticeable) {
-    CueDifference found{facts.kind, a[facts.kind], b[facts.kind], noticeable, nullptr, Evidence::estimated};
+    CueDifference found{facts.kind, a[facts.kind], b[facts.kind], noticeable, nullptr, Evidence::estimated, {}};
     const Discrimination& people = people_[static_cast<std::size_t>(facts.kind)];
     // Equal cues need no threshold.
     if (noticeable != 0.0) found.threshold = people.threshold(found.a.value_or(0), found.b.value_or(0));
-    if (found.threshold) found.evidence = people.evidence(*found.threshold);
+    if (found.threshold) {
+      found.evidence = people.evidence(*found.threshold);
+      found.outside = found.threshold->unmet(found.a.value_or(0), found.b.value_or(0), of_a, of_b);
+    }
     unknown |= !noticeable;
     comparison.cues.push_back(found);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,9 @@ struct CueDifference {
   std::optional<double> noticeable;         ///< in just noticeable differences at d' = 1; empty if unknown
   const Threshold* threshold = nullptr;     ///< that gives `noticeable`; null if none is published or nothing differs
   Evidence evidence = Evidence::estimated;  ///< of the threshold on this device
+  /// The conditions of the threshold's measurement that the materials do not meet, as written; beyond them it is
+  /// extrapolated.
+  std::vector<std::string> outside;
 };
 
 enum class Verdict {
@@ -60,6 +64,7 @@ class Comparer {
   std::optional<double> noticeable(const CueFacts& facts, std::optional<double> a, std::optional<double> b) const;
 
   std::vector<Discrimination> people_;  ///< by `CueKind`
+  std::optional<double> speed_;         ///< mean speed of the hand `normal` as it strokes, m/s
 };
 
 /// Two of many materials, a < b.
@@ -95,6 +100,16 @@ class ComparisonMatrix {
   Comparer comparer_;
   std::vector<Distance> distances_;
 };
+
+/// How well a threshold is known here, in words: "transferred", "extrapolated from amplitude 2.5 N .. 10 N", and what
+/// of it is not stated in the publication.
+std::string threshold_words(const Threshold& threshold, Evidence evidence, const std::vector<std::string>& outside);
+/// The conditions under which a threshold was measured, in words: "amplitude 2.5 N .. 10 N, criterion assumed".
+std::string threshold_conditions(const Threshold& threshold);
+/// How well a threshold is known here, as members of a JSON object: the fraction at d' = 1, the grade, what was
+/// assumed, the conditions of the measurement and those that are not met.
+void write_threshold(nlohmann::ordered_json& json, const Threshold& threshold, Evidence evidence,
+                     const std::vector<std::string>& outside);
 
 /// For two materials: cue by cue. For more: a table of distances if it fits a screen or if `with_table` asks for it,
 /// otherwise the pairs that are hard to tell apart; then the nearest pair cue by cue.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +78,8 @@ void write_cues(std::string& text, const ComparisonMatrix& matrix, std::size_t f
     text += fmt::format("  {:<20} {:<{}}  {:<{}}  {}", facts_of(cue.kind).name, of_a, width, of_b, width,
                         noticeable_text(cue.noticeable));
     if (cue.threshold)
-      text += fmt::format("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber, evidence_word(cue.evidence),
-                          cue.threshold->source);
+      text += fmt::format("  ({:.2g} at d' = 1, {}: {})", cue.threshold->weber,
+                          threshold_words(*cue.threshold, cue.evidence, cue.outside), cue.threshold->source);
     text += '\n';
   }
   text += fmt::format("  {}\n", verdict_text(comparison));
@@ -130,10 +131,7 @@ nlohmann::ordered_json pair_json(const ComparisonMatrix& matrix, std::size_t a, 
   for (const CueDifference& cue : comparison.cues) {
     Json& each = cues[facts_of(cue.kind).name] = {
         {"a", value(cue.a)}, {"b", value(cue.b)}, {"noticeable", value(cue.noticeable)}};
-    if (!cue.threshold) continue;
-    each["weber"] = cue.threshold->weber;
-    each["evidence"] = evidence_word(cue.evidence);
-    each["source"] = cue.threshold->source;
+    if (cue.threshold) write_threshold(each, *cue.threshold, cue.evidence, cue.outside);
   }
   return json;
 }
@@ -159,6 +157,44 @@ std::string matrix_json(const ComparisonMatrix& matrix) {
 }
 
 }  // namespace
+
+std::string threshold_words(const Threshold& threshold, Evidence evidence, const std::vector<std::string>& outside) {
+  std::string words =
+      outside.empty() ? evidence_word(evidence) : fmt::format("extrapolated from {}", fmt::join(outside, ", "));
+  if (!threshold.valid) words += ", range not stated";
+  if (threshold.task_assumed || threshold.criterion_assumed) words += ", criterion assumed";
+  return words;
+}
+
+std::string threshold_conditions(const Threshold& threshold) {
+  const auto words = [](const Condition& condition) {
+    return fmt::format("{}{} {}", condition.assumed ? "assumed " : "", condition.quantity, condition.written);
+  };
+  std::string text = threshold.valid ? words(*threshold.valid) : "range not stated";
+  for (const Condition& condition : threshold.conditions) text += ", " + words(condition);
+  if (threshold.task_assumed || threshold.criterion_assumed) text += ", criterion assumed";
+  return text;
+}
+
+void write_threshold(nlohmann::ordered_json& json, const Threshold& threshold, Evidence evidence,
+                     const std::vector<std::string>& outside) {
+  using Json = nlohmann::ordered_json;
+  json["weber"] = threshold.weber;
+  json["evidence"] = outside.empty() ? evidence_word(evidence) : "extrapolated";
+  Json assumed = Json::array(), valid = Json::array();
+  const auto add = [&](const Condition& condition) {
+    valid.push_back(condition.quantity + " " + condition.written);
+    if (condition.assumed) assumed.push_back(condition.quantity);
+  };
+  if (threshold.valid) add(*threshold.valid);
+  for (const Condition& condition : threshold.conditions) add(condition);
+  if (threshold.task_assumed) assumed.push_back("task");
+  if (threshold.criterion_assumed) assumed.push_back("criterion");
+  json["valid"] = threshold.valid ? valid : Json(nullptr);
+  json["outside"] = outside;
+  json["assumed"] = assumed;
+  json["source"] = threshold.source;
+}
 
 std::string comparison_text(const ComparisonMatrix& matrix, bool with_table) {
   std::string text;

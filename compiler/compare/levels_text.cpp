@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "compiler/compare/compare.hpp"
 #include "compiler/compare/propose_levels.hpp"
 #include "compiler/describe/describe.hpp"
 #include "compiler/describe/describe_figure.hpp"
@@ -20,8 +21,9 @@ std::string levels_line(const LevelProposal& proposal) {
 
 std::string proposal_text(const LevelProposal& proposal) {
   const std::size_t count = proposal.levels.size();
-  std::string text = fmt::format("{} levels of {} on {}, over the range that was measured and that it renders\n", count,
-                                 proposal.asked, proposal.device);
+  std::string text =
+      fmt::format("{} levels of {} on {}, over the range that {} and that it renders\n", count, proposal.asked,
+                  proposal.device, proposal.map->valid_assumed ? "is assumed for its map" : "was measured");
   text += fmt::format("  {:<14} {:>8}  {:>14}  apart\n", "", "level", proposal.carrier);
   std::set<const Threshold*> thresholds;
   for (std::size_t i = 0; i < count; ++i) {
@@ -33,13 +35,14 @@ std::string proposal_text(const LevelProposal& proposal) {
                     proposal.reversed ? 1 - each.level : each.level, proposal.digits,
                     fmt::format("{} {}", with_digits(each.size, 3), proposal.unit), apart);
     if (i > 0 && after.threshold)
-      text += fmt::format("  ({}: {})", evidence_word(after.evidence), after.threshold->source);
+      text += fmt::format("  ({}: {})", after.outside.empty() ? evidence_word(after.evidence) : "extrapolated",
+                          after.threshold->source);
     text += '\n';
     if (after.threshold) thresholds.insert(after.threshold);
   }
   text += "  apart: just noticeable differences at d' = 1 from the level before";
   for (const Threshold* each : thresholds)
-    text += fmt::format("; Weber fraction {:.2g} ({})", each->weber, each->source);
+    text += fmt::format(";\n  Weber fraction {:.2g} ({}, {})", each->weber, each->source, threshold_conditions(*each));
   text +=
       fmt::format("\n  {} by {} ({})\n", proposal.carrier, proposal.map->source, evidence_word(proposal.map_evidence));
   if (proposal.most > count) text += fmt::format("  at most {} levels fit\n", proposal.most);
@@ -60,10 +63,7 @@ std::string proposal_json(const LevelProposal& proposal) {
     Json& level = levels.emplace_back(Json{{"level", each.level}, {"size", each.size}});
     if (proposal.reversed) level[proposal.asked] = 1 - each.level;
     level["apart"] = levels.size() == 1 ? Json(nullptr) : Json(each.apart);
-    if (!each.threshold) continue;
-    level["weber"] = each.threshold->weber;
-    level["evidence"] = evidence_word(each.evidence);
-    level["source"] = each.threshold->source;
+    if (each.threshold) write_threshold(level, *each.threshold, each.evidence, each.outside);
   }
   json["wale"] = levels_line(proposal);
   return json_lines(json);

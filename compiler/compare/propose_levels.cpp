@@ -158,7 +158,10 @@ Result<LevelProposal> propose_levels(const std::string& name, const std::string&
       const double before = proposal.levels.back().size;
       each.apart = scale.people().distance(before, each.size).value_or(0);
       each.threshold = scale.people().threshold(before, each.size);
-      if (each.threshold) each.evidence = scale.people().evidence(*each.threshold);
+      if (each.threshold) {
+        each.evidence = scale.people().evidence(*each.threshold);
+        each.outside = each.threshold->unmet(before, each.size, {}, {});
+      }
     }
     proposal.levels.push_back(each);
   }

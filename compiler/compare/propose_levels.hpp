@@ -16,6 +16,7 @@ struct ProposedLevel {
   double apart = 0;                         ///< from the level before, in just noticeable differences; 0 for the first
   const Threshold* threshold = nullptr;     ///< that gives `apart`; null for the first
   Evidence evidence = Evidence::estimated;  ///< of the threshold on this device
+  std::vector<std::string> outside;         ///< the conditions of its measurement that are not met, as written
 };
 
 /// Levels of a percept at equal distances, counted in just noticeable differences at d' = 1. They go from the least to

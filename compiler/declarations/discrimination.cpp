@@ -36,13 +36,10 @@ Discrimination::Discrimination(const Declarations& declarations, std::string_vie
 
 const Threshold* Discrimination::threshold(double a, double b) const {
   if (thresholds_.empty()) return nullptr;
-  const auto compared = [&](const Threshold* each) {
-    return (a == 0 || each->valid.holds(std::abs(a))) && (b == 0 || each->valid.holds(std::abs(b)));
-  };
   const bool own = thresholds_.front()->device == device_;
   for (const Threshold* each : thresholds_) {
     if (own && each->device != device_) break;
-    if (compared(each)) return each;
+    if (each->compared(a, b)) return each;
   }
   return thresholds_.front();
 }

@@ -17,7 +17,8 @@ double normal_quantile(double p) {
 
 double sensitivity(Task task, double criterion) {
   // Macmillan and Creelman 2005, Detection Theory, chapters 1 and 7.
-  return (task == Task::yes_no ? 2.0 : std::sqrt(2.0)) * normal_quantile(criterion);
+  const bool one_interval = task == Task::yes_no || task == Task::one_interval;
+  return (one_interval ? 2.0 : std::sqrt(2.0)) * normal_quantile(criterion);
 }
 
 double Threshold::distance(double a, double b) const {
@@ -29,10 +30,29 @@ double Threshold::distance(double a, double b) const {
   return std::min(by_ratio, by_floor);
 }
 
-const Rule::Case* Rule::first(const std::map<std::string, double>& sizes, const std::string& kind) const {
+bool Threshold::compared(double a, double b) const {
+  const auto holds = [&](double size) { return size == 0 || valid->range.holds(std::abs(size)); };
+  return !valid || (holds(a) && holds(b));
+}
+
+std::vector<std::string> Threshold::unmet(double a, double b, const Sizes& of_a, const Sizes& of_b) const {
+  std::vector<std::string> found;
+  const auto add = [&](const Condition& condition) { found.push_back(condition.quantity + " " + condition.written); };
+  if (!compared(a, b)) add(*valid);
+  for (const Condition& condition : conditions) {
+    const auto meets = [&](const Sizes& sizes) {
+      const auto size = sizes.find(condition.quantity);
+      return size == sizes.end() || condition.range.holds(std::abs(size->second));
+    };
+    if (!meets(of_a) || !meets(of_b)) add(condition);
+  }
+  return found;
+}
+
+const Rule::Case* Rule::first(const Sizes& sizes, const std::string& kind) const {
   const auto found = std::ranges::find_if(cases, [&](const Case& each) {
     return (each.kind.empty() || each.kind == kind) &&
-           std::ranges::all_of(each.conditions, [&](const Map::Condition& condition) {
+           std::ranges::all_of(each.conditions, [&](const Condition& condition) {
              const auto size = sizes.find(condition.quantity);
              return size != sizes.end() && condition.range.holds(size->second);
            });

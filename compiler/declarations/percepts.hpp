@@ -23,6 +23,18 @@ struct SizeRange {
   bool holds(double value) const { return value >= low && value <= high; }
 };
 
+/// A condition under which something was measured, or under which a case of a rule holds: "period", 0.7 mm .. 10 mm.
+struct Condition {
+  std::string quantity;
+  SizeRange range;  ///< SI
+  Dimension dimension;
+  std::string written;   ///< the range as written, "0.7 mm .. 10 mm", "below 350 Hz"
+  bool assumed = false;  ///< the range is assumed, not published
+};
+
+/// The sizes of what is felt by the names that conditions use, SI: "amplitude", "period", "rate", "speed".
+using Sizes = std::map<std::string, double>;
+
 /// A percept and its scale. Level 0 is none of it; level 1 is the magnitude of a carrier of size `one`, by any map that
 /// is tied to it. Levels are linear in perceived magnitude.
 struct Percept {
@@ -84,20 +96,17 @@ struct Map {
   /// and the percept's own size applies.
   std::optional<double> one;
   double valid_low = 0, valid_high = 0;  ///< range of the quantity, SI
-  struct Condition {
-    std::string quantity;
-    SizeRange range;
-    Dimension dimension;
-  };
-  std::vector<Condition> conditions;  ///< other conditions of the measurement: "period", 0.7 mm .. 10 mm
-  double scatter = 0;                 ///< standard deviation of log10 magnitude around that of the average observer
-  bool scatter_assumed = false;       ///< the scatter is assumed, not published
-  double spread = 0;                  ///< standard deviation of the observers' exponents; 0 if unknown
-  int observers = 0;                  ///< 0: not known
+  bool valid_assumed = false;            ///< that range is assumed, not published
+  std::vector<Condition> conditions;     ///< other conditions of the measurement: "period", 0.7 mm .. 10 mm
+  double scatter = 0;                    ///< standard deviation of log10 magnitude around that of the average observer
+  bool scatter_assumed = false;          ///< the scatter is assumed, not published
+  double spread = 0;                     ///< standard deviation of the observers' exponents; 0 if unknown
+  int observers = 0;                     ///< 0: not known
   Evidence slope = Evidence::estimated, anchor = Evidence::estimated, handle = Evidence::estimated;
   bool tied = true;  ///< tied to the percept's reference stimulus; otherwise it can order stimuli but not set levels
   std::string device;
   std::string source;
+  std::vector<std::string> quotes;    ///< the passages of the source that hold its figures
   std::vector<std::string> validity;  ///< the conditions as written, "period 0.7 mm .. 10 mm"
   Span span;
   bool exported = false;
@@ -113,6 +122,7 @@ enum class Task {
   forced_choice,  ///< choose one of two; d' = sqrt(2) z(p)
   adjustment,     ///< make one equal to the other; d' = sqrt(2) z(p)
   yes_no,         ///< say whether there is a difference; d' = 2 z(p) for an unbiased observer
+  one_interval,   ///< feel one of two and say which it is; d' = 2 z(p) for an unbiased observer
 };
 
 /// The smallest noticeable difference of a cue.
@@ -121,17 +131,20 @@ struct Threshold {
   Dimension dimension;   ///< dimension of the cue's size
   double published = 0;  ///< Weber fraction as published, at `criterion`
   Task task = Task::forced_choice;
+  bool task_assumed = false;
   double criterion = 0;  ///< share of correct answers
   bool criterion_assumed = false;
   double weber = 0;  ///< Weber fraction at d' = 1
   double floor = 0;  ///< smallest difference at d' = 1 near the absolute threshold, SI; 0 if unknown
   bool floor_assumed = false;
-  SizeRange valid;    ///< the sizes of the cue that were compared, SI
-  int observers = 0;  ///< 0: not known
+  std::optional<Condition> valid;     ///< the sizes of the cue that were compared; empty if unknown
+  std::vector<Condition> conditions;  ///< other conditions of the measurement: "speed", 25 mm/s .. 160 mm/s
+  int observers = 0;                  ///< 0: not known
   Evidence evidence = Evidence::estimated, handle = Evidence::estimated;
   std::string device;  ///< the device or handle on which it was measured
   std::string source;
-  std::string name;  ///< may be empty
+  std::vector<std::string> quotes;  ///< the passages of the source that hold its figures
+  std::string name;                 ///< may be empty
   Span span;
   bool exported = false;
 
@@ -140,6 +153,13 @@ struct Threshold {
   /// The distance of two sizes (SI, not negative) in just noticeable differences at d' = 1: ln(ratio) / ln(1 + w), or
   /// the difference divided by the floor if that is less. `Discrimination` chooses the publication that applies.
   double distance(double a, double b) const;
+  /// Whether such sizes were compared (SI, signs do not count); 0 stands for a stimulus without the cue and counts as
+  /// compared. True if the range is unknown.
+  bool compared(double a, double b) const;
+  /// The conditions of the measurement that two sizes of the cue, or one of two stimuli, do not meet, as written:
+  /// "amplitude 2.5 N .. 10 N". Beyond them the threshold is extrapolated. A condition on a quantity that `of_a` or
+  /// `of_b` lacks is not judged for that stimulus.
+  std::vector<std::string> unmet(double a, double b, const Sizes& of_a, const Sizes& of_b) const;
 };
 
 /// A classification of stimuli: the first case whose conditions hold.
@@ -147,7 +167,7 @@ struct Rule {
   struct Case {
     std::string label;  ///< "moguls"
     std::string kind;   ///< "perlin": the kind of surface that it is for; empty for any
-    std::vector<Map::Condition> conditions;
+    std::vector<Condition> conditions;
     std::optional<double> confidence, spread;  ///< mean and standard deviation of ratings, 0 .. 1
     Span span;
   };
@@ -156,12 +176,13 @@ struct Rule {
   Evidence evidence = Evidence::estimated;
   std::string device;
   std::string source;
+  std::vector<std::string> quotes;  ///< the passages of the source that hold its figures
   Span span;
   bool exported = false;
 
   /// The first case whose conditions all hold for the given sizes, or null. Sizes are SI, by the quantity's name; a
   /// condition on a missing size does not hold.
-  const Case* first(const std::map<std::string, double>& sizes, const std::string& kind) const;
+  const Case* first(const Sizes& sizes, const std::string& kind) const;
 };
 
 /// A device's rule for a percept of a material without physics: a force, or the shaking of a pad, and the map to use.

@@ -1,89 +1,13 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "compiler/modules/declare_records.hpp"
+#include "compiler/modules/declare_evidence.hpp"
 
 namespace wale {
 
 namespace {
-
-const std::pair<const char*, Evidence> evidence_words[] = {{"measured", Evidence::measured},
-                                                           {"published", Evidence::published},
-                                                           {"estimated", Evidence::estimated},
-                                                           {"recalled", Evidence::recalled},
-                                                           {"transferred", Evidence::transferred}};
-
-std::optional<Evidence> grade_named(std::string_view word) {
-  for (const auto& [name, evidence] : evidence_words)
-    if (word == name) return evidence;
-  return std::nullopt;
-}
-
-/// All grades in words: "`measured`, `published`, … or `…`".
-std::string grade_words() {
-  std::vector<std::string> words;
-  for (const auto& [name, evidence] : evidence_words) words.push_back(fmt::format("`{}`", name));
-  const std::string last = words.back();
-  words.pop_back();
-  return fmt::format("{} or {}", fmt::join(words, ", "), last);
-}
-
-/// The device of `on sandpaper`; empty if the setting names none.
-std::string measured_on(const Setting& on) {
-  return on.on ? std::string(on.on->text) : on.items.empty() ? "" : words_of(on.items[0]);
-}
-
-/// Reads `evidence slope published, handle transferred`: the grade of each part goes to its entry in the list. Items
-/// that are not grades are passed to `otherwise`, and reported if it does not accept them.
-void read_grades(RecordReader& reader, const Setting& evidence,
-                 const std::vector<std::pair<const char*, Evidence*>>& parts,
-                 const std::function<bool(const SettingItem&)>& otherwise = {}) {
-  std::vector<std::string> names;
-  for (const auto& part : parts) names.push_back(fmt::format("`{}`", part.first));
-  for (const auto& item : evidence.items) {
-    const std::optional<Evidence> grade = grade_named(item.words.size() == 2 ? item.words[1].text : "");
-    const auto part = std::ranges::find_if(
-        parts, [&](const auto& each) { return !item.words.empty() && item.words[0].text == each.first; });
-    if (grade && part != parts.end())
-      *part->second = *grade;
-    else if (!otherwise || !otherwise(item))
-      reader.report(
-          Code::wrong_type, item.span,
-          fmt::format("the evidence of a {} has separate grades for {}", reader.record.keyword.text,
-                      fmt::join(names, ", ")),
-          fmt::format("write one of these, then {}{}", grade_words(),
-                      otherwise ? "; `anchor none` where the law is not tied to the reference stimulus" : ""));
-  }
-}
-
-/// A setting's whole number, such as the number of observers; 0 if the setting is missing.
-int whole_number(RecordReader& reader, const char* key) {
-  const Setting* setting = reader.setting(key);
-  return setting ? static_cast<int>(std::lround(reader.quantity(*setting, 0, "number").value_or(0))) : 0;
-}
-
-/// `period 0.7 mm .. 10 mm`, `amplitude above 1.1 N`, `period below 2.5 mm`.
-std::optional<Map::Condition> condition_of(RecordReader& reader, const SettingItem& item) {
-  if (item.words.empty() || !item.value) return std::nullopt;
-  Map::Condition condition{.quantity = std::string(item.words[0].text)};
-  const auto first = reader.constant(*item.value);
-  if (!first) return condition;
-  condition.dimension = first->dimension;
-  const std::string_view side = item.words.size() == 2 ? std::string_view(item.words[1].text) : "";
-  if (item.range_end)
-    condition.range = {first->value, reader.value(*item.range_end, first->dimension).value_or(first->value)};
-  else if (side == "above")
-    condition.range.low = std::nextafter(first->value, HUGE_VAL);
-  else if (side == "below")
-    condition.range = {-HUGE_VAL, std::nextafter(first->value, -HUGE_VAL)};
-  else
-    return std::nullopt;
-  return condition;
-}
 
 /// Reports errors in a law. Errors of dimension name the law's source, since they are errors of the map.
 void report_law(RecordReader& reader, const Diagnostics& found, const std::string& source) {
@@ -125,6 +49,7 @@ class MapReader {
     if (const auto* spread = reader_.setting("spread"))
       map_.spread = reader_.quantity(*spread, 0, "number").value_or(0);
     map_.observers = whole_number(reader_, "observers");
+    map_.quotes = quotes_of(reader_);
     if (const auto* on = reader_.required("on", "sandpaper")) map_.device = measured_on(*on);
     return std::move(map_);
   }
@@ -292,7 +217,9 @@ class MapReader {
     RecordReader quiet(reader_.tree, reader_.record, reader_.sources, declarations_, found);
     for (const auto& item : valid->items) {
       map_.validity.emplace_back(reader_.sources.text(item.span));
-      if (words_of(item) == map_.from && item.value && item.range_end) {
+      const std::vector<std::string_view> words = plain_words(item);
+      if (words.size() == 1 && words[0] == map_.from && item.value && item.range_end) {
+        map_.valid_assumed = has_word(item, "assumed");
         map_.valid_low = quiet.value(*item.value, map_.dimension).value_or(0);
         map_.valid_high = quiet.value(*item.range_end, map_.dimension).value_or(0);
       } else if (const auto condition = condition_of(quiet, item)) {
@@ -328,98 +255,6 @@ void declare_map(RecordReader& reader, Declarations& declarations) {
       reader.report(Code::declared_twice, record.name.span, fmt::format("a map `{}` is declared already", map.name),
                     another_name(other->span));
   declarations.own_maps.push_back(std::move(map));
-}
-
-void declare_threshold(RecordReader& reader, Declarations& declarations) {
-  const RecordDecl& record = reader.record;
-  Threshold threshold{.cue = std::string(record.name.text), .span = record.name.span, .exported = record.exported};
-  if (const auto* quantity = reader.required("quantity", "force"); quantity && !quantity->items.empty()) {
-    const std::string name = words_of(quantity->items[0]);
-    if (const auto* known = declarations.dimensions.find(name))
-      threshold.dimension = *known;
-    else if (name != "number")
-      reader.report(Code::unknown_name, quantity->span, fmt::format("nothing declares a dimension `{}`", name),
-                    did_you_mean(quantity->items[0].span, name, declarations.dimensions.spellings(), "or `number`"));
-  }
-  if (const auto* name = reader.setting("name"); name && !name->items.empty())
-    threshold.name = words_of(name->items[0]);
-  threshold.published = reader.positive("weber", 0, "number", "0.1");
-  if (const auto* task = reader.required("task", "forced_choice"); task && !task->items.empty()) {
-    const std::string name = words_of(task->items[0]);
-    if (name == "forced_choice" || name == "adjustment" || name == "yes_no")
-      threshold.task = name == "adjustment" ? Task::adjustment : name == "yes_no" ? Task::yes_no : Task::forced_choice;
-    else
-      reader.report(Code::wrong_type, task->span, fmt::format("no task is called `{}`", name),
-                    "write `forced_choice`, `adjustment` or `yes_no`");
-  }
-  if (const auto* criterion = reader.required("criterion", "75 %")) {
-    threshold.criterion = reader.quantity(*criterion, 0, "number").value_or(0.75);
-    threshold.criterion_assumed = !criterion->items.empty() && has_word(criterion->items[0], "assumed");
-    if (!(threshold.criterion > 0.5 && threshold.criterion < 1)) {
-      reader.report(Code::value_out_of_range, criterion->span,
-                    "a criterion must be a share of correct answers above chance",
-                    "write, for example, `criterion 75 %`");
-      threshold.criterion = 0.75;
-    }
-    threshold.weber = threshold.published / sensitivity(threshold.task, threshold.criterion);
-  }
-  if (const auto* floor = reader.setting("floor"); floor && !floor->items.empty() && floor->items[0].value) {
-    threshold.floor = reader.value(*floor->items[0].value, threshold.dimension).value_or(0);
-    threshold.floor_assumed = has_word(floor->items[0], "assumed");
-  }
-  if (const auto* valid = reader.setting("valid"))
-    for (const auto& item : valid->items)
-      if (item.words.empty() && item.value && item.range_end)
-        threshold.valid = {reader.value(*item.value, threshold.dimension).value_or(0),
-                           reader.value(*item.range_end, threshold.dimension).value_or(0)};
-  threshold.observers = whole_number(reader, "observers");
-  if (const auto* evidence = reader.required("evidence", "slope published, handle transferred"))
-    read_grades(reader, *evidence, {{"slope", &threshold.evidence}, {"handle", &threshold.handle}});
-  if (const auto* on = reader.required("on", "sandpaper")) threshold.device = measured_on(*on);
-  threshold.source = reader.text("source");
-  if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a threshold needs a source",
-                  "add `source \"author, year\"`");
-  declarations.own_thresholds.push_back(std::move(threshold));
-}
-
-void declare_rule(RecordReader& reader, Declarations& declarations) {
-  const RecordDecl& record = reader.record;
-  Rule rule{.name = std::string(record.name.text), .span = record.name.span, .exported = record.exported};
-  for (const Setting* setting : reader.settings("case")) {
-    Rule::Case each{.span = setting->span};
-    for (const auto& item : setting->items) {
-      const auto* label = item.value ? std::get_if<TextLiteral>(&reader.tree.expr(*item.value)) : nullptr;
-      const std::string_view first = item.words.empty() ? "" : item.words[0].text;
-      if (label && &item == &setting->items.front()) {
-        each.label = label->text;
-      } else if (first == "kind" && item.words.size() == 2) {
-        each.kind = item.words[1].text;
-      } else if ((first == "confidence" || first == "spread") && item.words.size() == 1 && item.value) {
-        (first == "spread" ? each.spread : each.confidence) = reader.value(*item.value, Dimension{});
-      } else if (const auto condition = condition_of(reader, item)) {
-        each.conditions.push_back(*condition);
-      } else {
-        reader.report(Code::wrong_type, item.span, "a case needs a text, then its conditions",
-                      "write, for example, `case \"moguls\", amplitude above 1.1 N, period above 7 mm`");
-      }
-    }
-    rule.cases.push_back(std::move(each));
-  }
-  if (rule.cases.empty()) reader.required("case", "\"flat texture\", period below 2.5 mm");
-  if (const auto* evidence = reader.required("evidence", "measured"); evidence && !evidence->items.empty()) {
-    const auto grade = grade_named(words_of(evidence->items[0]));
-    if (grade)
-      rule.evidence = *grade;
-    else
-      reader.report(Code::wrong_type, evidence->span, "this is not a grade of evidence", "write " + grade_words());
-  }
-  if (const auto* on = reader.required("on", "sandpaper")) rule.device = measured_on(*on);
-  rule.source = reader.text("source");
-  if (!reader.setting("source"))
-    reader.report(Code::missing_setting, record.name.span, "a rule needs a source",
-                  "add `source \"author, year, section\"`");
-  declarations.own_rules.push_back(std::move(rule));
 }
 
 }  // namespace wale

@@ -1,6 +1,7 @@
 #include "compiler/solve/level_scale.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +60,10 @@ void check_neighbours(const LevelScale& scale, const Levels::Level& lower, const
       Code::close_levels, higher.span,
       fmt::format("`{}` and `{}` are hard to tell apart on `{}`: {:.2g} of a just noticeable difference of {}",
                   higher.name, lower.name, device, *apart, percept));
-  found.cause = fmt::format("at these sizes, a relative difference of {:.2g} is noticed at d' = 1 ({})",
-                            threshold->weber, threshold->source);
+  const std::vector<std::string> outside = threshold->unmet(low, high, {}, {});
+  found.cause =
+      fmt::format("at these sizes, a relative difference of {:.2g} is noticed at d' = 1 ({}{}{})", threshold->weber,
+                  threshold->source, outside.empty() ? "" : ", extrapolated from ", fmt::join(outside, ", "));
   diagnostics.report(std::move(found));
 }
 

@@ -151,6 +151,8 @@ TEST(Blind, PlaysAsksAndScores) {
   // The prediction is that of `wale compare`.
   const auto compared = wale({"compare", "--json", corduroy, library + "fabric/denim.wale:denim"}).json();
   EXPECT_NEAR(json["predicted"]["d_prime"].get<double>(), compared["pairs"][0]["noticeable"].get<double>(), 1e-9);
+  EXPECT_EQ(json["predicted"]["outside"], compared["pairs"][0]["cues"]["amplitude"]["outside"]);
+  EXPECT_EQ(json["predicted"]["outside"][0], "amplitude 2.5 N .. 10 N");
   EXPECT_FALSE(json.contains("ended"));
   EXPECT_EQ(wale(words, "1\nneither\n2\n1\n").out, run.out) << "the seed determines the order";
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "compiler/modules/load_modules.hpp"
@@ -42,11 +43,34 @@ TEST(Compare, AmplitudesDifferByTheirRatioOverTheWeberFraction) {
   const Comparison comparison = compare(a, b);
   const CueDifference* amplitude = cue(comparison, CueKind::amplitude);
   ASSERT_TRUE(amplitude && amplitude->noticeable && amplitude->threshold);
-  // Pang, Tan and Durlach 1991: 0.07 for forces of 2.5 to 10 N.
-  EXPECT_NEAR(*amplitude->noticeable, std::log(4.0 / 3) / std::log1p(0.07 / d_prime), 1e-6);
+  // Pang, Tan and Durlach 1991: 0.07 for forces of 2.5 to 10 N, at an assumed d' = 1.
+  EXPECT_NEAR(*amplitude->noticeable, std::log(4.0 / 3) / std::log1p(0.07), 1e-3);
   EXPECT_EQ(amplitude->evidence, Evidence::transferred);
+  EXPECT_TRUE(amplitude->outside.empty());
   EXPECT_EQ(comparison.verdict, Verdict::apart);
   EXPECT_EQ(comparison.plainest(), amplitude);
+}
+
+TEST(Compare, BeyondWhatWasComparedAThresholdIsExtrapolated) {
+  Cues a{"a", "sandpaper", {}}, b{"b", "sandpaper", {}};
+  a[CueKind::amplitude] = 3, b[CueKind::amplitude] = 4, a[CueKind::mass] = 0.1, b[CueKind::mass] = 0.2;
+  const auto text = [&] { return comparison_text(ComparisonMatrix({a, b}, declarations())); };
+  const auto json = [&] {
+    return nlohmann::json::parse(comparison_json(ComparisonMatrix({a, b}, declarations())))["pairs"][0]["cues"];
+  };
+  EXPECT_NE(text().find("(0.07 at d' = 1, transferred, criterion assumed: Pang"), std::string::npos) << text();
+  EXPECT_EQ(json()["amplitude"]["evidence"], "transferred");
+  EXPECT_EQ(json()["amplitude"]["valid"][0], "amplitude 2.5 N .. 10 N");
+  EXPECT_TRUE(json()["amplitude"]["outside"].empty());
+  EXPECT_EQ(json()["amplitude"]["assumed"], nlohmann::json({"criterion"}));
+  EXPECT_TRUE(json()["mass"]["valid"].is_null()) << "its publication states no range";
+  EXPECT_NE(text().find("range not stated"), std::string::npos) << text();
+  b[CueKind::amplitude] = 2.4;
+  EXPECT_NE(text().find("(0.07 at d' = 1, extrapolated from amplitude 2.5 N .. 10 N, criterion assumed: Pang"),
+            std::string::npos)
+      << text();
+  EXPECT_EQ(json()["amplitude"]["evidence"], "extrapolated");
+  EXPECT_EQ(json()["amplitude"]["outside"], nlohmann::json({"amplitude 2.5 N .. 10 N"}));
 }
 
 TEST(Compare, DifferentFiguresAreWrittenWithEnoughDigits) {

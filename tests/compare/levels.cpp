@@ -59,7 +59,7 @@ TEST(Levels, AreSpacedByTheFloorWhereForcesAreSmall) {
   // Level = (F / 194 pu)^0.759593, from level 0.1, which is near the threshold. A just noticeable difference is 0.07 of
   // the force at three of four, but at least 0.1 N: below 1.36 N steps of force are equal, above it ratios are.
   const LevelProposal all = proposal("roughness", std::nullopt);
-  const double one = 194 * 10.0 / 512, share = std::log1p(0.07 / d_prime_of_three_of_four);
+  const double one = 194 * 10.0 / 512, share = std::log1p(0.07);
   const auto force = [&](double level) { return one * std::pow(level, 1 / 0.759593); };
   double sum = 0;
   for (std::size_t i = 1; i < all.levels.size(); ++i) {
@@ -140,7 +140,7 @@ TEST(Levels, OfAVibrationDeviceNeedAThreshold) {
 }
 
 TEST(CloseLevels, AreJudgedOnTheGivenDevice) {
-  // 8.4 N and 9.6 N are ln(9.6 / 8.4) / ln(1 + 0.0734) = 1.9 apart on the Sandpaper joystick. The Falcon limits both to
+  // 8.4 N and 9.6 N are ln(9.6 / 8.4) / ln(1.07) = 2.0 apart on the Sandpaper joystick. The Falcon limits both to
   // 8 N.
   const std::string text =
       "percept grit { one lateral amplitude 12 N on sandpaper\n  cue amplitude }\n"
@@ -149,6 +149,14 @@ TEST(CloseLevels, AreJudgedOnTheGivenDevice) {
       "levels grit {\n  gravel 0.7\n  rubble 0.8\n}\n";
   EXPECT_EQ(said_of_levels(text, "sandpaper"), "");
   EXPECT_TRUE(contains(said_of_levels(text, "falcon"), "warning[W0423]")) << said_of_levels(text, "falcon");
+}
+
+TEST(CloseLevels, AreToldToBeExtrapolatedBeyondWhatWasCompared) {
+  const auto said = [](const char* levels) {
+    return said_of_levels(std::string("levels roughness { ") + levels, "sandpaper");
+  };
+  EXPECT_TRUE(contains(said("felted 0.5; woolly 0.51 }"), "abstract, extrapolated from amplitude 2.5 N .. 10 N)"));
+  EXPECT_TRUE(contains(said("felted 0.9; woolly 0.91 }"), "abstract)")) << "3.3 N was compared";
 }
 
 TEST(CloseLevels, TheProposalIsOneApart) {
