@@ -152,6 +152,7 @@ TEST(Applying, AFormatIsWhatTheEndingSays) {
                  {{"feel", corduroy, "--virtual-time", "--record", folder / "a.txt"}, "NAME.wrec or NAME.csv"}});
   EXPECT_FALSE(fs::exists(folder / "a.txt"));
   // A device has no ending.
+  using Words = std::vector<std::string>;
   for (const Words& words : {Words{"replay", run, "--csv", "/dev/full"}, Words{"replay", run, "--wav", "/dev/full"},
                              Words{"feel", corduroy, "--virtual-time", "--record", "/dev/full"}}) {
     const Outcome outcome = wale(words);
