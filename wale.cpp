@@ -130,8 +130,10 @@ std::string misuse_text(const CLI::App* app, const CLI::Error& error, const std:
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !verbs.empty()) {
     const std::vector<std::string> unexpected = verbs.front()->remaining();
     const auto option = std::ranges::find_if(unexpected, [](const auto& word) { return word.starts_with('-'); });
-    what = option != unexpected.end() ? unknown_option(*verbs.front(), *option)
-                                      : "unexpected: " + visible_text(fmt::format("{}", fmt::join(unexpected, " ")));
+    // CLI11 hands the words behind a `--` that follows other words to nobody.
+    what = unexpected.empty()           ? "`--` ends the options: write it before the first word that is none"
+           : option != unexpected.end() ? unknown_option(*verbs.front(), *option)
+                                        : "unexpected: " + visible_text(fmt::format("{}", fmt::join(unexpected, " ")));
   }
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch) && !verbs.empty())
     what = mismatch_text(*verbs.front(), last_word);

@@ -113,6 +113,7 @@ FileRequest Choice::request() const {
 FileRequest Choice::recording_request() const {
   FileRequest recording = request();
   recording.looked_for = inputs.get();
+  for (const ResolvedFile& each : recording.devices) inputs->push_back(each.name);
   return recording;
 }
 

@@ -39,6 +39,14 @@ int with_deep_stack(const std::function<int()>& command) {
   constexpr rlim_t enough = rlim_t{8} << 20;  // the usual limit
   rlimit limit{};
   if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= enough) return command();
+  // Threads that are started without a size, as the loop of a device is, get the default, which glibc took from the
+  // limit.
+  pthread_attr_t attributes;
+  if (pthread_getattr_default_np(&attributes) == 0) {
+    pthread_attr_setstacksize(&attributes, enough);
+    pthread_setattr_default_np(&attributes);
+    pthread_attr_destroy(&attributes);
+  }
   int status = 0;
   DeepThread thread([&] { status = command(); });
   sigset_t all, before;

@@ -211,11 +211,12 @@ Error reason(const Received& received, const std::optional<int>& status) {
         fmt::format("the picture takes more than {} s of processor time to decode", decoder::most_processor_seconds));
   if (status && WIFEXITED(*status) && WEXITSTATUS(*status) == 127)
     return {Code::missing_library,
-            "the program that decodes pictures misses one of its libraries",
-            "install OpenImageIO and libseccomp",
+            "the program that decodes pictures cannot load its libraries",
+            "install OpenImageIO and libseccomp; where memory is limited (`ulimit`), allow more",
             {"wale-decoder"}};
   const bool crashed = status && WIFSIGNALED(*status) && WTERMSIG(*status) != SIGKILL;
-  return failed(crashed ? "the decoder crashed on this picture" : "the decoder gave no valid answer");
+  return failed(crashed ? "the decoder crashed, on this picture or for want of memory or of threads"
+                        : "the decoder gave no valid answer");
 }
 
 }  // namespace

@@ -37,12 +37,30 @@ void drop_letter(std::string& text) {
   if (!text.empty()) text.pop_back();
 }
 
-double distance_to_segment(PagePoint p, PagePoint a, PagePoint b) {
+double squared_distance_to_segment(PagePoint p, PagePoint a, PagePoint b) {
   const PagePoint along = b - a, to = p - a;
   const double length2 = along.x * along.x + along.y * along.y;
   const double t = length2 > 0 ? std::clamp((to.x * along.x + to.y * along.y) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(to.x - t * along.x, to.y - t * along.y);
+  const PagePoint off = to - t * along;
+  return off.x * off.x + off.y * off.y;
 }
+
+/// Where a row of pixels may be nearer to the segment than `reach`: from, to.
+std::pair<double, double> row_of_segment(PagePoint a, PagePoint b, double y, double reach) {
+  double from = std::min(a.x, b.x) - reach, to = std::max(a.x, b.x) + reach;
+  const PagePoint along = b - a;
+  if (std::abs(along.y) > 1e-6) {
+    const double middle = a.x + (y - a.y) * along.x / along.y;
+    const double half = reach * std::hypot(along.x, along.y) / std::abs(along.y);
+    from = std::max(from, middle - half), to = std::min(to, middle + half);
+  }
+  return {from, to};
+}
+
+/// The pixels of a row that a stroke touches.
+struct Touched {
+  int first, last;
+};
 
 /// The pieces of a line that the dashes of a pen draw.
 std::vector<std::vector<PagePoint>> dashed(std::span<const PagePoint> points, double dash) {
@@ -114,6 +132,7 @@ void Canvas::outline(const PageBox& box, const Pen& pen) {
 void Canvas::stroke(std::span<const PagePoint> points, const Pen& pen) {
   if (points.size() < 2) return;
   const double radius = pen.width * fineness / 2;
+  const double core = std::max(radius - 0.5, 0.0), squared_core = core * core;  // there a pixel is covered whole
   for (std::vector<PagePoint> piece : dashed(points, pen.dash)) {
     for (PagePoint& point : piece) point *= fineness;
     double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
@@ -121,30 +140,39 @@ void Canvas::stroke(std::span<const PagePoint> points, const Pen& pen) {
       left = std::min(left, point.x), right = std::max(right, point.x);
       top = std::min(top, point.y), bottom = std::max(bottom, point.y);
     }
-    const auto inside = [](double value, int size) { return static_cast<int>(std::clamp(value, 0.0, double(size))); };
-    const int x0 = inside(left - radius - 2, width_), x1 = inside(right + radius + 2, width_);
-    const int y0 = inside(top - radius - 2, height_), y1 = inside(bottom + radius + 2, height_);
+    const auto inside = [](double value, int low, int high) {
+      return static_cast<int>(std::clamp(value, double(low), double(high)));
+    };
+    const int x0 = inside(left - radius - 2, clip_.left, clip_.right),
+              x1 = inside(right + radius + 2, clip_.left, clip_.right);
+    const int y0 = inside(top - radius - 2, clip_.top, clip_.bottom),
+              y1 = inside(bottom + radius + 2, clip_.top, clip_.bottom);
     if (x0 >= x1 || y0 >= y1) continue;
     const auto stride = static_cast<std::size_t>(x1 - x0);
     std::vector<float> coverage(stride * static_cast<std::size_t>(y1 - y0), 0.0f);
+    std::vector<Touched> rows(static_cast<std::size_t>(y1 - y0), Touched{x1, x0});
     for (std::size_t i = 1; i < piece.size(); ++i) {
       const PagePoint a = piece[i - 1], b = piece[i];
-      const auto from = [&](double u, double v, int low) {
-        return std::max(low, static_cast<int>(std::floor(std::min(u, v) - radius - 1)));
-      };
-      const auto to = [&](double u, double v, int high) {
-        return std::min(high, static_cast<int>(std::ceil(std::max(u, v) + radius + 1)));
-      };
-      for (int y = from(a.y, b.y, y0); y < to(a.y, b.y, y1); ++y) {
-        for (int x = from(a.x, b.x, x0); x < to(a.x, b.x, x1); ++x) {
-          const double distance = distance_to_segment({x + 0.5, y + 0.5}, a, b);
+      const int first = inside(std::floor(std::min(a.y, b.y) - radius - 1), y0, y1),
+                last = inside(std::ceil(std::max(a.y, b.y) + radius + 1), y0, y1);
+      for (int y = first; y < last; ++y) {
+        const auto [near, far] = row_of_segment(a, b, y + 0.5, radius + 1);
+        const int x_first = inside(std::floor(near), x0, x1), x_last = inside(std::ceil(far), x0, x1);
+        Touched& row = rows[static_cast<std::size_t>(y - y0)];
+        row = {std::min(row.first, x_first), std::max(row.last, x_last)};
+        for (int x = x_first; x < x_last; ++x) {
+          const double squared = squared_distance_to_segment({x + 0.5, y + 0.5}, a, b);
           float& covered = coverage[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
-          covered = std::max(covered, static_cast<float>(std::clamp(radius + 0.5 - distance, 0.0, 1.0)));
+          covered =
+              std::max(covered, squared <= squared_core
+                                    ? 1.0f
+                                    : static_cast<float>(std::clamp(radius + 0.5 - std::sqrt(squared), 0.0, 1.0)));
         }
       }
     }
     for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
+      const Touched& row = rows[static_cast<std::size_t>(y - y0)];
+      for (int x = row.first; x < row.last; ++x) {
         const float covered = coverage[static_cast<std::size_t>(y - y0) * stride + static_cast<std::size_t>(x - x0)];
         blend(x, y, pen.colour, covered * pen.opacity);
       }
@@ -185,15 +213,20 @@ void Canvas::area(std::span<const PagePoint> corners, Colour colour, float opaci
   const auto inside = [](double value, int low, int high) {
     return static_cast<int>(std::clamp(value * fineness, double(low), double(high)));
   };
+  // The inside of an edge: where normal * (point - corner) is positive, which is then its distance.
+  std::vector<std::pair<PagePoint, PagePoint>> edges;
   const double turn = doubled_area < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const PagePoint along = corners[(i + 1) % corners.size()] - corners[i];
+    const double length = std::hypot(along.x, along.y);
+    if (length > 0) edges.emplace_back(corners[i], PagePoint(-along.y, along.x) * (turn / length));
+  }
   for (int y = inside(top - 1, clip_.top, clip_.bottom); y < inside(bottom + 1, clip_.top, clip_.bottom); ++y) {
     for (int x = inside(left - 1, clip_.left, clip_.right); x < inside(right + 1, clip_.left, clip_.right); ++x) {
       double depth = 1e9;  // how far inside the nearest edge, canvas pixels
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const PagePoint a = corners[i], along = corners[(i + 1) % corners.size()] - a;
-        const PagePoint to = PagePoint(x + 0.5, y + 0.5) / double(fineness) - a;
-        const double length = std::hypot(along.x, along.y);
-        if (length > 0) depth = std::min(depth, turn * (along.x * to.y - along.y * to.x) / length * fineness);
+      for (const auto& [corner, normal] : edges) {
+        const PagePoint to = PagePoint(x + 0.5, y + 0.5) / double(fineness) - corner;
+        depth = std::min(depth, (normal.x * to.x + normal.y * to.y) * fineness);
       }
       blend(x, y, colour, opacity * static_cast<float>(std::clamp(depth + 0.5, 0.0, 1.0)));
     }

@@ -206,6 +206,7 @@ class FileResolver final : public Resolver {
     fs::path shown = folder.empty() ? fs::path(".") : folder;  // keep names relative if the file's name was
     while (!above.empty()) {
       if (fs::is_regular_file(above / project_marker, ignored)) {
+        if (looked_for_ != nullptr) looked_for_->push_back((shown / project_marker).lexically_normal().string());
         known->second = shown;
         break;
       }

@@ -52,7 +52,7 @@ Error why_nothing_is_found(const LibraryIndex& index, const std::vector<std::str
 /// The text by which a material was found, if its line does not show it already.
 std::string found_in(const FoundMaterial& found) {
   if (found.by == FoundBy::called || found.by == FoundBy::feels)
-    return fmt::format("{} \"{}\"", in_words(found.by), found.text);
+    return fmt::format("{} \"{}\"", in_words(found.by), visible_text(found.text));
   return found.by == FoundBy::documentation ? "in its documentation" : "";
 }
 
@@ -60,15 +60,15 @@ std::string found_text(const std::vector<FoundMaterial>& found) {
   std::size_t name = 0, title = 0, kind = 0, file = 0;
   for (const FoundMaterial& each : found) {
     name = std::max(name, each.material->name.size());
-    title = std::max(title, each.material->title.size());
+    title = std::max(title, visible_text(each.material->title).size());
     kind = std::max(kind, each.material->kind.size());
     file = std::max(file, visible_text(each.material->file).size());
   }
   std::string text;
   for (const FoundMaterial& each : found) {
     std::string line =
-        fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {}", each.material->name, name, each.material->title, title,
-                    each.material->kind, kind, visible_text(each.material->file), file, found_in(each));
+        fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {}", each.material->name, name, visible_text(each.material->title),
+                    title, each.material->kind, kind, visible_text(each.material->file), file, found_in(each));
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }

@@ -33,12 +33,12 @@ PatchSize sensible(PatchSize size, PatchSize fallback, float most) {
 Result<Program> Program::load(std::span<const std::byte> bytes) {
   Result<PatchProgram> read = read_patch_program(bytes);
   if (!read) return std::move(read).error();
-  make_visible(*read);
   return load(*std::move(read));
 }
 
 Result<Program> Program::load(PatchProgram program) {
   if (Result<> verified = verify(program); !verified) return std::move(verified).error();
+  make_visible(program);
   return Program(std::make_shared<const DecodedProgram>(std::move(program)));
 }
 

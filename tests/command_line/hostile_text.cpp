@@ -198,9 +198,10 @@ TEST(HostileText, IsNoCodeInGeneratedCpp) {
 }
 
 std::string hostile_wale() {
+  const std::string text = hostile_line + "\\nforged: line";  // as a text spells a line break
   return "wale 1\n\n/// Documented " + hostile_line + "\nexport let wide = 2 mm\n\n/// Documented " + hostile_line +
-         "\nmaterial hostile {\n  representative {\n    title \"" + hostile_line + "\"\n    called \"" + hostile_line +
-         "\", \"" + hostile_line + "2\"\n    feels \"" + hostile_line + "\"\n  }\n  perceptual { roughness 0.5 }\n}\n";
+         "\nmaterial hostile {\n  representative {\n    title \"" + text + "\"\n    called \"" + text + "\", \"" +
+         text + "2\"\n    feels \"" + text + "\"\n  }\n  perceptual { roughness 0.5 }\n}\n";
 }
 
 TEST(HostileText, InWaleFilesIsShownByEveryVerb) {

@@ -337,6 +337,7 @@ TEST(OutputFiles, ThatAreInputsAreRefusedByWhateverName) {
       {"sample", in.own, "--at", "0 mm, 0 mm", "-o", in.own},
       {"feel", in.own, "--virtual-time", "--seconds", "0.1", "--record", table},
       {"feel", in.own, "--hand", in.trace, "--virtual-time", "--seconds", "0.1", "--record", in.trace},
+      {"replay", in.run, "--csv", in.run},
       {"replay", in.run, "--csv", csv},
       {"replay", in.run, "--wav", link}};
   const auto before = in.bytes();

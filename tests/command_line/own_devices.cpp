@@ -133,5 +133,27 @@ TEST(OwnDevices, AnErrorInTheOwnersFileStopsOnlyWhatNeedsIt) {
   }
 }
 
+TEST(OwnDevices, AFileThatDeclaresThemOrMarksTheProjectIsNoOutput) {
+  const Declared declared;
+  const std::string config = declared.config("wale 1\nexport " + Declared::text("mine"));
+  const std::string owners = config + "/wale/devices.wale";
+  const std::string marker = declared.folder.write("wale.project", "");
+  const std::string imported = declared.folder.write("other.wale", "wale 1\nexport let one = 1\n");
+  const std::string importing = declared.folder.write(
+      "m.wale", "wale 1\nimport other\nmaterial m { physical { force = spring(one * 9 N/m) } }\n");
+  for (const auto& [words, file] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"build", declared.material, "--device", "mine", "-o", owners}, owners},
+           {{"sample", declared.material, "--device", "mine", "--at", "1 mm, 1 mm", "-o", owners}, owners},
+           {{"build", declared.material, "--devices", declared.file, "-o", declared.file}, declared.file},
+           {{"build", importing, "-o", imported}, imported},
+           {{"build", importing, "-o", marker}, marker}}) {
+    const std::string before = bytes_of(file);
+    const Outcome outcome = wale(words, {}, config);
+    EXPECT_EQ(outcome.status, 1) << testing::PrintToString(words);
+    EXPECT_TRUE(contains(outcome.err, "error[W0508]")) << testing::PrintToString(words) << outcome.err;
+    EXPECT_EQ(bytes_of(file), before) << testing::PrintToString(words);
+  }
+}
+
 }  // namespace
 }  // namespace wale::command_line::own_devices_test

@@ -82,6 +82,7 @@ TEST(Values, EmptyTextsAreRefusedByTheirOption) {
                   {{"feel", corduroy, "--virtual-time", "--transport", ""}, 2, "--transport: expected"},
                   {{"feel", corduroy, "--virtual-time", "--built-for", ""}, 2, "--built-for: expected"},
                   {{"replay", "a.wrec", "--csv", ""}, 2, "--csv: expected"},
+                  {{"compare", "denim", "--", "brick"}, 2, "`--` ends the options"},
                   {{"replay", "a.wrec", "--wav", ""}, 2, "--wav: expected"},
                   {{"describe", corduroy, "--material", ""}, 2, "--material: expected"},
                   {{"describe", corduroy, "--library", ""}, 2, "--library: expected"},

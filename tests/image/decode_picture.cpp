@@ -170,8 +170,10 @@ class FakeDecoder {
 };
 
 TEST(HostileDecoders, EveryEndIsAnError) {
-  EXPECT_EQ(FakeDecoder("kill -SEGV $$").problem(), "the decoder crashed on this picture");
-  EXPECT_EQ(FakeDecoder("kill -ABRT $$").problem(), "the decoder crashed on this picture");
+  EXPECT_EQ(FakeDecoder("kill -SEGV $$").problem(),
+            "the decoder crashed, on this picture or for want of memory or of threads");
+  EXPECT_EQ(FakeDecoder("kill -ABRT $$").problem(),
+            "the decoder crashed, on this picture or for want of memory or of threads");
   EXPECT_EQ(FakeDecoder("kill -XCPU $$").problem(), "the picture takes more than 10 s of processor time to decode");
   EXPECT_EQ(FakeDecoder("exit 0").problem(), "the decoder gave no valid answer");
   EXPECT_EQ(FakeDecoder("echo WADR nonsense").problem(), "the decoder gave no valid answer");
